@@ -1,0 +1,54 @@
+# make              the program, build/motus, and the library
+# make demo         runs and compares the founding models; tables here, plots in out/
+# make test         every test; ends with "N passed, N failed"
+# make install      PREFIX=/usr/local DESTDIR=
+# make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
+# make clean
+#
+# demo, test, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
+# Building is CMake's work: CMakeLists.txt, CMakePresets.json.
+
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 60
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+# The makes that CMake starts take their parallelism from here, not from this make's job server.
+CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
+
+.PHONY: all demo test install clean fuzz tidy manual need-demo
+.NOTPARALLEL:
+
+all:
+	@cmake/need.sh --check build
+	@mkdir -p build
+	@$(CMAKE) --preset release >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@$(CMAKE) --build build --target motus_static motus_shared motus_program
+
+need-demo:
+	@cmake/need.sh build demo
+
+demo: need-demo all
+	@cmake/demo.sh
+
+test:
+	@cmake/need.sh build demo test
+	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary
+
+install: all
+	@$(CMAKE) --preset release -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) >build/configure.log
+	@$(CMAKE) --install build
+
+fuzz:
+	@cmake/need.sh build fuzz
+	@$(CMAKE) --preset fuzz >/dev/null && $(CMAKE) --build --preset fuzz
+	@FUZZ_SECONDS=$(FUZZ_SECONDS) cmake/fuzz.sh
+
+tidy:
+	@cmake/need.sh build tidy
+	@$(CMAKE) --preset release >/dev/null
+	@run-clang-tidy -quiet -p build '^$(CURDIR)/(core|lang|run|api|study|cli)/'
+
+manual: all
+	@cmake/manual.sh
+
+clean:
+	rm -rf build out

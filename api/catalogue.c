@@ -1,0 +1,31 @@
+/* The catalogue of methods, from the rows. */
+#include "api/system.h"
+
+size_t motus_method_count(void) { return row_count(); }
+const motus_method *motus_method_at(size_t k) { return row_card(k); }
+
+motus_status motus_method_find(const char *name, const motus_method **out, motus_error *err)
+{
+    chosen c;
+    const motus_method *card = NULL;
+    if (!name)
+        return fail(err, MOTUS_ARGUMENT, "motus_method_find needs a name");
+    motus_status status = row_choose(name, &c, &card, err);
+    if (out)
+        *out = status == MOTUS_OK ? card : NULL;
+    return status;
+}
+
+motus_status motus_method_admits(const motus_system *given, const char *name, motus_error *err)
+{
+    motus_system *s = (motus_system *)given;
+    chosen c;
+    const motus_method *card;
+    if (!s || !name)
+        return fail(err, MOTUS_ARGUMENT, "motus_method_admits needs a system and a name");
+    motus_status status = row_choose(name, &c, &card, err);
+    if (status != MOTUS_OK)
+        return status;
+    system_sample_gyroscopic(s);
+    return row_admits(&c, &s->problem.traits, err);
+}

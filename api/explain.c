@@ -1,0 +1,253 @@
+/* What the program understood, in plain words; and the traits that only sampled states can show. */
+#include "api/system.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- symmetry of the derivatives, at sampled states ---- */
+
+enum { SYMMETRY_STATES = 6 };
+
+static double random_number(uint64_t *state)         /* splitmix64, to (-1, 1) */
+{
+    uint64_t z = *state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+/* w·(J u) = sign · u·(J w) at random states and directions, to rounding: J is symmetric (sign 1) or antisymmetric (-1). A derivative
+ * that is not fails at almost every state. */
+static bool symmetric(motus_system *s, bool in_v, double sign)
+{
+    problem *p = &s->problem;
+    size_t n = p->nv, work = 7 * (n + 1);
+    double *x = take(&s->allocator, work, sizeof *x);
+    if (!x || !p->jvp) {
+        give(&s->allocator, x);
+        return false;
+    }
+    double *v = x + n + 1, *u = v + n + 1, *w = u + n + 1, *ju = w + n + 1, *jw = ju + n + 1, *mask = jw + n + 1;
+    /* Only cells with an equation vary. */
+    for (uint32_t i = 0; i < s->state_count; i++)
+        for (size_t c = 0; c < s->states[i].cells.count; c++)
+            for (int k = 0; k < (s->states[i].components ? s->states[i].components : 1); k++)
+                mask[system_place(&s->states[i], c, k)] = 1;
+    bool ok = true;
+    uint64_t random = 12345;
+    int judged = 0;
+    for (int round = 0; round < SYMMETRY_STATES && ok; round++) {
+        memcpy(x, s->x0, p->nx * sizeof *x);
+        memcpy(v, s->v0, n * sizeof *v);
+        for (size_t k = 0; k < n; k++) {
+            double spread = round == 0 ? 0 : 0.3;
+            if (k < p->nx)
+                x[k] += mask[k] * spread * (fabs(x[k]) + 1) * random_number(&random);
+            v[k] += mask[k] * spread * (fabs(v[k]) + 1) * random_number(&random);
+            u[k] = mask[k] * random_number(&random);
+            w[k] = mask[k] * random_number(&random);
+        }
+        memset(ju, 0, n * sizeof *ju);
+        memset(jw, 0, n * sizeof *jw);
+        if (p->jvp(p->ctx, s->start, x, v, in_v ? NULL : u, in_v ? u : NULL, ju) || p->jvp(p->ctx, s->start, x, v, in_v ? NULL : w, in_v ? w : NULL, jw)) {
+            ok = false;
+            break;
+        }
+        double a = 0, b = 0, size = 0;
+        for (size_t k = 0; k < n; k++) {
+            a += w[k] * ju[k];
+            b += u[k] * jw[k];
+            size += fabs(w[k] * ju[k]) + fabs(u[k] * jw[k]);
+        }
+        if (!isfinite(size))
+            continue;                /* the force is not defined there */
+        judged++;
+        ok = fabs(a - sign * b) <= 1e-11 * size;
+    }
+    give(&s->allocator, x);
+    return ok && judged > 0;
+}
+
+void system_sample_gyroscopic(motus_system *s)
+{
+    traits *t = &s->problem.traits;
+    if (s->sampled_gyroscopic)
+        return;
+    s->sampled_gyroscopic = true;
+    if (!t->velocity || !t->linear_v || t->companions || !s->model)
+        return;
+    modes m = modes_enter();
+    t->gyroscopic = symmetric(s, true, -1);
+    modes_leave(m);
+}
+
+void system_sample_gradient(motus_system *s)
+{
+    traits *t = &s->problem.traits;
+    if (s->sampled_gradient)
+        return;
+    s->sampled_gradient = true;
+    if (t->velocity || t->companions || !s->model)
+        return;
+    modes m = modes_enter();
+    t->gradient = t->constant || symmetric(s, false, 1);
+    modes_leave(m);
+}
+
+void motus_analysis_of(const motus_system *given, motus_analysis *a)
+{
+    motus_system *s = (motus_system *)given;
+    *a = (motus_analysis){0};
+    if (!s)
+        return;
+    system_sample_gyroscopic(s);
+    system_sample_gradient(s);
+    const traits *t = &s->problem.traits;
+    *a = (motus_analysis){.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
+                          .constant = t->constant, .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
+                          .exact_recognised = s->model && s->model->exact_recognised};
+}
+
+/* ---- words ---- */
+
+typedef struct words { char *text; size_t length, room; arena *arena; } words;
+
+static void say(words *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(words *w, const char *format, ...)
+{
+    va_list list, again;
+    va_start(list, format);
+    va_copy(again, list);
+    int n = vsnprintf(NULL, 0, format, list);
+    if (n >= 0 && w->length + (size_t)n + 1 > w->room) {
+        size_t room = 2 * w->room + (size_t)n + 256;
+        char *more = arena_grow(w->arena, w->text, w->length, room);
+        if (more) {
+            w->text = more;
+            w->room = room;
+        }
+    }
+    if (n >= 0 && w->length + (size_t)n + 1 <= w->room)
+        w->length += (size_t)vsnprintf(w->text + w->length, w->room - w->length, format, again);
+    va_end(again);
+    va_end(list);
+}
+
+enum { COEFFICIENTS_SHOWN = 12, LOADS_MAX = 64 };
+
+typedef struct velocity_loads { const model *model; node item[LOADS_MAX]; int count; } velocity_loads;
+
+static void note_load(void *ctx, const reference *r, const range *sums, int first_level, int inside)
+{
+    velocity_loads *l = ctx;
+    (void)sums;
+    (void)first_level;
+    if (inside || l->count == LOADS_MAX)
+        return;
+    l->item[l->count++] = graph_load(l->model->graph, r);
+}
+
+static node seed_one(graph *g, node leaf, void *which) { return leaf == *(node *)which ? graph_const(g, 1) : 0; }
+
+/* The coefficient of each velocity in each equation. */
+static void say_coefficients(words *w, const model *m)
+{
+    int shown = 0;
+    char left[256], velocity[160], coefficient[400];
+    for (size_t i = 0; i < m->accel_count; i++) {
+        velocity_loads loads = {.model = m};
+        graph_loads(m->graph, m->accel[i].value, SPACE_V, note_load, &loads);
+        for (int k = 0; k < loads.count; k++) {
+            node d = graph_derivative(m->graph, m->accel[i].value, seed_one, &loads.item[k]);
+            if (d == 0)
+                continue;
+            if (shown++ == COEFFICIENTS_SHOWN) {
+                say(w, "  …\n");
+                return;
+            }
+            model_equation(m, i, left, sizeof left);
+            left[strcspn(left, "=")] = 0;
+            model_print(m, loads.item[k], velocity, sizeof velocity);
+            model_print(m, d, coefficient, sizeof coefficient);
+            say(w, "  in %s the coefficient of %s is %s\n", left[0] ? (left[strlen(left) - 1] = 0, left) : left, velocity, coefficient);
+        }
+    }
+}
+
+static void say_variables(words *w, const motus_system *s)
+{
+    for (uint32_t i = 0; i < s->state_count; i++) {
+        const model_state *st = &s->states[i];
+        say(w, "%s is %s", st->name, st->dims ? "a family" : st->components ? "a vector" : "a number");
+        if (st->dims)
+            say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
+        if (st->components)
+            say(w, " of length %d", st->components);
+        say(w, st->order == 2 ? "; its acceleration is given\n" : "; its rate of change is given (a first-order companion)\n");
+    }
+}
+
+static void say_forces(words *w, const motus_system *s)
+{
+    const traits *t = &s->problem.traits;
+    if (t->constant)
+        say(w, "the acceleration is constant\n");
+    else
+        say(w, "the acceleration depends on %s%s%s\n", t->companions && !t->velocity ? "the positions" : t->velocity ? "the state and its velocity" : "the positions",
+            t->time ? " and on time" : "", t->time ? "" : "; not on time");
+    if (t->velocity && t->linear_v) {
+        say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
+            t->constant_jv ? ", with constant coefficients" : "");
+        say_coefficients(w, s->model);
+        if (t->gyroscopic)
+            say(w, "the velocity term does no work (v × B): Boris' rotation applies\n");
+    } else if (t->velocity) {
+        say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the derived Jacobian\n");
+    }
+    if (t->affine && !t->constant)
+        say(w, "the equations are linear\n");
+    if (t->gradient && !t->constant)
+        say(w, "the force is a gradient: its derivative is symmetric (tested at %d states), so an energy exists\n", SYMMETRY_STATES);
+    if (!t->smooth)
+        say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high orders lose their order where these switch\n");
+    if (t->has_exact)
+        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n" : "the exact motion is given, and was checked against the equation\n");
+}
+
+const char *motus_explain(motus_system *s)
+{
+    if (!s)
+        return "";
+    if (s->explanation)
+        return s->explanation;
+    if (!s->model)
+        return "the acceleration is a callback: nothing can be read off it\n";
+    system_sample_gyroscopic(s);
+    system_sample_gradient(s);
+    modes m = modes_enter();
+    words w = {.arena = &s->arena};
+    say_variables(&w, s);
+    say_forces(&w, s);
+    modes_leave(m);
+    if (!w.text)
+        return "";
+    s->explanation = w.text;
+    return s->explanation;
+}
+
+const char *motus_equation_text(motus_system *s, size_t k)
+{
+    enum { ROOM = 4096 };
+    if (!s || !s->model)
+        return NULL;
+    if (!s->equation)
+        s->equation = arena_grow(&s->arena, NULL, 0, ROOM);
+    if (!s->equation)
+        return NULL;
+    modes m = modes_enter();
+    bool any = model_equation(s->model, k, s->equation, ROOM);
+    modes_leave(m);
+    return any ? s->equation : NULL;
+}

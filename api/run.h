@@ -1,0 +1,34 @@
+/* A run: an engine on its way from the start to `until`.
+ *
+ * Invariant: the engine only ever takes whole steps of size h. The shorter last step is taken by an engine of its own from the synchronised
+ * state, so the main line stays what it would be in a longer run, and a saved state can go on beyond `until`.
+ */
+#ifndef API_RUN_H
+#define API_RUN_H
+
+#include "api/system.h"
+
+struct motus_run {
+    motus_system *system;
+    motus_allocator allocator;
+    chosen chosen;
+    const motus_method *card;
+    double t0, h, until;
+    int64_t whole, total;            /* whole steps up to `until`, and with the short one */
+    double last;                     /* size of the short one, 0: none */
+    engine *engine, *tail;           /* tail: after the short step */
+    int64_t tail_evaluations, tail_iterations;
+    double *x, *v, *a;               /* the synchronised state, valid while `synchronised` */
+    bool synchronised, with_a;
+    double before_t, *before_x, *before_v, *before_a;     /* for reading between steps */
+    bool before;
+    double *mid_x, *mid_v;
+    int (*progress)(void *context, double fraction);
+    void *context;
+    char *saved; size_t saved_room;
+};
+
+double run_time(const motus_run *);
+motus_status run_sync(motus_run *, bool with_a, motus_error *);
+
+#endif

@@ -1,0 +1,236 @@
+/* Restart states: everything the next step needs, as text with hexadecimal numbers, exact to the bit.
+ *
+ *     motus-state 1
+ *     system 9f3c…            what moves: hash of equations, parameters, boundary lines
+ *     method verlet
+ *     start 0x0p+0
+ *     step 0x1.0624dd2f1a9fcp-10
+ *     at 50000 50001 0        steps, evaluations, iterations
+ *     carry 2
+ *     -0x1.a35…
+ *     …
+ */
+#include "api/run.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_ROOM = 32, HEAD_ROOM = 512 };
+
+static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a */
+{
+    const unsigned char *p = bytes;
+    for (size_t i = 0; i < n; i++)
+        h = (h ^ p[i]) * 0x100000001B3u;
+    return h;
+}
+
+static uint64_t mix_outputs(uint64_t h, const model *m, const output *o, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        h = mix(h, &o[i].value, sizeof o[i].value);
+        h = mix(h, &o[i].to.array, sizeof o[i].to.array);
+    }
+    (void)m;
+    return h;
+}
+
+/* The same text and settings give the same graph, so node numbers serve as the equations' names. */
+static uint64_t fingerprint(const motus_system *s)
+{
+    uint64_t h = 0xCBF29CE484222325u;
+    h = mix(h, &s->problem.nx, sizeof s->problem.nx);
+    h = mix(h, &s->problem.nv, sizeof s->problem.nv);
+    const model *m = s->model;
+    if (!m)
+        return h;
+    node last = 0;
+    for (size_t i = 0; i < m->accel_count; i++)
+        last = m->accel[i].value > last ? m->accel[i].value : last;
+    for (node n = 0; n <= last; n++) {
+        const graph_node *g = graph_at(m->graph, n);
+        uint32_t parts[4] = {g->op, g->a, g->b, g->c};
+        h = mix(mix(h, parts, sizeof parts), &g->value, sizeof g->value);
+    }
+    h = mix_outputs(h, m, m->accel, m->accel_count);
+    h = mix_outputs(h, m, m->boundary, m->boundary_count);
+    h = mix(h, m->ints, m->int_count * sizeof *m->ints);
+    return mix(h, m->pool, m->pool_count * sizeof *m->pool);
+}
+
+/* Exact, and with a point whatever the locale: printf's %a is not. */
+static int write_hex(char *out, size_t size, double v)
+{
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    uint64_t fraction = bits & 0xFFFFFFFFFFFFFu;
+    int exponent = (int)(bits >> 52 & 0x7FF);
+    const char *sign = bits >> 63 ? "-" : "";
+    if (exponent == 0 && fraction == 0)
+        return snprintf(out, size, "%s0x0p+0", sign);
+    return snprintf(out, size, "%s0x%d.%013" PRIx64 "p%+d", sign, exponent != 0, fraction, exponent ? exponent - 1023 : -1022);
+}
+
+static bool read_hex(const char **at, const char *end, double *v)
+{
+    const char *p = *at;
+    bool minus = p < end && *p == '-';
+    p += minus;
+    if (end - p < 6 || memcmp(p, "0x", 2) || (p[2] != '0' && p[2] != '1'))
+        return false;
+    uint64_t bits = (uint64_t)(p[2] - '0'), digits = 0;
+    int shift = 0;
+    p += 3;
+    if (p < end && *p == '.')
+        for (p++; p < end && digits < 13 && *p != 'p'; p++, digits++) {
+            int d = *p >= '0' && *p <= '9' ? *p - '0' : *p >= 'a' && *p <= 'f' ? *p - 'a' + 10 : -1;
+            if (d < 0)
+                return false;
+            bits = bits << 4 | (uint64_t)d;
+            shift += 4;
+        }
+    if (p >= end || *p++ != 'p' || p >= end || (*p != '+' && *p != '-'))
+        return false;
+    bool below = *p++ == '-';
+    int exponent = 0, places = 0;
+    for (; p < end && *p >= '0' && *p <= '9' && places < 5; p++, places++)
+        exponent = exponent * 10 + (*p - '0');
+    if (!places)
+        return false;
+    *v = ldexp((double)bits, (below ? -exponent : exponent) - shift);
+    if (minus)
+        *v = -*v;
+    *at = p;
+    return isfinite(*v);
+}
+
+motus_status motus_run_save(motus_run *r, const char **text, size_t *length, motus_error *err)
+{
+    if (!r || !text || !length)
+        return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
+    const machine *m = r->system->machine;
+    size_t n = m->carry(r->engine), room = HEAD_ROOM + n * NUMBER_ROOM;
+    double *carry = take(&r->allocator, n + 1, sizeof *carry);
+    if (room > r->saved_room) {
+        char *more = take(&r->allocator, 1, room);
+        if (more) {
+            give(&r->allocator, r->saved);
+            r->saved = more;
+            r->saved_room = room;
+        }
+    }
+    if (!carry || room > r->saved_room) {
+        give(&r->allocator, carry);
+        return fail(err, MOTUS_MEMORY, "no memory for the restart state");
+    }
+    m->save(r->engine, carry);
+    char start[NUMBER_ROOM], h[NUMBER_ROOM];
+    write_hex(start, sizeof start, r->t0);
+    write_hex(h, sizeof h, r->h);
+    size_t at = (size_t)snprintf(r->saved, room, "motus-state 1\nsystem %016" PRIx64 "\nmethod %s\nstart %s\nstep %s\nat %" PRId64 " %" PRId64 " %" PRId64 "\ncarry %zu\n",
+                                 fingerprint(r->system), r->chosen.name, start, h, m->steps(r->engine), m->evaluations(r->engine),
+                                 m->iterations(r->engine), n);
+    for (size_t k = 0; k < n; k++) {
+        at += (size_t)write_hex(r->saved + at, room - at, carry[k]);
+        r->saved[at++] = '\n';
+    }
+    r->saved[at] = 0;
+    give(&r->allocator, carry);
+    *text = r->saved;
+    *length = at;
+    return MOTUS_OK;
+}
+
+/* ---- reading ---- */
+
+typedef struct reader { const char *at, *end; } reader;
+
+static bool word(reader *r, const char *expected)
+{
+    size_t n = strlen(expected);
+    if ((size_t)(r->end - r->at) < n || memcmp(r->at, expected, n))
+        return false;
+    r->at += n;
+    return true;
+}
+
+static bool line(reader *r, char *out, size_t size)
+{
+    const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
+    if (!stop || (size_t)(stop - r->at) >= size)
+        return false;
+    memcpy(out, r->at, (size_t)(stop - r->at));
+    out[stop - r->at] = 0;
+    r->at = stop + 1;
+    return true;
+}
+
+static bool integer(reader *r, int64_t *v)
+{
+    int64_t n = 0;
+    const char *p = r->at;
+    for (; p < r->end && *p >= '0' && *p <= '9' && n < INT64_MAX / 16; p++)
+        n = n * 10 + (*p - '0');
+    if (p == r->at)
+        return false;
+    *v = n;
+    r->at = p;
+    return true;
+}
+
+static motus_status unreadable(motus_error *err)
+{
+    fail(err, MOTUS_STATE, "this is not a restart state, or it is damaged");
+    hint(err, "write one with --save-state");
+    return MOTUS_STATE;
+}
+
+motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)
+{
+    if (!r || !text)
+        return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
+    reader in = {text, text + length};
+    char system[40], method[MOTUS_NAME_MAX + 8], expected[40];
+    double start, h;
+    int64_t steps, evaluations, iterations, n;
+    if (!word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) || !word(&in, "method ") || !line(&in, method, sizeof method) ||
+        !word(&in, "start ") || !read_hex(&in.at, in.end, &start) || !word(&in, "\nstep ") || !read_hex(&in.at, in.end, &h) || !word(&in, "\nat ") ||
+        !integer(&in, &steps) || !word(&in, " ") || !integer(&in, &evaluations) || !word(&in, " ") || !integer(&in, &iterations) ||
+        !word(&in, "\ncarry ") || !integer(&in, &n) || !word(&in, "\n"))
+        return unreadable(err);
+    snprintf(expected, sizeof expected, "%016" PRIx64, fingerprint(r->system));
+    if (strcmp(system, expected)) {
+        fail(err, MOTUS_STATE, "the restart state belongs to another model, or to other parameters");
+        hint(err, "give the model and the --set options with which it was written");
+        return MOTUS_STATE;
+    }
+    if (strcmp(method, r->chosen.name))
+        return fail(err, MOTUS_STATE, "the restart state was written by method %s, and this run uses %s", method, r->chosen.name);
+    if (start != r->t0 || h != r->h)
+        return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
+    if (steps > r->whole)
+        return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", fma((double)steps, h, start), r->until);
+    if ((size_t)n != r->system->machine->carry(r->engine))
+        return unreadable(err);
+    double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
+    if (!carry)
+        return fail(err, MOTUS_MEMORY, "no memory for the restart state");
+    bool ok = true;
+    for (int64_t k = 0; k < n && ok; k++)
+        ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
+    motus_status status = ok ? MOTUS_OK : unreadable(err);
+    modes m = modes_enter();
+    if (ok)
+        status = r->system->machine->load(r->engine, steps, evaluations, iterations, carry, err);
+    modes_leave(m);
+    give(&r->allocator, carry);
+    if (r->tail)
+        r->system->machine->close(r->tail);
+    r->tail = NULL;
+    r->tail_evaluations = r->tail_iterations = 0;
+    r->synchronised = r->before = false;
+    return status;
+}

@@ -1,0 +1,54 @@
+/* A system behind the public handle: a problem, its machine, and the numbering of what can be looked at.
+ *
+ * Two orders of the same numbers: inside, x and v as lang/model.h lays them out (component by component, boundary cells included); outside, variable
+ * by variable, cell by cell, component by component, without boundary cells.
+ */
+#ifndef API_SYSTEM_H
+#define API_SYSTEM_H
+
+#include "run/run.h"
+
+typedef struct column_group {        /* columns of one name */
+    motus_column_kind kind;
+    bool prime;                      /* velocity of a variable, exact or not */
+    uint32_t item;                   /* number of the state or definition */
+    size_t first, count;
+} column_group;
+
+struct motus_system {
+    motus_allocator allocator;
+    arena arena;
+    model *model;                    /* NULL: a callback */
+    interpreter *interpreter;
+    motus_callback_def callback;
+    problem problem;
+    const machine *machine;
+    double start;
+    double *x0, *v0;
+    model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's x and s */
+    size_t positions, velocities;
+    column_group *groups; size_t group_count, column_count;
+    double *look;                    /* room for the numbers of any one quantity or invariant */
+    double *exact_x, *exact_v;
+    bool sampled_gyroscopic, sampled_gradient;
+    char *explanation;
+    char *equation;
+};
+
+/* Finds out what needs sampled states; called when someone asks. */
+void system_sample_gyroscopic(motus_system *);
+void system_sample_gradient(motus_system *);
+/* Between the two orders. */
+void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
+void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);
+/* Values of columns at a state (inside order; boundary cells may be refreshed). */
+motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *);
+bool system_number_columns(motus_system *);
+size_t system_place(const model_state *, size_t cell, int component);
+
+/* Rounding to nearest, no flushing of subnormals, from enter to leave. */
+typedef struct modes { int rounding; unsigned long control; } modes;
+modes modes_enter(void);
+void modes_leave(modes);
+
+#endif

@@ -1,0 +1,123 @@
+/* Errors of the program.
+ *
+ * Invariant: an error is shown once, with the place as file:line:column, the line, a caret and the remedy, and every text in
+ * it passes text_put(): it may come from a model or a file name.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/complain.h"
+
+#include "cli/json.h"
+#include "cli/text.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+motus_status complain(motus_error *err, motus_status status, const char *format, ...)
+{
+    if (!err)
+        return status;
+    char raw[MOTUS_TEXT_MAX];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(raw, sizeof raw, format, arguments);
+    va_end(arguments);
+    *err = motus_default_error();
+    err->status = status;
+    text_safe(raw, err->message, sizeof err->message);
+    return status;
+}
+
+void complain_hint(motus_error *err, const char *format, ...)
+{
+    if (!err)
+        return;
+    char raw[MOTUS_TEXT_MAX];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(raw, sizeof raw, format, arguments);
+    va_end(arguments);
+    text_safe(raw, err->hint, sizeof err->hint);
+}
+
+motus_status complain_memory(motus_error *err)
+{
+    return complain(err, MOTUS_MEMORY, "out of memory");
+}
+
+bool complain_colours(int descriptor)
+{
+    const char *no = getenv("NO_COLOR"), *terminal = getenv("TERM");
+    return isatty(descriptor) && !(no && *no) && !(terminal && strcmp(terminal, "dumb") == 0);
+}
+
+/* False when standard output does not take it. */
+static bool show_json(const motus_error *err)
+{
+    char message[2 * MOTUS_TEXT_MAX + 2];
+    snprintf(message, sizeof message, "%s%s%s", err->message, err->hint[0] ? "; " : "", err->hint);
+    json j = json_begin(stdout);
+    json_open(&j, '{');
+    json_key(&j, "error");
+    json_open(&j, '{');
+    json_key(&j, "kind");
+    json_string(&j, motus_status_word(err->status));
+    json_key(&j, "message");
+    json_string(&j, message);
+    json_key(&j, "line");
+    json_integer(&j, err->line);
+    json_key(&j, "column");
+    json_integer(&j, err->column);
+    json_close(&j, '}');
+    json_close(&j, '}');
+    json_end(&j);
+    return fflush(stdout) == 0 && !ferror(stdout);
+}
+
+int complain_show(const motus_error *err, bool as_json)
+{
+    if (as_json && show_json(err))
+        return motus_status_exit(err->status);
+    bool colours = complain_colours(2);
+    const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";
+    fflush(stdout);
+    fputs(strong, stderr);
+    if (err->line > 0) {
+        text_put(stderr, err->file[0] ? err->file : "model");
+        fprintf(stderr, ":%d:%d: ", err->line, err->column);
+    } else {
+        fputs("motus: ", stderr);
+    }
+    text_put(stderr, err->message);
+    fprintf(stderr, "%s\n", plain);
+    if (err->source[0]) {
+        fputs("    ", stderr);
+        text_put(stderr, err->source);
+        putc('\n', stderr);
+    }
+    if (err->source[0] && err->caret[0]) {
+        fprintf(stderr, "    %s", red);
+        text_put(stderr, err->caret);
+        fprintf(stderr, "%s\n", plain);
+    }
+    if (err->hint[0]) {
+        fputs("  hint: ", stderr);
+        text_put(stderr, err->hint);
+        putc('\n', stderr);
+    }
+    return motus_status_exit(err->status);
+}
+
+void complain_note(const char *format, ...)
+{
+    char raw[2 * MOTUS_TEXT_MAX];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(raw, sizeof raw, format, arguments);
+    va_end(arguments);
+    fflush(stdout);
+    fputs("motus: ", stderr);
+    text_put(stderr, raw);
+    putc('\n', stderr);
+}

@@ -1,0 +1,220 @@
+/* motus converge: error against step, the fitted order, the certificate.
+ *
+ * Invariant: exit status 0 says that every method kept its declared order here.
+ */
+#include "cli/complain.h"
+#include "cli/file.h"
+#include "cli/json.h"
+#include "cli/load.h"
+#include "cli/plot.h"
+#include "cli/stop.h"
+#include "cli/table.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void row_json(json *j, const motus_converge_row *r)
+{
+    json_open(j, '{');
+    json_key(j, "method");
+    json_string(j, r->method);
+    json_key(j, "declared");
+    json_integer(j, r->declared);
+    json_key(j, "observed");
+    json_number(j, r->observed);
+    json_key(j, "standard_error");
+    json_number(j, r->standard_error);
+    json_key(j, "exact_here");
+    json_bool(j, r->exact_here != 0);
+    json_key(j, "passed");
+    json_bool(j, r->passed != 0);
+    json_key(j, "status");
+    json_string(j, motus_status_word(r->status));
+    json_key(j, "certificate");
+    json_string(j, r->certificate ? r->certificate : "");
+    json_key(j, "points");
+    json_open(j, '[');
+    for (size_t i = 0; i < r->point_count; i++) {
+        json_open(j, '{');
+        json_key(j, "step");
+        json_number(j, r->points[i].step);
+        json_key(j, "error");
+        json_number(j, r->points[i].error);
+        json_key(j, "used");
+        json_bool(j, r->points[i].used != 0);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_close(j, '}');
+}
+
+static void print_json(const options *o, const motus_convergence *c)
+{
+    json j = json_begin(stdout);
+    json_open(&j, '{');
+    json_key(&j, "model");
+    json_string(&j, o->operand);
+    json_key(&j, "reference");
+    json_string(&j, c->reference);
+    json_key(&j, "reference_error");
+    json_number(&j, c->reference_error);
+    json_key(&j, "passed");
+    json_bool(&j, c->passed != 0);
+    json_key(&j, "rows");
+    json_open(&j, '[');
+    for (size_t k = 0; k < c->row_count; k++)
+        row_json(&j, &c->rows[k]);
+    json_close(&j, ']');
+    json_close(&j, '}');
+    json_end(&j);
+}
+
+/* Steps and errors in two lines; what the fit left out stands in brackets. */
+static bool print_points(const motus_converge_row *r, bool colours)
+{
+    enum { MOST = 30 };
+    char align[MOST + 2] = "l";
+    size_t count = r->point_count < MOST ? r->point_count : MOST;
+    if (count == 0)
+        return true;
+    memset(align + 1, 'r', count);
+    table *t = table_create(align);
+    table_cell(t, "step");
+    for (size_t i = 0; i < count; i++)
+        table_number(t, r->points[i].step, 4);
+    table_cell(t, "error");
+    for (size_t i = 0; i < count; i++) {
+        char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
+        text_brief(r->points[i].error, -2, number);
+        snprintf(cell, sizeof cell, r->points[i].used || r->exact_here ? "%s" : "(%s)", number);
+        table_cell(t, cell);
+    }
+    bool good = table_print(t, stdout, 4, colours);
+    table_destroy(t);
+    return good;
+}
+
+static motus_status print_tables(const load *m, const motus_convergence *c, motus_error *err)
+{
+    bool colours = complain_colours(1), good = true;
+    printf("%s%s%s, errors against ", colours ? "\033[1m" : "", m->title, colours ? "\033[0m" : "");
+    text_put(stdout, c->reference ? c->reference : "nothing");
+    if (c->reference_error > 0)
+        printf(" (itself good to %.1g)", c->reference_error);
+    puts("\nin brackets: not in the fit, where instability or round-off rules\n");
+    for (size_t k = 0; k < c->row_count && good; k++) {
+        const motus_converge_row *r = &c->rows[k];
+        const char *colour = !colours ? "" : r->passed ? "\033[32m" : "\033[31m";
+        printf("  %s%s%s: %s", colours ? "\033[1m" : "", r->method, colours ? "\033[0m" : "", colour);
+        text_put(stdout, r->certificate && r->certificate[0] ? r->certificate : motus_status_text(r->status));
+        printf("%s%s\n", r->passed ? "" : "  FAILED", colours ? "\033[0m" : "");
+        good = print_points(r, colours);
+    }
+    return good ? MOTUS_OK : complain_memory(err);
+}
+
+/* Error against step, both logarithmic: the slope is the order. */
+static motus_status draw(const options *o, const load *m, const motus_convergence *c, file_out *file, motus_error *err)
+{
+    plot_figure figure = {0};
+    snprintf(figure.title, sizeof figure.title, "%s: error against step", m->title);
+    plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "error at the end");
+    size_t points = 0, used = 0;
+    for (size_t k = 0; k < c->row_count; k++)
+        points += c->rows[k].point_count;
+    double *numbers = malloc((2 * points + 1) * sizeof *numbers);
+    motus_status status = p && numbers ? MOTUS_OK : complain_memory(err);
+    for (size_t k = 0; !status && k < c->row_count; k++) {
+        const motus_converge_row *r = &c->rows[k];
+        size_t first = used, count = 0;
+        for (size_t i = 0; i < r->point_count; i++)
+            if (r->points[i].error > 0) {        /* nothing has no logarithm */
+                numbers[2 * used] = r->points[i].step;
+                numbers[2 * used++ + 1] = r->points[i].error;
+                count++;
+            }
+        char label[PLOT_LABEL];
+        if (r->observed == r->observed)
+            snprintf(label, sizeof label, "%s %.2f", r->method, r->observed);
+        else
+            snprintf(label, sizeof label, "%s", r->method);
+        if (count > 0 && !plot_curve_add(p, label, numbers + 2 * first, numbers + 2 * first + 1, count, 2))
+            status = complain_memory(err);
+    }
+    if (!status && p->curve_count == 0)
+        status = complain(err, MOTUS_ARGUMENT, "every error is 0: there is nothing to draw");
+    if (!status) {
+        p->logarithmic = true;
+        status = plot_draw(&figure, o->plot, file, err);
+    }
+    plot_free(&figure);
+    free(numbers);
+    return status;
+}
+
+static motus_status show(const options *o, const load *m, const motus_convergence *c, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    file_out picture = {0};
+    if (o->plot) {
+        status = file_create(&picture, o->plot, err);
+        if (!status)
+            status = draw(o, m, c, &picture, err);
+        if (!status)
+            status = file_finish(&picture, err);
+    }
+    if (!status && o->json)
+        print_json(o, c);
+    else if (!status && !o->quiet)
+        status = print_tables(m, c, err);
+    if (!status)
+        status = file_flush_output(err);
+    if (!status)
+        status = file_keep(&picture, err);
+    file_drop(&picture);
+    return status;
+}
+
+/* The sentence for a certificate that does not hold; with JSON the object has said it already. */
+static motus_status verdict(const motus_convergence *c, motus_error *err)
+{
+    char names[MOTUS_TEXT_MAX / 2] = "";
+    for (size_t k = 0; k < c->row_count; k++)
+        if (!c->rows[k].passed && strlen(names) + strlen(c->rows[k].method) + 3 < sizeof names) {
+            strcat(names, names[0] ? ", " : "");
+            strcat(names, c->rows[k].method);
+        }
+    return complain(err, MOTUS_ORDER, "the certificate does not hold for: %s", names);
+}
+
+motus_status converge_verb(const options *o, motus_error *err)
+{
+    load m = {0};
+    motus_convergence *c = NULL;
+    motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
+    if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
+        status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    if (!status)
+        status = load_model(&m, o, err);
+    if (!status) {
+        stop_progress progress = stop_progress_begin("converge", o->quiet);
+        motus_study_def def = motus_default_study();
+        def.methods = o->methods.count ? o->methods.items : NULL;
+        def.method_count = o->methods.count;
+        def.step = o->step;
+        def.until = o->until;
+        def.progress = stop_progress_hook;
+        def.context = &progress;
+        status = motus_converge(m.system, &def, &c, err);
+        stop_progress_end(&progress);
+    }
+    if (!status)
+        status = show(o, &m, c, err);
+    if (!status && !c->passed)
+        status = verdict(c, err);
+    motus_convergence_destroy(c);
+    load_free(&m);
+    return status;
+}

@@ -1,0 +1,141 @@
+/* The trajectory as CSV (RFC 4180, lines ended by a newline).
+ *
+ * Invariant: every line of the head starts with '#' and holds no control character, whatever the command line held; a name holding a comma or a
+ * quote is quoted; every number reads back as the same double in any locale.
+ */
+#include "cli/csv.h"
+
+#include "cli/complain.h"
+#include "cli/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *err)
+{
+    *c = (csv){.model = model};
+    size_t all = motus_column_count(model->system);
+    if (!o->columns) {
+        c->columns = malloc((all + 1) * sizeof *c->columns);
+        if (!c->columns)
+            return complain_memory(err);
+        for (size_t k = 0; k < all; k++)
+            c->columns[k] = k;
+        c->count = all;
+        return MOTUS_OK;
+    }
+    char *copy;
+    options_list names;
+    motus_status status = options_split(o->columns, "--columns", &copy, &names, err);
+    if (status)
+        return status;
+    for (size_t i = 0; !status && i < names.count; i++) {
+        size_t first, count;
+        status = motus_column_find(model->system, names.items[i], &first, &count, err);
+        if (status)
+            break;
+        size_t *columns = count < SIZE_MAX / sizeof *columns - c->count
+                              ? realloc(c->columns, (c->count + count + 1) * sizeof *columns) : NULL;
+        if (!columns) {
+            status = complain_memory(err);
+            break;
+        }
+        c->columns = columns;
+        for (size_t k = 0; k < count; k++)
+            c->columns[c->count++] = first + k;
+    }
+    free(names.items);
+    free(copy);
+    return status;
+}
+
+void csv_free(csv *c)
+{
+    free(c->columns);
+    free(c->line);
+    c->columns = NULL;
+    c->line = NULL;
+}
+
+/* A word of the command as a shell would need it, control characters as \xNN. */
+static motus_status put_word(file_out *f, const char *word, motus_error *err)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+    bool quote = !*word || word[strspn(word, plain)];
+    motus_status status = file_text(f, quote ? " '" : " ", err);
+    while (!status && *word) {
+        uint32_t c;
+        char bytes[8];
+        size_t n = text_decode(word, &c);
+        if (c == '\'')
+            status = file_text(f, "'\\''", err);
+        else if (!text_visible(c) || (n == 1 && c >= 0x80))
+            for (size_t i = 0; !status && i < n; i++) {
+                snprintf(bytes, sizeof bytes, "\\x%02x", (unsigned)(unsigned char)word[i]);
+                status = file_text(f, bytes, err);
+            }
+        else
+            status = file_write(f, word, n, err);
+        word += n;
+    }
+    return status || !quote ? status : file_text(f, "'", err);
+}
+
+static motus_status put_head(csv *c, const options *o, const motus_run *run, motus_error *err)
+{
+    char line[256], step[TEXT_NUMBER];
+    motus_status status = file_text(c->file, "# motus", err);
+    for (int i = 1; !status && i < o->argc; i++)
+        status = put_word(c->file, o->argv[i], err);
+    text_number(motus_run_step_size(run), step);
+    snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(), motus_run_method(run), step,
+             motus_run_machine(run));
+    return status ? status : file_text(c->file, line, err);
+}
+
+static motus_status put_name(csv *c, const char *name, motus_error *err)
+{
+    char safe[sizeof((motus_column *)0)->name];
+    text_safe(name, safe, sizeof safe);
+    if (!strpbrk(safe, ",\""))
+        return file_text(c->file, safe, err);
+    motus_status status = file_text(c->file, "\"", err);
+    for (const char *s = safe; !status && *s; s++)
+        status = file_write(c->file, *s == '"' ? "\"\"" : s, *s == '"' ? 2 : 1, err);
+    return status ? status : file_text(c->file, "\"", err);
+}
+
+motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
+{
+    c->file = file;
+    c->line = c->count < SIZE_MAX / TEXT_NUMBER - 1 ? malloc((c->count + 1) * TEXT_NUMBER) : NULL;
+    if (!c->line)
+        return complain_memory(err);
+    motus_status status = put_head(c, o, run, err);
+    for (size_t k = 0; !status && k < c->count; k++) {
+        motus_column column;
+        status = motus_column_at(c->model->system, c->columns[k], &column);
+        if (status)
+            return complain(err, status, "column %zu has no name", c->columns[k]);
+        if (k > 0)
+            status = file_text(c->file, ",", err);
+        if (!status)
+            status = put_name(c, column.name, err);
+    }
+    return status ? status : file_text(c->file, "\n", err);
+}
+
+motus_status csv_row(void *context, const double *values, motus_error *err)
+{
+    csv *c = context;
+    char *s = c->line;
+    for (size_t k = 0; k < c->count; k++) {
+        if (k > 0)
+            *s++ = ',';
+        text_number(values[k], s);
+        s += strlen(s);
+    }
+    *s++ = '\n';
+    c->rows++;
+    return file_write(c->file, c->line, (size_t)(s - c->line), err);
+}

@@ -1,0 +1,24 @@
+/* The trajectory as CSV: a comment that says where it comes from, the names, the numbers without loss. */
+#ifndef CLI_CSV_H
+#define CLI_CSV_H
+
+#include "cli/file.h"
+#include "cli/load.h"
+
+typedef struct csv {
+    file_out *file;
+    const load *model;
+    size_t *columns;             /* which, in this order */
+    size_t count;
+    char *line;                  /* room for one row */
+    int64_t rows;
+} csv;
+
+/* Chooses the columns (the options', or all). */
+motus_status csv_plan(csv *, const load *, const options *, motus_error *);
+motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, motus_error *);
+/* One row; context is a csv (a walk_watcher's take). */
+motus_status csv_row(void *context, const double *values, motus_error *);
+void csv_free(csv *);
+
+#endif

@@ -1,0 +1,259 @@
+/* Files: read whole within a bound, written whole or not at all.
+ *
+ * Invariant: the name the user gave appears, complete and on the disk, or stays what it was. A temporary file lives in the same folder,
+ * because only there is a rename one step.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/file.h"
+
+#include "cli/complain.h"
+#include "cli/stop.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *called(const char *path, bool reading)
+{
+    return strcmp(path, "-") == 0 ? reading ? "standard input" : "standard output" : path;
+}
+
+static motus_status too_long(const char *path, size_t most, motus_error *err)
+{
+    complain(err, MOTUS_LIMIT, "%s is longer than %zu bytes", called(path, true), most);
+    complain_hint(err, "is this the file you meant?");
+    return MOTUS_LIMIT;
+}
+
+static motus_status cannot_read(const char *path, const char *why, motus_error *err)
+{
+    return complain(err, MOTUS_FILE, "cannot read %s: %s", called(path, true), why);
+}
+
+static motus_status read_all(int fd, const char *path, size_t most, size_t guess, char **text, size_t *length, motus_error *err)
+{
+    size_t room = guess < most ? guess + 2 : most + 2, used = 0;
+    char *buffer = malloc(room);
+    if (!buffer)
+        return complain_memory(err);
+    for (;;) {
+        if (used + 1 == room) {
+            char *larger = realloc(buffer, room *= 2);
+            if (!larger) {
+                free(buffer);
+                return complain_memory(err);
+            }
+            buffer = larger;
+        }
+        ssize_t got = read(fd, buffer + used, room - used - 1);
+        if (got < 0 && errno == EINTR && !stop_requested())
+            continue;
+        if (got < 0) {
+            int code = errno;
+            free(buffer);
+            if (stop_requested())
+                return complain(err, MOTUS_CANCELLED, "cancelled");
+            return cannot_read(path, strerror(code), err);
+        }
+        if (got == 0)
+            break;
+        used += (size_t)got;
+        if (used > most) {
+            free(buffer);
+            return too_long(path, most, err);
+        }
+    }
+    buffer[used] = 0;
+    *text = buffer;
+    *length = used;
+    return MOTUS_OK;
+}
+
+motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *err)
+{
+    if (strcmp(path, "-") == 0)
+        return read_all(STDIN_FILENO, path, most, 4096, text, length, err);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return cannot_read(path, strerror(errno), err);
+    struct stat about;
+    motus_status status = MOTUS_OK;
+    if (fstat(fd, &about) != 0)
+        status = cannot_read(path, strerror(errno), err);
+    else if (S_ISDIR(about.st_mode))
+        status = cannot_read(path, "it is a folder", err);
+    else if (S_ISREG(about.st_mode) && about.st_size > 0 && (uintmax_t)about.st_size > most)
+        status = too_long(path, most, err);
+    else
+        status = read_all(fd, path, most, S_ISREG(about.st_mode) ? (size_t)about.st_size : 4096, text, length, err);
+    close(fd);
+    return status;
+}
+
+bool file_same(const char *a, const char *b)
+{
+    struct stat first, second;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
+        return strcmp(a, b) == 0;
+    if (strcmp(a, b) == 0)
+        return true;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && S_ISREG(first.st_mode) && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+static motus_status cannot_write(file_out *f, motus_error *err)
+{
+    if (f->code == EPIPE && strcmp(f->path, "-") == 0)
+        stop_reader_gone();
+    return complain(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
+}
+
+/* A temporary file beside f->path with the access rights the final one would have. */
+static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
+{
+    static const char name[] = ".motus-XXXXXX";
+    const char *slash = strrchr(f->path, '/');
+    size_t folder = slash ? (size_t)(slash - f->path) + 1 : 0;
+    f->temporary = malloc(folder + sizeof name);
+    if (!f->temporary)
+        return complain_memory(err);
+    memcpy(f->temporary, f->path, folder);
+    memcpy(f->temporary + folder, name, sizeof name);
+    int fd = mkstemp(f->temporary);
+    if (fd < 0) {
+        f->code = errno;
+        free(f->temporary);
+        f->temporary = NULL;
+        return cannot_write(f, err);
+    }
+    (void)fcntl(fd, F_SETFD, FD_CLOEXEC);
+    (void)fchmod(fd, mode);                     /* a file system without rights keeps its own */
+    f->stream = fdopen(fd, "w");
+    if (!f->stream) {
+        close(fd);
+        return complain_memory(err);
+    }
+    return MOTUS_OK;
+}
+
+motus_status file_create(file_out *f, const char *path, motus_error *err)
+{
+    *f = (file_out){0};
+    struct stat about;
+    bool output = strcmp(path, "-") == 0, exists = !output && stat(path, &about) == 0;
+    if (!*path)
+        return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
+    /* a link stays a link: its target is what is replaced */
+    f->path = exists && S_ISREG(about.st_mode) ? realpath(path, NULL) : NULL;
+    if (!f->path)
+        f->path = strdup(path);
+    if (!f->path)
+        return complain_memory(err);
+    if (output) {
+        f->stream = stdout;
+        return MOTUS_OK;
+    }
+    if (exists && S_ISDIR(about.st_mode)) {
+        f->code = EISDIR;
+        return cannot_write(f, err);
+    }
+    if (exists && !S_ISREG(about.st_mode)) {
+        int fd = open(path, O_WRONLY | O_CLOEXEC);
+        f->stream = fd < 0 ? NULL : fdopen(fd, "w");
+        if (f->stream)
+            return MOTUS_OK;
+        f->code = errno;
+        if (fd >= 0)
+            close(fd);
+        return cannot_write(f, err);
+    }
+    if (exists && access(f->path, W_OK) != 0) {         /* a file made read-only is not to be replaced behind one's back */
+        f->code = errno;
+        return cannot_write(f, err);
+    }
+    mode_t mask = umask(0);
+    umask(mask);
+    return create_beside(f, exists ? about.st_mode & 07777 : 0666 & ~mask, err);
+}
+
+motus_status file_write(file_out *f, const char *bytes, size_t count, motus_error *err)
+{
+    if (f->code == 0 && fwrite(bytes, 1, count, f->stream) != count)
+        f->code = errno ? errno : EIO;
+    return f->code ? cannot_write(f, err) : MOTUS_OK;
+}
+
+motus_status file_text(file_out *f, const char *text, motus_error *err)
+{
+    return file_write(f, text, strlen(text), err);
+}
+
+motus_status file_finish(file_out *f, motus_error *err)
+{
+    if (!f->stream)
+        return MOTUS_OK;
+    if (f->code == 0 && (fflush(f->stream) != 0 || ferror(f->stream)))
+        f->code = errno ? errno : EIO;
+    /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
+    if (f->code == 0 && f->temporary && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
+        f->code = errno;
+    if (f->stream != stdout && fclose(f->stream) != 0 && f->code == 0)
+        f->code = errno;
+    f->stream = NULL;
+    return f->code ? cannot_write(f, err) : MOTUS_OK;
+}
+
+/* So that the rename itself survives a power cut; a folder that cannot be opened loses nothing but that. */
+static void synchronise_folder(const char *path)
+{
+    char *folder = strdup(path);
+    if (!folder)
+        return;
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        slash[1] = 0;
+    int fd = open(slash ? folder : ".", O_RDONLY | O_CLOEXEC);
+    if (fd >= 0) {
+        (void)fsync(fd);
+        close(fd);
+    }
+    free(folder);
+}
+
+motus_status file_keep(file_out *f, motus_error *err)
+{
+    if (!f->temporary)
+        return MOTUS_OK;
+    if (rename(f->temporary, f->path) != 0) {
+        f->code = errno;
+        return cannot_write(f, err);
+    }
+    free(f->temporary);
+    f->temporary = NULL;
+    synchronise_folder(f->path);
+    return MOTUS_OK;
+}
+
+void file_drop(file_out *f)
+{
+    if (f->stream && f->stream != stdout)
+        fclose(f->stream);
+    if (f->temporary)
+        unlink(f->temporary);
+    free(f->temporary);
+    free(f->path);
+    *f = (file_out){0};
+}
+
+motus_status file_flush_output(motus_error *err)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return MOTUS_OK;
+    if (errno == EPIPE)
+        stop_reader_gone();
+    return complain(err, MOTUS_FILE, "cannot write standard output: %s", strerror(errno ? errno : EIO));
+}

@@ -1,0 +1,157 @@
+/* gnuplot as a child process.
+ *
+ * Invariant: there is no shell, and no file name of the user's reaches gnuplot. The script lies complete in a nameless file before it starts
+ * and its words go to another, so that neither side can wait for the other. The picture comes through a pipe, because gnuplot
+ * does not notice a full disk, and file_write() does.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/gnuplot.h"
+
+#include "cli/complain.h"
+#include "cli/stop.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static motus_status missing(motus_error *err)
+{
+    complain(err, MOTUS_TOOL, "gnuplot is not installed, and it draws the plots");
+    complain_hint(err, "sudo apt-get install gnuplot-nox");
+    return MOTUS_TOOL;
+}
+
+motus_status gnuplot_check(motus_error *err)
+{
+    const char *path = getenv("PATH");
+    if (!path || !*path)
+        path = "/usr/local/bin:/usr/bin:/bin";
+    while (*path) {
+        char candidate[4096];
+        size_t length = strcspn(path, ":");
+        int n = snprintf(candidate, sizeof candidate, "%.*s%sgnuplot", (int)length, path, length ? "/" : "./");
+        if (n > 0 && (size_t)n < sizeof candidate && access(candidate, X_OK) == 0)
+            return MOTUS_OK;
+        path += length + (path[length] == ':');
+    }
+    return missing(err);
+}
+
+static int spawn(pid_t *process, int script, int picture, int complaints)
+{
+    static char name[] = "gnuplot", defaults[] = "-d";
+    char *const arguments[] = {name, defaults, NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return ENOMEM;
+    if (posix_spawnattr_init(&attributes) != 0) {
+        posix_spawn_file_actions_destroy(&actions);
+        return ENOMEM;
+    }
+    sigset_t plain;
+    sigemptyset(&plain);
+    sigaddset(&plain, SIGPIPE);
+    int code = posix_spawn_file_actions_adddup2(&actions, script, STDIN_FILENO);
+    code = code ? code : posix_spawn_file_actions_adddup2(&actions, picture, STDOUT_FILENO);
+    code = code ? code : posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
+    code = code ? code : posix_spawnattr_setsigdefault(&attributes, &plain);
+    code = code ? code : posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    code = code ? code : posix_spawnp(process, name, &actions, &attributes, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    return code;
+}
+
+motus_status gnuplot_open(gnuplot *g, motus_error *err)
+{
+    g->script = tmpfile();
+    g->complaints = tmpfile();
+    if (g->script && g->complaints)
+        return MOTUS_OK;
+    return complain(err, MOTUS_FILE, "cannot make a temporary file: %s", strerror(errno));
+}
+
+void gnuplot_close(gnuplot *g)
+{
+    if (g->script)
+        fclose(g->script);
+    if (g->complaints)
+        fclose(g->complaints);
+    *g = (gnuplot){0};
+}
+
+/* Everything that comes out of `from` into the picture. */
+static motus_status pass_on(int from, file_out *picture, size_t *bytes, motus_error *err)
+{
+    char part[1 << 16];
+    motus_status status = MOTUS_OK;
+    *bytes = 0;
+    while (!status && !stop_requested()) {
+        ssize_t got = read(from, part, sizeof part);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            break;
+        *bytes += (size_t)got;
+        status = file_write(picture, part, (size_t)got, err);
+    }
+    return status;
+}
+
+/* The first line that says something. */
+static void first_words(FILE *from, char *out, int size)
+{
+    out[0] = 0;
+    rewind(from);
+    while (fgets(out, size, from)) {
+        size_t blanks = strspn(out, " \t\n^");
+        out[strcspn(out, "\n")] = 0;
+        if (blanks < strlen(out)) {
+            memmove(out, out + blanks, strlen(out + blanks) + 1);
+            return;
+        }
+    }
+    out[0] = 0;
+}
+
+motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
+{
+    if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
+        return complain(err, MOTUS_FILE, "cannot write a temporary file: %s", strerror(errno));
+    int ends[2];
+    if (pipe(ends) != 0)
+        return complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(errno));
+    const int ours[] = {ends[0], ends[1], fileno(g->script), fileno(g->complaints)};
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+        (void)fcntl(ours[i], F_SETFD, FD_CLOEXEC);
+    pid_t process;
+    int code = spawn(&process, fileno(g->script), ends[1], fileno(g->complaints));
+    close(ends[1]);
+    if (code) {
+        close(ends[0]);
+        return code == ENOENT ? missing(err) : complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(code));
+    }
+    size_t bytes;
+    motus_status status = pass_on(ends[0], picture, &bytes, err);
+    close(ends[0]);               /* a gnuplot that still writes ends here */
+    int outcome = 0;
+    pid_t waited;
+    while ((waited = waitpid(process, &outcome, 0)) < 0 && errno == EINTR)
+        ;
+    if (stop_requested())
+        return complain(err, MOTUS_CANCELLED, "cancelled");
+    if (status || (waited == process && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && bytes > 0))
+        return status;
+    char words[200];
+    first_words(g->complaints, words, sizeof words);
+    return complain(err, MOTUS_TOOL, "gnuplot failed%s%s", words[0] ? ": " : "", words);
+}

@@ -1,0 +1,19 @@
+/* gnuplot as a child process: it reads a script, and its picture is written to a file. */
+#ifndef CLI_GNUPLOT_H
+#define CLI_GNUPLOT_H
+
+#include "cli/file.h"
+
+typedef struct gnuplot {
+    FILE *script;                /* write the script here */
+    FILE *complaints;            /* what gnuplot says, kept for the message */
+} gnuplot;
+
+/* TOOL, with the line that installs it, where there is no gnuplot. */
+motus_status gnuplot_check(motus_error *);
+motus_status gnuplot_open(gnuplot *, motus_error *);
+/* Runs the script; the picture goes to the file. TOOL with gnuplot's own first words where it failed. */
+motus_status gnuplot_draw(gnuplot *, file_out *picture, motus_error *);
+void gnuplot_close(gnuplot *);
+
+#endif

@@ -1,0 +1,73 @@
+/* What --help says: a verb's use, its options from the table that reads them, and examples that run as they stand. */
+#include "cli/help.h"
+
+#include "cli/options.h"
+
+typedef struct page { unsigned verb; const char *use, *about, *examples; } page;
+
+static const page pages[] = {
+    {VERB_RUN, "motus run MODEL [options]",
+     "Integrates a model and shows the state at the end, with its error where the exact motion is known, and how far\n"
+     "the invariants moved. MODEL is a file, or - for standard input.",
+     "  motus run models/driven-oscillator.motus\n"
+     "  motus run models/pendulum.motus --method rk4 --step 1/64 --until 20\n"
+     "  motus run models/spring.motus -o traj.csv --every 0.1 --columns \"t,x,x'\"\n"
+     "  motus run models/damped-cubic.motus --plot phase.svg --plot-of \"x,x'\"\n"
+     "  motus run models/kepler.motus --save-state half.state --until 10\n"
+     "  motus run models/kepler.motus --restart half.state --until 20\n"
+     "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"},
+    {VERB_COMPARE, "motus compare MODEL [options]",
+     "Runs every method side by side: steps, evaluations, time, largest and final error against the exact motion or a\n"
+     "reference whose own error is shown, drift of the invariants and its trend, and what is left after going there and\n"
+     "back.",
+     "  motus compare models/projectile.motus\n"
+     "  motus compare models/spring.motus --methods explicit-euler,symplectic-euler,verlet --plot spring.svg\n"
+     "  motus compare models/kepler.motus --evaluations 20000\n"},
+    {VERB_CONVERGE, "motus converge MODEL [options]",
+     "Measures the order of every method on this model: errors at a row of steps, the slope where neither instability nor\n"
+     "round-off rules, and the certificate. Exit status 1 where a method does not keep its declared order.",
+     "  motus converge models/pendulum.motus\n"
+     "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
+     "  motus converge models/charged-particle.motus --json\n"},
+    {VERB_CHECK, "motus check MODEL [options]",
+     "Says what was understood of a model: its equations in normal form, what the acceleration depends on, and for every\n"
+     "method whether the model admits it, and why not.",
+     "  motus check models/damped-cubic.motus\n"
+     "  motus check models/charged-particle.motus --json\n"},
+    {VERB_METHODS, "motus methods [METHOD] [options]",
+     "Lists the methods, or shows the card of one: formula, properties, reference, when to use it.",
+     "  motus methods\n"
+     "  motus methods verlet\n"
+     "  motus methods --json\n"},
+};
+
+void help_program(FILE *out)
+{
+    fputs("motus: type an equation of motion, get the motion\n\n"
+          "  motus run      MODEL     integrate: the state at the end, files, plots\n"
+          "  motus compare  MODEL     every method side by side\n"
+          "  motus converge MODEL     error against step, the observed order, a certificate\n"
+          "  motus check    MODEL     what the program understood, which methods it admits\n"
+          "  motus methods [METHOD]   the catalogue, or the card of one method\n\n"
+          "  motus VERB --help        options and examples;  motus --version\n\n"
+          "A model is a text that reads like a textbook:\n\n"
+          "  x''   = -x + x^3 + 0.1 cos(t)\n"
+          "  x(0)  = 0\n"
+          "  x'(0) = 0\n"
+          "  method verlet\n"
+          "  step   0.001\n"
+          "  until  100\n\n"
+          "Data goes to standard output, messages to standard error. Exit status: 0 done, 1 the computation failed,\n"
+          "2 the request was wrong; after Ctrl-C the program dies of the signal, and no file is left half written.\n",
+          out);
+}
+
+void help_verb(FILE *out, unsigned verb)
+{
+    for (size_t i = 0; i < sizeof pages / sizeof *pages; i++)
+        if (pages[i].verb == verb) {
+            fprintf(out, "%s\n\n%s\n\noptions:\n", pages[i].use, pages[i].about);
+            options_help(out, verb);
+            fprintf(out, "\nexamples:\n%s", pages[i].examples);
+        }
+}

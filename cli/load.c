@@ -1,0 +1,121 @@
+/* The model that a command names.
+ *
+ * Invariant: a file is bounded before it is read, and what is no text never reaches the parser.
+ */
+#include "cli/load.h"
+
+#include "cli/complain.h"
+#include "cli/file.h"
+#include "cli/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static motus_status no_model(const options *o, motus_error *err)
+{
+    static const char *const verbs[] = {"run", "compare", "converge", "check"};
+    const char *verb = "run";
+    for (size_t i = 0; i < sizeof verbs / sizeof *verbs; i++)
+        if (o->verb == 1u << i)
+            verb = verbs[i];
+    complain(err, MOTUS_ARGUMENT, "motus %s needs a model", verb);
+    complain_hint(err, "motus %s model.motus, or - for standard input", verb);
+    return MOTUS_ARGUMENT;
+}
+
+/* A byte 0 says that this is no text; where it stands, for the message. */
+static motus_status check_text(const char *text, size_t length, const char *file, motus_error *err)
+{
+    const char *zero = memchr(text, 0, length);
+    if (!zero)
+        return MOTUS_OK;
+    int line = 1;
+    const char *start = text;
+    for (const char *s = text; s < zero; s++)
+        if (*s == '\n') {
+            line++;
+            start = s + 1;
+        }
+    int column = 1;
+    for (uint32_t c; start < zero; column++)
+        start += text_decode(start, &c);
+    complain(err, MOTUS_SYNTAX, "a byte 0: this is not a text");
+    complain_hint(err, "a model is a text file in UTF-8");
+    text_safe(file, err->file, sizeof err->file);
+    err->line = line;
+    err->column = column;
+    return MOTUS_SYNTAX;
+}
+
+static void name_of(const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    const char *base = strcmp(path, "-") == 0 ? "model" : slash ? slash + 1 : path;
+    text_safe(base, out, size);
+    char *dot = strrchr(out, '.');
+    if (dot && dot != out)
+        *dot = 0;
+}
+
+motus_status load_model(load *m, const options *o, motus_error *err)
+{
+    *m = (load){0};
+    if (!o->operand)
+        return no_model(o, err);
+    name_of(o->operand, m->title, sizeof m->title);
+    size_t length;
+    motus_status status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
+    if (status)
+        return status;
+    const char *file = strcmp(o->operand, "-") == 0 ? "standard input" : o->operand;
+    status = check_text(m->text, length, file, err);
+    if (status)
+        return status;
+    motus_text_def def = motus_default_text();
+    def.text = m->text;
+    def.length = length;
+    def.file = file;
+    def.set = o->set.items;
+    def.set_count = o->set.count;
+    status = motus_system_from_text(&def, &m->system, err);
+    if (status)
+        return status;
+    m->positions = motus_positions(m->system);
+    m->velocities = motus_velocities(m->system);
+    for (size_t k = 0; k < motus_quantity_count(m->system); k++) {
+        size_t numbers = 0;
+        motus_quantity_name(m->system, k, &numbers);
+        m->quantities += numbers;
+    }
+    for (size_t k = 0; k < motus_invariant_count(m->system); k++) {
+        size_t numbers = 0;
+        motus_invariant_name(m->system, k, &numbers);
+        m->invariants += numbers;
+    }
+    return MOTUS_OK;
+}
+
+void load_free(load *m)
+{
+    motus_system_destroy(m->system);
+    free(m->text);
+    *m = (load){0};
+}
+
+size_t load_quantity_column(const load *m)
+{
+    return 1 + m->positions + m->velocities;
+}
+
+size_t load_invariant_column(const load *m)
+{
+    return load_quantity_column(m) + m->quantities;
+}
+
+double load_until(const load *m, const options *o)
+{
+    motus_settings settings;
+    motus_settings_of(m->system, &settings);
+    return isnan(o->until) ? settings.until : o->until;
+}

@@ -1,0 +1,25 @@
+/* The model that a command names: its text, and the system made of it. */
+#ifndef CLI_LOAD_H
+#define CLI_LOAD_H
+
+#include "cli/options.h"
+
+typedef struct load {
+    char *text;
+    motus_system *system;
+    size_t positions, velocities;        /* columns: t, then these, then quantities, invariants, exact */
+    size_t quantities, invariants;       /* numbers in all */
+    char title[MOTUS_NAME_MAX];          /* file name without folder and ending, safe to show */
+} load;
+
+/* Reads the model of the options with their --set; everything in *load is freed by load_free(), also after a failure. */
+motus_status load_model(load *, const options *, motus_error *);
+void load_free(load *);
+
+/* First column of the quantities and of the invariants. */
+size_t load_quantity_column(const load *);
+size_t load_invariant_column(const load *);
+/* What the run will use where the options say nothing: the model's end. NaN: none. */
+double load_until(const load *, const options *);
+
+#endif

@@ -1,0 +1,174 @@
+/* motus methods: the catalogue, or the card of one method, from the rows the code runs. */
+#include "cli/complain.h"
+#include "cli/file.h"
+#include "cli/json.h"
+#include "cli/table.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *forces_text(motus_forces f)
+{
+    return f == MOTUS_FORCES_X ? "x" : f == MOTUS_FORCES_XT ? "x, t" : "x, x', t";
+}
+
+static void limit_text(double limit, char out[TEXT_NUMBER])
+{
+    if (isinf(limit))
+        strcpy(out, "none");
+    else if (limit == 0)
+        strcpy(out, "never");
+    else
+        text_brief(limit, 4, out);
+}
+
+static void evaluations_text(int evaluations, char out[TEXT_NUMBER])
+{
+    if (evaluations > 0)
+        snprintf(out, TEXT_NUMBER, "%d", evaluations);
+    else
+        strcpy(out, "solves");
+}
+
+static void row_json(json *j, const motus_method *m)
+{
+    json_open(j, '{');
+    json_key(j, "name");
+    json_string(j, m->name);
+    json_key(j, "aliases");
+    json_open(j, '[');
+    for (const char *s = m->aliases ? m->aliases : ""; *s;) {
+        char alias[MOTUS_NAME_MAX];
+        size_t length = strcspn(s, " ");
+        snprintf(alias, sizeof alias, "%.*s", (int)length, s);
+        if (length)
+            json_string(j, alias);
+        s += length + (s[length] == ' ');
+    }
+    json_close(j, ']');
+    json_key(j, "family");
+    json_string(j, m->family);
+    json_key(j, "order");
+    json_integer(j, m->order);
+    json_key(j, "stages");
+    json_integer(j, m->stages);
+    json_key(j, "evaluations");
+    json_integer(j, m->evaluations);
+    json_key(j, "forces");
+    json_string(j, forces_text(m->forces));
+    json_key(j, "symplectic");
+    json_bool(j, m->symplectic != 0);
+    json_key(j, "reversible");
+    json_bool(j, m->reversible != 0);
+    json_key(j, "stability_limit");
+    json_number(j, m->stability_limit);
+    json_key(j, "cite");
+    json_string(j, m->cite);
+    json_key(j, "formula");
+    json_string(j, m->formula);
+    json_key(j, "use");
+    json_string(j, m->use);
+    json_close(j, '}');
+}
+
+static void print_json(const motus_method *only)
+{
+    json j = json_begin(stdout);
+    json_open(&j, '{');
+    json_key(&j, "methods");
+    json_open(&j, '[');
+    for (size_t k = 0; k < motus_method_count(); k++)
+        if (!only || motus_method_at(k) == only)
+            row_json(&j, motus_method_at(k));
+    json_close(&j, ']');
+    json_close(&j, '}');
+    json_end(&j);
+}
+
+static motus_status print_catalogue(const options *o, motus_error *err)
+{
+    static const char *const heads[] = {"name", "order", "stages", "evaluations", "forces", "symplectic", "reversible",
+                                        "limit of hω", "citation"};
+    table *t = table_create("lrrrlllrl");
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
+        table_cell(t, heads[i]);
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER];
+        limit_text(m->stability_limit, limit);
+        evaluations_text(m->evaluations, evaluations);
+        bool counted = m->order > 0;           /* the exact motion has no order and takes no stages */
+        table_cell(t, m->name);
+        if (counted) {
+            table_integer(t, m->order);
+            table_integer(t, m->stages);
+        } else {
+            table_cell(t, "-");
+            table_cell(t, "-");
+        }
+        table_cell(t, counted ? evaluations : "-");
+        table_cell(t, forces_text(m->forces));
+        table_cell(t, m->symplectic ? "yes" : "no");
+        table_cell(t, m->reversible ? "yes" : "no");
+        table_cell(t, limit);
+        table_cell(t, m->cite ? m->cite : "");
+    }
+    bool good = o->markdown ? table_markdown(t, stdout) : table_print(t, stdout, 0, complain_colours(1));
+    table_destroy(t);
+    if (good && !o->markdown)
+        puts("\nforces: what the force may depend on. limit: largest stable h ω for x'' = -ω² x.\n"
+             "motus methods NAME shows the card of one.");
+    return good ? MOTUS_OK : complain_memory(err);
+}
+
+static void section(const char *title, const char *text, const char *strong, const char *plain)
+{
+    printf("\n%s%s%s\n", strong, title, plain);
+    while (*text) {
+        char line[2048];
+        size_t length = strcspn(text, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), text);
+        text_wrap(stdout, line, 2, 90);
+        text += length + (text[length] == '\n');
+    }
+}
+
+static void print_card(const motus_method *m)
+{
+    bool colours = complain_colours(1);
+    const char *strong = colours ? "\033[1m" : "", *plain = colours ? "\033[0m" : "";
+    char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER], properties[512];
+    limit_text(m->stability_limit, limit);
+    evaluations_text(m->evaluations, evaluations);
+    printf("%s%s%s, %s, order %d\n", strong, m->name, plain, m->family, m->order);
+    if (m->aliases && m->aliases[0])
+        printf("also called: %s\n", m->aliases);
+    section("formula", m->formula ? m->formula : "", strong, plain);
+    snprintf(properties, sizeof properties,
+             "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
+             "largest stable h ω: %s",
+             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", forces_text(m->forces),
+             m->symplectic ? "yes" : "no", m->reversible ? "yes" : "no", limit);
+    section("properties", properties, strong, plain);
+    section("reference", m->cite ? m->cite : "", strong, plain);
+    section("when to use it", m->use ? m->use : "", strong, plain);
+}
+
+motus_status methods_verb(const options *o, motus_error *err)
+{
+    const motus_method *only = NULL;
+    motus_status status = o->operand ? motus_method_find(o->operand, &only, err) : MOTUS_OK;
+    if (status)
+        return status;
+    if (only && o->markdown)
+        return complain(err, MOTUS_ARGUMENT, "--markdown prints the whole catalogue and takes no method");
+    if (o->json)
+        print_json(only);
+    else if (only && !o->quiet)
+        print_card(only);
+    else if (!o->quiet)
+        status = print_catalogue(o, err);
+    return status ? status : file_flush_output(err);
+}

@@ -1,0 +1,378 @@
+/* The command line.
+ *
+ * Invariant: an option is one row of the table: its name, what it takes, where it is stored, the verbs it belongs to, its help. Numbers are
+ * checked here, so the verbs see only good ones.
+ */
+#include "cli/options.h"
+
+#include "cli/complain.h"
+#include "cli/text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK, STUDY = VERB_COMPARE | VERB_CONVERGE,
+       MOTION = VERB_RUN | STUDY, ANY = MODEL | VERB_METHODS };
+
+typedef enum kind { FLAG, WORD, POSITIVE, REAL, COUNT, EVERY, METHOD_LIST, SET } kind;
+
+typedef struct option {
+    const char *name, *brief, *argument;
+    kind kind;
+    size_t place;
+    unsigned verbs;
+    const char *help;
+} option;
+
+#define AT(member) offsetof(options, member)
+static const option table[] = {
+    {"--method",      NULL, "M",       WORD,     AT(method),      VERB_RUN,      "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
+    {"--methods",     NULL, "A,B,C",   METHOD_LIST, AT(methods),  STUDY,         "these methods (else every one the model admits)"},
+    {"--step",        NULL, "H",       POSITIVE, AT(step),        MOTION,        "time step: 0.01, 1/64, pi/100"},
+    {"--until",       NULL, "T",       REAL,     AT(until),       MOTION,        "end time; before the start: backward"},
+    {"--set",         NULL, "P=EXPR",  SET,      AT(set),         MODEL,         "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
+    {"--evaluations", NULL, "N",       COUNT,    AT(evaluations), VERB_COMPARE,  "equal work: each method's step is chosen to spend N evaluations"},
+    {"--output",      "-o", "FILE",    WORD,     AT(output),      VERB_RUN,      "write the trajectory as CSV; - is standard output"},
+    {"--columns",     NULL, "A,B,C",   WORD,     AT(columns),     VERB_RUN,      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
+    {"--every",       NULL, "T",       EVERY,    AT(every_time),  VERB_RUN,      "a row of the CSV every time T, or every \"10 steps\""},
+    {"--plot",        NULL, "FIG",     WORD,     AT(plot),        MOTION,        "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
+    {"--plot-of",     NULL, "X,Y",     WORD,     AT(plot_of),     VERB_RUN,      "draw column Y against column X: \"x,x'\""},
+    {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
+    {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
+    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     MOTION,        "auto or interpreter"},
+    {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
+    {"--json",        NULL, NULL,      FLAG,     AT(json),        ANY,           "one JSON object on standard output"},
+    {"--quiet",       "-q", NULL,      FLAG,     AT(quiet),       ANY,           "print nothing but errors and --json"},
+    {"--help",        "-h", NULL,      FLAG,     AT(help),        ANY,           "this text"},
+};
+enum { OPTIONS = sizeof table / sizeof *table };
+
+static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods"};
+
+static const char *verb_name(unsigned verb)
+{
+    for (size_t i = 0; i < sizeof verb_names / sizeof *verb_names; i++)
+        if (verb == 1u << i)
+            return verb_names[i];
+    return "motus";
+}
+
+static bool matches(const option *o, const char *name)
+{
+    return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
+}
+
+/* The option called `name` of this verb, or the reason why there is none. */
+static motus_status find(const char *name, unsigned verb, const option **found, motus_error *err)
+{
+    const option *elsewhere = NULL, *near = NULL;
+    size_t distance = 3;
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const option *o = &table[i];
+        if (matches(o, name) && o->verbs & verb) {
+            *found = o;
+            return MOTUS_OK;
+        }
+        if (matches(o, name))
+            elsewhere = o;
+        size_t d = text_distance(o->name, name);
+        if (o->verbs & verb && d < distance) {
+            near = o;
+            distance = d;
+        }
+    }
+    if (elsewhere) {
+        char verbs[64] = "";
+        for (unsigned bit = 1; bit <= VERB_METHODS; bit <<= 1)
+            if (elsewhere->verbs & bit)
+                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "", verb_name(bit));
+        complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", verb_name(verb), elsewhere->name);
+        complain_hint(err, "%s belongs to: %s", elsewhere->name, verbs);
+        return MOTUS_ARGUMENT;
+    }
+    if (strcmp(name, "--tolerance") == 0)
+        return complain(err, MOTUS_UNAVAILABLE, "--tolerance is not available in this version: give --step");
+    complain(err, MOTUS_ARGUMENT, "unknown option %s", name);
+    if (strcmp(name, "--from") == 0)
+        complain_hint(err, "the start is the constant c in x(c) = ..., in the model");
+    else if (near)
+        complain_hint(err, "did you mean %s?", near->name);
+    else
+        complain_hint(err, "motus %s --help lists the options", verb_name(verb));
+    return MOTUS_ARGUMENT;
+}
+
+/* [number] [*] [pi] [/ number]: what a person types for a step or an end. */
+static bool read_number(const char *s, double *value)
+{
+    char *end;
+    double result = 1;
+    bool negative = *s == '-', some = false;
+    s += negative || *s == '+';
+    if ((*s >= '0' && *s <= '9') || *s == '.') {
+        if (s[0] == '0' && (s[1] == 'x' || s[1] == 'X'))
+            return false;
+        result = strtod(s, &end);
+        some = end != s;
+        s = end;
+    }
+    while (*s == ' ')
+        s++;
+    if (some && *s == '*')
+        s++;
+    while (*s == ' ')
+        s++;
+    if (s[0] == 'p' && s[1] == 'i') {
+        result *= 3.14159265358979323846;
+        some = true;
+        s += 2;
+    }
+    while (*s == ' ')
+        s++;
+    if (*s == '/') {
+        s++;
+        while (*s == ' ')
+            s++;
+        if (!(*s >= '0' && *s <= '9') || (s[0] == '0' && (s[1] == 'x' || s[1] == 'X')))
+            return false;
+        result /= strtod(s, &end);
+        s = end;
+    }
+    *value = negative ? -result : result;
+    return some && *s == 0 && isfinite(*value);
+}
+
+static motus_status bad_value(const option *o, const char *value, const char *wanted, motus_error *err)
+{
+    complain(err, MOTUS_ARGUMENT, "%s %s: this is not %s", o->name, value, wanted);
+    if (strchr(value, ','))
+        complain_hint(err, "numbers are written with a point: 0.5");
+    return MOTUS_ARGUMENT;
+}
+
+/* A whole number from 1 to what an int64_t holds, and what follows it. */
+static bool read_count(const char *s, int64_t *count, const char **rest)
+{
+    if (!(*s >= '0' && *s <= '9'))
+        return false;
+    char *end;
+    errno = 0;
+    long long n = strtoll(s, &end, 10);
+    /* 1e6 is how people write a million */
+    if (*end == 'e' || *end == 'E' || *end == '.') {
+        double d = strtod(s, &end);
+        if (!(d >= 1 && d < 9e18) || d != trunc(d))
+            return false;
+        n = (long long)d;
+    }
+    *count = n;
+    *rest = end;
+    return errno == 0 && n >= 1;
+}
+
+static motus_status read_every(options *o, const option *row, const char *value, motus_error *err)
+{
+    const char *rest;
+    int64_t n;
+    if (read_count(value, &n, &rest)) {
+        while (*rest == ' ')
+            rest++;
+        if (strcmp(rest, "steps") == 0 || strcmp(rest, "step") == 0) {
+            o->every_steps = n;
+            o->every_time = 0;
+            return MOTUS_OK;
+        }
+    }
+    double t;
+    if (!read_number(value, &t) || !(t > 0))
+        return bad_value(row, value, "a time above 0, or a count as \"10 steps\"", err);
+    o->every_time = t;
+    o->every_steps = 0;
+    return MOTUS_OK;
+}
+
+motus_status options_split(const char *text, const char *option_name, char **copy, options_list *list, motus_error *err)
+{
+    size_t length = strlen(text), most = 1;
+    for (const char *s = text; *s; s++)
+        most += *s == ',';
+    char *parts = malloc(length + 1);
+    const char **items = malloc(most * sizeof *items);
+    if (!parts || !items) {
+        free(parts);
+        free(items);
+        return complain_memory(err);
+    }
+    memcpy(parts, text, length + 1);
+    size_t count = 0;
+    int depth = 0;
+    for (char *s = parts, *part = parts;; s++) {
+        depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
+        if (*s && !(*s == ',' && depth <= 0))
+            continue;
+        bool last = !*s;
+        *s = 0;
+        part += strspn(part, " ");
+        for (char *tail = s; tail > part && tail[-1] == ' '; )
+            *--tail = 0;
+        if (!*part) {
+            free(parts);
+            free(items);
+            return complain(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
+        }
+        items[count++] = part;
+        if (last)
+            break;
+        part = s + 1;
+    }
+    *copy = parts;
+    *list = (options_list){items, count};
+    return MOTUS_OK;
+}
+
+static motus_status add_set(options *o, const char *value, motus_error *err)
+{
+    if (!strchr(value, '=') || value[0] == '=') {
+        complain(err, MOTUS_ARGUMENT, "--set %s: a name and its value are missing", value);
+        complain_hint(err, "write --set F=0.2 or --set \"x(0)=1\"");
+        return MOTUS_ARGUMENT;
+    }
+    const char **items = realloc(o->set.items, (o->set.count + 1) * sizeof *items);
+    if (!items)
+        return complain_memory(err);
+    o->set.items = items;
+    o->set.items[o->set.count++] = value;
+    return MOTUS_OK;
+}
+
+static motus_status store(options *o, const option *row, const char *value, motus_error *err)
+{
+    void *place = (char *)o + row->place;
+    const char *rest;
+    switch (row->kind) {
+    case FLAG:
+        *(bool *)place = true;
+        return MOTUS_OK;
+    case WORD:
+        if (!*value)
+            return complain(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
+        *(const char **)place = value;
+        return MOTUS_OK;
+    case POSITIVE:
+        if (!read_number(value, place) || !(*(double *)place > 0))
+            return bad_value(row, value, "a number above 0", err);
+        return MOTUS_OK;
+    case REAL:
+        return read_number(value, place) ? MOTUS_OK : bad_value(row, value, "a number", err);
+    case COUNT:
+        return read_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "a whole number above 0", err);
+    case EVERY:
+        return read_every(o, row, value, err);
+    case METHOD_LIST:
+        free(o->methods_text);
+        free(o->methods.items);
+        o->methods_text = NULL;
+        o->methods = (options_list){0};
+        return options_split(value, row->name, &o->methods_text, &o->methods, err);
+    case SET:
+        return add_set(o, value, err);
+    }
+    return MOTUS_OK;
+}
+
+static motus_status check(const options *o, motus_error *err)
+{
+    const char *machine = o->machine;
+    if (machine && strcmp(machine, "compiled") == 0)
+        return complain(err, MOTUS_UNAVAILABLE, "--machine compiled is not available in this version: use interpreter");
+    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0) {
+        complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
+        complain_hint(err, "auto or interpreter");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->plot_of && !o->plot) {
+        complain(err, MOTUS_ARGUMENT, "--plot-of says what to draw, and --plot is missing");
+        complain_hint(err, "add --plot fig.svg");
+        return MOTUS_ARGUMENT;
+    }
+    if ((o->columns || o->every_time > 0 || o->every_steps > 0) && !o->output) {
+        complain(err, MOTUS_ARGUMENT, "%s is about the CSV, and -o is missing", o->columns ? "--columns" : "--every");
+        complain_hint(err, "add -o traj.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->json && o->output && strcmp(o->output, "-") == 0) {
+        complain(err, MOTUS_ARGUMENT, "--json and -o - both want standard output");
+        complain_hint(err, "write the CSV to a file: -o traj.csv");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->json && o->markdown)
+        return complain(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
+    return MOTUS_OK;
+}
+
+motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
+{
+    *o = (options){.verb = verb, .step = NAN, .until = NAN, .argc = argc, .argv = argv};
+    bool only_operands = false;
+    for (int i = first; i < argc; i++) {
+        char *word = argv[i];
+        if (!only_operands && strcmp(word, "--") == 0) {
+            only_operands = true;
+            continue;
+        }
+        if (only_operands || word[0] != '-' || !word[1]) {
+            if (o->operand) {
+                complain(err, MOTUS_ARGUMENT, "%s after %s: one %s at a time", word, o->operand,
+                         verb == VERB_METHODS ? "method" : "model");
+                complain_hint(err, "put what belongs together in quotes");
+                return MOTUS_ARGUMENT;
+            }
+            o->operand = word;
+            continue;
+        }
+        char name[64];
+        char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
+        size_t length = equals ? (size_t)(equals - word) : strlen(word);
+        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
+        const option *row = NULL;
+        motus_status status = find(name, verb, &row, err);
+        if (status)
+            return status;
+        const char *value = equals ? equals + 1 : NULL;
+        if (row->kind == FLAG && value)
+            return complain(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
+        if (row->kind != FLAG && !value && i + 1 == argc) {
+            complain(err, MOTUS_ARGUMENT, "%s: its value is missing", row->name);
+            complain_hint(err, "%s %s: %s", row->name, row->argument, row->help);
+            return MOTUS_ARGUMENT;
+        }
+        if (row->kind != FLAG && !value)
+            value = argv[++i];
+        status = store(o, row, value, err);
+        if (status)
+            return status;
+    }
+    return o->help ? MOTUS_OK : check(o, err);
+}
+
+void options_free(options *o)
+{
+    free(o->set.items);
+    free(o->methods.items);
+    free(o->methods_text);
+}
+
+void options_help(FILE *out, unsigned verb)
+{
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const option *o = &table[i];
+        if (!(o->verbs & verb))
+            continue;
+        char left[40];
+        snprintf(left, sizeof left, "%s%s%s%s%s", o->brief ? o->brief : "", o->brief ? ", " : "", o->name,
+                 o->argument ? " " : "", o->argument ? o->argument : "");
+        fprintf(out, "  %-20s  %s\n", left, o->help);
+    }
+}

@@ -1,0 +1,38 @@
+/* The command line, read once into one struct. */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include "motus.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Verbs, as bits, so that an option can say where it belongs. */
+enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16 };
+
+typedef struct options_list { const char **items; size_t count; } options_list;
+
+typedef struct options {
+    unsigned verb;
+    const char *operand;                 /* the model, or the method of `methods`; NULL: none */
+    const char *method, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
+    double step, until;                  /* NaN: the model's */
+    double every_time;                   /* 0: not given */
+    int64_t every_steps;                 /* 0: not given */
+    int64_t evaluations;                 /* 0: not given */
+    options_list set, methods;
+    char *methods_text;                  /* what the items of `methods` point into */
+    bool json, quiet, help, markdown;
+    int argc;
+    char **argv;                         /* the whole command, for the header of files */
+} options;
+
+/* argv from the program's name on; `first` is where the verb's own arguments begin. */
+motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
+void options_free(options *);
+/* The lines of --help for the options of a verb. */
+void options_help(FILE *, unsigned verb);
+/* "x,r.x,u[1,2]" into its parts: commas inside brackets do not count. The items point into *copy, which the caller frees. */
+motus_status options_split(const char *text, const char *option, char **copy, options_list *, motus_error *);
+
+#endif

@@ -1,0 +1,379 @@
+/* Figures, as a script for gnuplot.
+ *
+ * Invariants: text enters the script in single quotes with quotes doubled and control characters gone, in terminals set to noenhanced, so
+ * no name is ever a command; data are numbers in data blocks. Nothing is told by colour alone: every curve of a panel has its own
+ * dashes and, from the second on, its own marker. Thinning keeps the smallest and the largest value of every column of the picture.
+ */
+#include "cli/plot.h"
+
+#include "cli/complain.h"
+#include "cli/gnuplot.h"
+#include "cli/text.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum {
+    COLUMNS = 2000,               /* of the picture, two values each */
+    PATH_GRID = 2500,             /* points of a path nearer than 1/2500 of the picture are one */
+    PATH_MOST = 40000
+};
+
+typedef struct style { const char *colour, *dashes; int marker; } style;
+static const style styles[] = {
+    {"#1d4ed8", "solid", 6},        {"#c2410c", "(14,5)", 4},       {"#7c3aed", "(3,4)", 8},         {"#0f172a", "(16,4,3,4)", 12},
+    {"#be185d", "(8,4)", 10},       {"#0e7490", "(12,3,3,3,3,3)", 2}, {"#a16207", "(6,8)", 1},       {"#64748b", "(20,6)", 3},
+};
+enum { STYLES = sizeof styles / sizeof *styles };
+
+plot_panel *plot_panel_add(plot_figure *f, const char *title, const char *x_label, const char *y_label)
+{
+    plot_panel *panels = realloc(f->panels, (f->count + 1) * sizeof *panels);
+    if (!panels)
+        return NULL;
+    f->panels = panels;
+    plot_panel *p = &panels[f->count++];
+    *p = (plot_panel){0};
+    snprintf(p->title, sizeof p->title, "%s", title);
+    snprintf(p->x_label, sizeof p->x_label, "%s", x_label);
+    snprintf(p->y_label, sizeof p->y_label, "%s", y_label);
+    return p;
+}
+
+plot_curve *plot_curve_add(plot_panel *p, const char *label, const double *x, const double *y, size_t count, size_t stride)
+{
+    plot_curve *curves = realloc(p->curves, (p->curve_count + 1) * sizeof *curves);
+    if (!curves)
+        return NULL;
+    p->curves = curves;
+    plot_curve *c = &curves[p->curve_count++];
+    *c = (plot_curve){.x = x, .y = y, .count = count, .stride = stride};
+    snprintf(c->label, sizeof c->label, "%s", label);
+    return c;
+}
+
+void plot_free(plot_figure *f)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        free(f->panels[i].curves);
+        free(f->panels[i].heat);
+    }
+    free(f->panels);
+    *f = (plot_figure){0};
+}
+
+static void quoted(FILE *out, const char *s)
+{
+    char safe[2 * PLOT_LABEL];
+    text_safe(s, safe, sizeof safe);
+    putc('\'', out);
+    for (const char *c = safe; *c; c++) {
+        if (*c == '\'')
+            putc('\'', out);
+        putc(*c, out);
+    }
+    putc('\'', out);
+}
+
+/* Numbers that gnuplot can add and scale; the rest are gaps in a curve. */
+static bool drawable(double v)
+{
+    return isfinite(v) && fabs(v) < 1e290;
+}
+
+static void put_point(FILE *out, const plot_curve *c, size_t i)
+{
+    double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->drift ? c->y[0] : 0), z = c->z ? c->z[i * c->stride] : 0;
+    if (!drawable(x) || !drawable(y) || !drawable(z))
+        putc('\n', out);
+    else if (c->z)
+        fprintf(out, "%.10g %.10g %.10g\n", x, y, z);
+    else
+        fprintf(out, "%.12g %.10g\n", x, y);
+}
+
+/* Of every column of the picture the smallest and the largest value, in the order they came. */
+static void put_timelike(FILE *out, const plot_curve *c)
+{
+    for (size_t bucket = 0; bucket < COLUMNS; bucket++) {
+        size_t begin = (size_t)((double)c->count * (double)bucket / COLUMNS);
+        size_t end = bucket + 1 == COLUMNS ? c->count : (size_t)((double)c->count * (double)(bucket + 1) / COLUMNS);
+        size_t low = begin, high = begin;
+        for (size_t i = begin; i < end; i++) {
+            double y = c->y[i * c->stride];
+            if (!(y >= c->y[low * c->stride]))
+                low = i;
+            if (!(y <= c->y[high * c->stride]))
+                high = i;
+        }
+        if (begin == end)
+            continue;
+        put_point(out, c, low < high ? low : high);
+        if (low != high)
+            put_point(out, c, low < high ? high : low);
+    }
+    put_point(out, c, c->count - 1);
+}
+
+static double extent(const double *v, size_t count, size_t stride)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        double y = v[i * stride];
+        if (!drawable(y))
+            continue;
+        low = fmin(low, y);
+        high = fmax(high, y);
+    }
+    return high > low ? high - low : 0;
+}
+
+/* Of a path every point that is a visible distance from the one before it. */
+static void put_path(FILE *out, const plot_curve *c)
+{
+    const double *axes[] = {c->x, c->y, c->z};
+    double scale[3] = {0};
+    for (size_t a = 0; a < 3; a++)
+        if (axes[a]) {
+            double e = extent(axes[a], c->count, c->stride);
+            scale[a] = e > 0 ? PATH_GRID / e : 0;
+        }
+    size_t last = 0, kept = 0;
+    size_t skip = c->count / PATH_MOST + 1;
+    put_point(out, c, 0);
+    for (size_t i = 1; i < c->count; i++) {
+        double moved = 0;
+        for (size_t a = 0; a < 3; a++)
+            if (axes[a])
+                moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
+        if (i + 1 < c->count && moved < 1)
+            continue;
+        /* a path that fills the picture is cut down evenly once it has had its share */
+        if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count)
+            continue;
+        put_point(out, c, i);
+        last = i;
+        kept++;
+    }
+}
+
+static void put_curve(FILE *out, const plot_curve *c)
+{
+    if (c->count > 2 * COLUMNS && c->timelike)
+        put_timelike(out, c);
+    else if (c->count > 2 * COLUMNS)
+        put_path(out, c);
+    else
+        for (size_t i = 0; i < c->count; i++)
+            put_point(out, c, i);
+}
+
+static void put_heat(FILE *out, const plot_panel *p)
+{
+    for (size_t r = 0; r < p->heat_rows; r++)
+        for (size_t c = 0; c < p->heat_columns; c++) {
+            double v = p->heat[r * p->heat_columns + c];
+            if (drawable(v))
+                fprintf(out, "%.6g%c", v, c + 1 == p->heat_columns ? '\n' : ' ');
+            else
+                fprintf(out, "NaN%c", c + 1 == p->heat_columns ? '\n' : ' ');
+        }
+}
+
+static void put_data(FILE *out, const plot_figure *f)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        const plot_panel *p = &f->panels[i];
+        if (p->heat) {
+            fprintf(out, "$heat%zu << END_OF_DATA\n", i);
+            put_heat(out, p);
+            fputs("END_OF_DATA\n", out);
+        }
+        for (size_t k = 0; k < p->curve_count; k++) {
+            fprintf(out, "$d%zu_%zu << END_OF_DATA\n", i, k);
+            put_curve(out, &p->curves[k]);
+            fputs("END_OF_DATA\n", out);
+        }
+    }
+}
+
+/* One scale for both axes, unless the picture would be a thread. */
+static bool one_scale(const plot_panel *p)
+{
+    if (!p->spatial)
+        return false;
+    double x = 0, y = 0;
+    for (size_t k = 0; k < p->curve_count; k++) {
+        const plot_curve *c = &p->curves[k];
+        x = fmax(x, extent(c->x, c->count, c->stride));
+        y = fmax(y, extent(c->y, c->count, c->stride));
+    }
+    return x > 0 && y > 0 && x / y < 4 && y / x < 4;
+}
+
+static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c, size_t index, size_t lines)
+{
+    const style *s = &styles[index % STYLES];
+    if (c->role == PLOT_EXACT) {
+        fputs(" with lines lw 5 dt (18,7) lc rgb '#15803D'", out);
+        return;
+    }
+    /* with more curves than styles the markers go round at another pace than the dashes, so that no pair comes again soon */
+    int marker = styles[(index + index / STYLES) % STYLES].marker;
+    bool marked = lines > 1 || p->logarithmic || c->count == 1;
+    fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked ? "linespoints" : "lines", s->dashes, s->colour);
+    if (marked && p->logarithmic)
+        fprintf(out, " pt %d ps 0.7", marker);
+    else if (marked)
+        fprintf(out, " pt %d ps 0.7 pn 9", marker);
+}
+
+static void put_curves(FILE *out, const plot_panel *p, size_t panel)
+{
+    size_t lines = 0;
+    for (size_t k = 0; k < p->curve_count; k++)
+        lines += p->curves[k].role == PLOT_LINE;
+    fputs(p->curve_count && p->curves[0].z ? "splot " : "plot ", out);
+    /* the truth first: what was computed is drawn over it */
+    bool first = true;
+    for (int pass = 0; pass < 2; pass++) {
+        size_t index = 0;
+        for (size_t k = 0; k < p->curve_count; k++) {
+            const plot_curve *c = &p->curves[k];
+            size_t own = index;
+            index += c->role == PLOT_LINE;
+            if ((c->role == PLOT_EXACT) != (pass == 0))
+                continue;
+            fprintf(out, "%s$d%zu_%zu using %s", first ? "" : ", ", panel, k, c->z ? "1:2:3" : "1:2");
+            put_curve_style(out, p, c, own, lines);
+            fputs(" title ", out);
+            quoted(out, c->label);
+            first = false;
+        }
+    }
+    putc('\n', out);
+}
+
+static void put_heat_map(FILE *out, const plot_panel *p, size_t panel)
+{
+    double most = 0;
+    for (size_t i = 0; i < p->heat_rows * p->heat_columns; i++)
+        if (drawable(p->heat[i]))
+            most = fmax(most, fabs(p->heat[i]));
+    if (!(most > 0))
+        most = 1;
+    fprintf(out, "set cbrange [%.6g:%.6g]\n", -most, most);
+    fputs("set palette defined (-1 '#1e3a8a', -0.5 '#60a5fa', 0 '#f8fafc', 0.5 '#fb923c', 1 '#7c2d12')\nunset key\n", out);
+    fprintf(out, "set autoscale xfix\nset autoscale yfix\nplot $heat%zu matrix using (%.12g+$1*%.12g):(%.12g+$2*%.12g):3 with image\n",
+            panel, p->x_first, p->x_step, p->y_first, p->y_step);
+}
+
+static void put_panel(FILE *out, const plot_panel *p, size_t index)
+{
+    bool solid = p->curve_count && p->curves[0].z;
+    fputs("set title ", out);
+    quoted(out, p->title);
+    fputs("\nset xlabel ", out);
+    quoted(out, p->x_label);
+    fputs(" offset 0,0.4\nset ylabel ", out);
+    quoted(out, p->y_label);
+    fputs("\nset autoscale\n", out);
+    fputs(solid ? "set border 31 lc rgb '#64748b'\n" : "set border 3 lc rgb '#64748b'\n", out);
+    /* outside, where it hides nothing; one curve alone is named by its axis */
+    fprintf(out, p->curve_count < 2 ? "unset key\n" : "set key outside %s nobox samplen 4 spacing 1.1\n",
+            p->curve_count > 6 ? "right top vertical" : "bottom center horizontal");
+    if (p->logarithmic)
+        fputs("set logscale xy\nset format xy '%.0e'\n", out);
+    if (solid) {
+        fputs("set view 62, 32, 1, 1\nset xyplane 0\nset zlabel ", out);
+        quoted(out, p->z_label);
+        putc('\n', out);
+    }
+    if (one_scale(p) && !solid)
+        fputs("set size ratio -1\n", out);
+    if (p->heat)
+        put_heat_map(out, p, index);
+    else
+        put_curves(out, p, index);
+    fputs("unset logscale\nset format\nset size noratio\nunset zlabel\n", out);
+}
+
+typedef struct layout { size_t rows, columns; int width, height; } layout;
+
+static layout arrange(const plot_figure *f)
+{
+    bool square = false;
+    for (size_t i = 0; i < f->count; i++)
+        square = square || f->panels[i].spatial || f->panels[i].heat || f->panels[i].logarithmic;
+    size_t columns = square ? (f->count > 1 ? 2 : 1) : f->count > 4 ? 2 : 1;
+    size_t rows = (f->count + columns - 1) / columns;
+    int width = columns == 1 ? (square ? 820 : 960) : square ? 660 : 760;
+    int height = f->count == 1 ? (square ? 680 : 480) : square ? 500 : 280;
+    return (layout){rows, columns, width * (int)columns, height * (int)rows + 40};
+}
+
+static const char *const formats[] = {".svg", ".png", ".pdf"};
+
+static size_t format_of(const char *path)
+{
+    size_t length = strlen(path), k = 0;
+    while (k < 3 && !(length > 4 && strcasecmp(path + length - 4, formats[k]) == 0))
+        k++;
+    return k;
+}
+
+motus_status plot_check(const char *path, motus_error *err)
+{
+    if (format_of(path) == 3) {
+        complain(err, MOTUS_ARGUMENT, "--plot %s: the ending names no format", path);
+        complain_hint(err, "end the name in .svg, .png or .pdf");
+        return MOTUS_ARGUMENT;
+    }
+    return gnuplot_check(err);
+}
+
+static void put_terminal(FILE *out, const char *path, layout l)
+{
+    fputs("set encoding utf8\n", out);
+    switch (format_of(path)) {
+    case 1:
+        fprintf(out, "set terminal pngcairo size %d,%d noenhanced font 'sans,11' background '#ffffff'\n", l.width, l.height);
+        break;
+    case 2:
+        fprintf(out, "set terminal pdfcairo size %.2fin,%.2fin noenhanced font 'sans,11' background '#ffffff'\n", l.width / 96.0,
+                l.height / 96.0);
+        break;
+    default:
+        fprintf(out, "set terminal svg size %d,%d noenhanced font 'sans-serif,14' background '#ffffff' standalone\n", l.width,
+                l.height);
+    }
+}
+
+static void put_script(FILE *out, const plot_figure *f, const char *path)
+{
+    layout l = arrange(f);
+    put_terminal(out, path, l);
+    put_data(out, f);
+    fputs("set tics nomirror\nset grid lt 1 lw 0.7 lc rgb '#e2e8f0'\nset datafile missing 'NaN'\n", out);
+    fprintf(out, "set multiplot layout %zu,%zu title ", l.rows, l.columns);
+    quoted(out, f->title);
+    putc('\n', out);
+    for (size_t i = 0; i < f->count; i++)
+        put_panel(out, &f->panels[i], i);
+    fputs("unset multiplot\n", out);
+}
+
+motus_status plot_draw(const plot_figure *f, const char *path, file_out *file, motus_error *err)
+{
+    gnuplot g = {0};
+    motus_status status = gnuplot_open(&g, err);
+    if (!status) {
+        put_script(g.script, f, path);
+        status = gnuplot_draw(&g, file, err);
+    }
+    gnuplot_close(&g);
+    return status;
+}

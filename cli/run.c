@@ -1,0 +1,196 @@
+/* motus run: one integration.
+ *
+ * Invariant: files get their names at the very end, all of them after the last thing that can fail, so that a run either leaves everything
+ * it was asked for or nothing. The motion does not depend on what is looked at.
+ */
+#include "cli/complain.h"
+#include "cli/csv.h"
+#include "cli/drift.h"
+#include "cli/figure.h"
+#include "cli/file.h"
+#include "cli/load.h"
+#include "cli/stop.h"
+#include "cli/summary.h"
+#include "cli/verbs.h"
+#include "cli/walk.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CSV, PLOT, STATE, FILES };
+
+typedef struct job {
+    const options *options;
+    load model;
+    motus_run *run;
+    stop_progress progress;
+    double start, until;
+    csv csv;
+    drift drift;
+    figure figure;
+    file_out files[FILES];
+} job;
+
+static motus_status check_names(const options *o, motus_error *err)
+{
+    const char *in[] = {o->operand, o->restart}, *out[] = {o->output, o->plot, o->save_state};
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t k = 0; out[i] && k < 2; k++)
+            /* a restart state may be replaced by the next one; standard input and output share the name - */
+            if (in[k] && strcmp(out[i], "-") != 0 && !(i == 2 && k == 1) && file_same(out[i], in[k]))
+                return complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
+        for (size_t k = i + 1; out[i] && k < 3; k++)
+            if (out[k] && file_same(out[i], out[k]))
+                return complain(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
+    }
+    if (o->json && o->plot && strcmp(o->plot, "-") == 0)
+        return complain(err, MOTUS_ARGUMENT, "--json and --plot - both want standard output");
+    if (o->save_state && strcmp(o->save_state, "-") == 0)
+        return complain(err, MOTUS_ARGUMENT, "--save-state needs the name of a file");
+    if (o->operand && o->restart && strcmp(o->operand, "-") == 0 && strcmp(o->restart, "-") == 0)
+        return complain(err, MOTUS_ARGUMENT, "model and restart state cannot both be standard input");
+    return o->plot ? plot_check(o->plot, err) : MOTUS_OK;
+}
+
+static motus_status restart(job *j, motus_error *err)
+{
+    char *text;
+    size_t length;
+    motus_status status = file_read(j->options->restart, FILE_STATE_MAX, &text, &length, err);
+    if (status)
+        return status;
+    status = motus_run_restore(j->run, text, length, err);
+    free(text);
+    return status;
+}
+
+/* After the last step of full size: a state saved there goes on along the same grid of steps. */
+static motus_status save(void *context, const double *values, motus_error *err)
+{
+    (void)values;
+    job *j = context;
+    const char *text;
+    size_t length;
+    motus_status status = motus_run_save(j->run, &text, &length, err);
+    return status ? status : file_write(&j->files[STATE], text, length, err);
+}
+
+static motus_status begin(job *j, motus_error *err)
+{
+    const options *o = j->options;
+    motus_status status = check_names(o, err);
+    if (!status)
+        status = load_model(&j->model, o, err);
+    if (!status && o->output)
+        status = csv_plan(&j->csv, &j->model, o, err);
+    if (status)
+        return status;
+    motus_run_def def = motus_default_run();
+    def.method = o->method;
+    def.step = o->step;
+    def.until = o->until;
+    def.progress = stop_progress_hook;
+    def.context = &j->progress;
+    status = motus_run_create(j->model.system, &def, &j->run, err);
+    if (status)
+        return status;
+    j->start = motus_run_time(j->run);
+    j->until = load_until(&j->model, o);
+    status = drift_begin(&j->drift, &j->model, j->run, err);
+    if (!status && o->restart)
+        status = restart(j, err);
+    if (!status && o->plot)
+        status = figure_begin(&j->figure, &j->model, o, j->run, err);
+    const char *const names[FILES] = {o->output, o->plot, o->save_state};
+    for (int i = 0; !status && i < FILES; i++)
+        if (names[i])
+            status = file_create(&j->files[i], names[i], err);
+    if (!status && o->output)
+        status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
+    return status;
+}
+
+/* When the rows of the CSV come: the options say it, or the model, or every step. */
+static walk_watcher rows_watcher(job *j)
+{
+    const options *o = j->options;
+    motus_settings settings;
+    motus_settings_of(j->model.system, &settings);
+    walk_watcher w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
+    bool ours = o->every_time > 0 || o->every_steps > 0;
+    double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
+    int64_t steps = ours ? o->every_steps : settings.every_steps;
+    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of(period, motus_run_step_size(j->run)) : 1;
+    w.period = w.stride > 0 ? 0 : period;
+    return w;
+}
+
+static motus_status go(job *j, motus_error *err)
+{
+    walk_watcher watchers[4 + FIGURE_WATCHERS];
+    size_t count = 0;
+    int64_t steps = motus_run_steps_total(j->run);
+    if (j->drift.count > 0)
+        watchers[count++] = drift_watcher(&j->drift, drift_stride(&j->model, steps));
+    if (j->options->output) {
+        watchers[count] = rows_watcher(j);
+        if (j->drift.count > 0 && watchers[count].stride > 0) {
+            watchers[count + 1] = drift_watcher(&j->drift, watchers[count].stride);
+            count++;
+        }
+        count++;
+    }
+    if (j->options->plot) {
+        figure_watchers(&j->figure, watchers + count);
+        count += FIGURE_WATCHERS;
+    }
+    if (j->options->save_state)
+        watchers[count++] = (walk_watcher){.whole = 1, .take = save, .context = j};
+    return walk(j->run, j->start, j->until, watchers, count, err);
+}
+
+static motus_status finish(job *j, double seconds, motus_error *err)
+{
+    const options *o = j->options;
+    motus_status status = MOTUS_OK;
+    if (o->plot)
+        status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
+    for (int i = 0; !status && i < FILES; i++)
+        status = file_finish(&j->files[i], err);
+    summary s = {&j->model, o, j->run, &j->drift, j->start, seconds};
+    if (!status && o->json)
+        status = summary_json(&s, err);
+    else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
+        status = summary_print(&s, err);
+    if (!status)
+        status = file_flush_output(err);
+    for (int i = 0; !status && i < FILES; i++)
+        status = file_keep(&j->files[i], err);
+    if (!status && !o->quiet && o->plot && j->figure.left_out)
+        complain_note("the figure shows a choice: there is more than it has room for");
+    return status;
+}
+
+motus_status run_verb(const options *o, motus_error *err)
+{
+    job j = {.options = o};
+    motus_status status = begin(&j, err);
+    if (!status) {
+        j.progress = stop_progress_begin("run", o->quiet);
+        double began = stop_clock();
+        status = go(&j, err);
+        double seconds = stop_clock() - began;
+        stop_progress_end(&j.progress);
+        if (!status)
+            status = finish(&j, seconds, err);
+    }
+    for (int i = 0; i < FILES; i++)
+        file_drop(&j.files[i]);
+    figure_free(&j.figure);
+    drift_free(&j.drift);
+    csv_free(&j.csv);
+    motus_run_destroy(j.run);
+    load_free(&j.model);
+    return status;
+}

@@ -1,0 +1,94 @@
+/* Requests to stop, and progress.
+ *
+ * Invariant: a handler only notes the signal; work ends at the next look, temporary files are removed, and then the program dies of that
+ * same signal, so that a shell and its loops stop as well. A second signal kills at once.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/stop.h"
+
+#include <signal.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+/* The one variable of the program that changes: a signal handler has no other way to speak. */
+static volatile sig_atomic_t asked;
+
+static void note(int number)
+{
+    asked = number;
+}
+
+void stop_watch(void)
+{
+    static const int asking[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action = {0}, before;
+    sigemptyset(&action.sa_mask);
+    action.sa_handler = note;
+    action.sa_flags = (int)SA_RESETHAND;
+    for (size_t i = 0; i < sizeof asking / sizeof *asking; i++)
+        if (sigaction(asking[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(asking[i], &action, NULL);
+    /* a reader that went away shows as a failed write, after which temporary files can still be removed */
+    action.sa_handler = SIG_IGN;
+    action.sa_flags = 0;
+    sigaction(SIGPIPE, &action, NULL);
+}
+
+bool stop_requested(void)
+{
+    return asked != 0;
+}
+
+void stop_reader_gone(void)
+{
+    asked = SIGPIPE;
+}
+
+void stop_obey(void)
+{
+    if (!asked)
+        return;
+    fflush(stderr);
+    signal((int)asked, SIG_DFL);
+    raise((int)asked);
+}
+
+double stop_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+stop_progress stop_progress_begin(const char *what, bool quiet)
+{
+    return (stop_progress){what, stop_clock(), 0, !quiet && isatty(STDERR_FILENO)};
+}
+
+int stop_progress_hook(void *context, double fraction)
+{
+    enum { PATIENCE_MS = 500, REFRESH_MS = 100 };
+    stop_progress *p = context;
+    if (p->terminal) {
+        double now = stop_clock(), spent = now - p->began;
+        if (spent * 1000 > PATIENCE_MS && (now - p->shown) * 1000 > REFRESH_MS) {
+            fprintf(stderr, "\r\033[K%s %3.0f %%", p->what, 100 * fraction);
+            if (fraction > 0.02 && fraction < 1)
+                fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / fraction);
+            fflush(stderr);
+            p->shown = now;
+        }
+    }
+    return stop_requested();
+}
+
+void stop_progress_end(stop_progress *p)
+{
+    if (p->terminal && p->shown > 0) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
+    p->shown = 0;
+}

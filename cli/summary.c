@@ -1,0 +1,340 @@
+/* What `motus run` says about a finished run.
+ *
+ * Invariant: the values shown are read from the run by column, so that they are those of the CSV; all of them are read before the first is
+ * printed, so that a failure leaves no half of an answer.
+ */
+#include "cli/summary.h"
+
+#include "cli/complain.h"
+#include "cli/figure.h"
+#include "cli/json.h"
+#include "cli/table.h"
+#include "cli/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SHOWN = 12 };              /* numbers of one name, for people */
+
+static motus_status values_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
+{
+    size_t *columns = malloc((count + 1) * sizeof *columns);
+    *out = malloc((count + 1) * sizeof **out);
+    motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
+    for (size_t k = 0; !status && k < count; k++)
+        columns[k] = first + k;
+    if (!status && count > 0)
+        status = motus_run_values(s->run, columns, count, *out, err);
+    free(columns);
+    if (status) {
+        free(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+/* ---- for people ---- */
+
+static size_t exact_column(const summary *s, size_t variable, bool velocity, size_t offset)
+{
+    motus_variable v;
+    figure_place p;
+    if (!motus_has_exact(s->model->system) || motus_variable_at(s->model->system, variable, &v) != MOTUS_OK ||
+        !figure_find(s->model, &v, "exact ", velocity ? "'" : "", &p))
+        return 0;
+    return p.first + offset;
+}
+
+/* Rows of columns [first, first + count), at most SHOWN of them. */
+static motus_status rows(const summary *s, table *t, size_t first, size_t count, size_t variable, bool velocity, bool state,
+                         motus_error *err)
+{
+    bool truth = state && motus_has_exact(s->model->system);
+    for (size_t k = 0; k < count && k < SHOWN; k++) {
+        motus_column c;
+        double value[2] = {NAN, NAN};
+        size_t columns[2] = {first + k, truth ? exact_column(s, variable, velocity, k) : 0};
+        motus_status status = motus_column_at(s->model->system, columns[0], &c);
+        if (status)
+            return complain(err, status, "column %zu has no name", columns[0]);
+        status = motus_run_values(s->run, columns, columns[1] ? 2 : 1, value, err);
+        if (status)
+            return status;
+        table_cell(t, c.name);
+        table_exact(t, value[0]);
+        if (!truth)
+            continue;
+        if (columns[1])
+            table_exact(t, value[1]);
+        else
+            table_cell(t, "-");
+        table_number(t, columns[1] ? fabs(value[0] - value[1]) : NAN, -2);
+    }
+    if (count > SHOWN) {
+        char more[64];
+        snprintf(more, sizeof more, "… and %zu more", count - SHOWN);
+        table_cell(t, more);
+        for (int i = 0; i < (truth ? 3 : 1); i++)
+            table_cell(t, "");
+    }
+    return MOTUS_OK;
+}
+
+static table *state_table(const summary *s, motus_error *err, motus_status *status)
+{
+    bool truth = motus_has_exact(s->model->system);
+    table *t = table_create(truth ? "lllr" : "ll");
+    table_cell(t, "state");
+    table_cell(t, "value");
+    if (truth) {
+        table_cell(t, "exact");
+        table_cell(t, "error");
+    }
+    motus_variable v;
+    for (size_t k = 0; !*status && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++) {
+        figure_place p;
+        if (figure_find(s->model, &v, "", "", &p))
+            *status = rows(s, t, p.first, v.count, k, false, true, err);
+        if (!*status && v.order == 2 && figure_find(s->model, &v, "", "'", &p))
+            *status = rows(s, t, p.first, v.count, k, true, true, err);
+    }
+    return t;
+}
+
+static table *quantity_table(const summary *s, motus_error *err, motus_status *status)
+{
+    size_t count = motus_quantity_count(s->model->system), column = load_quantity_column(s->model);
+    if (count == 0)
+        return NULL;
+    table *t = table_create("ll");
+    table_cell(t, "quantity");
+    table_cell(t, "value");
+    for (size_t k = 0; !*status && k < count; k++) {
+        size_t numbers = 0;
+        motus_quantity_name(s->model->system, k, &numbers);
+        *status = rows(s, t, column, numbers, 0, false, false, err);
+        column += numbers;
+    }
+    return t;
+}
+
+static table *invariant_table(const summary *s)
+{
+    if (s->drift->count == 0)
+        return NULL;
+    table *t = table_create("lllr");
+    table_cell(t, "invariant");
+    table_cell(t, "at the start");
+    table_cell(t, "at the end");
+    table_cell(t, "largest drift");
+    for (size_t k = 0; k < s->drift->count && k < SHOWN; k++) {
+        motus_column c;
+        bool known = motus_column_at(s->model->system, s->drift->columns[k], &c) == MOTUS_OK;
+        table_cell(t, known ? c.name : "");
+        table_exact(t, s->drift->initial[k]);
+        table_exact(t, s->drift->final[k]);
+        table_number(t, s->drift->most[k], -2);
+    }
+    return t;
+}
+
+static void head(const summary *s, FILE *out, bool colours)
+{
+    char step[TEXT_NUMBER], from[TEXT_NUMBER], to[TEXT_NUMBER], last[TEXT_NUMBER], spent[TEXT_NUMBER];
+    text_number(fabs(motus_run_step_size(s->run)), step);
+    text_number(s->start, from);
+    text_number(motus_run_time(s->run), to);
+    text_brief(fabs(motus_run_last_step(s->run)), 6, last);
+    text_seconds(s->seconds, spent);
+    fprintf(out, "%s%s%s: %s, step %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
+            motus_run_method(s->run), step, motus_run_machine(s->run));
+    fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
+    if (motus_run_last_step(s->run) != 0)
+        fprintf(out, " (the last one %s)", last);
+    fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
+    if (motus_run_iterations(s->run) > 0)
+        fprintf(out, ", %lld iterations of Newton's method", (long long)motus_run_iterations(s->run));
+    fprintf(out, ", %s\n", spent);
+}
+
+motus_status summary_print(const summary *s, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    /* with the CSV on standard output, this is a message */
+    bool data = s->options->output && strcmp(s->options->output, "-") == 0;
+    FILE *out = data ? stderr : stdout;
+    bool colours = complain_colours(data ? 2 : 1), printed = true;
+    table *tables[3] = {NULL, NULL, NULL};
+    tables[0] = state_table(s, err, &status);
+    if (!status)
+        tables[1] = quantity_table(s, err, &status);
+    if (!status)
+        tables[2] = invariant_table(s);
+    if (!status) {
+        head(s, out, colours);
+        for (int i = 0; i < 3; i++) {
+            if (i > 0 && !tables[i])
+                continue;
+            putc('\n', out);
+            printed = table_print(tables[i], out, 2, colours) && printed;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        table_destroy(tables[i]);
+    return status || printed ? status : complain_memory(err);
+}
+
+/* ---- JSON ---- */
+
+/* One number of a vector or a scalar, or a list of components. */
+static void cell_json(json *j, const double *values, const figure_place *p, size_t cell, bool vector, size_t *left)
+{
+    if (vector)
+        json_open(j, '[');
+    for (size_t c = 0; c < p->components && *left > 0; c++, --*left)
+        json_number(j, values[cell * p->cell_step + c * p->component_step]);
+    if (vector)
+        json_close(j, ']');
+}
+
+/* Lists within lists, one level per index. */
+static void nest_json(json *j, const double *values, const figure_place *p, const motus_variable *v, int level, size_t *cell,
+                      size_t *left)
+{
+    if (level == v->dimensions) {
+        cell_json(j, values, p, (*cell)++, v->components > 0, left);
+        return;
+    }
+    json_open(j, '[');
+    for (int64_t i = v->first[level]; i <= v->last[level] && *left > 0; i++)
+        nest_json(j, values, p, v, level + 1, cell, left);
+    json_close(j, ']');
+}
+
+static void variable_json(json *j, const double *values, const figure_place *p, const motus_variable *v, size_t *left)
+{
+    double grid = 1;
+    for (int d = 0; d < v->dimensions; d++)
+        grid *= (double)(v->last[d] - v->first[d] + 1);
+    size_t cell = 0;
+    /* a family with holes in its ranges is a plain list of its cells */
+    if (v->dimensions == 0 || grid == (double)p->cells) {
+        nest_json(j, values, p, v, 0, &cell, left);
+        return;
+    }
+    json_open(j, '[');
+    while (cell < p->cells && *left > 0)
+        cell_json(j, values, p, cell++, v->components > 0, left);
+    json_close(j, ']');
+}
+
+static bool state_json(json *j, const summary *s, const double *values)
+{
+    size_t left = SUMMARY_STATE_MAX;
+    motus_variable v;
+    json_key(j, "state");
+    json_open(j, '{');
+    for (size_t k = 0; left > 0 && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++)
+        for (int prime = 0; prime < (v.order == 2 ? 2 : 1) && left > 0; prime++) {
+            char name[MOTUS_NAME_MAX + 1];
+            figure_place p;
+            if (!figure_find(s->model, &v, "", prime ? "'" : "", &p))
+                continue;
+            snprintf(name, sizeof name, "%s%s", v.name, prime ? "'" : "");
+            json_key(j, name);
+            variable_json(j, values + (p.first - 1), &p, &v, &left);
+        }
+    json_close(j, '}');
+    return s->model->positions + s->model->velocities > SUMMARY_STATE_MAX;
+}
+
+static void numbers_json(json *j, const double *values, size_t count)
+{
+    if (count != 1)
+        json_open(j, '[');
+    for (size_t k = 0; k < count; k++)
+        json_number(j, values[k]);
+    if (count != 1)
+        json_close(j, ']');
+}
+
+static void invariants_json(json *j, const summary *s)
+{
+    json_key(j, "invariants");
+    json_open(j, '{');
+    size_t at = 0;
+    for (size_t k = 0; k < motus_invariant_count(s->model->system); k++) {
+        size_t numbers = 0;
+        json_key(j, motus_invariant_name(s->model->system, k, &numbers));
+        double most = 0;
+        for (size_t i = at; i < at + numbers; i++)
+            if (!(s->drift->most[i] <= most) && !isnan(most))
+                most = s->drift->most[i];
+        json_open(j, '{');
+        json_key(j, "initial");
+        numbers_json(j, s->drift->initial + at, numbers);
+        json_key(j, "final");
+        numbers_json(j, s->drift->final + at, numbers);
+        json_key(j, "max_drift");
+        json_number(j, most);
+        json_close(j, '}');
+        at += numbers;
+    }
+    json_close(j, '}');
+}
+
+static void quantities_json(json *j, const summary *s, const double *values)
+{
+    json_key(j, "quantities");
+    json_open(j, '{');
+    for (size_t k = 0; k < motus_quantity_count(s->model->system); k++) {
+        size_t numbers = 0;
+        json_key(j, motus_quantity_name(s->model->system, k, &numbers));
+        numbers_json(j, values, numbers);
+        values += numbers;
+    }
+    json_close(j, '}');
+}
+
+motus_status summary_json(const summary *s, motus_error *err)
+{
+    double *state = NULL, *quantities = NULL;
+    motus_status status = values_of(s, 1, s->model->positions + s->model->velocities, &state, err);
+    if (!status)
+        status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
+    if (!status) {
+        json j = json_begin(stdout);
+        json_open(&j, '{');
+        json_key(&j, "model");
+        json_string(&j, s->options->operand);
+        json_key(&j, "method");
+        json_string(&j, motus_run_method(s->run));
+        json_key(&j, "machine");
+        json_string(&j, motus_run_machine(s->run));
+        json_key(&j, "step");
+        json_number(&j, motus_run_step_size(s->run));
+        json_key(&j, "steps");
+        json_integer(&j, motus_run_steps(s->run));
+        json_key(&j, "evaluations");
+        json_integer(&j, motus_run_evaluations(s->run));
+        json_key(&j, "iterations");
+        json_integer(&j, motus_run_iterations(s->run));
+        json_key(&j, "time");
+        json_number(&j, motus_run_time(s->run));
+        bool cut = state_json(&j, s, state);
+        if (cut) {
+            json_key(&j, "cut");
+            json_bool(&j, true);
+        }
+        quantities_json(&j, s, quantities);
+        invariants_json(&j, s);
+        json_key(&j, "seconds");
+        json_number(&j, s->seconds);
+        json_close(&j, '}');
+        json_end(&j);
+    }
+    free(state);
+    free(quantities);
+    return status;
+}

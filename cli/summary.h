@@ -1,0 +1,21 @@
+/* What `motus run` says about a finished run: for people, or as JSON. */
+#ifndef CLI_SUMMARY_H
+#define CLI_SUMMARY_H
+
+#include "cli/drift.h"
+#include "cli/load.h"
+
+#define SUMMARY_STATE_MAX ((size_t)1000000)      /* numbers of the state in JSON */
+
+typedef struct summary {
+    const load *model;
+    const options *options;
+    motus_run *run;
+    const drift *drift;
+    double start, seconds;
+} summary;
+
+motus_status summary_print(const summary *, motus_error *);
+motus_status summary_json(const summary *, motus_error *);
+
+#endif

@@ -1,0 +1,13 @@
+/* The verbs: each does its work and returns a status; what failed is in the error. */
+#ifndef CLI_VERBS_H
+#define CLI_VERBS_H
+
+#include "cli/options.h"
+
+motus_status run_verb(const options *, motus_error *);
+motus_status compare_verb(const options *, motus_error *);
+motus_status converge_verb(const options *, motus_error *);
+motus_status check_verb(const options *, motus_error *);
+motus_status methods_verb(const options *, motus_error *);
+
+#endif

@@ -1,0 +1,22 @@
+#!/bin/sh
+# `make demo`: the founding models, run and compared. Tables on the screen, plots and trajectories in out/.
+set -eu
+cd "$(dirname "$0")/.."
+motus=build/motus
+mkdir -p out
+
+show() { echo; echo "\$ $motus $*"; $motus "$@"; }
+
+show compare models/projectile.motus
+show compare models/spring.motus
+show run models/projectile.motus       --plot out/projectile.svg
+show run models/driven-oscillator.motus --plot out/driven-oscillator.svg -o out/driven-oscillator.csv --every '100 steps'
+show run models/damped-cubic.motus     --plot out/damped-cubic.svg
+show run models/damped-cubic.motus     --plot out/damped-cubic-phase.svg --plot-of "x,x'" --quiet
+show compare models/driven-oscillator.motus
+show compare models/damped-cubic.motus
+show converge models/damped-cubic.motus
+
+echo
+echo "Plots and trajectories are in $(pwd)/out:"
+ls out | sed 's/^/    out\//'

@@ -1,0 +1,33 @@
+# The flags of every object of ours, as an interface target, and what the hot files get on top.
+#
+# -ffp-contract=off: fused multiply-adds are written in the source, where they are part of the result; the compiler adds none.
+# -fno-math-errno: sqrt and friends are instructions, not calls. Neither flag changes the value of any operation.
+add_library(motus_flags INTERFACE)
+target_compile_options(motus_flags INTERFACE
+  -std=c17 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic)
+if(MOTUS_WERROR)
+  target_compile_options(motus_flags INTERFACE -Werror)
+endif()
+
+# -fno-trapping-math: nobody looks at the exception flags, so a loop may compute both sides of a choice; values stay as they are.
+set(hot -O3 -fno-trapping-math)
+if(MOTUS_SANITIZE)
+  # Speed is not what a sanitized build is for, and -O3 would only make its compilation slow.
+  set(hot "")
+  target_compile_options(motus_flags INTERFACE
+    -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
+  target_link_options(motus_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(MOTUS_FUZZ)
+  target_compile_options(motus_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# Instruction sets for which the kernels are built; the library chooses among them when it starts. FMA changes no bits: the
+# sources call fma() where they mean it, and without the instruction the C library computes the same value.
+set(isas base)
+set(isa_flags_base "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+  list(APPEND isas avx2 avx512)
+  set(isa_flags_avx2 -mavx2 -mfma)
+  set(isa_flags_avx512 -mavx2 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512)
+endif()

@@ -1,0 +1,30 @@
+# What is installed, and how others find it: motus.pc and find_package(motus), both of which may be moved with their prefix.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS motus_static motus_shared EXPORT motus
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES include/motus.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+if(TARGET motus_program)
+  install(TARGETS motus_program DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motus)
+install(EXPORT motus NAMESPACE motus:: FILE motus-targets.cmake DESTINATION ${package_dir})
+configure_package_config_file(cmake/motus-config.cmake.in ${PROJECT_BINARY_DIR}/motus-config.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# Before 1.0 a new minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/motus-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/motus-config.cmake ${PROJECT_BINARY_DIR}/motus-config-version.cmake
+  DESTINATION ${package_dir})
+
+file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+configure_file(cmake/motus.pc.in ${PROJECT_BINARY_DIR}/motus.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/motus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+install(FILES doc/motus.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES README.md LICENSE doc/manual.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/motus FILES_MATCHING PATTERN "*.motus")
+install(FILES doc/completions/motus.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME motus)
+install(FILES doc/completions/_motus DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES doc/completions/motus.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

@@ -1,0 +1,56 @@
+# libmotus, static and shared, from the folders of HOUSE.md that make up the library.
+#
+# The kernels are the same text compiled once for each instruction set, with ISA naming it; they are left out of the plain glob.
+set(kernels core/stepper_body.c lang/tape_kernels.c lang/tape_run.c)
+
+file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+  core/*.c lang/*.c run/*.c api/*.c study/*.c)
+list(REMOVE_ITEM library_sources ${kernels})
+
+function(motus_objects target)
+  add_library(${target} OBJECT ${ARGN})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+  target_compile_definitions(${target} PRIVATE MOTUS_BUILDING _GNU_SOURCE)
+  set_target_properties(${target} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_link_libraries(${target} PRIVATE motus_flags)
+endfunction()
+
+motus_objects(motus_objects ${library_sources})
+set(objects $<TARGET_OBJECTS:motus_objects>)
+
+foreach(kernel IN LISTS kernels)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/${kernel})
+    get_filename_component(stem ${kernel} NAME_WE)
+    foreach(isa IN LISTS isas)
+      motus_objects(${stem}_${isa} ${kernel})
+      target_compile_definitions(${stem}_${isa} PRIVATE ISA=${isa})
+      target_compile_options(${stem}_${isa} PRIVATE ${hot} ${isa_flags_${isa}})
+      list(APPEND objects $<TARGET_OBJECTS:${stem}_${isa}>)
+    endforeach()
+  endif()
+endforeach()
+
+# The other files whose loops grow with the state. (The stepper's loops are in its kernel.)
+foreach(source IN LISTS library_sources)
+  if(source MATCHES "^(core/solver|lang/tape|run/)")
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${hot})
+  endif()
+endforeach()
+
+add_library(motus_static STATIC ${objects})
+add_library(motus_shared SHARED ${objects})
+foreach(library motus_static motus_shared)
+  set_target_properties(${library} PROPERTIES OUTPUT_NAME motus LINKER_LANGUAGE C)
+  target_include_directories(${library} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endforeach()
+target_link_libraries(motus_static PUBLIC m)
+target_link_libraries(motus_shared PRIVATE m $<BUILD_INTERFACE:motus_flags>)
+set_target_properties(motus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+set_target_properties(motus_static PROPERTIES EXPORT_NAME static)
+set_target_properties(motus_shared PROPERTIES EXPORT_NAME shared)
+if(NOT MOTUS_SANITIZE)
+  # A symbol that is missing shows when the library is made, not in the program that uses it.
+  target_link_options(motus_shared PRIVATE LINKER:--no-undefined)
+endif()

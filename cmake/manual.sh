@@ -1,0 +1,13 @@
+#!/bin/sh
+# Writes the table of methods between its markers in doc/manual.md, from the rows of the program itself.
+set -eu
+cd "$(dirname "$0")/.."
+table=$(mktemp)
+trap 'rm -f "$table" doc/manual.md.new' EXIT
+build/motus methods --markdown >"$table"
+awk -v table="$table" '
+    /<!-- \/methods -->/ { inside = 0 }
+    !inside { print }
+    /<!-- methods -->/ { inside = 1; while ((getline line < table) > 0) print line }
+' doc/manual.md >doc/manual.md.new
+mv doc/manual.md.new doc/manual.md

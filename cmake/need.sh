@@ -1,0 +1,69 @@
+#!/bin/sh
+# What a target needs from outside: looks whether it is there; what is missing is installed by apt-get where this user may
+# install (root, or sudo without a password), and otherwise the line to run is printed and the exit status is 1.
+#
+#   cmake/need.sh [--check] build|demo|test|fuzz|tidy ...        --check: only look, and say
+set -eu
+check_only=no
+if [ "${1-}" = --check ]; then check_only=yes; shift; fi
+
+missing=
+add() { case " $missing " in *" $1 "*) ;; *) missing="$missing $1" ;; esac; }
+# command, package
+tool() { command -v "$1" >/dev/null 2>&1 || add "$2"; }
+# header, package: asked of the compiler, which knows where it looks
+header() { command -v cc >/dev/null 2>&1 && echo "#include <$1>" | cc -E - >/dev/null 2>&1 || add "$2"; }
+fuzzer_runs() {
+    echo '#include <stddef.h>
+    int LLVMFuzzerTestOneInput(const unsigned char *p, size_t n); int LLVMFuzzerTestOneInput(const unsigned char *p, size_t n)
+    { (void)p; (void)n; return 0; }' | clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
+}
+
+for what; do
+    case $what in
+    build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
+    demo)  tool gnuplot gnuplot-nox ;;
+    test)  tool g++ build-essential; header cmocka.h libcmocka-dev; tool pkg-config pkg-config; tool jq jq
+           tool clang clang; fuzzer_runs || add clang-runtime ;;
+    fuzz)  tool clang clang; fuzzer_runs || add clang-runtime ;;
+    tidy)  tool run-clang-tidy clang-tidy ;;
+    *)     echo "need.sh: unknown target $what" >&2; exit 2 ;;
+    esac
+done
+[ -n "$missing" ] || exit 0
+
+if ! command -v apt-get >/dev/null 2>&1; then
+    echo "motus needs what Debian calls:$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/'); install it, then run this again." >&2
+    exit 1
+fi
+# clang's sanitizer and fuzzer runtimes are a package of their own, but part of clang on Ubuntu 22.04. Where apt has no lists yet, it
+# cannot be asked.
+runtime() {
+    if apt-cache show libclang-rt-dev >/dev/null 2>&1; then echo libclang-rt-dev
+    elif apt-cache show clang >/dev/null 2>&1 || grep -q '^VERSION_ID="22.04"' /etc/os-release 2>/dev/null; then echo clang
+    else echo libclang-rt-dev; fi
+}
+packages() {
+    for name in $missing; do
+        if [ "$name" = clang-runtime ]; then runtime; else echo "$name"; fi
+    done | sort -u | tr '\n' ' ' | sed 's/ $//'
+}
+
+as=none
+if [ "$(id -u)" = 0 ]; then as=
+elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then as='sudo -n'
+fi
+if [ $check_only = yes ] || [ "$as" = none ]; then
+    sudo=sudo; [ "$(id -u)" = 0 ] && sudo=
+    echo "Something that motus needs is missing. Run this, then the same command again:" >&2
+    echo "    ${sudo:+$sudo }apt-get update && ${sudo:+$sudo }apt-get install -y $(packages)" >&2
+    exit 1
+fi
+echo "motus: installing what is missing ($(packages))" >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+# The lists may be old or absent; without them the runtime's package cannot be named either.
+$as env DEBIAN_FRONTEND=noninteractive apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+# shellcheck disable=SC2046
+$as env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(packages) >"$log" 2>&1 ||
+    { cat "$log" >&2; exit 1; }

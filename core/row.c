@@ -1,0 +1,248 @@
+/* The catalogue: finding a row by its name and saying which problems it admits. The rows themselves are in methods.c.
+ *
+ * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order where there is one.
+ */
+#include "core/rows.h"
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t row_count(void) { return methods_count; }
+
+const motus_method *row_card(size_t k) { return k < methods_count ? &methods_table[k].card : NULL; }
+
+bool row_uniform(const chosen *method) { return method->row->uniform; }
+
+/* Names --------------------------------------------------------------------------------------------------------- */
+
+static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
+
+/* Letter case aside, and '_' is as good as '-'. */
+static bool same(const char *a, size_t length, const char *b, size_t b_length)
+{
+    if (length != b_length) return false;
+    for (size_t i = 0; i < length; i++) {
+        char c = lower(a[i]) == '_' ? '-' : lower(a[i]);
+        if (c != lower(b[i])) return false;
+    }
+    return true;
+}
+
+static bool called(const motus_method *card, const char *name, size_t length)
+{
+    if (same(name, length, card->name, strlen(card->name))) return true;
+    for (const char *word = card->aliases; *word;) {
+        size_t n = strcspn(word, " ");
+        if (same(name, length, word, n)) return true;
+        word += n + (word[n] == ' ');
+    }
+    return false;
+}
+
+/* Number of insertions, deletions and changes that lead from a to b; both of at most MOTUS_NAME_MAX characters. */
+static int distance(const char *a, size_t length, const char *b, size_t b_length)
+{
+    int above[MOTUS_NAME_MAX + 1];
+    for (size_t j = 0; j <= b_length; j++) above[j] = (int)j;
+    for (size_t i = 1; i <= length; i++) {
+        int corner = above[0];
+        above[0] = (int)i;
+        for (size_t j = 1; j <= b_length; j++) {
+            int change = corner + (lower(a[i - 1]) != lower(b[j - 1]));
+            corner = above[j];
+            int side = above[j] < above[j - 1] ? above[j] : above[j - 1];
+            above[j] = change < side + 1 ? change : side + 1;
+        }
+    }
+    return above[b_length];
+}
+
+static void suggest(motus_error *err, const char *name, size_t length)
+{
+    const char *nearest = NULL;
+    int best = (int)length / 3 + 2;
+    for (size_t k = 0; k < methods_count && length <= MOTUS_NAME_MAX; k++) {
+        const motus_method *card = &methods_table[k].card;
+        int d = distance(name, length, card->name, strlen(card->name));
+        for (const char *word = card->aliases; *word;) {
+            size_t n = strcspn(word, " ");
+            int e = n <= MOTUS_NAME_MAX ? distance(name, length, word, n) : best;
+            if (e < d) d = e;
+            word += n + (word[n] == ' ');
+        }
+        if (d < best) {
+            best = d;
+            nearest = card->name;
+        }
+    }
+    if (nearest) hint(err, "did you mean %s? `motus methods` lists them all", nearest);
+    else hint(err, "`motus methods` lists them all");
+}
+
+/* Arguments ------------------------------------------------------------------------------------------------------- */
+
+static const char *blanks(const char *s)
+{
+    while (*s == ' ' || *s == '\t') s++;
+    return s;
+}
+
+/* digits[.digits][e[+-]digits]. strtod wants the decimal point of the host's locale. */
+static const char *read_decimal(const char *s, double *value)
+{
+    const char *point = localeconv()->decimal_point;
+    char text[MOTUS_NAME_MAX + 16];
+    size_t n = 0;
+    int digits = 0;
+    const char *end = s;
+    for (; *end >= '0' && *end <= '9'; end++) digits++;
+    if (*end == '.' && digits)
+        for (end++; *end >= '0' && *end <= '9'; end++) digits++;
+    if (!digits) return NULL;
+    if (*end == 'e' || *end == 'E') {
+        const char *exponent = end + 1 + (end[1] == '+' || end[1] == '-');
+        if (*exponent >= '0' && *exponent <= '9')
+            for (end = exponent; *end >= '0' && *end <= '9';) end++;
+    }
+    if (end - s > MOTUS_NAME_MAX) return NULL;
+    for (const char *c = s; c < end; c++) {
+        if (*c != '.') text[n++] = *c;
+        else
+            for (const char *p = point; *p && n + 1 < sizeof text; p++) text[n++] = *p;
+    }
+    text[n < sizeof text ? n : sizeof text - 1] = 0;
+    *value = strtod(text, NULL);
+    return end;
+}
+
+/* A number or a quotient of two. */
+static const char *read_argument(const char *s, double *value)
+{
+    s = read_decimal(blanks(s), value);
+    if (!s) return NULL;
+    s = blanks(s);
+    if (*s == '/') {
+        double below = 1;
+        s = read_decimal(blanks(s + 1), &below);
+        if (!s || below == 0) return NULL;
+        *value /= below;
+        s = blanks(s);
+    }
+    return isfinite(*value) ? s : NULL;
+}
+
+static motus_status read_arguments(const char *name, const char *s, chosen *out, motus_error *err)
+{
+    out->argument[0] = 0.25;      /* Newmark's beta and gamma: the trapezoidal rule */
+    out->argument[1] = 0.5;
+    if (*s == '(') {
+        s = read_argument(s + 1, &out->argument[0]);
+        if (s && *s == ',') s = read_argument(s + 1, &out->argument[1]);
+        else s = NULL;
+        if (!s || *s != ')' || *blanks(s + 1)) {
+            fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers, beta and gamma", name, out->row->card.name);
+            hint(err, "write %s(1/4, 1/2), or %s alone for just that", out->row->card.name, out->row->card.name);
+            return MOTUS_METHOD;
+        }
+    }
+    if (out->argument[0] > 1 || out->argument[1] > 1) {
+        fail(err, MOTUS_METHOD, "\"%s\": beta and gamma lie between 0 and 1", name);
+        hint(err, "usual choices: (1/4, 1/2) stable at every step, (1/6, 1/2) linear acceleration, (0, 1/2) explicit");
+        return MOTUS_METHOD;
+    }
+    if (out->argument[1] != 0.5) out->row = &methods_newmark_damped;
+    char beta[DECIMAL_MAX], gamma[DECIMAL_MAX];
+    snprintf(out->name, sizeof out->name, "%.12s(%.23s, %.23s)", out->row->card.name, decimal(out->argument[0], beta),
+             decimal(out->argument[1], gamma));
+    return MOTUS_OK;
+}
+
+motus_status row_choose(const char *name, chosen *out, const motus_method **card, motus_error *err)
+{
+    chosen result = {0};
+    if (!name) return fail(err, MOTUS_METHOD, "no method is named");
+    const char *start = blanks(name);
+    size_t length = strcspn(start, "( \t");
+    const char *rest = blanks(start + length);
+    for (size_t k = 0; k < methods_count && !result.row; k++)
+        if (called(&methods_table[k].card, start, length)) result.row = &methods_table[k];
+    if (!result.row) {
+        fail(err, MOTUS_METHOD, "there is no method called \"%.*s\"", (int)(length < MOTUS_NAME_MAX ? length : MOTUS_NAME_MAX), start);
+        suggest(err, start, length);
+        return MOTUS_METHOD;
+    }
+    if (*rest && !(*rest == '(' && result.row->arguments)) {
+        fail(err, MOTUS_METHOD, "\"%s\": %s takes no arguments", name, result.row->card.name);
+        hint(err, "write %s", result.row->card.name);
+        return MOTUS_METHOD;
+    }
+    if (result.row->arguments) {
+        motus_status status = read_arguments(name, rest, &result, err);
+        if (status) return status;
+    } else {
+        snprintf(result.name, sizeof result.name, "%s", result.row->card.name);
+    }
+    if (out) *out = result;
+    if (card) *card = &result.row->card;
+    return MOTUS_OK;
+}
+
+/* Admission --------------------------------------------------------------------------------------------------------- */
+
+static const row *row_of(const motus_method *card)
+{
+    for (size_t k = 0; k < methods_count; k++)
+        if (&methods_table[k].card == card) return &methods_table[k];
+    return &methods_newmark_damped;
+}
+
+static const char *reason(const row *row, const traits *traits)
+{
+    if (row->family == EXACT)
+        return traits->has_exact || traits->constant ? "" : "the model has no exact line, and its exact motion is not recognised";
+    if (row->gyroscopic) {
+        if (!traits->velocity) return "the acceleration does not depend on the velocity: there is no magnetic term to turn by";
+        if (traits->companions) return "the model has first-order companions, which Boris' rotation does not cover";
+        if (!traits->gyroscopic || !traits->linear_v)
+            return "the velocity term is not of the form v × B: it is not antisymmetric, so it does work";
+        return "";
+    }
+    if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
+        return traits->companions
+             ? "the acceleration or a companion's rate depends on a velocity or a companion, and this method's kicks must not"
+             : "the acceleration depends on the velocity, and this method's kicks must not";
+    if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
+    return "";
+}
+
+void row_reason(const motus_method *card, const traits *traits, char *out, size_t size)
+{
+    if (size) snprintf(out, size, "%s", reason(row_of(card), traits));
+}
+
+/* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */
+static int unlike(const motus_method *wanted, const motus_method *other)
+{
+    int order = wanted->order == 0 ? 2 : wanted->order;      /* exact has none: offer the first choice */
+    return 8 * abs(order - other->order) + 4 * (wanted->symplectic > other->symplectic) + 4 * (wanted->reversible > other->reversible)
+         + 2 * (other->evaluations == 0);
+}
+
+motus_status row_admits(const chosen *method, const traits *traits, motus_error *err)
+{
+    const char *why = reason(method->row, traits);
+    if (!*why) return MOTUS_OK;
+    const row *nearest = NULL;
+    for (size_t k = 0; k < methods_count; k++) {
+        const row *other = &methods_table[k];
+        if (other->family == EXACT || other->uniform || *reason(other, traits)) continue;
+        if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card)) nearest = other;
+    }
+    fail(err, MOTUS_METHOD, "%s does not admit this model: %s", method->name, why);
+    if (nearest) hint(err, "%s fits: order %d, %s", nearest->card.name, nearest->card.order,
+                      nearest->card.symplectic ? "symplectic and reversible" : nearest->card.reversible ? "reversible" : "for any force");
+    return MOTUS_METHOD;
+}

@@ -1,0 +1,49 @@
+/* A row: one method, whole. Its card is what people see, its coefficients are what the texts of step/ run.
+ *
+ * Invariant: a row is constant and complete; nothing about a method is decided anywhere else. What follows from the row and a step
+ * (times of kicks, h b_i) is computed once by step/work.h. An includer may define `coef` and K(x) first: the same rows then have
+ * coefficients of 33 digits, which is how the laws see order 8 far above round-off.
+ */
+#ifndef CORE_ROWS_H
+#define CORE_ROWS_H
+
+#include "core/methods.h"
+
+#ifndef K
+typedef double coef;
+#define K(x) x
+#endif
+
+typedef enum family { SPLITTING, RUNGE_KUTTA, TWO_STEP, IMPLICIT, EXACT } family;
+typedef enum two_step { VERLET, VERLET_LITERAL, BEEMAN } two_step;
+
+enum { KICKS_MAX = 18, WEIGHTS_MAX = 9, STAGES_MAX = 4 };
+
+struct row {
+    motus_method card;
+    family family;
+    int arguments;            /* newmark takes two */
+    bool compensated;         /* x and v carry error words: where truncation is so small that round-off would rule */
+    bool uniform;             /* every step must have the same size: no shorter last one */
+    bool gyroscopic;          /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
+    struct {                  /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
+        int stages;
+        coef kick[KICKS_MAX], drift[KICKS_MAX];
+    } splitting;
+    struct {                  /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, …, symmetric: w[count-1-i] = w[i] */
+        int count;
+        coef weight[WEIGHTS_MAX];
+    } composition;
+    struct {                  /* RUNGE_KUTTA; a is strictly lower. IMPLICIT: collocation, a is full. c: times of the stages */
+        int stages;
+        coef c[STAGES_MAX], a[STAGES_MAX][STAGES_MAX], b[STAGES_MAX];
+    } tableau;
+    two_step two_step;        /* TWO_STEP: which recurrence */
+    bool newmark;             /* IMPLICIT: the tableau follows from the arguments */
+};
+
+extern const row methods_table[];
+extern const size_t methods_count;
+extern const row methods_newmark_damped;      /* newmark with gamma other than 1/2: order 1, not reversible; not in the catalogue */
+
+#endif

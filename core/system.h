@@ -1,0 +1,56 @@
+/* What a problem is: the one thing core/ (the stepper) and lang/ (the language) share.
+ *
+ * x holds nx numbers: positions, boundary cells of families included. v holds nv >= nx numbers: the velocity of every
+ * position, then the first-order companions s' = f, which are simply "velocities without a position". a has nv numbers.
+ * A boundary cell is fixed or driven: its a is 0 and `refresh` (where there is one) writes its x and v for time t.
+ */
+#ifndef CORE_SYSTEM_H
+#define CORE_SYSTEM_H
+
+#include "motus.h"
+#include <stdbool.h>
+
+typedef struct traits {
+    bool velocity;            /* a, or a companion's f, depends on v or on a companion */
+    bool time;
+    bool linear_v;            /* at most affine in v (companions count as v) */
+    bool constant_jv;         /* da/dv depends on parameters alone */
+    bool gyroscopic;          /* velocity && linear_v && da/dv antisymmetric, no companions in it */
+    bool affine;              /* affine in (x, v) */
+    bool constant;            /* a depends on parameters alone */
+    bool gradient;
+    bool smooth;
+    bool has_exact;
+    bool companions;          /* nv > nx */
+} traits;
+
+typedef struct problem {
+    void *ctx;
+    size_t nx, nv;
+    traits traits;
+    /* a = a(x, v, t); nonzero: the user's callback failed. May refresh driven boundary cells of x and v. */
+    int (*accel)(void *ctx, double t, double *x, double *v, double *a);
+    /* da = (da/dx) dx + (da/dv) dv at (t, x, v); dx or dv may be NULL (zero). NULL function: difference quotients. */
+    int (*jvp)(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da);
+    /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero, duplicates
+     * allowed. NULL function: dense. */
+    void (*pattern)(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg);
+    void (*refresh)(void *ctx, double t, double *x, double *v);         /* NULL: no driven boundary */
+    int (*exact)(void *ctx, double t, double *x, double *v);            /* NULL: unknown */
+    /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
+    void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
+} problem;
+
+/* Fill an error (NULL is allowed) and return its status. The texts are made safe for a terminal: control characters go. */
+motus_status fail(motus_error *, motus_status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void hint(motus_error *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The shortest of 15, 16 or 17 digits that reads back, with a decimal point whatever the locale; returns out. */
+enum { DECIMAL_MAX = 40 };
+char *decimal(double, char out[DECIMAL_MAX]);
+
+/* Memory by the user's hooks; zeroed. NULL when there is none. */
+void *take(const motus_allocator *, size_t count, size_t bytes);
+void give(const motus_allocator *, void *);
+
+#endif

@@ -1,0 +1,38 @@
+# bash completion for motus(1)
+_motus() {
+    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} verb= i
+    for ((i = 1; i < COMP_CWORD; i++)); do
+        case ${COMP_WORDS[i]} in run|compare|converge|check|methods) verb=${COMP_WORDS[i]}; break ;; esac
+    done
+    COMPREPLY=()
+    if [[ -z $verb ]]; then
+        mapfile -t COMPREPLY < <(compgen -W 'run compare converge check methods --help --version' -- "$current")
+        return
+    fi
+    local methods='motus methods --json 2>/dev/null | grep -o "\"name\": *\"[^\"]*\"" | cut -d\" -f4'
+    case $previous in
+    --method|--methods)
+        mapfile -t COMPREPLY < <(compgen -P "$([[ $current == *,* ]] && echo "${current%,*},")" -W "$(eval "$methods")" -- "${current##*,}")
+        return ;;
+    --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter' -- "$current"); return ;;
+    -o|--output|--plot|--save-state|--restart) compopt -o default; return ;;
+    --step|--until|--set|--evaluations|--columns|--every|--plot-of) return ;;
+    esac
+    if [[ $current == -* ]]; then
+        local options='--json --quiet --help'
+        case $verb in
+        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine' ;;
+        compare)  options+=' --methods --step --until --set --evaluations --plot --machine' ;;
+        converge) options+=' --methods --step --until --set --plot --machine' ;;
+        check)    options+=' --set' ;;
+        methods)  options+=' --markdown' ;;
+        esac
+        mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
+    elif [[ $verb == methods ]]; then
+        mapfile -t COMPREPLY < <(compgen -W "$(eval "$methods")" -- "$current")
+    else
+        compopt -o filenames
+        mapfile -t COMPREPLY < <(compgen -d -- "$current"; compgen -f -X '!*.motus' -- "$current")
+    fi
+}
+complete -F _motus motus

@@ -1,0 +1,373 @@
+/* motus: Newton's second law, x'' = a(x, x', t), integrated.
+ *
+ * This header is the library's manual, in the order in which one uses it:
+ *
+ *     1. status and errors      every fallible call returns a motus_status; a motus_error adds the sentence and the place
+ *     2. systems                what moves: the text of an equation (a model), or a C callback
+ *     3. what a system holds    variables, columns, settings, analysis
+ *     4. methods                the catalogue, from the rows the code runs
+ *     5. runs                   one integration: create, step, look, save, destroy
+ *     6. studies                every method side by side; observed order and its certificate
+ *
+ *     motus_text_def def = motus_default_text();
+ *     def.text = "x'' = -x   x(0) = 1 ...";
+ *     motus_system *s;  motus_run *r;
+ *     if (motus_system_from_text(&def, &s, &err)) puts(err.message);
+ *
+ * Definitions. A `motus_…_def` is made by motus_default_…() and edited; its first member holds its size, so a program
+ * compiled against an older header keeps working with a newer library.
+ * Lifetimes. A handle lives from …_create / …_from_… to …_destroy (destroying NULL does nothing). A run needs its system:
+ * destroy the run first. Strings returned as `const char *` belong to the handle they came from, or are static.
+ * Threads. There are no globals. Different handles may be used from different threads at once. One system may serve
+ * several runs on one thread; each thread wants its own system. One handle is used by one thread at a time.
+ * Floating point. Results are the same bits on every machine. Calls save the rounding and flush modes, work in round to
+ * nearest with subnormals, and restore the modes. The library prints nothing and never exits.
+ * Units. Whatever units the equation is in; angles in radians.
+ */
+#ifndef MOTUS_H
+#define MOTUS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define MOTUS_VERSION_MAJOR 0
+#define MOTUS_VERSION_MINOR 1
+#define MOTUS_VERSION_PATCH 0
+#define MOTUS_VERSION "0.1.0"
+
+#ifdef MOTUS_BUILDING
+#define MOTUS_API __attribute__((visibility("default")))
+#else
+#define MOTUS_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of the library that is loaded (MOTUS_VERSION is the header's). */
+MOTUS_API const char *motus_version(void);
+
+/* 1. Status and errors ------------------------------------------------------------------------------------------- */
+
+/* Each status: its name, its word (the `kind` in JSON), its sentence, and the exit status of the program. */
+#define MOTUS_STATUS_MAP(X)                                                              \
+    X(OK,        "ok",        "done",                                                 0) \
+    X(MEMORY,    "memory",    "out of memory",                                        1) \
+    X(DIVERGED,  "diverged",  "the motion left the finite numbers",                   1) \
+    X(SOLVE,     "solve",     "an implicit equation could not be solved",             1) \
+    X(CALLBACK,  "callback",  "the acceleration callback reported a failure",         1) \
+    X(CANCELLED, "cancelled", "cancelled",                                            1) \
+    X(FILE,      "file",      "a file could not be read or written",                  1) \
+    X(ORDER,     "order",     "the observed order is below the declared one",         1) \
+    X(TOOL,      "tool",      "an outside program is missing or failed",              1) \
+    X(ARGUMENT,  "argument",  "an argument is out of its range",                      2) \
+    X(SYNTAX,    "syntax",    "the text cannot be read as a model",                   2) \
+    X(NAME,      "name",      "a name is unknown, missing or defined twice",          2) \
+    X(SHAPE,     "shape",     "scalars, vectors or lists do not fit together",        2) \
+    X(LIMIT,     "limit",     "a bound of the language or the library is exceeded",   2) \
+    X(METHOD,    "method",    "the method does not admit this model",                 2) \
+    X(STATE,     "state",     "the restart state does not fit this run",              2) \
+    X(UNAVAILABLE, "unavailable", "not available in this version",                    2)
+
+typedef enum motus_status {
+#define X(name, word, text, exit) MOTUS_##name,
+    MOTUS_STATUS_MAP(X)
+#undef X
+    MOTUS_STATUS_COUNT
+} motus_status;
+
+MOTUS_API const char *motus_status_word(motus_status);     /* "diverged"; static */
+MOTUS_API const char *motus_status_text(motus_status);     /* the sentence; static */
+MOTUS_API int motus_status_exit(motus_status);             /* 0, 1 or 2 */
+
+#define MOTUS_TEXT_MAX 512
+#define MOTUS_NAME_MAX 64
+
+/* What went wrong, where, and what to do. Filled only when a call returns other than MOTUS_OK; may be NULL everywhere. */
+typedef struct motus_error {
+    uint32_t size;                   /* set by motus_default_error() */
+    motus_status status;
+    int line, column;                /* 1-based, in characters, for errors in a text; 0 where there is no place */
+    double time;                     /* DIVERGED, SOLVE, CALLBACK: when; NaN elsewhere */
+    char variable[MOTUS_NAME_MAX];   /* DIVERGED, SOLVE: which, "r[3].y"; else "" */
+    char message[MOTUS_TEXT_MAX];    /* one sentence, UTF-8, without a newline, safe to print on a terminal */
+    char hint[MOTUS_TEXT_MAX];       /* what would be right, or "" */
+    char source[MOTUS_TEXT_MAX];     /* the line of the text, control characters replaced, or "" */
+    char caret[MOTUS_TEXT_MAX];      /* blanks and carets that go under `source`, or "" */
+    char file[MOTUS_TEXT_MAX];       /* the name given in the definition, or "" */
+} motus_error;
+
+/* Memory. Both may be NULL: malloc and free. `resize` is not needed. `allocate` returns NULL when there is none. */
+typedef struct motus_allocator {
+    void *(*allocate)(void *context, size_t bytes);
+    void (*release)(void *context, void *block);
+    void *context;
+} motus_allocator;
+
+/* 2. Systems ----------------------------------------------------------------------------------------------------- */
+
+typedef struct motus_system motus_system;
+
+/* A system from the text of a model. */
+typedef struct motus_text_def {
+    uint32_t size;
+    const char *text;                /* UTF-8; need not end with 0 if length is given */
+    size_t length;                   /* bytes; SIZE_MAX: up to the terminating 0 */
+    const char *file;                /* for messages; NULL: none */
+    const char *const *set;          /* set_count strings "name=expression": replaces a parameter or initial value, */
+    size_t set_count;                /*   "F=0.2", "x(0)=1", "r'(0)=(1, 2)", "m=[1, 2]" */
+    motus_allocator allocator;
+} motus_text_def;
+
+/* A system from C. State: x (positions) of length `positions`, and v of length `positions + companions`: first the
+ * velocities, then the first-order companions s. The callback writes a: x'' first, then s'. */
+typedef struct motus_callback_def {
+    uint32_t size;
+    size_t positions, companions;
+    const double *x, *v;             /* initial values, copied */
+    double start;                    /* initial time */
+    int (*acceleration)(void *context, double t, const double *x, const double *v, double *a);   /* 0, or failure */
+    /* Optional: directional derivative da = (da/dx) dx + (da/dv) dv; NULL: difference quotients where one is needed. */
+    int (*derivative)(void *context, double t, const double *x, const double *v, const double *dx, const double *dv,
+                      double *da);
+    int (*exact)(void *context, double t, double *x, double *v);         /* optional: the exact motion */
+    int (*invariant)(void *context, double t, const double *x, const double *v, double *value);   /* optional */
+    int depends_on_velocity, depends_on_time;   /* what `acceleration` reads; both 1 by default: safe */
+    int linear_in_velocity;                     /* 1 lets implicit velocity terms be solved in one step */
+    void *context;
+    motus_allocator allocator;
+} motus_callback_def;
+
+MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
+MOTUS_API motus_status motus_system_from_callback(const motus_callback_def *, motus_system **, motus_error *);
+MOTUS_API void motus_system_destroy(motus_system *);
+
+/* 3. What a system holds ----------------------------------------------------------------------------------------- */
+
+MOTUS_API size_t motus_positions(const motus_system *);      /* length of x as seen here: without boundary cells */
+MOTUS_API size_t motus_velocities(const motus_system *);     /* length of v: velocities, then companions */
+
+/* A variable of the model: a state with its family indices and components. */
+typedef struct motus_variable {
+    const char *name;
+    int order;                       /* 2: x'' = …   1: s' = … */
+    int components;                  /* 0: scalar, else the length of the vector */
+    int dimensions;                  /* number of family indices, 0 … 4 */
+    int64_t first[4], last[4];       /* the index ranges that have equations (their hull) */
+    size_t count;                    /* numbers in all: cells × components */
+} motus_variable;
+MOTUS_API size_t motus_variable_count(const motus_system *);
+MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_variable *);
+
+/* Columns: every number that can be looked at along a run, in one numbering: t; positions; velocities; companions;
+ * quantities; invariants; exact. Names: "t", "x", "x'", "r.x", "r'.y", "x[3]'", "w[2]" (component 2 of a vector longer
+ * than 3), "r[3].x", "energy", "exact x". */
+typedef enum motus_column_kind {
+    MOTUS_TIME, MOTUS_POSITION, MOTUS_VELOCITY, MOTUS_COMPANION, MOTUS_QUANTITY, MOTUS_INVARIANT, MOTUS_EXACT
+} motus_column_kind;
+typedef struct motus_column {
+    motus_column_kind kind;
+    size_t variable;                 /* index of the variable, quantity or invariant it belongs to */
+    int component;                   /* 0-based */
+    int is_velocity;                 /* for MOTUS_EXACT: exact velocity */
+    char name[MOTUS_NAME_MAX + 64];
+} motus_column;
+MOTUS_API size_t motus_column_count(const motus_system *);
+MOTUS_API motus_status motus_column_at(const motus_system *, size_t k, motus_column *);
+/* Columns [*first, *first + *count) that a name stands for: "x" of a vector or family is all of its numbers.
+ * MOTUS_NAME with a "did you mean" where there is none. */
+MOTUS_API motus_status motus_column_find(const motus_system *, const char *name, size_t *first, size_t *count,
+                                         motus_error *);
+
+/* Quantities and invariants in the order of the model. shape: numbers in each. */
+MOTUS_API size_t motus_quantity_count(const motus_system *);
+MOTUS_API const char *motus_quantity_name(const motus_system *, size_t k, size_t *numbers);
+MOTUS_API size_t motus_invariant_count(const motus_system *);
+MOTUS_API const char *motus_invariant_name(const motus_system *, size_t k, size_t *numbers);
+MOTUS_API int motus_has_exact(const motus_system *);         /* by an exact line, or recognised */
+
+/* What the model's settings say. NaN, 0 or NULL where it says nothing. */
+typedef struct motus_settings {
+    const char *method;              /* "verlet", "newmark(0.25, 0.5)" */
+    double step, tolerance, from, until;
+    double every_time;               /* every T */
+    int64_t every_steps;             /* every n steps */
+} motus_settings;
+MOTUS_API void motus_settings_of(const motus_system *, motus_settings *);
+
+/* What the program understood by reading the equations. */
+typedef struct motus_analysis {
+    int velocity_dependent, linear_in_velocity, time_dependent, affine, constant;
+    int gyroscopic;                  /* a = E(x,t) + v × B(x,t): the velocity term does no work */
+    int gradient;                    /* 1 shown, 0 not shown */
+    int smooth;                      /* 1: no abs, min, max, floor, mod, sign, if */
+    int exact_recognised;            /* exact motion known without an exact line */
+} motus_analysis;
+MOTUS_API void motus_analysis_of(const motus_system *, motus_analysis *);
+/* The same in plain words, one sentence a line, with the coefficients of the velocity; owned by the system. */
+MOTUS_API const char *motus_explain(motus_system *);
+/* Equation k of the normal form, as text in the language: "x'' = x^3 - x + F cos(t)". NULL past the last. */
+MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
+
+/* 4. Methods ----------------------------------------------------------------------------------------------------- */
+
+typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } motus_forces;
+typedef struct motus_method {
+    const char *name, *aliases;      /* aliases: blank-separated, "" if none */
+    const char *family;              /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
+    int order, stages;
+    int evaluations;                 /* of the acceleration, per step in the long run; 0: depends on the solve */
+    motus_forces forces;             /* what the force may depend on */
+    int symplectic, reversible;
+    double stability_limit;          /* of h ω for x'' = -ω² x: largest stable; INFINITY; 0 if never */
+    const char *cite;                /* key in doc/references.bib, with the place */
+    const char *formula, *use;       /* for the card */
+} motus_method;
+MOTUS_API size_t motus_method_count(void);
+MOTUS_API const motus_method *motus_method_at(size_t k);
+/* By name or alias, with its arguments if it has any: "newmark(1/6, 1/2)". METHOD and "did you mean" where unknown. */
+MOTUS_API motus_status motus_method_find(const char *name, const motus_method **, motus_error *);
+/* MOTUS_OK, or MOTUS_METHOD with the reason in message and the nearest method that fits in hint. */
+MOTUS_API motus_status motus_method_admits(const motus_system *, const char *method, motus_error *);
+
+/* 5. Runs -------------------------------------------------------------------------------------------------------- */
+
+typedef struct motus_run motus_run;
+
+typedef struct motus_run_def {
+    uint32_t size;
+    const char *method;              /* NULL: the model's, or "verlet" */
+    double step;                     /* > 0, NaN: the model's. The sign is taken from the direction of `until` */
+    double until;                    /* NaN: the model's. Before the start: the run goes backward */
+    double start;                    /* NaN: the model's; with x and v (copied), another initial state at this time */
+    const double *x, *v;             /* NULL: the model's; motus_positions() and motus_velocities() numbers */
+    /* Called now and then (not more often than every 10 ms or so of work); a value other than 0 cancels. */
+    int (*progress)(void *context, double fraction);
+    void *context;
+} motus_run_def;
+
+MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
+MOTUS_API void motus_run_destroy(motus_run *);
+
+/* n whole steps, or fewer if `until` comes first; the last step is shortened to end exactly at `until`. */
+MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
+/* On to `until`. */
+MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
+MOTUS_API int motus_run_done(const motus_run *);
+
+MOTUS_API double motus_run_time(const motus_run *);
+MOTUS_API double motus_run_step_size(const motus_run *);
+MOTUS_API int64_t motus_run_steps(const motus_run *);         /* taken so far */
+MOTUS_API int64_t motus_run_steps_total(const motus_run *);   /* up to `until`, the last short one included */
+MOTUS_API double motus_run_last_step(const motus_run *);      /* size of the shortened last step, 0 if none is needed */
+MOTUS_API int64_t motus_run_evaluations(const motus_run *);
+MOTUS_API int64_t motus_run_iterations(const motus_run *);    /* of Newton's method, in all */
+MOTUS_API const char *motus_run_method(const motus_run *);
+MOTUS_API const char *motus_run_machine(const motus_run *);   /* "interpreter", "callback" */
+
+/* The state now; x of motus_positions(), v of motus_velocities() numbers; either may be NULL. v is at the same time as x. */
+MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_error *);
+/* Columns (numbers from motus_column_find) at the present state. */
+MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size_t count, double *out, motus_error *);
+/* Columns at given times, in the direction of the run, none beyond `until`: steps as needed, and between steps reads the quintic
+ * Hermite polynomial through (x, v, a) at both ends (local error h^6, never fed back). out: times × columns, row by row. */
+MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
+                                        size_t count, double *out, motus_error *);
+
+/* An exact restart state: text, hexadecimal numbers, owned by the run until the next call. A run created from the same system,
+ * method, step and restored from it goes on to the same bits as one never interrupted. */
+MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
+MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
+
+/* 6. Studies ----------------------------------------------------------------------------------------------------- */
+
+typedef struct motus_study_def {
+    uint32_t size;
+    const char *const *methods;      /* method_count names; NULL: every admitted method */
+    size_t method_count;
+    double step, until;              /* NaN: the model's */
+    int64_t evaluations;             /* compare: > 0: equal work; each method's step is chosen to spend this many */
+    int (*progress)(void *context, double fraction);
+    void *context;
+} motus_study_def;
+
+typedef struct motus_drift {         /* of one invariant (largest of its numbers) */
+    const char *name;
+    double initial, final, max_drift;
+    double trend;                    /* slope of a straight line through the drift, times the length of the run */
+    int trending;                    /* 1: the trend stands clear of the oscillation (|trend| > 4 standard errors, and > round-off) */
+} motus_drift;
+
+typedef struct motus_compare_row {
+    const char *method;
+    int order;
+    motus_status status;             /* other than OK: the run failed; note says how */
+    double step;
+    int64_t steps, evaluations;
+    double seconds;
+    double error_max_x, error_max_v, error_final_x, error_final_v;   /* norm: largest component; NaN where unknown */
+    size_t invariant_count;
+    const motus_drift *invariants;
+    double reversal;                 /* distance from the start after going there and back */
+    const char *note;
+} motus_compare_row;
+
+typedef struct motus_comparison {
+    size_t row_count;
+    const motus_compare_row *rows;
+    const char *reference;           /* "exact", or "gauss6 at step 0.00125" */
+    double reference_error;          /* estimated error of the reference itself; 0 for exact */
+    const char *remarks;             /* why the numbers are as they are, one sentence a line; "" if nothing is to be said */
+} motus_comparison;
+MOTUS_API motus_status motus_compare(motus_system *, const motus_study_def *, motus_comparison **, motus_error *);
+MOTUS_API void motus_comparison_destroy(motus_comparison *);
+
+typedef struct motus_point { double step, error; int used; } motus_point;   /* used: in the fit */
+typedef struct motus_converge_row {
+    const char *method;
+    int declared;
+    double observed, standard_error; /* NaN where there is no slope */
+    int exact_here;                  /* the method is exact on this model: errors are round-off at every step */
+    int passed;                      /* the certificate */
+    motus_status status;
+    size_t point_count;
+    const motus_point *points;
+    const char *certificate;         /* "observed 2.00, declared 2" */
+} motus_converge_row;
+typedef struct motus_convergence {
+    size_t row_count;
+    const motus_converge_row *rows;
+    const char *reference;
+    double reference_error;
+    int passed;                      /* every row */
+} motus_convergence;
+MOTUS_API motus_status motus_converge(motus_system *, const motus_study_def *, motus_convergence **, motus_error *);
+MOTUS_API void motus_convergence_destroy(motus_convergence *);
+
+/* Defaults ------------------------------------------------------------------------------------------------------- */
+
+typedef enum motus_def_kind { MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY } motus_def_kind;
+/* Fills `size` bytes of a definition; use the functions below. */
+MOTUS_API void motus_default(motus_def_kind, void *def, uint32_t size);
+
+#define MOTUS_DEFAULT_MAP(X)                    \
+    X(error, ERROR, motus_error)                \
+    X(text, TEXT, motus_text_def)               \
+    X(callback, CALLBACK, motus_callback_def)   \
+    X(run, RUN, motus_run_def)                  \
+    X(study, STUDY, motus_study_def)
+#define X(name, KIND, type)                                                      \
+    static inline type motus_default_##name(void)                                \
+    {                                                                            \
+        type def;                                                                \
+        motus_default(MOTUS_DEF_##KIND, &def, (uint32_t)sizeof def);             \
+        return def;                                                              \
+    }
+MOTUS_DEFAULT_MAP(X)
+#undef X
+
+#ifdef __cplusplus
+}
+#endif
+#endif

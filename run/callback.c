@@ -1,0 +1,55 @@
+/* The callback machine: the acceleration is the user's C function. */
+#include "run/run.h"
+
+#include "run/stepping.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static int accel(void *ctx, double t, double *x, double *v, double *a)
+{
+    const motus_callback_def *def = ctx;
+    return def->acceleration(def->context, t, x, v, a);
+}
+
+static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
+{
+    const motus_callback_def *def = ctx;
+    return def->derivative(def->context, t, x, v, dx, dv, da);
+}
+
+static int exact(void *ctx, double t, double *x, double *v)
+{
+    const motus_callback_def *def = ctx;
+    return def->exact(def->context, t, x, v);
+}
+
+static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
+{
+    const motus_callback_def *def = ctx;
+    if (!in_v)
+        snprintf(out, size, "x[%zu]", k);
+    else if (k < def->positions)
+        snprintf(out, size, "x[%zu]'", k);
+    else
+        snprintf(out, size, "s[%zu]", k - def->positions);
+}
+
+motus_status callback_problem(const motus_callback_def *def, problem *p, motus_error *err)
+{
+    if (!def->acceleration)
+        return fail(err, MOTUS_ARGUMENT, "the definition has no acceleration callback");
+    if (def->positions + def->companions == 0)
+        return fail(err, MOTUS_ARGUMENT, "the definition has neither positions nor companions");
+    if (def->positions > MODEL_NUMBERS_MAX || def->companions > MODEL_NUMBERS_MAX)
+        return fail(err, MOTUS_LIMIT, "at most %d positions and companions fit", MODEL_NUMBERS_MAX);
+    if ((def->positions && !def->x) || !def->v)
+        return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
+    *p = (problem){.ctx = (void *)def, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
+                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name};
+    p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
+                         .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};
+    return MOTUS_OK;
+}
+
+const machine machine_callback = {.name = "callback", STEPPING};

@@ -1,0 +1,88 @@
+/* SPLITTING: every method of kicks v += b h a(x, t) and drifts x += c h v, once [HLW06, II.5].
+ *
+ * Invariant: a row that begins and ends with a kick keeps its closing kick waiting: `v` lacks it until the next step, which merges it
+ * with its opening kick (the same acceleration), and splitting_sync forms it on the side. So looking changes no bit.
+ */
+
+/* Operators: a machine may bring its own, fused or tiled. */
+#ifndef KICK
+#define KICK splitting_kick
+#define DRIFT splitting_drift
+#define KICK_DRIFT splitting_kick_drift
+
+static inline void splitting_kick(work *w, clock b)
+{
+    real *restrict v = w->v, *restrict ev = w->ev;
+    const real *restrict a = w->a;
+    if (ev) EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], b, a[k]);
+    else EACHV(k) ADVANCE(v[k], b, a[k]);
+}
+
+static inline void splitting_drift(work *w, clock c)
+{
+    real *restrict x = w->x, *restrict ex = w->ex;
+    const real *restrict v = w->v;
+    if (ex) EACH(k) ADVANCE_EXACTLY(x[k], ex[k], c, v[k]);
+    else EACH(k) ADVANCE(x[k], c, v[k]);
+}
+
+/* Both in one pass over memory; companions (k >= nx) have no position to move. */
+static inline void splitting_kick_drift(work *w, clock b, clock c)
+{
+    real *restrict x = w->x, *restrict v = w->v;
+    const real *restrict a = w->a;
+    if (w->ex || w->nv > w->nx) {
+        splitting_kick(w, b);
+        splitting_drift(w, c);
+        return;
+    }
+    EACH(k) {
+        ADVANCE(v[k], b, a[k]);
+        ADVANCE(x[k], c, v[k]);
+    }
+}
+#endif
+
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' method, whose rotation is the Cayley form
+ * of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
+static int splitting_turn(work *w, clock b, clock t)
+{
+    int bad = increment(w, b, 1, w->v, t);
+    if (bad) return bad;
+    EACHV(k) w->v[k] += w->delta[k];
+    return STEP_OK;
+}
+
+static int splitting_step(work *w)
+{
+    int last = w->merged ? w->stages - 2 : w->stages - 1;
+    for (int i = 0; i <= last; i++) {
+        int bad = STEP_OK;
+        if (w->kick[i] == 0) {
+            DRIFT(w, w->drift[i]);
+        } else if (w->row->gyroscopic) {
+            bad = splitting_turn(w, w->kick[i], time_in(w, w->c[i]));
+            DRIFT(w, w->drift[i]);
+        } else {
+            if (i > 0 || !work_reuse(w)) bad = accel(w, time_in(w, w->c[i]), w->x, w->v, w->a);
+            if (bad) return bad;
+            clock b = i == 0 && w->merged && w->n > 0 ? w->joint : w->kick[i];
+            if (w->drift[i] == 0) KICK(w, b);
+            else KICK_DRIFT(w, b, w->drift[i]);
+        }
+        if (bad) return bad;
+        TRACE(w, i);
+    }
+    return STEP_OK;
+}
+
+/* The acceleration that the next step begins with; known beforehand to work_reuse. */
+static int splitting_look(work *w) { return accel(w, time_of(w, w->n), w->x, w->v, w->a); }
+
+static void splitting_sync(const work *w, real *v)
+{
+    bool waiting = w->merged && w->n > 0;
+    if (waiting && w->ev) EACHV(k) v[k] = w->v[k] + FMA(w->closing, w->a[k], w->ev[k]);
+    else if (waiting) EACHV(k) v[k] = FMA(w->closing, w->a[k], w->v[k]);
+    else EACHV(k) v[k] = w->v[k];
+}

@@ -1,0 +1,359 @@
+/* Error against step, the observed order and its certificate: motus_converge.
+ *
+ * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS times; its error is the
+ * largest over these times and over all numbers of the state, each in units of how far its variable moves. Where even T/8 is so fine
+ * for a high order that too few points lie above round-off, the row begins at T/4, T/2 or T, and all of it is compared at as many times. Orders from 4 on also run
+ * with steps between (T/24, T/48, …), because few doublings fit between instability and round-off there. Steps are halved until
+ * round-off is reached or the work is spent, never only until the slope looks right. Which points the slope is taken from is said
+ * at the top of fit.c.
+ *
+ * If the model's motion lasts so many turns that low orders would need steps without number, a shorter beginning of it is taken, and
+ * the result says so.
+ * Invariant: the result is one block, and the same on every machine: no decision depends on a clock.
+ */
+#include "fit.h"
+#include "probe.h"
+#include "truth.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define INTERVALS 8                  /* a power of 2 */
+#define POINTS_MAX 44
+#define POINTS_LEAST 7               /* taken whatever they cost */
+#define FINE_ORDER 4                 /* from this order on, steps between the halvings */
+/* Work is evaluations × (numbers + OVERHEAD). The first bound is 2^18 evaluations of one oscillator per method. A method that is
+ * neither at round-off by then nor shows a slope that has come to rest gets EXTENSION times as much. */
+#define WORK 4.7e6
+#define OVERHEAD 16
+#define EXTENSION 8
+#define REST 0.03
+#define COARSE_ENOUGH 1e-4         /* a row whose coarsest error is larger than this lacks no coarse steps */
+/* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could move, excited or
+ * not: more than STIFF_MOST would leave explicit methods no stable step. */
+#define TURNS_MOST 16.0
+#define TURNS_GOOD 8.0
+#define STIFF_MOST 2000.0
+#define SURVEY 64                    /* intervals of the look at the whole motion */
+#define SURVEY_PROBES 8              /* states of it whose fastest rate is asked */
+#define SURVEY_TRUST 0.1             /* of the motion's size: a survey less certain tells only of the start */
+#define REFERENCE_MAX (TRUTH_TEXT_MAX + 320)
+#define TRUTH_SHARE 0.1              /* of the progress */
+
+typedef struct row_text { char method[MOTUS_NAME_MAX], certificate[MOTUS_TEXT_MAX]; } row_text;
+
+typedef struct result {
+    motus_convergence seen;          /* first: the handle the user holds */
+    motus_allocator allocator;
+    char reference[REFERENCE_MAX];
+    motus_converge_row *rows;
+    motus_point *points;             /* rows × POINTS_MAX */
+    row_text *texts;
+} result;
+
+typedef struct converge {
+    study s;
+    motus_study_def def;
+    truth truth;
+    study_grid grid;
+    double whole;                    /* the model's own end, where a shorter one is taken; NaN otherwise */
+    double *table;                   /* INTERVALS × numbers */
+    const char **methods;
+    size_t count;
+    result *out;
+} converge;
+
+static size_t aligned(size_t bytes)
+{
+    return (bytes + 15) & ~(size_t)15;
+}
+
+static motus_status make_result(converge *c)
+{
+    size_t head = aligned(sizeof(result)), rows = aligned(c->count * sizeof(motus_converge_row));
+    size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = c->count * sizeof(row_text);
+    char *block = study_take(c->s.allocator, head + rows + points + texts, 1);
+    c->table = study_take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
+    if (!block || !c->table) {
+        study_give(c->s.allocator, block);
+        return study_fail(c->s.err, MOTUS_MEMORY, "", "out of memory for the convergence of %zu methods", c->count);
+    }
+    result *r = c->out = (result *)(void *)block;
+    r->allocator = *c->s.allocator;
+    r->rows = (motus_converge_row *)(void *)(block + head);
+    r->points = (motus_point *)(void *)(block + head + rows);
+    r->texts = (row_text *)(void *)(block + head + rows + points);
+    r->seen = (motus_convergence){ c->count, r->rows, r->reference, NAN, 0 };
+    for (size_t k = 0; k < c->count; k++) {
+        r->rows[k] = (motus_converge_row){ .method = r->texts[k].method, .observed = NAN, .standard_error = NAN,
+            .points = r->points + k * POINTS_MAX, .certificate = r->texts[k].certificate };
+        snprintf(r->texts[k].method, sizeof r->texts[k].method, "%s", c->methods[k]);
+    }
+    return MOTUS_OK;
+}
+
+/* The motion ----------------------------------------------------------------------------------------------------- */
+
+static study_grid even_grid(const study *s, double until, size_t intervals)
+{
+    return (study_grid){ .from = s->from, .until = until, .interval = fabs(until - s->from) / (double)intervals,
+                         .intervals = intervals, .points = intervals };
+}
+
+/* Down to 1, 2 or 5 times a power of ten: a duration that a reader can take in. */
+static double round_down(double duration)
+{
+    double power = pow(10, floor(log10(duration))), digit = duration / power;
+    return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+/* How long the motion may be, from how fast it changes and how fast it could. */
+static motus_status choose_end(converge *c, double *until)
+{
+    study *s = &c->s;
+    *until = s->until;
+    c->whole = NAN;
+    if (!isnan(c->def.until))        /* asked for in so many words */
+        return MOTUS_OK;
+    study_grid g = even_grid(s, s->until, SURVEY);
+    truth survey;
+    motus_status status = truth_find(s, &g, SURVEY, &survey);
+    double turns = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
+    bool trusted = survey.known && survey.scaled < SURVEY_TRUST;
+    for (size_t r = 0; r <= (trusted ? SURVEY : 0) && status == MOTUS_OK; r++) {
+        double t = s->from + direction * (double)r * g.interval;
+        const double *y = survey.rows + r * s->numbers;
+        turns = fmax(turns, 2 * probe_speed(s, t, y));       /* a NaN does not count */
+        if (r % (SURVEY / SURVEY_PROBES) == 0)
+            stiff = fmax(stiff, probe_rate(s, t, y));
+    }
+    truth_free(s, &survey);
+    if (status != MOTUS_OK)
+        return status;
+    double duration = fabs(s->until - s->from);
+    double longest = duration;
+    if (turns * duration > TURNS_MOST)
+        longest = TURNS_GOOD / turns;
+    if (stiff * longest > STIFF_MOST)
+        longest = STIFF_MOST / stiff;
+    if (longest == duration)
+        return MOTUS_OK;
+    c->whole = s->until;
+    *until = s->from + direction * round_down(longest);
+    return MOTUS_OK;
+}
+
+/* One method ----------------------------------------------------------------------------------------------------- */
+
+/* Steps per interval at point i: 1, 2, 4, …, or 1, 2, 3, 4, 6, 8, 12, … */
+static int64_t steps_per_interval(size_t i, int order)
+{
+    if (order < FINE_ORDER || i < 2)
+        return (int64_t)1 << i;
+    return (int64_t)(i % 2 ? 2 : 3) << ((i - (i % 2 ? 1 : 2)) / 2);
+}
+
+static motus_status measure(converge *c, const char *method, const study_grid *g, int64_t per, motus_point *point, double *evaluations, motus_error *e,
+                            motus_status *failed)
+{
+    study *s = &c->s;
+    study_cost cost;
+    *point = (motus_point){ g->interval / (double)per, NAN, 0 };
+    motus_status status = study_walk(s, method, g, per, c->table, &cost, e);
+    *evaluations = (double)cost.evaluations;
+    if (study_fatal(status)) {
+        if (s->err && !s->cancelled)
+            *s->err = *e;
+        return status;
+    }
+    if (status != MOTUS_OK) {
+        *failed = status;
+        return MOTUS_OK;
+    }
+    double error = 0;
+    for (size_t p = 0, every = INTERVALS / g->intervals; p < g->intervals; p++) {
+        const double *truth = c->truth.rows + (p + 1) * every * s->numbers;
+        error = study_larger(error, study_measure(s, c->table + p * s->numbers, truth).scaled);
+    }
+    point->error = isfinite(error) ? error : NAN;
+    return MOTUS_OK;
+}
+
+/* The points of a row, from `intervals` steps on, and their fit. */
+static motus_status measure_all(converge *c, const motus_method *card, const char *method, size_t intervals, motus_converge_row *row,
+                                motus_point *points, fit_order_result *fit, motus_error *e, motus_status *failed)
+{
+    study *s = &c->s;
+    study_grid g = even_grid(s, c->grid.until, intervals);
+    double work = 0, bound = WORK, base = s->base, span = s->span, duration = fabs(g.until - g.from);
+    double per_evaluation = (double)(s->numbers + OVERHEAD);
+    *fit = (fit_order_result){ .verdict = FIT_FEW, .observed = NAN, .standard_error = NAN };
+    for (size_t i = 0; i < POINTS_MAX; i++) {
+        int64_t per = steps_per_interval(i, row->declared);
+        double evaluations, next = (double)intervals * (double)per * fmax(1, card->evaluations) * per_evaluation;
+        if (i >= POINTS_LEAST && work + next > bound) {
+            bool shown = fit->settled || fit->verdict == FIT_EXACT || (fit->verdict == FIT_SLOPE && fit->unrest < REST);
+            if (shown || bound > WORK || work + next > EXTENSION * WORK)
+                break;
+            bound = EXTENSION * WORK;
+        }
+        study_part(s, base + span * fmin(1, work / bound), span * fmin(1, next / bound));
+        motus_status status = measure(c, method, &g, per, &points[i], &evaluations, e, failed);
+        if (status != MOTUS_OK)
+            return status;
+        work += fmax(next, evaluations * per_evaluation);
+        row->point_count = i + 1;
+        *fit = fit_order(points, row->point_count, duration, s->noise, c->truth.scaled);
+        if (row->point_count > POINTS_LEAST && (fit->settled || fit->verdict == FIT_EXACT))
+            break;
+    }
+    return MOTUS_OK;
+}
+
+static void certify(motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
+{
+    row->observed = fit->observed;
+    row->standard_error = fit->standard_error;
+    row->exact_here = fit->verdict == FIT_EXACT;
+    row->passed = row->exact_here || (fit->verdict == FIT_SLOPE && fit_passes(fit->observed, fit->standard_error, row->declared));
+    switch (fit->verdict) {
+    case FIT_EXACT:
+        snprintf(text, size, "exact here, declared %d", row->declared);
+        break;
+    case FIT_SLOPE:
+        snprintf(text, size, "observed %.2f, declared %d", fit->observed, row->declared);
+        if (!row->passed)
+            row->status = MOTUS_ORDER;
+        break;
+    case FIT_ROUGH:
+        snprintf(text, size, "no slope: the errors follow no power of the step, declared %d", row->declared);
+        break;
+    case FIT_FEW:
+        snprintf(text, size, "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d", fit->above,
+                 FIT_POINTS_MIN, row->declared);
+        break;
+    }
+}
+
+static motus_status make_row(converge *c, size_t k)
+{
+    study *s = &c->s;
+    motus_converge_row *row = &c->out->rows[k];
+    motus_point *points = c->out->points + k * POINTS_MAX;
+    char *text = c->out->texts[k].certificate;
+    const char *method = c->methods[k];
+    const motus_method *card;
+    motus_error e = motus_default_error();
+    motus_status status = motus_method_find(method, &card, &e), failed = MOTUS_OK;
+    if (status == MOTUS_OK) {
+        row->declared = card->order;
+        status = motus_method_admits(s->system, method, &e);
+    }
+    if (status != MOTUS_OK) {
+        row->status = status;
+        snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
+        return MOTUS_OK;
+    }
+    fit_order_result fit;
+    double base = s->base, span = s->span;
+    for (size_t intervals = INTERVALS; intervals > 0; intervals /= 2) {
+        study_part(s, base, span);
+        status = measure_all(c, card, method, intervals, row, points, &fit, &e, &failed);
+        if (status != MOTUS_OK)
+            return status;
+        if (fit.verdict != FIT_FEW || !(points[0].error < COARSE_ENOUGH))
+            break;
+    }
+    size_t finite = 0;
+    for (size_t i = 0; i < row->point_count; i++)
+        finite += !isnan(points[i].error);
+    if (finite == 0 && failed != MOTUS_OK) {
+        row->status = failed;        /* at no step did it run: the last sentence says why */
+        snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
+        return MOTUS_OK;
+    }
+    certify(row, &fit, text, MOTUS_TEXT_MAX);
+    return MOTUS_OK;
+}
+
+/* All ------------------------------------------------------------------------------------------------------------ */
+
+static void describe(converge *c)
+{
+    result *r = c->out;
+    int n = snprintf(r->reference, sizeof r->reference, "%s", c->truth.text);
+    if (!isnan(c->whole) && n > 0 && (size_t)n < sizeof r->reference)
+        snprintf(r->reference + n, sizeof r->reference - (size_t)n,
+                 "; until %.6g, not until %.6g: the whole motion has too many turns for every order to show between instability and "
+                 "round-off", c->grid.until, c->whole);
+    r->seen.reference_error = c->truth.scaled;
+}
+
+static motus_status converge_all(converge *c)
+{
+    study *s = &c->s;
+    double until;
+    study_part(s, 0, TRUTH_SHARE / 2);
+    motus_status status = choose_end(c, &until);
+    if (status != MOTUS_OK)
+        return status;
+    c->grid = even_grid(s, until, INTERVALS);
+    study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
+    if ((status = truth_find(s, &c->grid, INTERVALS, &c->truth)) != MOTUS_OK)
+        return status;
+    if (!c->truth.known)
+        return study_fail(s->err, MOTUS_DIVERGED, "let the motion end earlier, or give its exact line",
+                          "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+    bool passed = true;
+    for (size_t k = 0; k < c->count; k++) {
+        double share = (1 - TRUTH_SHARE) / (double)c->count;
+        study_part(s, TRUTH_SHARE + share * (double)k, share);
+        if ((status = make_row(c, k)) != MOTUS_OK)
+            return status;
+        passed = passed && c->out->rows[k].passed;
+    }
+    c->out->seen.passed = passed;
+    describe(c);
+    return MOTUS_OK;
+}
+
+motus_status motus_converge(motus_system *system, const motus_study_def *given, motus_convergence **convergence, motus_error *err)
+{
+    if (!system || !convergence)
+        return study_fail(err, MOTUS_ARGUMENT, "", "motus_converge needs a system and a place for its result");
+    *convergence = NULL;
+    converge c = { .whole = NAN };
+    study_modes modes;
+    study_enter(&modes);
+    motus_status status = study_read(given, &c.def, err);
+    if (status == MOTUS_OK)
+        status = study_open(&c.s, system, &c.def, 0, err);
+    if (status == MOTUS_OK)
+        status = study_methods(&c.s, &c.def, &c.methods, &c.count);
+    if (status == MOTUS_OK)
+        status = make_result(&c);
+    if (status == MOTUS_OK)
+        status = converge_all(&c);
+    if (c.s.allocator) {
+        truth_free(&c.s, &c.truth);
+        study_give(c.s.allocator, c.table);
+        study_give(c.s.allocator, (void *)c.methods);
+        if (status == MOTUS_OK)
+            *convergence = &c.out->seen;
+        else
+            study_give(c.s.allocator, c.out);
+        study_close(&c.s);
+    }
+    study_leave(&modes);
+    return status;
+}
+
+void motus_convergence_destroy(motus_convergence *convergence)
+{
+    if (!convergence)
+        return;
+    result *r = (result *)(void *)convergence;
+    motus_allocator allocator = r->allocator;
+    study_give(&allocator, r);
+}

@@ -1,0 +1,342 @@
+/* The ground the experiments stand on: memory, errors, progress, runs along a grid, and the size of a motion.
+ *
+ * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
+ */
+#ifndef _POSIX_C_SOURCE
+#define _POSIX_C_SOURCE 200809L      /* clock_gettime */
+#endif
+#include "study.h"
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define TELL_SECONDS 0.01         /* between two calls of the progress hook */
+#define STILL 1e-10               /* a group that moves less than this part of its size does not move */
+
+void *study_take(const motus_allocator *a, size_t count, size_t bytes)
+{
+    if (bytes != 0 && count > SIZE_MAX / bytes)
+        return NULL;
+    size_t size = count * bytes > 0 ? count * bytes : 1;
+    if (!a->allocate)
+        return calloc(1, size);
+    void *block = a->allocate(a->context, size);
+    if (block)
+        memset(block, 0, size);
+    return block;
+}
+
+void study_give(const motus_allocator *a, void *block)
+{
+    if (!block)
+        return;
+    if (!a->allocate)
+        free(block);
+    else if (a->release)
+        a->release(a->context, block);
+}
+
+motus_status study_fail(motus_error *err, motus_status status, const char *advice, const char *format, ...)
+{
+    if (!err)
+        return status;
+    *err = (motus_error){ .size = err->size, .status = status, .time = NAN };
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(err->message, sizeof err->message, format, arguments);
+    va_end(arguments);
+    snprintf(err->hint, sizeof err->hint, "%s", advice);
+    return status;
+}
+
+void study_enter(study_modes *m)
+{
+    fegetenv(&m->saved);
+    fesetenv(FE_DFL_ENV);
+}
+
+void study_leave(const study_modes *m)
+{
+    fesetenv(&m->saved);
+}
+
+double study_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double study_larger(double a, double b)
+{
+    return isnan(a) || isnan(b) ? NAN : a > b ? a : b;
+}
+
+bool study_fatal(motus_status status)
+{
+    return status == MOTUS_CANCELLED || status == MOTUS_MEMORY;
+}
+
+/* Progress ------------------------------------------------------------------------------------------------------- */
+
+void study_part(study *s, double base, double span)
+{
+    s->base = base;
+    s->span = span;
+}
+
+motus_status study_tick(study *s, double fraction)
+{
+    if (!s->progress || s->cancelled)
+        return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
+    double now = study_seconds();
+    if (s->told >= 0 && now - s->told < TELL_SECONDS)
+        return MOTUS_OK;
+    s->told = now;
+    double whole = s->base + s->span * fraction;
+    s->cancelled = s->progress(s->context, whole < 0 ? 0 : whole > 1 ? 1 : whole) != 0;
+    if (!s->cancelled)
+        return MOTUS_OK;
+    return study_fail(s->err, MOTUS_CANCELLED, "", "%s", motus_status_text(MOTUS_CANCELLED));
+}
+
+static int hook(void *context, double fraction)
+{
+    return study_tick(context, fraction) != MOTUS_OK;
+}
+
+/* Opening -------------------------------------------------------------------------------------------------------- */
+
+motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err)
+{
+    *def = motus_default_study();
+    if (!given)
+        return MOTUS_OK;
+    if (given->size < sizeof given->size)
+        return study_fail(err, MOTUS_ARGUMENT, "make it with motus_default_study() and edit it",
+                          "the definition of the study has no size");
+    memcpy(def, given, given->size < sizeof *def ? given->size : sizeof *def);
+    def->size = sizeof *def;
+    if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY))
+        return study_fail(err, MOTUS_ARGUMENT, "a step is a positive number", "the step of the study is %g", def->step);
+    if (isinf(def->until))
+        return study_fail(err, MOTUS_ARGUMENT, "a study ends at a finite time", "the study has no end");
+    if (def->evaluations < 0)
+        return study_fail(err, MOTUS_ARGUMENT, "0 compares at equal step, a positive number at equal work",
+                          "the number of evaluations is %lld", (long long)def->evaluations);
+    return MOTUS_OK;
+}
+
+static void find_groups(study *s)
+{
+    size_t variables = motus_variable_count(s->system);
+    s->groups = 2 * (variables + 1);
+    for (size_t k = 0; k < s->numbers; k++) {
+        motus_column c;
+        size_t variable = variables;
+        if (motus_column_at(s->system, k + 1, &c) == MOTUS_OK && c.variable < variables)
+            variable = c.variable;
+        s->group[k] = 2 * variable + (k >= s->nx);
+    }
+}
+
+motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
+{
+    *s = (study){ .system = system, .err = err, .progress = def->progress, .context = def->context, .told = -1, .span = 1 };
+    s->allocator = motus_system_allocator(system);
+    s->nx = motus_positions(system);
+    s->nv = motus_velocities(system);
+    s->numbers = s->nx + s->nv;
+    motus_settings settings;
+    motus_settings_of(system, &settings);
+    s->from = isnan(settings.from) ? 0 : settings.from;
+    s->until = isnan(def->until) ? settings.until : def->until;
+    if (isnan(s->until))
+        return study_fail(err, MOTUS_ARGUMENT, "say in the model, for example, until 10", "nothing says until when");
+
+    size_t groups = 2 * (motus_variable_count(system) + 1);
+    s->start = study_take(s->allocator, s->numbers, sizeof(double));
+    s->scale = study_take(s->allocator, s->numbers, sizeof(double));
+    s->group = study_take(s->allocator, s->numbers, sizeof(size_t));
+    s->work = study_take(s->allocator, s->numbers + groups, 2 * sizeof(double));
+    if (!s->start || !s->scale || !s->group || !s->work)
+        return study_fail(err, MOTUS_MEMORY, "", "out of memory for a state of %zu numbers", s->numbers);
+    find_groups(s);
+
+    /* The start is wherever a run says it starts, so that a model's rules about it are not written twice. */
+    motus_run *run = NULL;
+    double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
+    if (!(trial > 0))
+        trial = 1;
+    motus_status status = study_run(s, STUDY_PLAINEST, trial, NAN, s->until, NULL, &run, err);
+    if (status == MOTUS_OK)
+        status = study_look(s, run, s->start, err);
+    if (status == MOTUS_OK) {
+        s->from = motus_run_time(run);
+        s->total = motus_run_steps_total(run);
+        s->last_step = fabs(motus_run_last_step(run));
+    }
+    motus_run_destroy(run);
+    if (status == MOTUS_OK && s->from == s->until)
+        return study_fail(err, MOTUS_ARGUMENT, "let the study end at another time than it starts",
+                          "the motion from %g until %g has no length", s->from, s->until);
+    if (status == MOTUS_OK)
+        status = study_tick(s, 0);
+    return status;
+}
+
+void study_close(study *s)
+{
+    if (!s->allocator)
+        return;
+    study_give(s->allocator, s->work);
+    study_give(s->allocator, s->group);
+    study_give(s->allocator, s->scale);
+    study_give(s->allocator, s->start);
+}
+
+motus_status study_methods(study *s, const motus_study_def *def, const char ***names, size_t *count)
+{
+    bool all = !def->methods || def->method_count == 0;
+    size_t most = all ? motus_method_count() : def->method_count;
+    *count = 0;
+    *names = study_take(s->allocator, most, sizeof **names);
+    if (!*names)
+        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for the names of %zu methods", most);
+    for (size_t k = 0; k < most; k++) {
+        const motus_method *m = NULL;
+        if (all) {
+            m = motus_method_at(k);
+            /* The exact motion is what the others are compared with. */
+            if (strcmp(m->family, "exact") == 0 || motus_method_admits(s->system, m->name, NULL) != MOTUS_OK)
+                continue;
+            (*names)[(*count)++] = m->name;
+            continue;
+        }
+        if (!def->methods[k])
+            return study_fail(s->err, MOTUS_ARGUMENT, "", "name %zu of the methods is NULL", k + 1);
+        motus_status status = motus_method_find(def->methods[k], &m, s->err);
+        if (status != MOTUS_OK)
+            return status;
+        (*names)[(*count)++] = def->methods[k];
+    }
+    if (*count == 0)
+        return study_fail(s->err, MOTUS_METHOD, "see what the analysis says about each", "no method admits this model");
+    return MOTUS_OK;
+}
+
+/* Runs ----------------------------------------------------------------------------------------------------------- */
+
+motus_status study_run(study *s, const char *method, double step, double start, double until, const double *y, motus_run **run,
+                       motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    def.method = method;
+    def.step = step;
+    def.until = until;
+    if (y) {
+        def.start = start;
+        def.x = y;
+        def.v = y + s->nx;
+    }
+    if (s->progress) {
+        def.progress = hook;
+        def.context = s;
+    }
+    return motus_run_create(s->system, &def, run, err);
+}
+
+study_grid study_grid_of(const study *s, double step, int64_t total, double last_step, int64_t *per)
+{
+    int64_t whole = total - (last_step > 0);
+    int64_t most = (int64_t)(STUDY_NUMBERS_MAX / s->numbers);
+    most = most > 2 * STUDY_SAMPLES ? 2 * STUDY_SAMPLES : most < 2 ? 2 : most;
+    for (*per = 1; whole / *per >= most;)
+        *per *= 2;
+    study_grid g = { .from = s->from, .until = s->until, .interval = step * (double)*per };
+    g.intervals = (size_t)(whole / *per);
+    g.points = g.intervals + (whole % *per != 0 || last_step > 0 || whole == 0);
+    return g;
+}
+
+motus_status study_look(study *s, motus_run *run, double *y, motus_error *err)
+{
+    return motus_run_state(run, y, y + s->nx, err);
+}
+
+motus_status study_walk(study *s, const char *method, const study_grid *g, int64_t per, double *out, study_cost *cost,
+                        motus_error *err)
+{
+    motus_run *run = NULL;
+    size_t done = 0;
+    *cost = (study_cost){ 0, 0, 0 };
+    motus_status status = study_tick(s, 0);
+    if (status == MOTUS_OK)
+        status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
+    for (; status == MOTUS_OK && done < g->points; done++) {
+        double began = study_seconds();
+        /* The last point is reached by finishing, so that it is `until` to the bit. */
+        status = done + 1 == g->points ? motus_run_finish(run, err) : motus_run_step(run, per, err);
+        cost->seconds += study_seconds() - began;
+        if (status == MOTUS_OK)
+            status = study_look(s, run, out + done * s->numbers, err);
+        if (status != MOTUS_OK)
+            break;
+    }
+    for (size_t k = done * s->numbers; k < g->points * s->numbers; k++)
+        out[k] = NAN;
+    if (run) {
+        cost->steps = motus_run_steps(run);
+        cost->evaluations = motus_run_evaluations(run);
+    }
+    motus_run_destroy(run);
+    return s->cancelled ? MOTUS_CANCELLED : status;
+}
+
+/* The size of a motion ------------------------------------------------------------------------------------------- */
+
+void study_scale(study *s, const double *rows, size_t count)
+{
+    double *most = s->work, *least = most + s->numbers, *moves = least + s->numbers, *size = moves + s->groups;
+    memcpy(most, s->start, s->numbers * sizeof(double));
+    memcpy(least, s->start, s->numbers * sizeof(double));
+    for (size_t r = 0; r < count; r++)
+        for (size_t k = 0; k < s->numbers; k++) {
+            double y = rows[r * s->numbers + k];
+            most[k] = y > most[k] ? y : most[k];        /* false for NaN */
+            least[k] = y < least[k] ? y : least[k];
+        }
+    for (size_t g = 0; g < s->groups; g++)
+        moves[g] = size[g] = 0;
+    for (size_t k = 0; k < s->numbers; k++) {
+        size_t g = s->group[k];
+        moves[g] = fmax(moves[g], most[k] - least[k]);
+        size[g] = fmax(size[g], fmax(fabs(most[k]), fabs(least[k])));
+    }
+    s->noise = DBL_EPSILON;
+    s->magnitude = 0;
+    for (size_t g = 0; g < s->groups; g++) {
+        s->magnitude = fmax(s->magnitude, size[g]);
+        if (!(moves[g] > STILL * size[g]))
+            moves[g] = size[g] > 0 ? size[g] : 1;
+        s->noise = fmax(s->noise, DBL_EPSILON * size[g] / moves[g]);
+    }
+    for (size_t k = 0; k < s->numbers; k++)
+        s->scale[k] = moves[s->group[k]];
+}
+
+study_distance study_measure(const study *s, const double *p, const double *q)
+{
+    study_distance d = { 0, 0, 0 };
+    for (size_t k = 0; k < s->numbers; k++) {
+        double e = fabs(p[k] - q[k]);
+        double *part = k < s->nx ? &d.x : &d.v;
+        *part = study_larger(*part, e);
+        d.scaled = study_larger(d.scaled, e / s->scale[k]);
+    }
+    return d;
+}

@@ -1,0 +1,256 @@
+/* The truth: the exact motion where it is known, else the most accurate of the methods of highest order, refined until halving its
+ * step changes nothing but round-off.
+ *
+ * A reference of order p at steps h and h/2 differs by d; then the finer one is wrong by about d/(r-1), where r is the factor by which
+ * d fell at the last halving (2^p in theory, less where the force is not smooth enough for the order). When d no longer falls, what is
+ * left is round-off, and d itself is the estimate.
+ * Invariant: a truth that is `known` has finite rows and an error estimate that was measured, not assumed.
+ */
+#include "truth.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TRUTH_CANDIDATES 3
+#define TRUTH_ORDERS_BELOW 2      /* candidates are at most this far below the highest admitted order */
+#define TRUTH_LEVELS 24           /* halvings of an interval */
+#define TRUTH_SMALL 1e-6          /* a difference that stops falling below this is round-off, above it a motion not yet resolved */
+#define TRUTH_FALL 1.5            /* the least fall per halving that counts as one */
+/* Work is evaluations × (numbers + TRUTH_OVERHEAD). About half a second; or, where the judged methods themselves work longer, as
+ * much as TRUTH_PASSES of them. */
+#define TRUTH_WORK 6e7
+#define TRUTH_OVERHEAD 16
+#define TRUTH_PASSES 32
+
+typedef struct candidate {
+    const motus_method *card;
+    double step;
+    double x, v, scaled;             /* the estimated error; scaled is NaN where there is none */
+} candidate;
+
+static size_t candidates(const study *s, candidate *out)
+{
+    size_t count = 0;
+    int highest = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < motus_method_count(); k++) {
+            const motus_method *m = motus_method_at(k);
+            if (strcmp(m->family, "exact") == 0 || motus_method_admits(s->system, m->name, NULL) != MOTUS_OK)
+                continue;
+            if (pass == 0) {
+                highest = m->order > highest ? m->order : highest;
+                continue;
+            }
+            if (m->order < highest - TRUTH_ORDERS_BELOW)
+                continue;
+            /* Kept in falling order; equal orders stay in the order of the catalogue, the longest splittings (smallest constants)
+             * before shorter ones. */
+            size_t at = count;
+            while (at > 0 && (out[at - 1].card->order < m->order
+                              || (out[at - 1].card->order == m->order && out[at - 1].card->stages < m->stages)))
+                at--;
+            if (at >= TRUTH_CANDIDATES)
+                continue;
+            count = count < TRUTH_CANDIDATES ? count + 1 : count;
+            memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
+            out[at] = (candidate){ .card = m, .scaled = NAN };
+        }
+    return count;
+}
+
+static const char *exact_method(const study *s)
+{
+    if (!motus_has_exact(s->system))
+        return NULL;
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        if (strcmp(m->family, "exact") == 0 && motus_method_admits(s->system, m->name, NULL) == MOTUS_OK)
+            return m->name;
+    }
+    return NULL;
+}
+
+static bool finite_rows(const study *s, const double *rows, size_t count)
+{
+    for (size_t k = 0; k < count * s->numbers; k++)
+        if (!isfinite(rows[k]))
+            return false;
+    return true;
+}
+
+/* The largest differences of two tables; NaN where one of them is not there. */
+static study_distance apart(const study *s, const double *p, const double *q, size_t rows)
+{
+    study_distance most = { 0, 0, 0 };
+    for (size_t r = 0; r < rows; r++) {
+        study_distance d = study_measure(s, p + r * s->numbers, q + r * s->numbers);
+        most.x = study_larger(most.x, d.x);
+        most.v = study_larger(most.v, d.v);
+        most.scaled = study_larger(most.scaled, d.scaled);
+    }
+    return most;
+}
+
+static void estimate(candidate *c, study_distance d, double divisor, double step)
+{
+    c->step = step;
+    c->x = d.x / divisor;
+    c->v = d.v / divisor;
+    c->scaled = d.scaled / divisor;
+}
+
+/* Halves the step until nothing but round-off is left or the work is spent. *now and *before are tables with room for the points
+ * (without the start); at the end *now holds the best. */
+static motus_status refine(study *s, const study_grid *g, double budget, candidate *c, double **now, double **before)
+{
+    double work = 0, cost = 0;
+    study_distance d = { NAN, NAN, NAN }, last = d;
+    bool have = false;               /* *before is a whole, finite table */
+    for (int level = 0; level < TRUTH_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
+        int64_t per = (int64_t)1 << level;
+        study_cost spent;
+        motus_error ignored = motus_default_error();
+        motus_status status = study_walk(s, c->card->name, g, per, *now, &spent, &ignored);
+        if (study_fatal(status)) {
+            if (s->err && !s->cancelled)
+                *s->err = ignored;
+            return status;
+        }
+        /* A run that failed early was cheap, and says nothing about the price of the next. */
+        double least = (double)g->intervals * (double)per * (c->card->evaluations > 0 ? c->card->evaluations : 1);
+        cost = fmax((double)spent.evaluations, least) * (double)(s->numbers + TRUTH_OVERHEAD);
+        work += cost;
+        if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
+            study_scale(s, *now, g->points);
+            last = d;
+            d = have ? apart(s, *now, *before, g->points) : (study_distance){ NAN, NAN, NAN };
+            double fall = last.scaled / d.scaled, step = g->interval / (double)per;
+            if (last.scaled < TRUTH_SMALL && !(fall > TRUTH_FALL)) {
+                estimate(c, last, 1, 2 * step);
+                double *swap = *now;
+                *now = *before;
+                *before = swap;
+                return MOTUS_OK;
+            }
+            if (have) {
+                double theory = ldexp(1, c->card->order);
+                estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, TRUTH_FALL), theory) - 1, step);
+                if (d.scaled <= 2 * s->noise) {
+                    estimate(c, d, 1, step);
+                    return MOTUS_OK;
+                }
+            }
+            have = true;
+        } else {
+            have = false;
+            d = (study_distance){ NAN, NAN, NAN };
+        }
+        double *swap = *now;
+        *now = *before;
+        *before = swap;
+    }
+    double *swap = *now;             /* the newest was just put away */
+    *now = *before;
+    *before = swap;
+    if (!have)
+        c->scaled = NAN;
+    return MOTUS_OK;
+}
+
+static motus_status find_reference(study *s, const study_grid *g, int64_t steps, truth *t, double *kept, double *now, double *before)
+{
+    candidate list[TRUTH_CANDIDATES + 1];
+    size_t count = candidates(s, list);
+    const candidate *best = NULL;
+    double *best_table = NULL;
+    double per_evaluation = (double)(s->numbers + TRUTH_OVERHEAD);
+    double budget = fmax(TRUTH_WORK, TRUTH_PASSES * (double)steps * per_evaluation);
+    double base = s->base, span = s->span;
+    for (size_t k = 0; k < count; k++) {
+        study_part(s, base + span * (double)k / (double)count, span / (double)count);
+        motus_status status = refine(s, g, budget / (double)count, &list[k], &now, &before);
+        if (status != MOTUS_OK)
+            return status;
+        if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
+            double *swap = kept;
+            kept = now;
+            now = swap;
+            best = &list[k];
+            best_table = kept;
+        }
+    }
+    study_part(s, base, span);
+    if (!best) {
+        snprintf(t->text, sizeof t->text, "none: no method followed the motion to the end");
+        return MOTUS_OK;
+    }
+    t->known = true;
+    t->order = best->card->order;
+    t->step = best->step;
+    snprintf(t->method, sizeof t->method, "%s", best->card->name);
+    snprintf(t->text, sizeof t->text, "%s at step %.6g", best->card->name, best->step);
+    memcpy(t->rows + s->numbers, best_table, g->points * s->numbers * sizeof(double));
+    study_scale(s, t->rows + s->numbers, g->points);
+    /* No reference knows its values better than they can be written. */
+    t->error = fmax(fmax(best->x, best->v), DBL_EPSILON * s->magnitude);
+    t->scaled = fmax(best->scaled, s->noise);
+    return MOTUS_OK;
+}
+
+motus_status truth_find(study *s, const study_grid *g, int64_t steps, truth *t)
+{
+    *t = (truth){ .error = NAN, .scaled = NAN };
+    t->rows = study_take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
+    if (!t->rows)
+        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for %zu states of %zu numbers", g->points, s->numbers);
+    memcpy(t->rows, s->start, s->numbers * sizeof(double));
+
+    const char *exact = exact_method(s);
+    if (exact) {
+        study_cost cost;
+        motus_error ignored = motus_default_error();
+        motus_status status = study_walk(s, exact, g, 1, t->rows + s->numbers, &cost, &ignored);
+        if (study_fatal(status)) {
+            if (s->err && !s->cancelled)
+                *s->err = ignored;
+            return status;
+        }
+        if (status == MOTUS_OK && finite_rows(s, t->rows, g->points + 1)) {
+            study_scale(s, t->rows + s->numbers, g->points);
+            t->known = t->exact = true;
+            t->error = t->scaled = 0;
+            snprintf(t->method, sizeof t->method, "%s", exact);
+            snprintf(t->text, sizeof t->text, "exact");
+            return MOTUS_OK;
+        }
+    }
+    size_t table = g->points * s->numbers;
+    double *room = study_take(s->allocator, 3 * table, sizeof(double));
+    if (!room)
+        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
+    motus_status status = find_reference(s, g, steps, t, room, room + table, room + 2 * table);
+    study_give(s->allocator, room);
+    return status;
+}
+
+motus_status truth_on(study *s, const truth *t, const study_grid *g, double *rows)
+{
+    int64_t per = 1;
+    while (!t->exact && per < (int64_t)1 << TRUTH_LEVELS && g->interval / (double)per > t->step * (1 + 1e-9))
+        per *= 2;
+    study_cost cost;
+    motus_error ignored = motus_default_error();
+    motus_status status = study_walk(s, t->method, g, per, rows, &cost, &ignored);
+    if (!study_fatal(status))
+        return MOTUS_OK;             /* the rows are NaN from the failure on */
+    if (s->err && !s->cancelled)
+        *s->err = ignored;
+    return status;
+}
+
+void truth_free(study *s, truth *t)
+{
+    study_give(s->allocator, t->rows);
+    t->rows = NULL;
+}

@@ -1,0 +1,602 @@
+#!/bin/bash
+# The program, as people use it: every verb, option and error, what it writes and what it leaves behind.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+set -u
+cd "$(dirname "$0")/.." || exit 1
+motus=${MOTUS:-$PWD/build/motus}
+root=$PWD
+passed=0 failed=0
+place=$(mktemp -d)
+out=$place/out err=$place/err
+trap 'umount "$place/small" 2>/dev/null; rm -rf "$place"' EXIT
+unset NO_COLOR
+export LC_ALL=C.UTF-8 TERM=xterm
+
+ok() { passed=$((passed + 1)); echo "ok - $1"; }
+not_ok() {
+    failed=$((failed + 1))
+    echo "not ok - $1"
+    shift
+    for line in "$@"; do printf '    %s\n' "$line"; done | head -n 12 | cut -c 1-400 | tr -c '[:print:]\n' '?'
+}
+# name, condition ...: the condition is a command
+that() {
+    local name=$1
+    shift
+    if "$@" >"$place/said" 2>&1; then ok "$name"; else not_ok "$name" "$*" "$(cat "$place/said")"; fi
+}
+# name, exit status, command ...: leaves its output in $out and $err
+gives() {
+    local name=$1 want=$2 got
+    shift 2
+    "$@" >"$out" 2>"$err" </dev/null
+    got=$?
+    if [ $got = "$want" ]; then ok "$name"; else not_ok "$name" "exit status $got, not $want: $*" "$(head -c 600 "$out")" "$(cat "$err")"; fi
+}
+# name, exit status, words of the message, command ...: one message, nothing on standard output, and the same as JSON
+refuses() {
+    local name=$1 want=$2 words=$3 got
+    shift 3
+    "$@" >"$out" 2>"$err" </dev/null
+    got=$?
+    if [ $got != "$want" ]; then not_ok "$name" "exit status $got, not $want" "$(cat "$err")"; return; fi
+    if [ -s "$out" ]; then not_ok "$name" "something is on standard output: $(head -c 300 "$out")"; return; fi
+    if ! grep -qF -- "$words" "$err"; then not_ok "$name" "the message does not say '$words'" "$(cat "$err")"; return; fi
+    if grep -qvE '^(motus: |[^ ].*:[0-9]+:[0-9]+: |    |  hint: )' "$err"; then not_ok "$name" "the message is out of shape" "$(cat "$err")"; return; fi
+    ok "$name"
+}
+says() { grep -qF -- "$1" "${2:-$out}"; }
+lacks() { ! grep -qF -- "$1" "${2:-$out}"; }
+empty() { [ ! -s "$1" ]; }
+absent() { [ ! -e "$1" ]; }
+nothing_left() { [ -z "$(find "$1" -name '.motus-*')" ]; }
+
+checker=build/test/tool/json_check
+if [ ! -x "$checker" ]; then
+    checker=$place/json_check
+    "${CC:-cc}" -std=c17 -O1 -o "$checker" test/cli/json_check.c || { echo "not ok - json_check is built"; echo "0 passed, 1 failed"; exit 1; }
+fi
+# Whether a file is one good JSON value on one line.
+json() { "$checker" "$1" && [ "$(wc -l <"$1")" = 1 ]; }
+# jq's answer about $out is true
+holds() { [ -s "${2:-$out}" ] && jq -e "$1" "${2:-$out}"; }
+near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a ~ /[0-9]/ && d <= e) }'; }
+
+oscillator=models/driven-oscillator.motus
+cat >"$place/osc.motus" <<'M'
+F = 0.1
+x'' = -x + x^3 + F cos(t)
+x(0) = 0
+x'(0) = 0
+energy = x'^2/2 + x^2/2
+method verlet
+step 0.01
+until 2
+M
+cat >"$place/field.motus" <<'M'
+u[i,j]'' = u[i+1,j] + u[i-1,j] + u[i,j+1] + u[i,j-1] - 4 u[i,j]   for i = 1..8, j = 1..9
+u[0,j] = 0   for j = 1..9
+u[9,j] = 0   for j = 1..9
+u[i,0] = 0   for i = 1..8
+u[i,10] = 0  for i = 1..8
+u[i,j](0) = sin(pi i/9) sin(pi j/10)   for i = 1..8, j = 1..9
+u[i,j]'(0) = 0   for i = 1..8, j = 1..9
+step 0.05
+until 1
+M
+osc=$place/osc.motus
+
+# --- the program itself -----------------------------------------------------------------------------------------------------------
+gives "--version" 0 "$motus" --version
+that "--version says the version of the header" says "motus $(sed -n 's/^#define MOTUS_VERSION "\(.*\)"/\1/p' include/motus.h)"
+gives "--version --json" 0 "$motus" --version --json
+that "... is JSON" json "$out"
+gives "--help" 0 "$motus" --help
+that "--help shows the verbs that work" says "motus converge MODEL"
+that "--help shows no verb that does not" lacks sweep
+for verb in run compare converge check methods; do
+    gives "$verb --help" 0 "$motus" $verb --help
+    that "$verb --help lists --json" says "--json"
+    that "$verb --help has examples" says "examples:"
+    cp "$out" "$place/help-$verb"
+    gives "help $verb" 0 "$motus" help $verb
+    that "help $verb is the same" cmp -s "$out" "$place/help-$verb"
+done
+# The examples are commands that work; the slow ones have tests of their own below.
+mkdir "$place/examples" && ln -s "$root/models" "$place/examples/models"
+for verb in run check methods; do
+    sed -n '/^examples:/,$p' "$place/help-$verb" | sed 1d | while read -r line; do
+        (cd "$place/examples" && PATH=$(dirname "$motus"):$PATH bash -c "set -o pipefail; $line" >/dev/null 2>"$err") &&
+            echo "ok $line" || echo "not $line: $(cat "$err")"
+    done >"$place/ran"
+    that "the examples of $verb work" eval "grep -q ^ok '$place/ran' && ! grep ^not '$place/ran'"
+done
+
+refuses "no verb" 2 "a verb is missing" "$motus"
+refuses "an unknown verb" 2 "unknown verb frobnicate" "$motus" frobnicate
+refuses "a verb with a slip" 2 "did you mean motus compare?" "$motus" comapre x.motus
+refuses "a model where the verb should be" 2 "motus run x.motus" "$motus" x.motus
+for verb in sweep lab bench; do refuses "$verb is not available yet" 2 "not available in this version" "$motus" $verb $oscillator; done
+for verb in run compare converge check; do refuses "$verb without a model" 2 "motus $verb needs a model" "$motus" $verb; done
+refuses "two models" 2 "one model at a time" "$motus" run $oscillator $osc
+refuses "an unknown option" 2 "unknown option --frobnicate" "$motus" run $osc --frobnicate
+refuses "an option with a slip" 2 "did you mean --step?" "$motus" run $osc --stpe 0.1
+refuses "an option of another verb" 2 "motus check takes no --step" "$motus" check $osc --step 0.1
+refuses "a value missing" 2 "--step: its value is missing" "$motus" run $osc --step
+refuses "a flag with a value" 2 "--json takes no value" "$motus" run $osc --json=yes --quiet
+refuses "--tolerance" 2 "not available" "$motus" compare $osc --tolerance 1e-9
+refuses "--from" 2 "x(c)" "$motus" run $osc --from 1
+refuses "--machine compiled" 2 "not available in this version" "$motus" run $osc --machine compiled
+refuses "--machine abacus" 2 "there is no such machine" "$motus" run $osc --machine abacus
+for bad in 0 -1 nan inf 1e999 0,1 0x10 1/0 abc '' 1e-2x; do refuses "--step '$bad'" 2 "--step" "$motus" run $osc --step "$bad"; done
+for bad in nan inf abc 1/x pi2 ''; do refuses "--until '$bad'" 2 "--until" "$motus" run $osc --until "$bad"; done
+for bad in 0 -1 x '0 steps' '1.5 steps' '10 stops' '-3 steps'; do refuses "--every '$bad'" 2 "--every" "$motus" run $osc -o - --every "$bad"; done
+for bad in 0 -5 1.5 x 99999999999999999999; do refuses "--evaluations '$bad'" 2 "--evaluations" "$motus" compare $osc --evaluations "$bad"; done
+for bad in F '=3' ''; do refuses "--set '$bad'" 2 "--set" "$motus" run $osc --set "$bad"; done
+refuses "--set of an unknown name" 2 "G" "$motus" run $osc --set G=1
+refuses "--set of a quantity" 2 "energy" "$motus" run $osc --set energy=1
+refuses "--methods with a hole" 2 "a name is missing" "$motus" compare $osc --methods verlet,,rk4
+refuses "--columns without -o" 2 "-o is missing" "$motus" run $osc --columns x
+refuses "--every without -o" 2 "-o is missing" "$motus" run $osc --every 0.1
+refuses "--plot-of without --plot" 2 "--plot is missing" "$motus" run $osc --plot-of "x,x'"
+gives "--json and -o -" 2 "$motus" run $osc -o - --json
+that "... is an error object" holds '.error.kind == "argument" and (.error.message | length > 9) and .error.line == 0 and .error.column == 0'
+that "an error object has these keys and no others" holds '(keys == ["error"]) and (.error | keys == ["column","kind","line","message"])'
+
+# --- run --------------------------------------------------------------------------------------------------------------------------
+gives "run --json" 0 "$motus" run $oscillator --json
+that "... is JSON" json "$out"
+that "... prints nothing else" empty "$err"
+for key in model method machine step steps evaluations time state quantities invariants seconds; do
+    that "run: key $key" holds "has(\"$key\")"
+done
+that "run: what it says of itself" holds ".model == \"$oscillator\" and .method == \"verlet\" and .step == 0.001 and .steps == 100000 and .time == 100"
+that "run: one evaluation a step, and those of the start and the end" holds '.evaluations >= 100000 and .evaluations <= 100002'
+that "the notebook's oscillator: the exact recursion's value" near "$(jq .state.x "$out")" 0.04778239807187258 1e-13
+gives "verlet-literal" 0 "$motus" run $oscillator --method verlet-literal --json
+that "the notebook's own float64 loop" near "$(jq .state.x "$out")" 0.04778239807006475 1e-11
+gives "the damped cubic" 0 "$motus" run models/damped-cubic.motus --json
+that "the notebook's second recursion" near "$(jq .state.x "$out")" -3.489442177206087865 1e-12
+gives "run for people" 0 "$motus" run models/projectile.motus
+that "... shows the exact motion" says exact
+that "... and the drift of the energy" says energy
+that "... has no colour outside a terminal" eval "! grep -q $'\033' '$out'"
+gives "run --quiet" 0 "$motus" run $osc --quiet
+that "... is quiet" empty "$out"
+that "... on both sides" empty "$err"
+gives "vectors are lists" 0 "$motus" run models/projectile.motus --json
+that "... r and r'" holds '(.state.r | length == 2) and (.state["r'"'"'"] | length == 2)'
+that "an invariant has three values" holds '.invariants.energy | keys == ["final","initial","max_drift"]'
+that "projectile: y after 3 s by symplectic Euler is ½ g h t too low" \
+    near "$(jq '.state.r[1]' "$out")" "$(awk 'BEGIN { printf "%.15g", 4.5*3 - 9.81*9/2 - 9.81*0.05*3/2 }')" 1e-12
+gives "a family is a list" 0 "$motus" run models/chain.motus --json --until 1
+that "... of N numbers" holds ".state.x | length == $(sed -n 's/^N *= *\([0-9]*\).*/\1/p' models/chain.motus)"
+gives "a family of vectors is a list of lists" 0 "$motus" run models/three-body-figure-eight.motus --json --until 0.1
+that "... 3 bodies in the plane" holds '(.state | to_entries[0].value) | length == 3 and (.[0] | length == 2)'
+gives "two indices are lists of lists" 0 "$motus" run "$place/field.motus" --json
+that "... 8 by 9" holds '(.state.u | length) == 8 and (.state.u[0] | length) == 9'
+that "... in their places" near "$(jq '.state.u[1][2] / .state.u[0][0]' "$out")" \
+    "$(awk 'BEGIN { p = atan2(0, -1); printf "%.17g", sin(2*p/9)*sin(3*p/10)/(sin(p/9)*sin(p/10)) }')" 1e-9
+gives "quantities" 0 "$motus" run $osc --json
+that "... are there" holds '.quantities.energy > 0'
+gives "--set" 0 "$motus" run $osc --json --set F=0.2 --set "x(0)=0.5"
+cp "$out" "$place/set"
+gives "--set is an edit" 0 "$motus" run <(sed 's/F = 0.1/F = 0.2/; s/x(0) = 0/x(0) = 0.5/' "$osc") --json
+that "... the same bits" eval "[ \"\$(jq -c .state '$out')\" = \"\$(jq -c .state '$place/set')\" ]"
+"$motus" run - --json <"$osc" >"$out" 2>"$err"
+that "a model from standard input" holds '.model == "-" and .steps == 200'
+gives "--method and --step" 0 "$motus" run $osc --method rk4 --step 1/64 --json
+that "... are taken" holds '.method == "rk4" and .step == 0.015625 and .steps == 128 and .evaluations == 512'
+gives "--until 2 pi" 0 "$motus" run $osc --until "2 pi" --step pi/100 --json
+that "... ends exactly there" holds '.time == 6.283185307179586 and .steps == 200'
+gives "a last, shorter step" 0 "$motus" run $osc --until 1.005 --json
+that "... is one step more" holds '.time == 1.005 and .steps == 101'
+gives "... and people are told" 0 "$motus" run $osc --until 1.005
+that "... its size" says "the last one 0.005"
+gives "backward" 0 "$motus" run $osc --until -1 --json
+that "... ends before the start" holds '.time == -1 and .steps == 100'
+gives "an alias" 0 "$motus" run $osc --method rk2 --json
+gives "a method with arguments" 0 "$motus" run $osc --method "newmark(1/4, 1/2)" --json
+refuses "an unknown method" 2 "verlett" "$motus" run $osc --method verlett
+that "... has a remedy" says "verlet" "$err"
+refuses "a method that does not admit the model" 2 "forest-ruth" "$motus" run models/damped-cubic.motus --method forest-ruth
+that "looking changes nothing: -o, --plot-less and bare runs have the same bits" eval "
+    '$motus' run $osc --json --method velocity-verlet >'$place/bare' && '$motus' run $osc --json --method velocity-verlet -o '$place/looked.csv' >'$place/looked' &&
+    [ \"\$(jq -c .state '$place/bare')\" = \"\$(jq -c .state '$place/looked')\" ]"
+
+# A million numbers and no more.
+printf 'N = 600000\nx[i]%s = -x[i] for i = 1..N\nx[i](0) = 1 for i = 1..N\nx[i]%s(0) = 0 for i = 1..N\nstep 0.1\nuntil 0.2\n' "''" "'" >"$place/many.motus"
+gives "a large state" 0 "$motus" run "$place/many.motus" --json
+that "... is cut at a million numbers, and says so" holds '.cut == true and ([.state[] | length] | add) == 1000000'
+that "... and is JSON" json "$out"
+gives "a small one" 0 "$motus" run $osc --json
+that "... is not cut" holds 'has("cut") | not'
+
+# Fast: the founding oscillator from start to exit. The best of several, for a machine that others use as well.
+best=999999
+for _ in 1 2 3 4 5 6 7 8 9 10; do
+    began=${EPOCHREALTIME/./}
+    "$motus" run $oscillator >/dev/null
+    spent=$((${EPOCHREALTIME/./} - began))
+    [ $spent -lt $best ] && best=$spent
+done
+that "run $oscillator takes less than 30 ms ($best µs)" test $best -lt 30000
+
+# --- CSV --------------------------------------------------------------------------------------------------------------------------
+cd "$place" || exit 1
+gives "-o" 0 "$motus" run osc.motus -o traj.csv
+that "the first line is the command" eval "[ \"\$(head -n 1 traj.csv)\" = '# motus run osc.motus -o traj.csv' ]"
+that "the names" eval "[ \"\$(grep -v '^#' traj.csv | head -n 1)\" = \"t,x,x',energy\" ]"
+that "a row for every step and the start" eval "[ \$(grep -vc '^#' traj.csv) = 202 ]"
+that "every row has as many numbers as names" eval "! grep -v '^#' traj.csv | awk -F, 'NF != 4 { bad = 1; print } END { exit !bad }'"
+"$motus" run osc.motus --json >"$out"
+that "the last row is the state of --json, digit by digit" eval "[ \"\$(tail -n 1 traj.csv)\" = \"\$(jq -r '[.time, .state.x, .state[\"x\\u0027\"], .quantities.energy] | map(tostring) | join(\",\")' '$out')\" ]"
+"$motus" run osc.motus -o - --quiet >"$out" 2>"$err"
+that "-o - is the same on standard output" eval "cmp -s <(grep -v '^#' traj.csv) <(grep -v '^#' '$out')"
+"$motus" run osc.motus -o - >"$out" 2>"$err"
+that "the summary goes to standard error then" eval "says state '$err' && ! grep -q state '$out'"
+gives "--every 10 steps" 0 "$motus" run osc.motus -o - --every "10 steps" --columns t
+that "... 21 rows" eval "[ \$(grep -vc '^[#t]' '$out') = 21 ]"
+gives "--every 0.1" 0 "$motus" run osc.motus -o - --every 0.1 --columns "t,x"
+cp "$out" grid
+that "... lands on the steps" eval "cmp -s <(grep -v '^[#t]' grid) <(grep -v '^#' traj.csv | sed 1d | awk -F, 'NR % 10 == 1 { print \$1 \",\" \$2 }')"
+gives "--every 0.37, between steps" 0 "$motus" run osc.motus -o - --every 0.37 --columns "t,x"
+that "... at these times, and at the end" eval "[ \"\$(grep -v '^[#t]' '$out' | cut -d, -f1 | cut -c 1-5 | tr '\n' ' ')\" = '0 0.37 0.74 1.11 1.48 1.85 2 ' ]"
+# The curve between steps is of order 6 in the step: against a run with a step that hits 0.37.
+x37=$(grep '^0.37,' "$out" | cut -d, -f2)
+"$motus" run osc.motus --until 0.37 --json >"$out"
+that "... with the values of the motion" near "$x37" "$(jq .state.x "$out")" 1e-12
+gives "backward, every 0.25" 0 "$motus" run osc.motus -o - --every 0.25 --until -1 --columns t
+that "... the times go down" eval "[ \"\$(grep -v '^[#t]' '$out' | tr '\n' ' ')\" = '0 -0.25 -0.5 -0.75 -1 ' ]"
+gives "--columns in their order" 0 "$motus" run osc.motus -o - --columns "energy, x', t" --every 1
+that "... and no others" says "energy,x',t"
+gives "--columns of a vector" 0 "$motus" run "$root/models/projectile.motus" -o - --columns "r',exact r"
+that "... are its components" says "r'.x,r'.y,exact r.x,exact r.y"
+gives "--columns with indices" 0 "$motus" run field.motus -o - --columns "u[1,2],u[3,4]'" --every 1
+that "... quoted where there is a comma" says "\"u[1,2]\",\"u[3,4]'\""
+refuses "an unknown column" 2 "energi" "$motus" run osc.motus -o traj2.csv --columns "t,energi"
+that "... leaves no file" absent traj2.csv
+cat >every.motus <<'M'
+x'' = -x
+x(0) = 1
+x'(0) = 0
+step 0.01
+until 1
+every 25 steps
+M
+gives "the model's own every" 0 "$motus" run every.motus -o - --columns t
+that "... 5 rows" eval "[ \$(grep -vc '^[#t]' '$out') = 5 ]"
+gives "... is overridden" 0 "$motus" run every.motus -o - --columns t --every 0.1
+that "... 11 rows" eval "[ \$(grep -vc '^[#t]' '$out') = 11 ]"
+cp osc.motus $'we\nird, \033[31mname\'s.motus'
+gives "a name with a newline and an escape" 0 "$motus" run $'we\nird, \033[31mname\'s.motus' -o weird.csv
+that "... stays one line of the head" eval "[ \$(grep -c '^#' weird.csv) = 2 ] && head -n 1 weird.csv | grep -qF 'we\\x0aird, \\x1b[31m'"
+that "... never reaches the terminal" eval "! grep -q $'\033' '$out' '$err'"
+gives "... is escaped in JSON" 0 "$motus" run $'we\nird, \033[31mname\'s.motus' --json
+that "... which stays JSON" json "$out"
+cp osc.motus $'not\xffutf8.motus'
+gives "a name that is not UTF-8" 0 "$motus" run $'not\xffutf8.motus' --json
+that "... makes good JSON" json "$out"
+for locale in $(locale -a 2>/dev/null | grep -iE '^(de|fr)_' | head -n 1); do
+    LC_ALL=$locale "$motus" run osc.motus -o - --quiet >"$out"
+    that "the point stays a point in $locale" eval "cmp -s <(grep -v '^#' traj.csv) <(grep -v '^#' '$out')"
+done
+
+# --- files: whole or not at all ---------------------------------------------------------------------------------------------------
+that "no temporary files are left" nothing_left .
+echo precious >kept.csv
+cat >blow.motus <<'M'
+x'' = x^3
+x(0) = 1
+x'(0) = 1
+step 0.01
+until 10
+M
+refuses "a motion that leaves the finite numbers" 1 "t = " "$motus" run blow.motus -o kept.csv --save-state kept.state --plot kept.svg
+that "... leaves the old file as it was" eval "[ \"\$(cat kept.csv)\" = precious ]"
+that "... and makes no new one" eval "absent kept.state && absent kept.svg && nothing_left ."
+"$motus" run blow.motus --json >"$out" 2>"$err"
+that "... and its JSON names the kind" holds '.error.kind == "diverged"'
+printf "x'' = 1/(1 - t)\nx(0) = 0\nx'(0) = 0\nmethod rk4\nstep 0.25\nuntil 2\n" >pole.motus
+refuses "a division by zero on the way" 1 "t = " "$motus" run pole.motus -o pole.csv
+that "... leaves no file" absent pole.csv
+refuses "a folder that is not there" 1 "cannot write" "$motus" run osc.motus -o nowhere/traj.csv
+refuses "a folder as output" 1 "cannot write" "$motus" run osc.motus -o .
+refuses "a full disk" 1 "No space left" "$motus" run osc.motus -o /dev/full
+ln -s /dev/full full.svg
+refuses "a full disk, plot" 1 "full.svg: No space left" "$motus" run osc.motus --plot full.svg
+"$motus" run osc.motus --json >/dev/full 2>"$err"
+that "a full standard output is exit status 1" test $? = 1
+that "... and one message" eval "[ \$(wc -l <'$err') = 1 ] && says 'standard output' '$err'"
+for verb in "compare osc.motus --methods verlet" "converge osc.motus --methods verlet" "check osc.motus" methods --help; do
+    "$motus" $verb >/dev/full 2>"$err"
+    that "full: motus $verb" eval "[ $? = 1 ] && [ \$(wc -l <'$err') = 1 ]"
+done
+mkdir small
+if mount -t tmpfs -o size=64k none small 2>/dev/null; then
+    refuses "a full file system" 1 "No space left" "$motus" run "$root/$oscillator" -o small/traj.csv
+    that "... is left as it was" eval "[ -z \"\$(ls -A small)\" ]"
+    umount small
+fi
+if [ "$(id -u)" != 0 ]; then
+    touch locked.csv && chmod 444 locked.csv
+    refuses "a file made read-only" 1 "Permission denied" "$motus" run osc.motus -o locked.csv
+    cp osc.motus secret.motus && chmod 000 secret.motus
+    refuses "an unreadable model" 1 "Permission denied" "$motus" run secret.motus
+fi
+cp osc.motus self.motus
+refuses "the model as its own output" 2 "would be overwritten" "$motus" run self.motus -o self.motus
+ln -s self.motus link.motus
+refuses "... through a link" 2 "would be overwritten" "$motus" run self.motus -o link.motus
+that "... and it is whole" cmp -s osc.motus self.motus
+refuses "two outputs of one name" 2 "two outputs" "$motus" run osc.motus -o same.svg --plot same.svg
+refuses "an output without a name" 2 "empty" "$motus" run osc.motus -o ""
+touch target.csv && ln -s target.csv through.csv
+gives "an output through a link" 0 "$motus" run osc.motus -o through.csv
+that "... keeps the link and fills its target" eval "[ -L through.csv ] && [ -s target.csv ]"
+(umask 027 && "$motus" run osc.motus -o mask.csv -q)
+that "rights follow the umask" eval "[ \$(stat -c %a mask.csv) = 640 ]"
+chmod 600 mask.csv && "$motus" run osc.motus -o mask.csv -q
+that "rights of a file that was there stay" eval "[ \$(stat -c %a mask.csv) = 600 ]"
+# A long run, stopped: it dies of the signal and leaves nothing.
+for signal in INT TERM HUP; do
+    (trap - INT; exec "$motus" run osc.motus --until 1e7 -o "stopped-$signal.csv" >"$out" 2>"$err") &
+    child=$!
+    for _ in $(seq 100); do [ -n "$(find . -name '.motus-*')" ] && break; sleep 0.02; done
+    sleep 0.1
+    kill -$signal $child
+    wait $child
+    status=$?
+    if [ $signal = INT ] && [ $status = 0 ]; then continue; fi
+    that "SIG$signal: the program dies of it" test $status = $((128 + $(kill -l $signal)))
+    that "... and leaves no file, whole or temporary" eval "absent stopped-$signal.csv && nothing_left ."
+done
+"$motus" run "$root/$oscillator" -o - 2>"$err" | head -n 3 >"$out"
+that "a reader that goes away" eval "[ \${PIPESTATUS[0]} != 0 ] || true; [ \$(wc -l <'$out') = 3 ] && empty '$err'"
+
+# --- models that cannot be read -----------------------------------------------------------------------------------------------------
+refuses "a model that is not there" 1 "cannot read" "$motus" run nowhere.motus
+refuses "a folder as model" 1 "folder" "$motus" run small
+: >empty.motus
+refuses "an empty model" 2 "" "$motus" run empty.motus
+head -c 3000 "$motus" >binary.motus
+refuses "a model of bytes" 2 "byte 0" "$motus" run binary.motus
+head -c 4000 /dev/urandom | tr -d '\000' >random.motus
+refuses "a model of random bytes" 2 "random.motus" "$motus" run random.motus
+yes "y = 1 + 2 + 3" | head -c 10000000 >ten.motus
+refuses "a model of 10 MB" 2 "" timeout 20 "$motus" run ten.motus
+head -c 10000000 /dev/urandom | tr -d '\000' >noise.motus
+refuses "10 MB of noise" 2 "" timeout 20 "$motus" run noise.motus
+yes "# x" | head -c 17000000 >long.motus
+refuses "a model beyond 16 MiB" 2 "longer than 16777216 bytes" "$motus" run long.motus
+refuses "a model without end" 2 "longer than 16777216 bytes" "$motus" run <(yes "# x")
+{ printf "x'' = "; head -c 10000 /dev/zero | tr '\0' '('; printf 1; head -c 10000 /dev/zero | tr '\0' ')'; printf "\nx(0)=0\nx'(0)=0\n"; } >nest.motus
+refuses "10 000 nested brackets" 2 "nest.motus:1:" "$motus" run nest.motus
+printf "a = b\nb = a\nx'' = -x\nx(0)=1\nx'(0)=0\n" >cycle.motus
+refuses "a cycle" 2 "cycle.motus:" "$motus" run cycle.motus --step 0.1 --until 1
+printf "x'' = -x\nx(0)=1\nstep 0.1\nuntil 1\n" >missing.motus
+refuses "a missing initial value" 2 "x'(0)" "$motus" run missing.motus
+printf "omega = 2\nx'' = -omga^2 x\nx(0)=1\nx'(0)=0\nstep 0.1\nuntil 1\n" >slip.motus
+refuses "an unknown name" 2 "slip.motus:2:8: " "$motus" run slip.motus
+that "... with the line" says "    x'' = -omga^2 x" "$err"
+that "... a caret under it" eval "grep -qE '^    {7}\^' '$err' || grep -qE '^           \^' '$err'"
+that "... and the remedy" says "omega" "$err"
+"$motus" run slip.motus --json >"$out" 2>"$err"
+that "... as JSON" holds '.error.kind == "name" and .error.line == 2 and .error.column == 8 and (.error.message | contains("omega"))'
+that "... and nothing else" empty "$err"
+printf "x'' = -x \033[2J \xe2\x80\xae y\nx(0)=1\nx'(0)=0\n" >escape.motus
+refuses "escapes in a model" 2 "escape.motus:1:" "$motus" run escape.motus
+that "... do not reach the terminal" eval "! LC_ALL=C grep -qE $'\033'\"|\$(printf '\\xe2\\x80\\xae')\" '$err'"
+"$motus" run escape.motus --json >"$out" 2>"$err"
+that "... nor JSON" json "$out"
+printf "x'' = -x\nx(0)=1\nx'(0)=0\nuntil 1\n" >nostep.motus
+refuses "no step anywhere" 2 "step" "$motus" run nostep.motus
+printf "x'' = -x\nx(0)=1\nx'(0)=0\nstep 0.1\n" >nountil.motus
+refuses "no end anywhere" 2 "until" "$motus" run nountil.motus
+
+# --- restart ------------------------------------------------------------------------------------------------------------------------
+restart_case() {            # model, step, half, whole, method
+    local model=$1 step=$2 half=$3 whole=$4 method=$5
+    "$motus" run "$model" --step "$step" --until "$whole" --method "$method" --json -o whole.csv >whole.json 2>"$err" &&
+        "$motus" run "$model" --step "$step" --until "$half" --method "$method" -q --save-state state -o first.csv 2>"$err" &&
+        "$motus" run "$model" --step "$step" --until "$whole" --method "$method" --json --restart state -o second.csv >second.json 2>"$err" ||
+        { cat "$err" second.json; return 1; }
+    [ "$(jq -c '[.state, .steps, .evaluations, .time, .iterations]' whole.json)" = "$(jq -c '[.state, .steps, .evaluations, .time, .iterations]' second.json)" ] ||
+        { echo "the end differs"; return 1; }
+    [ "$(jq -c '[.invariants[].initial]' whole.json)" = "$(jq -c '[.invariants[].initial]' second.json)" ] || { echo "the start of the invariants differs"; return 1; }
+    local rows
+    rows=$(grep -v '^[#t]' second.csv | wc -l)
+    cmp -s <(grep -v '^[#t]' second.csv) <(grep -v '^[#t]' whole.csv | tail -n "$rows") || { echo "the rows differ"; return 1; }
+}
+for method in verlet verlet-literal beeman velocity-verlet leapfrog symplectic-euler rk4 pefrl yoshida6 gauss4 implicit-midpoint "newmark(1/4, 1/2)"; do
+    that "restarted is uninterrupted, to the bit: $method" restart_case osc.motus 0.01 0.7 2 "$method"
+done
+that "... with a velocity in the force" restart_case "$root/models/damped-cubic.motus" 0.001 1 3 verlet
+that "... with vectors" restart_case "$root/models/kepler.motus" 0.01 1.5 4 velocity-verlet
+that "... after an end between steps" restart_case osc.motus 0.01 0.705 2 verlet
+that "... to an end between steps" restart_case osc.motus 0.01 0.7 1.995 verlet
+that "... with a step that is no binary fraction" restart_case osc.motus 1/3 5 20 verlet
+that "... backward" restart_case osc.motus 0.01 -0.7 -2 velocity-verlet
+"$motus" run osc.motus -q --until 1 --save-state state
+gives "a state may be replaced by the next one" 0 "$motus" run osc.motus -q --restart state --save-state state
+cp state good
+gives "a restart without --until" 0 "$motus" run osc.motus --restart good --json
+that "... goes to the end of the model" holds '.time == 2 and .steps == 200'
+refuses "a restart with another method" 2 "" "$motus" run osc.motus --restart good --method rk4
+refuses "a restart with another step" 2 "" "$motus" run osc.motus --restart good --step 0.02
+refuses "a restart of another model" 2 "" "$motus" run "$root/models/kepler.motus" --restart good
+refuses "a restart from a model" 2 "" "$motus" run osc.motus --restart osc.motus
+refuses "a restart from nothing" 1 "cannot read" "$motus" run osc.motus --restart nowhere
+head -c $(($(stat -c %s good) / 2)) good >half
+refuses "half a state" 2 "" "$motus" run osc.motus --restart half
+head -c 2000 /dev/urandom >noise
+refuses "a state of noise" 2 "" "$motus" run osc.motus --restart noise
+: >none
+refuses "an empty state" 2 "" "$motus" run osc.motus --restart none
+
+# --- plots --------------------------------------------------------------------------------------------------------------------------
+gives "--plot svg" 0 "$motus" run "$root/models/projectile.motus" --plot fig.svg -q
+that "... is an SVG" eval "head -c 200 fig.svg | grep -q '<?xml' && tail -n 2 fig.svg | grep -q '</svg>'"
+that "... the exact motion is green" eval "grep -qi '15803d\|rgb( 21, 128,  61)' fig.svg"
+that "... in dashes" grep -q stroke-dasharray fig.svg
+gives "--plot png" 0 "$motus" run osc.motus --plot fig.png -q
+that "... is a PNG" eval "head -c 8 fig.png | od -An -tx1 | grep -q '89 50 4e 47 0d 0a 1a 0a'"
+gives "--plot pdf" 0 "$motus" run osc.motus --plot fig.pdf -q
+that "... is a PDF" eval "head -c 5 fig.pdf | grep -q '%PDF-'"
+gives "--plot -" 2 "$motus" run osc.motus --plot -
+refuses "--plot fig.gif" 2 ".svg, .png or .pdf" "$motus" run osc.motus --plot fig.gif
+gives "a phase plane" 0 "$motus" run osc.motus --plot phase.svg --plot-of "x,x'" -q
+that "... names its axes" grep -q "x&apos; against x\|x' against x\|x&#39; against x" phase.svg
+gives "a quantity against time" 0 "$motus" run osc.motus --plot energy.svg --plot-of "t,energy" -q
+refuses "--plot-of of one column" 2 "two columns" "$motus" run osc.motus --plot no.svg --plot-of x
+refuses "--plot-of of an unknown column" 2 "q" "$motus" run osc.motus --plot no.svg --plot-of "x,q"
+refuses "--plot-of of a vector" 2 "r.x" "$motus" run "$root/models/projectile.motus" --plot no.svg --plot-of "t,r"
+that "... and no picture" absent no.svg
+gives "100 000 steps" 0 "$motus" run "$root/$oscillator" --plot long.svg -q
+that "... are thinned to what is seen" test "$(stat -c %s long.svg)" -lt 300000
+for model in "$root"/models/*.motus; do
+    name=$(basename "$model" .motus)
+    gives "a picture of $name" 0 timeout 60 "$motus" run "$model" --plot "$name.svg" -q
+    that "... is whole" eval "tail -n 2 '$name.svg' | grep -q '</svg>'"
+done
+gives "a field" 0 "$motus" run field.motus --plot field.svg -q
+that "... is an image inside the SVG" grep -q 'data:image/png' field.svg
+# Names that are commands elsewhere.
+evil=$'`touch owned`\'; system("touch owned"); \'@x $(touch owned).motus'
+cp osc.motus "$evil"
+gives "a name full of commands" 0 "$motus" run "$evil" --plot evil.svg -q
+that "... is only a title" eval "absent owned && grep -q 'touch owned' evil.svg"
+cp osc.motus 'a_{b}^c.motus'
+gives "a name full of markup" 0 "$motus" run 'a_{b}^c.motus' --plot markup.svg -q
+that "... is shown as it is" grep -qF 'a_{b}^c' markup.svg
+printf "θ'' = -θ\nθ(0)=1\nθ'(0)=0\nstep 0.1\nuntil 1\n" >theta.motus
+gives "names in Greek" 0 "$motus" run theta.motus --plot theta.svg -q
+that "... in the picture" grep -q θ theta.svg
+mkdir bin
+refuses "no gnuplot" 1 "gnuplot is not installed" env PATH="$place/bin" "$motus" run osc.motus --plot no.svg
+that "... says how to get it" says "apt-get install gnuplot" "$err"
+printf '#!/bin/sh\necho "line 0: the pen is broken" >&2\nexit 1\n' >bin/gnuplot && chmod +x bin/gnuplot
+refuses "a gnuplot that fails" 1 "the pen is broken" env PATH="$place/bin:$PATH" "$motus" run osc.motus --plot no.svg -o no.csv
+that "... leaves neither picture nor CSV" eval "absent no.svg && absent no.csv && nothing_left ."
+printf '#!/bin/sh\nexit 0\n' >bin/gnuplot
+PATH=$place/bin:$PATH "$motus" run "$root/$oscillator" --plot no.svg -q >"$out" 2>"$err"
+that "a gnuplot that does not listen is an error, not a death" test $? = 1
+cd "$root" || exit 1
+
+# --- compare ------------------------------------------------------------------------------------------------------------------------
+gives "compare --json" 0 "$motus" compare models/projectile.motus --json
+that "... is JSON" json "$out"
+that "compare: the keys of a row" holds '.rows | length > 3 and all(.[]; has("method") and has("order") and has("steps") and has("evaluations") and has("seconds") and has("error_max") and has("error_final") and has("invariants") and has("reversal"))'
+euler=$(jq '.rows[] | select(.method == "explicit-euler").error_final' "$out")
+symplectic=$(jq '.rows[] | select(.method == "symplectic-euler").error_final' "$out")
+that "projectile: explicit Euler is off by ½ g h t" near "$euler" 0.73575 1e-12
+that "projectile: symplectic Euler is off by as much" near "$symplectic" 0.73575 1e-12
+that "projectile: RK2 and Verlet are exact to round-off" holds '[.rows[] | select(.method == "midpoint" or .method == "verlet").error_max] | length == 2 and all(.[]; . < 1e-12)'
+gives "compare for people" 0 "$motus" compare models/projectile.motus
+that "... says why" eval "grep -qi 'opposite' '$out'"
+gives "spring" 0 "$motus" compare models/spring.motus --json --methods explicit-euler,symplectic-euler
+that "spring: explicit Euler gains energy without bound" holds '.rows[0].invariants.energy | .trending == true and .final > 2 * .initial'
+that "spring: symplectic Euler does not" holds '.rows[1].invariants.energy | .trending == false and .max_drift < 0.1 * .initial'
+that "--methods keeps the order asked for" holds '[.rows[].method] == ["explicit-euler", "symplectic-euler"]'
+gives "--methods with arguments" 0 "$motus" compare $osc --json --methods "verlet,newmark(1/4, 1/2),rk4"
+that "... are three" holds '.rows | length == 3'
+gives "equal work" 0 "$motus" compare models/kepler.motus --evaluations 6000 --methods verlet,rk4 --json --until 3
+that "... is equal work" holds '[.rows[].evaluations] | all(.[]; . > 5400 and . < 6600)'
+that "... by unequal steps" holds '.rows[1].step > 3 * .rows[0].step'
+gives "a reference where there is no exact motion" 0 "$motus" compare $osc --methods verlet,rk4 --json
+that "... has an error of its own" holds '.reference != "exact" and .reference_error > 0 and .reference_error < 1e-9 and .rows[0].error_max > 1e-7'
+gives "compare --quiet" 0 "$motus" compare $osc --methods verlet --quiet
+that "... is quiet" empty "$out"
+refuses "compare with an unknown method" 2 "verlett" "$motus" compare $osc --methods verlett
+gives "compare --plot" 0 "$motus" compare models/projectile.motus --methods explicit-euler,symplectic-euler,verlet --plot "$place/cmp.svg" -q
+that "... draws the methods and the truth" eval "grep -q symplectic-euler '$place/cmp.svg' && grep -qi '15803d\|rgb( 21, 128,  61)' '$place/cmp.svg'"
+
+# --- converge -----------------------------------------------------------------------------------------------------------------------
+for name in pendulum damped-cubic projectile-drag charged-particle; do
+    gives "converge $name: every method keeps its order" 0 "$motus" converge models/$name.motus --json
+    that "... of all that are admitted" holds ".rows | length == $("$motus" check models/$name.motus --json | jq '[.methods[] | select(.admitted and .name != "exact")] | length')"
+    that "... certified" holds 'all(.rows[]; (.observed == null) or .observed > .declared - (if .declared >= 6 then ([0.15, 2 * .standard_error] | max) else 0.15 end))'
+    [ $name = pendulum ] && cp "$out" "$place/pendulum.json"
+done
+that "converge is JSON" json "$place/pendulum.json"
+that "converge: the keys of a row" holds '.rows | all(.[]; has("method") and has("declared") and has("observed") and (.points | length > 2 and all(.[]; has("step") and has("error"))))' "$place/pendulum.json"
+gives "converge for people" 0 "$motus" converge $osc --methods verlet,rk4
+that "... prints certificates" eval "grep -qE 'verlet: observed (1\.9|2\.0)[0-9], declared 2' '$out' && grep -qE 'rk4: observed (3\.9|4\.0|3\.8|4\.1)[0-9], declared 4' '$out'"
+gives "exact here" 0 "$motus" converge models/projectile.motus --methods verlet,rk4
+that "... where there is no slope" says "exact here"
+printf "x'' = -sign(x)\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 6\n" >"$place/kink.motus"
+gives "an order that is not kept" 1 "$motus" converge "$place/kink.motus" --methods rk4
+that "... is shown" says "FAILED"
+that "... and named" says "rk4" "$err"
+gives "... with JSON" 1 "$motus" converge "$place/kink.motus" --methods rk4 --json
+that "... the rows are one JSON object" json "$out"
+that "... that says so" holds '.passed == false and .rows[0].passed == false'
+gives "converge --plot" 0 "$motus" converge $osc --methods verlet,rk4 --plot "$place/orders.svg" -q
+that "... draws both" eval "grep -q rk4 '$place/orders.svg' && grep -q verlet '$place/orders.svg'"
+
+# --- check --------------------------------------------------------------------------------------------------------------------------
+gives "check --json" 0 "$motus" check models/damped-cubic.motus --json
+that "... is JSON" json "$out"
+for key in equations variables velocity_dependent linear_in_velocity time_dependent affine methods; do that "check: key $key" holds "has(\"$key\")"; done
+that "check: damped cubic depends on the velocity, linearly" holds '.velocity_dependent and .linear_in_velocity and (.time_dependent | not) and (.affine | not)'
+that "check: every method, with a reason where it is refused" holds \
+    "(.methods | length == $("$motus" methods --json | jq '.methods | length')) and all(.methods[]; .admitted or (.reason | length > 10))"
+that "check: some are refused, some not" holds '([.methods[].admitted] | any) and ([.methods[].admitted] | all | not)'
+gives "check for people" 0 "$motus" check models/damped-cubic.motus
+that "... says that the velocity is solved in closed form" says "closed form"
+for model in models/*.motus; do
+    name=$(basename "$model" .motus)
+    "$motus" check "$model" --json >"$out" 2>"$err"
+    # What check promises, run does; what it refuses, run refuses.
+    wrong=
+    for method in $(jq -r '.methods[] | select(.name != "verlet-literal") | .name + ":" + (.admitted | tostring)' "$out"); do
+        timeout 60 "$motus" run "$model" --method "${method%:*}" --until "$(awk -v h="$(sed -n 's/^step *\([0-9.e-]*\).*/\1/p' "$model")" 'BEGIN { print 3 * h }')" -q >/dev/null 2>"$err"
+        status=$?
+        case ${method#*:}$status in true0 | true1 | false2) ;; *) wrong+="${method%:*}: admitted ${method#*:}, exit status $status; " ;; esac
+    done
+    that "check and run agree about $name" test -z "$wrong"
+    [ -z "$wrong" ] || echo "    $wrong"
+done
+
+# --- methods ------------------------------------------------------------------------------------------------------------------------
+gives "methods --json" 0 "$motus" methods --json
+that "... is JSON" json "$out"
+that "... rows with their properties" holds '.methods | length >= 30 and all(.[]; has("name") and has("aliases") and has("family") and has("order") and has("stages") and has("evaluations") and has("forces") and has("symplectic") and has("reversible") and has("stability_limit") and (.name == "exact" or (.cite | length > 2)))'
+count=$(jq '.methods | length' "$out")
+for name in explicit-euler midpoint heun ralston rk3 rk4 rk4-38 symplectic-euler velocity-verlet leapfrog ruth3 forest-ruth pefrl mclachlan4 suzuki4 yoshida6 \
+    kahan-li6 yoshida8 kahan-li8 verlet verlet-literal beeman newmark implicit-midpoint gauss4 gauss6 boris exact; do
+    that "there is $name" holds ".methods | any(.name == \"$name\")"
+done
+gives "methods" 0 "$motus" methods
+that "... a line for each" eval "[ \$(sed -n '2,/^\$/p' '$out' | grep -c .) = $count ]"
+gives "methods --markdown" 0 "$motus" methods --markdown
+that "... a row for each" eval "[ \$(grep -c '^| ' '$out') = $((count + 1)) ] && ! grep -qv '^|' '$out'"
+gives "a card" 0 "$motus" methods verlet
+that "... has formula, properties, reference, use" eval "says formula && says properties && says reference && says 'when to use it'"
+gives "a card by alias" 0 "$motus" methods yoshida4
+that "... is the method's" says forest-ruth
+gives "a card as JSON" 0 "$motus" methods verlet --json
+that "... one row" holds '.methods | length == 1 and .[0].name == "verlet"'
+refuses "the card of nothing" 2 "verlett" "$motus" methods verlett
+that "... with a remedy" says "verlet" "$err"
+
+# --- terminals ----------------------------------------------------------------------------------------------------------------------
+if command -v script >/dev/null; then
+    terminal() { script -qec "$*" /dev/null </dev/null >"$out" 2>&1; }
+    terminal "$motus" run "$osc"
+    that "colours on a terminal" grep -q $'\033\[1m' "$out"
+    NO_COLOR=1 terminal "$motus" run "$osc"
+    that "none with NO_COLOR" eval "! grep -q $'\033' '$out'"
+    TERM=dumb terminal "$motus" run "$osc"
+    that "none on a dumb terminal" eval "! grep -q $'\033' '$out'"
+    terminal "$motus" run "$osc" --until 100000
+    that "long work shows its progress" grep -q 'run  *[0-9]* %' "$out"
+    terminal "$motus" run "$osc" --until 100000 --quiet
+    that "... not with --quiet" eval "! grep -q 'run  *[0-9]* %' '$out'"
+    terminal "$motus" run "$osc"
+    that "... nor when it is short" eval "! grep -q 'run  *[0-9]* %' '$out'"
+fi
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]

@@ -1,0 +1,72 @@
+/* What the laws share: numbers of 33 digits, the test problems, runs of any row over them, and the judge who prints and counts.
+ *
+ * Invariant: a law states what it measured and the bound, which follows from the theory or from the digits of the row's coefficients.
+ */
+#ifndef TEST_LAWS_H
+#define TEST_LAWS_H
+
+#include "core/methods.h"
+
+/* A type of 113 bits wherever there is one; the rows and texts are compiled with it. */
+#include <float.h>
+#if LDBL_MANT_DIG == 113
+typedef long double quad;
+#define Q(x) x##L
+#else
+__extension__ typedef __float128 quad;
+#define Q(x) __extension__ x##q
+#endif
+#define QUAD_EPSILON Q(0x1p-112)
+
+/* A method is its place in the catalogue. quad_… use its row in 33 digits; who wants to see inside the row includes core/rows.h and
+ * looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside and outside of laws_quad.c.) */
+typedef size_t method;
+
+enum { DIMENSIONS = 4 };
+
+/* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, so that no library function limits the digits. */
+typedef struct quad_problem {
+    const char *name;
+    size_t nx, nv;
+    bool velocity, linear, time, gyroscopic, gradient;
+    quad x[DIMENSIONS], v[DIMENSIONS];
+    void (*accel)(quad t, const quad *x, const quad *v, quad *a);
+    void (*jvp)(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da);
+} quad_problem;
+
+enum { FREE_FALL, OSCILLATOR, HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET, PROBLEMS };
+extern const quad_problem quad_problems[PROBLEMS];
+/* The traits that the program would read off the problem's equations. */
+traits quad_traits(const quad_problem *);
+bool quad_admits(method, const quad_problem *);
+
+typedef struct quad_state { quad x[DIMENSIONS], v[DIMENSIONS]; } quad_state;
+typedef struct quad_count { int64_t evaluations, iterations; int bad; } quad_count;
+
+/* `steps` steps from *state at t0; the synchronised state comes back in *state. */
+quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps, quad_state *state);
+/* One step of Verlet's recursion from two given points. */
+void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
+/* The motion itself, by an extrapolated midpoint rule that shares nothing with step/. */
+void quad_truth(const quad_problem *, quad t0, quad t1, quad_state *state);
+quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
+/* Coefficients as the texts use them, in units of h: the tableau of runge-kutta and implicit rows; false for others. */
+typedef struct quad_tableau { int stages; quad c[4], a[4][4], b[4]; } quad_tableau;
+bool quad_tableau_of(method, quad_tableau *);
+/* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
+int quad_splitting_of(method, quad *kick, quad *drift);
+/* By how much the sums of kicks and of drifts miss 1: as far as the known digits go. 0 for other rows. */
+quad quad_looseness(method);
+
+quad quad_abs(quad);
+double quad_log2(quad);                        /* of a positive number */
+
+/* The judge: prints "ok" or "FAIL", the subject, the law and what was seen. */
+void judge(bool ok, const char *subject, const char *law, const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+void laws_of_order(void);
+void laws_of_structure(void);
+void laws_of_stability(void);
+void laws_of_verlet(void);
+
+#endif

@@ -1,0 +1,203 @@
+/* The rows and the texts of step/ once more, with real = a number of 113 bits: nothing of the mathematics is written here again.
+ *
+ * Invariant: this file supplies what an includer of step/ must supply (a dense linear solver among it) and no step formula.
+ */
+#include "test/laws.h"
+
+#define K(x) Q(x)
+typedef quad coef;
+#define methods_table quad_methods_table
+#define methods_count quad_methods_count
+#define methods_newmark_damped quad_methods_newmark_damped
+#include "core/methods.c"
+
+#include <string.h>
+
+#define clock quad_clock
+#define real quad
+typedef quad clock;
+typedef int64_t whole;
+#define FMA(a, b, c) ((a) * (b) + (c))
+#define ABS(x) ((x) < 0 ? -(x) : (x))
+#define FINITE(x) ((x) - (x) == 0)
+#define EPSILON QUAD_EPSILON
+#define SQRT_EPSILON Q(0x1p-56)
+#define EACH(k) for (size_t k = 0; k < w->nx; k++)
+#define EACHV(k) for (size_t k = 0; k < w->nv; k++)
+#define TRACE(w, i) ((void)(w), (void)(i))
+#include "step/work.h"
+
+enum { UNKNOWNS = 4 * DIMENSIONS };
+typedef struct dense {
+    const quad_problem *problem;
+    int n, stages;
+    quad matrix[UNKNOWNS][UNKNOWNS], jv[DIMENSIONS][DIMENSIONS];
+} dense;
+
+static int accel(work *w, quad t, quad *x, quad *v, quad *a)
+{
+    w->evaluations++;
+    ((dense *)w->user)->problem->accel(t, x, v, a);
+    return STEP_OK;
+}
+
+static int solve_factor(work *w, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
+{
+    dense *d = w->user;
+    const int nv = (int)w->nv;
+    d->n = s * nv;
+    d->stages = s;
+    memset(d->matrix, 0, sizeof d->matrix);
+    for (int k = 0; k < d->n; k++) d->matrix[k][k] = 1;
+    for (int c = 0; c < nv; c++) {
+        quad zero[DIMENSIONS] = {0}, unit[DIMENSIONS] = {0}, jx[DIMENSIONS] = {0}, jv[DIMENSIONS] = {0};
+        unit[c] = 1;
+        if (c < (int)w->nx) d->problem->jvp(t, x, v, unit, zero, jx);
+        d->problem->jvp(t, x, v, zero, unit, jv);
+        for (int r = 0; r < nv; r++) {
+            d->jv[r][c] = jv[r];
+            for (int i = 0; i < s; i++)
+                for (int j = 0; j < s; j++) d->matrix[i * nv + r][j * nv + c] -= ax[i * s + j] * jx[r] + av[i * s + j] * jv[r];
+        }
+    }
+    return STEP_OK;
+}
+
+/* Gauss-Jordan with row pivoting on a copy; systems are tiny. */
+static void solve_back(work *w, quad *r)
+{
+    const dense *d = w->user;
+    quad m[UNKNOWNS][UNKNOWNS + 1];
+    const int nv = (int)w->nv, n = d->n;
+    for (int i = 0; i < n; i++) {
+        memcpy(m[i], d->matrix[i], sizeof d->matrix[i]);
+        m[i][n] = r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)];
+    }
+    for (int j = 0; j < n; j++) {
+        int p = j;
+        for (int i = j; i < n; i++)
+            if (ABS(m[i][j]) > ABS(m[p][j])) p = i;
+        for (int c = 0; c <= n; c++) {
+            quad keep = m[j][c];
+            m[j][c] = m[p][c];
+            m[p][c] = keep;
+        }
+        for (int i = 0; i < n; i++) {
+            if (i == j) continue;
+            const quad f = m[i][j] / m[j][j];
+            for (int c = j; c <= n; c++) m[i][c] -= f * m[j][c];
+        }
+    }
+    for (int i = 0; i < n; i++) r[(size_t)(i / nv) * w->stride + (size_t)(i % nv)] = m[i][n] / m[i][i];
+}
+
+static void solve_apply(work *w, quad c, const quad *y, quad *out)
+{
+    const dense *d = w->user;
+    EACHV(k) {
+        out[k] = y[k];
+        for (size_t j = 0; j < w->nv; j++) out[k] += c * d->jv[k][j] * y[j];
+    }
+}
+
+static int exact_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; return STEP_CALLBACK; }
+static void refresh_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; }
+
+#include "step/newton.h"
+#include "step/splitting.h"
+#include "step/runge_kutta.h"
+#include "step/two_step.h"
+#include "step/implicit.h"
+#include "step/advance.h"
+
+traits quad_traits(const quad_problem *p)
+{
+    return (traits){.velocity = p->velocity, .linear_v = p->linear, .time = p->time, .gyroscopic = p->gyroscopic,
+                    .gradient = p->gradient, .smooth = true, .companions = p->nv > p->nx, .constant = p->nx == 0};
+}
+
+/* As the catalogue decides it for the row of the same name. */
+bool quad_admits(method k, const quad_problem *p)
+{
+    chosen c;
+    const traits t = quad_traits(p);
+    return methods_table[k].family != EXACT && !row_choose(methods_table[k].card.name, &c, NULL, NULL) && !row_admits(&c, &t, NULL);
+}
+
+enum { ARRAYS_MAX = 20 };
+static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0, quad h)
+{
+    static const double trapezoid[2] = {0.25, 0.5};
+    *w = (work){.row = m, .nx = p->nx, .nv = p->nv, .stride = DIMENSIONS, .t0 = t0, .h = h, .user = d,
+                .velocity = p->velocity, .linear = p->linear};
+    d->problem = p;
+    work_plan(w, argument ? argument : trapezoid);
+    memset(memory, 0, ARRAYS_MAX * DIMENSIONS * sizeof *memory);
+    work_place(w, memory);
+}
+
+quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps, quad_state *state)
+{
+    work w;
+    dense d;
+    quad memory[ARRAYS_MAX * DIMENSIONS];
+    begin(&w, &d, memory, &methods_table[k], argument, p, t0, h);
+    memcpy(w.x, state->x, p->nx * sizeof *w.x);
+    memcpy(w.v, state->v, p->nv * sizeof *w.v);
+    quad_count count = {.bad = advance_run(&w, steps)};
+    count.evaluations = w.evaluations;
+    count.iterations = w.iterations;
+    if (!count.bad) count.bad = advance_sync(&w, state->x, state->v, NULL);
+    return count;
+}
+
+void quad_recursion(const quad_problem *p, quad t, quad h, const quad *before, const quad *now, quad *after)
+{
+    work w;
+    dense d;
+    quad memory[ARRAYS_MAX * DIMENSIONS];
+    begin(&w, &d, memory, &methods_table[0], NULL, p, t - h, h);
+    w.n = 1;
+    for (size_t k = 0; k < p->nx; k++) {
+        w.x[k] = now[k];
+        w.v[k] = now[k] - before[k];
+    }
+    advance_run(&w, 1);
+    memcpy(after, w.x, p->nx * sizeof *after);
+}
+
+bool quad_tableau_of(method k, quad_tableau *out)
+{
+    const row *m = &methods_table[k];
+    if (m->family != RUNGE_KUTTA && (m->family != IMPLICIT || m->newmark)) return false;
+    out->stages = m->tableau.stages;
+    memcpy(out->c, m->tableau.c, sizeof out->c);
+    memcpy(out->a, m->tableau.a, sizeof out->a);
+    memcpy(out->b, m->tableau.b, sizeof out->b);
+    return true;
+}
+
+int quad_splitting_of(method k, quad *kick, quad *drift)
+{
+    const row *m = &methods_table[k];
+    if (m->family != SPLITTING) return 0;
+    work w = {.row = m, .h = 1, .hh = 1};
+    work_plan(&w, NULL);
+    for (int i = 0; i < w.stages; i++) {
+        kick[i] = w.kick[i];
+        drift[i] = w.drift[i];
+    }
+    return w.stages;
+}
+
+quad quad_looseness(method k)
+{
+    quad kick[KICKS_MAX], drift[KICKS_MAX], kicks = -1, drifts = -1;
+    const int n = quad_splitting_of(k, kick, drift);
+    if (!n) return 0;
+    for (int i = 0; i < n; i++) {
+        kicks += kick[i];
+        drifts += drift[i];
+    }
+    return quad_abs(kicks) > quad_abs(drifts) ? quad_abs(kicks) : quad_abs(drifts);
+}

@@ -1,0 +1,88 @@
+#!/bin/bash
+# The documents tell the truth: the table of methods is the rows', every option is documented everywhere, links lead somewhere, the
+# models and the C program that they show work as they are printed.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+export LC_ALL=C.UTF-8
+build=${BUILD:-build}
+motus=${MOTUS:-$PWD/build/motus}
+passed=0 failed=0
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+judge() {
+    if [ -z "$2" ]; then passed=$((passed + 1)); echo "ok - $1"
+    else failed=$((failed + 1)); echo "not ok - $1"; sed 's/^/    /' <<<"$2"; fi
+}
+# Code block number $2 among those of file $1 that open with ```$3
+block() {
+    awk -v want="$2" -v open="\`\`\`$3" '
+        /^```/ && inside { inside = 0; next }
+        /^```/ { inside = 1; mine = $0 == open; n += mine; next }
+        inside && mine && n == want' "$1"
+}
+
+# --- the table of methods ---------------------------------------------------------------------------------------------------------
+sed -n '/<!-- methods -->/,/<!-- \/methods -->/p' doc/manual.md | sed '1d;$d' >"$place/printed"
+"$motus" methods --markdown >"$place/rows" 2>&1
+judge "doc/manual.md has the table of methods (make manual writes it)" "$(diff "$place/printed" "$place/rows" | head -n 20)"
+judge "every method's citation is in doc/references.bib" "$(
+    "$motus" methods --json | jq -r '.. | .cite? // .citation? // empty' | grep -oE '[A-Z][A-Za-z]*[0-9]{2}[a-z]?' | sort -u |
+        while read -r key; do grep -q "{$key," doc/references.bib || echo "$key"; done)"
+
+# --- options ------------------------------------------------------------------------------------------------------------------------
+for verb in run compare converge check methods; do "$motus" "$verb" --help; done >"$place/help" 2>&1
+options=$(grep -oE '^ +(-[a-z], )?--[a-z-]+' "$place/help" | grep -oE -- '--[a-z-]+' | sort -u)
+judge "--help lists options" "$([ "$(wc -l <<<"$options")" -ge 10 ] || echo "only: $options")"
+judge "every option is in the manual" "$(for o in $options; do grep -qE "^\|.*\`([^\`]*, \`)?$o[ \`]|, \`$o[ \`]" doc/manual.md || echo "$o"; done)"
+judge "every option is in the manual page" "$(sed 's/\\-/-/g' doc/motus.1 >"$place/page"; for o in $options; do grep -qE -- "$o( |\"|$)" "$place/page" || echo "$o"; done)"
+judge "every option is in the completions" "$(for o in $options; do
+    for f in motus.bash _motus; do grep -qE -- "$o([^a-z-]|$)" doc/completions/$f || echo "$f: $o"; done
+    grep -qE -- "-l ${o#--}( |$)" doc/completions/motus.fish || echo "motus.fish: $o"; done)"
+judge "the manual has no option that the program has not" "$(grep -oE '^\| `[^|]*\|' doc/manual.md | grep -oE -- '--[a-z-]+' | sort -u |
+    while read -r o; do grep -qx -- "$o" <<<"$options" || echo "$o"; done)"
+judge "the manual page has no option that the program has not" "$(sed -n '/^.SH OPTIONS/,/^.SH EXIT/p' "$place/page" | grep -oE -- '^\.B.* --[a-z-]+|"--[a-z-]+' |
+    grep -oE -- '--[a-z-]+' | sort -u | while read -r o; do grep -qx -- "$o" <<<"$options" || [ "$o" = --version ] || echo "$o"; done)"
+judge "the manual page has the version" "$(grep -q "motus $(sed -n 's/^#define MOTUS_VERSION "\(.*\)"/\1/p' include/motus.h)" doc/motus.1 || echo 'another version')"
+judge "bash completes verbs and options" "$(bash -c '
+    source doc/completions/motus.bash
+    COMP_WORDS=(motus conv) COMP_CWORD=1; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = converge ] || echo "conv: ${COMPREPLY[*]}"
+    COMP_WORDS=(motus run --sa) COMP_CWORD=2; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = --save-state ] || echo "--sa: ${COMPREPLY[*]}"')"
+judge "bash completes methods" "$(PATH="$(dirname "$motus"):$PATH" bash -c '
+    source doc/completions/motus.bash
+    COMP_WORDS=(motus methods pef) COMP_CWORD=2; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = pefrl ] || echo "pef: ${COMPREPLY[*]}"')"
+
+# --- functions, JSON keys -------------------------------------------------------------------------------------------------------------
+judge "every function of the language is in the manual" "$(grep -oE '\{"[a-z0-9]+", (OP|CALL)_' lang/words.c | grep -oE '"[a-z0-9]+"' | tr -d '"' |
+    while read -r f; do sed -n '/^\*\*Functions\*\*/,/^$/p;/^\*\*Choice\*\*/,/^$/p' doc/manual.md |
+        grep -qE "(^|[ \`])$f([ (\`]|$)" || echo "$f"; done)"
+judge "run --json has the documented keys" "$("$motus" run models/spring.motus --json >"$place/run.json" 2>&1
+    grep -E '^\| run \| `model' doc/manual.md | grep -oE '[a-z]+' | grep -vx run |
+        while read -r key; do jq -e "has(\"$key\")" "$place/run.json" >/dev/null 2>&1 || echo "$key"; done)"
+judge "check --json has the documented keys" "$("$motus" check models/spring.motus --json >"$place/check.json" 2>&1
+    for key in equations variables velocity_dependent linear_in_velocity time_dependent affine methods; do
+        jq -e "has(\"$key\")" "$place/check.json" >/dev/null 2>&1 || echo "$key"; done)"
+
+# --- links ------------------------------------------------------------------------------------------------------------------------------
+judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md; do
+    grep -oE '\]\([^)#]+\)' "$file" | sed 's/^](//; s/)$//' | while read -r link; do
+        [[ $link == http* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
+judge "anchors of the manual exist" "$(grep -oE '\]\(#[^)]+\)' doc/manual.md | sed 's/^](#//; s/)$//' | while read -r anchor; do
+    grep -E '^#+ ' doc/manual.md | sed -E 's/^#+ //' | tr 'A-Z ' 'a-z-' | tr -d '.,' | grep -qx -- "$anchor" || echo "$anchor"; done)"
+
+# --- what is printed, works ------------------------------------------------------------------------------------------------------------
+block doc/manual.md 1 "" >"$place/spring.motus"
+judge "the manual's first model runs" "$("$motus" run "$place/spring.motus" 2>&1 >"$place/log" || echo failed)"
+block README.md 1 "" >"$place/readme.motus"
+judge "the README's model is models/driven-oscillator.motus" "$(diff <("$motus" run "$place/readme.motus" --json | jq -c .state) \
+    <("$motus" run models/driven-oscillator.motus --json | jq -c .state) 2>&1)"
+block README.md 1 c >"$place/readme.c"
+judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -lm -o "$place/readme" 2>&1)"
+judge "the README's C program gives x(100)" "$(out=$("$place/readme" 2>&1); grep -q '^x(100) = 0\.04778239807187' <<<"$out" || echo "$out")"
+# The error that the manual prints is the error that the program prints.
+printf "k = 2\nm = 1\nx'' = -1/2 x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
+(cd "$place" && mv wrong.motus spring.motus && NO_COLOR=1 "$motus" check spring.motus 2>&1) | sed 's/[ ]*$//' | grep -v '^$' >"$place/said"
+sed -n '/^spring\.motus:3:/,/^```/p' doc/manual.md | sed '$d' >"$place/told"
+judge "the error that the manual shows is the program's" "$(diff "$place/told" "$place/said")"
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
