@@ -106,6 +106,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->mid_x = r->before_a + nv;
     r->mid_v = r->mid_x + nx;
     r->progress = def.progress;
+    r->piece = 1;
     r->context = def.context;
     modes m = modes_enter();
     motus_settings set;
@@ -152,7 +153,7 @@ double run_time(const motus_run *r)
     int64_t n = done(r);
     if (r->tail || n == r->total)
         return r->until;
-    return fma((double)n, r->h, r->t0);
+    return r->t0 + (double)n * r->h;         /* as the engine counts it */
 }
 
 int motus_run_done(const motus_run *r) { return r && (r->tail || done(r) == r->total); }
@@ -212,30 +213,28 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* n whole steps, in pieces of about ten milliseconds where somebody watches. */
+/* n whole steps; where somebody watches, in pieces of about ten milliseconds, however the caller cuts the way into calls. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     const machine *m = r->system->machine;
-    int64_t piece = r->progress ? 1 : n;
-    double told = r->progress ? now() : 0;
     r->synchronised = false;
     while (n > 0) {
-        if (piece > n)
-            piece = n;
+        int64_t piece = !r->progress || n < r->piece ? n : r->piece;
+        double began = r->progress ? now() : 0;
         motus_status status = m->advance(r->engine, piece, err);
         if (status != MOTUS_OK)
             return status;
         n -= piece;
         if (!r->progress)
             continue;
-        double t = now(), took = t - told;
-        if (took < 0.005 && piece < INT64_MAX / 4)
-            piece *= 2;
-        else if (took > 0.02 && piece > 1)
-            piece /= 2;
-        told = t;
-        if (took < 0.005 && n > 0)
+        double t = now(), took = t - began;
+        if (took < 0.005 && piece == r->piece && piece < INT64_MAX / 4)
+            r->piece *= 2;
+        else if (took > 0.02 && r->piece > 1)
+            r->piece /= 2;
+        if (t - r->told < 0.01)
             continue;
+        r->told = t;
         if (r->progress(r->context, r->total ? (double)done(r) / (double)r->total : 1))
             return fail(err, MOTUS_CANCELLED, "cancelled at t = %g", run_time(r));
     }
@@ -344,6 +343,8 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
     /* To the last step before t, then one more. */
     double q = floor((t - r->t0) / r->h);
     int64_t n = q >= (double)r->whole ? r->whole : (int64_t)q;
+    if (way * (r->t0 + (double)n * r->h - t) > 0)
+        n--;                         /* the quotient was rounded up */
     if (n > done(r)) {
         r->before = false;
         motus_status status = step(r, n - done(r), err);

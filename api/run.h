@@ -25,6 +25,8 @@ struct motus_run {
     double *mid_x, *mid_v;
     int (*progress)(void *context, double fraction);
     void *context;
+    int64_t piece;                   /* steps between two looks at the clock, and when the hook was last called */
+    double told;
     char *saved; size_t saved_room;
 };
 

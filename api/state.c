@@ -9,6 +9,7 @@
  *     carry 2
  *     -0x1.a35…
  *     …
+ *     end 51b0…               hash of all the bytes before: a state with a changed byte is no state
  */
 #include "api/run.h"
 
@@ -20,6 +21,7 @@
 
 enum { NUMBER_ROOM = 32, HEAD_ROOM = 512 };
 
+#define MIX_START UINT64_C(0xCBF29CE484222325)
 static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a */
 {
     const unsigned char *p = bytes;
@@ -28,20 +30,41 @@ static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a *
     return h;
 }
 
+static uint64_t mix_number(uint64_t h, int64_t n) { return mix(h, &n, sizeof n); }
+
+static uint64_t mix_subscript(uint64_t h, const subscript *s)
+{
+    return mix_number(mix_number(mix_number(mix_number(h, s->level), s->slot), s->modulus), s->literal);
+}
+
+static uint64_t mix_range(uint64_t h, const range *r) { return mix_subscript(mix_subscript(h, &r->first), &r->last); }
+
+/* Where a number lies: a reference, and the array it refers to. */
+static uint64_t mix_reference(uint64_t h, const model *m, const reference *r)
+{
+    const array *a = &m->arrays[r->array];
+    h = mix_number(mix_number(h, a->space), (int64_t)a->base);
+    for (int d = 0; d < r->dims; d++) {
+        h = mix_number(mix_number(mix_number(h, a->first[d]), a->last[d]), a->stride[d]);
+        h = mix_subscript(h, &r->at[d]);
+    }
+    return h;
+}
+
 static uint64_t mix_outputs(uint64_t h, const model *m, const output *o, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        h = mix(h, &o[i].value, sizeof o[i].value);
-        h = mix(h, &o[i].to.array, sizeof o[i].to.array);
+        h = mix_reference(mix_number(h, o[i].value), m, &o[i].to);
+        for (int k = 0; k < o[i].loops; k++)
+            h = mix_range(h, &o[i].loop[k]);
     }
-    (void)m;
     return h;
 }
 
 /* The same text and settings give the same graph, so node numbers serve as the equations' names. */
 static uint64_t fingerprint(const motus_system *s)
 {
-    uint64_t h = 0xCBF29CE484222325u;
+    uint64_t h = MIX_START;
     h = mix(h, &s->problem.nx, sizeof s->problem.nx);
     h = mix(h, &s->problem.nv, sizeof s->problem.nv);
     const model *m = s->model;
@@ -54,6 +77,10 @@ static uint64_t fingerprint(const motus_system *s)
         const graph_node *g = graph_at(m->graph, n);
         uint32_t parts[4] = {g->op, g->a, g->b, g->c};
         h = mix(mix(h, parts, sizeof parts), &g->value, sizeof g->value);
+        if (g->op == OP_LOAD)
+            h = mix_reference(h, m, &m->graph->references[g->a]);
+        if (g->op == OP_SUM)
+            h = mix_range(h, &m->graph->ranges[g->c]);
     }
     h = mix_outputs(h, m, m->accel, m->accel_count);
     h = mix_outputs(h, m, m->boundary, m->boundary_count);
@@ -137,7 +164,7 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
         at += (size_t)write_hex(r->saved + at, room - at, carry[k]);
         r->saved[at++] = '\n';
     }
-    r->saved[at] = 0;
+    at += (size_t)snprintf(r->saved + at, room - at, "end %016" PRIx64 "\n", mix(MIX_START, r->saved, at));
     give(&r->allocator, carry);
     *text = r->saved;
     *length = at;
@@ -181,6 +208,18 @@ static bool integer(reader *r, int64_t *v)
     return true;
 }
 
+/* True if the text ends in the hash of what comes before, which is then taken off. */
+static bool whole(reader *r)
+{
+    enum { CLOSING = 4 + 16 + 1 };
+    char closing[CLOSING + 1];
+    if (r->end - r->at < CLOSING)
+        return false;
+    r->end -= CLOSING;
+    snprintf(closing, sizeof closing, "end %016" PRIx64 "\n", mix(MIX_START, r->at, (size_t)(r->end - r->at)));
+    return !memcmp(r->end, closing, CLOSING);
+}
+
 static motus_status unreadable(motus_error *err)
 {
     fail(err, MOTUS_STATE, "this is not a restart state, or it is damaged");
@@ -188,15 +227,13 @@ static motus_status unreadable(motus_error *err)
     return MOTUS_STATE;
 }
 
-motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)
+static motus_status restore(motus_run *r, const char *text, size_t length, motus_error *err)
 {
-    if (!r || !text)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
     reader in = {text, text + length};
     char system[40], method[MOTUS_NAME_MAX + 8], expected[40];
     double start, h;
     int64_t steps, evaluations, iterations, n;
-    if (!word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) || !word(&in, "method ") || !line(&in, method, sizeof method) ||
+    if (!whole(&in) || !word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) || !word(&in, "method ") || !line(&in, method, sizeof method) ||
         !word(&in, "start ") || !read_hex(&in.at, in.end, &start) || !word(&in, "\nstep ") || !read_hex(&in.at, in.end, &h) || !word(&in, "\nat ") ||
         !integer(&in, &steps) || !word(&in, " ") || !integer(&in, &evaluations) || !word(&in, " ") || !integer(&in, &iterations) ||
         !word(&in, "\ncarry ") || !integer(&in, &n) || !word(&in, "\n"))
@@ -212,7 +249,7 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     if (start != r->t0 || h != r->h)
         return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
     if (steps > r->whole)
-        return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", fma((double)steps, h, start), r->until);
+        return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", start + (double)steps * h, r->until);
     if ((size_t)n != r->system->machine->carry(r->engine))
         return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
@@ -221,16 +258,28 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     bool ok = true;
     for (int64_t k = 0; k < n && ok; k++)
         ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
-    motus_status status = ok ? MOTUS_OK : unreadable(err);
-    modes m = modes_enter();
-    if (ok)
+    motus_status status = MOTUS_OK;
+    if (!ok || in.at != in.end)
+        status = unreadable(err);
+    else
         status = r->system->machine->load(r->engine, steps, evaluations, iterations, carry, err);
-    modes_leave(m);
     give(&r->allocator, carry);
+    if (status != MOTUS_OK)
+        return status;               /* and the run is where it was */
     if (r->tail)
         r->system->machine->close(r->tail);
     r->tail = NULL;
     r->tail_evaluations = r->tail_iterations = 0;
     r->synchronised = r->before = false;
+    return MOTUS_OK;
+}
+
+motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)
+{
+    if (!r || !text)
+        return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
+    modes m = modes_enter();         /* before the first number is read: a subnormal must not be flushed */
+    motus_status status = restore(r, text, length, err);
+    modes_leave(m);
     return status;
 }

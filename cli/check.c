@@ -12,6 +12,16 @@
 
 #include <string.h>
 
+/* The reason alone: which method and that it is refused stands beside it. */
+static const char *reason(const char *message, const char *method)
+{
+    static const char words[] = " does not admit this model: ";
+    size_t length = strlen(method);
+    if (strncmp(message, method, length) == 0 && strncmp(message + length, words, sizeof words - 1) == 0)
+        return message + length + sizeof words - 1;
+    return message;
+}
+
 static void flag(json *j, const char *key, int value)
 {
     json_key(j, key);
@@ -84,7 +94,7 @@ static void print_json(const options *o, const load *m)
         json_key(&j, "admitted");
         json_bool(&j, status == MOTUS_OK);
         json_key(&j, "reason");
-        json_string(&j, status ? why.message : "");
+        json_string(&j, status ? reason(why.message, name) : "");
         json_close(&j, '}');
     }
     json_close(&j, ']');
@@ -130,7 +140,7 @@ static motus_status print_text(const load *m, motus_error *err)
         table_cell(t, method->name);
         table_cell(t, status ? "no" : "yes");
         table_integer(t, method->order);
-        table_cell(t, status ? why.message : "");
+        table_cell(t, status ? reason(why.message, method->name) : "");
     }
     bool good = table_print(t, stdout, 2, colours);
     table_destroy(t);

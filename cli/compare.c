@@ -177,7 +177,8 @@ static motus_status print_tables(const load *m, const motus_comparison *c, motus
     for (size_t k = 0; k < c->row_count; k++)
         if (c->rows[k].note && c->rows[k].note[0]) {
             char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX];
-            snprintf(line, sizeof line, "%s: %s", c->rows[k].method, c->rows[k].note);
+            bool named = strncmp(c->rows[k].note, c->rows[k].method, strlen(c->rows[k].method)) == 0;
+            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k].method, named ? "" : ": ", c->rows[k].note);
             fputs(space ? "" : "\n", stdout);
             text_wrap(stdout, line, 2, 100);
             space = true;

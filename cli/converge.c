@@ -71,28 +71,30 @@ static void print_json(const options *o, const motus_convergence *c)
     json_end(&j);
 }
 
-/* Steps and errors in two lines; what the fit left out stands in brackets. */
+/* Steps and errors in pairs of lines; what the fit left out stands in brackets. */
 static bool print_points(const motus_converge_row *r, bool colours)
 {
-    enum { MOST = 30 };
-    char align[MOST + 2] = "l";
-    size_t count = r->point_count < MOST ? r->point_count : MOST;
-    if (count == 0)
-        return true;
-    memset(align + 1, 'r', count);
-    table *t = table_create(align);
-    table_cell(t, "step");
-    for (size_t i = 0; i < count; i++)
-        table_number(t, r->points[i].step, 4);
-    table_cell(t, "error");
-    for (size_t i = 0; i < count; i++) {
-        char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
-        text_brief(r->points[i].error, -2, number);
-        snprintf(cell, sizeof cell, r->points[i].used || r->exact_here ? "%s" : "(%s)", number);
-        table_cell(t, cell);
+    enum { A_LINE = 10 };
+    bool good = true;
+    for (size_t first = 0; good && first < r->point_count; first += A_LINE) {
+        char align[A_LINE + 2] = "l";
+        size_t count = r->point_count - first < A_LINE ? r->point_count - first : A_LINE;
+        memset(align + 1, 'r', count);
+        table *t = table_create(align);
+        table_cell(t, "step");
+        for (size_t i = 0; i < count; i++)
+            table_number(t, r->points[first + i].step, 4);
+        table_cell(t, "error");
+        for (size_t i = 0; i < count; i++) {
+            const motus_point *p = &r->points[first + i];
+            char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
+            text_brief(p->error, -2, number);
+            snprintf(cell, sizeof cell, p->used || r->exact_here ? "%s" : "(%s)", number);
+            table_cell(t, cell);
+        }
+        good = table_print(t, stdout, 4, colours);
+        table_destroy(t);
     }
-    bool good = table_print(t, stdout, 4, colours);
-    table_destroy(t);
     return good;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/complain.h"
 #include "cli/file.h"
+#include "cli/stop.h"
 #include "cli/text.h"
 
 #include <math.h>
@@ -81,6 +82,7 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     status = motus_system_from_text(&def, &m->system, err);
     if (status)
         return status;
+    stop_watch();                    /* up to here there is nothing to clean up: signals end the program at once */
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
     for (size_t k = 0; k < motus_quantity_count(m->system); k++) {

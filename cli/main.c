@@ -114,7 +114,6 @@ static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *e
         help_verb(stdout, v->bit);
         status = file_flush_output(err);
     } else if (!status) {
-        stop_watch();
         status = v->go(&o, err);
     }
     options_free(&o);

@@ -84,8 +84,9 @@ static bool drawable(double v)
     return isfinite(v) && fabs(v) < 1e290;
 }
 
-static void put_point(FILE *out, const plot_curve *c, size_t i)
+static void put_point(FILE *out, plot_curve *c, size_t i)
 {
+    c->drawn++;
     double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->drift ? c->y[0] : 0), z = c->z ? c->z[i * c->stride] : 0;
     if (!drawable(x) || !drawable(y) || !drawable(z))
         putc('\n', out);
@@ -96,7 +97,7 @@ static void put_point(FILE *out, const plot_curve *c, size_t i)
 }
 
 /* Of every column of the picture the smallest and the largest value, in the order they came. */
-static void put_timelike(FILE *out, const plot_curve *c)
+static void put_timelike(FILE *out, plot_curve *c)
 {
     for (size_t bucket = 0; bucket < COLUMNS; bucket++) {
         size_t begin = (size_t)((double)c->count * (double)bucket / COLUMNS);
@@ -132,7 +133,7 @@ static double extent(const double *v, size_t count, size_t stride)
 }
 
 /* Of a path every point that is a visible distance from the one before it. */
-static void put_path(FILE *out, const plot_curve *c)
+static void put_path(FILE *out, plot_curve *c)
 {
     const double *axes[] = {c->x, c->y, c->z};
     double scale[3] = {0};
@@ -160,7 +161,7 @@ static void put_path(FILE *out, const plot_curve *c)
     }
 }
 
-static void put_curve(FILE *out, const plot_curve *c)
+static void put_curve(FILE *out, plot_curve *c)
 {
     if (c->count > 2 * COLUMNS && c->timelike)
         put_timelike(out, c);
@@ -183,7 +184,7 @@ static void put_heat(FILE *out, const plot_panel *p)
         }
 }
 
-static void put_data(FILE *out, const plot_figure *f)
+static void put_data(FILE *out, plot_figure *f)
 {
     for (size_t i = 0; i < f->count; i++) {
         const plot_panel *p = &f->panels[i];
@@ -224,7 +225,9 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
     /* with more curves than styles the markers go round at another pace than the dashes, so that no pair comes again soon */
     int marker = styles[(index + index / STYLES) % STYLES].marker;
     bool marked = lines > 1 || p->logarithmic || c->count == 1;
-    fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked ? "linespoints" : "lines", s->dashes, s->colour);
+    fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked && !c->z ? "linespoints" : "lines", s->dashes, s->colour);
+    if (c->z)                     /* in space gnuplot marks every point or none: the markers come as a curve of their own */
+        return;
     if (marked && p->logarithmic)
         fprintf(out, " pt %d ps 0.7", marker);
     else if (marked)
@@ -251,6 +254,9 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
             put_curve_style(out, p, c, own, lines);
             fputs(" title ", out);
             quoted(out, c->label);
+            if (c->z && c->role == PLOT_LINE && lines > 1)
+                fprintf(out, ", $d%zu_%zu using 1:2:3 every %zu with points pt %d ps 0.9 lc rgb '%s' notitle", panel, k, c->drawn / 5 + 1,
+                        styles[own % STYLES].marker, styles[own % STYLES].colour);
             first = false;
         }
     }
@@ -283,8 +289,12 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     fputs("\nset autoscale\n", out);
     fputs(solid ? "set border 31 lc rgb '#64748b'\n" : "set border 3 lc rgb '#64748b'\n", out);
     /* outside, where it hides nothing; one curve alone is named by its axis */
-    fprintf(out, p->curve_count < 2 ? "unset key\n" : "set key outside %s nobox samplen 4 spacing 1.1\n",
-            p->curve_count > 6 ? "right top vertical" : "bottom center horizontal");
+    bool beside = p->curve_count > 6;
+    if (p->curve_count < 2)
+        fputs("unset key\n", out);
+    else
+        fprintf(out, "set key outside %s nobox samplen 4 spacing 1.1 width 2\n", beside ? "right top vertical" : "bottom center horizontal");
+    fputs(beside ? "unset rmargin\n" : "set rmargin 4\n", out);
     if (p->logarithmic)
         fputs("set logscale xy\nset format xy '%.0e'\n", out);
     if (solid) {
@@ -306,12 +316,20 @@ typedef struct layout { size_t rows, columns; int width, height; } layout;
 static layout arrange(const plot_figure *f)
 {
     bool square = false;
-    for (size_t i = 0; i < f->count; i++)
-        square = square || f->panels[i].spatial || f->panels[i].heat || f->panels[i].logarithmic;
+    size_t crowd = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        const plot_panel *p = &f->panels[i];
+        square = square || p->spatial || p->heat || p->logarithmic;
+        crowd = p->curve_count > crowd ? p->curve_count : crowd;
+    }
     size_t columns = square ? (f->count > 1 ? 2 : 1) : f->count > 4 ? 2 : 1;
     size_t rows = (f->count + columns - 1) / columns;
     int width = columns == 1 ? (square ? 820 : 960) : square ? 660 : 760;
     int height = f->count == 1 ? (square ? 680 : 480) : square ? 500 : 280;
+    if (crowd > 12) {             /* as tall as the names are many, and room beside them */
+        width += 320;
+        height = height < (int)crowd * 20 + 120 ? (int)crowd * 20 + 120 : height;
+    }
     return (layout){rows, columns, width * (int)columns, height * (int)rows + 40};
 }
 
@@ -352,7 +370,7 @@ static void put_terminal(FILE *out, const char *path, layout l)
     }
 }
 
-static void put_script(FILE *out, const plot_figure *f, const char *path)
+static void put_script(FILE *out, plot_figure *f, const char *path)
 {
     layout l = arrange(f);
     put_terminal(out, path, l);
@@ -366,7 +384,7 @@ static void put_script(FILE *out, const plot_figure *f, const char *path)
     fputs("unset multiplot\n", out);
 }
 
-motus_status plot_draw(const plot_figure *f, const char *path, file_out *file, motus_error *err)
+motus_status plot_draw(plot_figure *f, const char *path, file_out *file, motus_error *err)
 {
     gnuplot g = {0};
     motus_status status = gnuplot_open(&g, err);

@@ -21,6 +21,7 @@ typedef struct plot_curve {
     size_t count, stride;
     bool drift;                   /* y less its first value is what is drawn */
     bool timelike;                /* x grows along the curve, so thinning can go by columns of the picture */
+    size_t drawn;                 /* points left after thinning; set by plot_draw() */
 } plot_curve;
 
 typedef struct plot_panel {
@@ -49,6 +50,6 @@ void plot_free(plot_figure *);
 /* Whether the name ends in a known format and gnuplot is there: to be asked before long work. */
 motus_status plot_check(const char *path, motus_error *);
 /* Draws into the file (finished by the caller), in the format that `path` ends in. */
-motus_status plot_draw(const plot_figure *, const char *path, file_out *, motus_error *);
+motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error *);
 
 #endif

@@ -65,11 +65,9 @@ static motus_status restart(job *j, motus_error *err)
     return status;
 }
 
-/* After the last step of full size: a state saved there goes on along the same grid of steps. */
-static motus_status save(void *context, const double *values, motus_error *err)
+/* The library keeps the motion apart from a last, shortened step: the state goes on along the same grid of steps. */
+static motus_status save(job *j, motus_error *err)
 {
-    (void)values;
-    job *j = context;
     const char *text;
     size_t length;
     motus_status status = motus_run_save(j->run, &text, &length, err);
@@ -128,7 +126,7 @@ static walk_watcher rows_watcher(job *j)
 
 static motus_status go(job *j, motus_error *err)
 {
-    walk_watcher watchers[4 + FIGURE_WATCHERS];
+    walk_watcher watchers[3 + FIGURE_WATCHERS];
     size_t count = 0;
     int64_t steps = motus_run_steps_total(j->run);
     if (j->drift.count > 0)
@@ -145,16 +143,14 @@ static motus_status go(job *j, motus_error *err)
         figure_watchers(&j->figure, watchers + count);
         count += FIGURE_WATCHERS;
     }
-    if (j->options->save_state)
-        watchers[count++] = (walk_watcher){.whole = 1, .take = save, .context = j};
     return walk(j->run, j->start, j->until, watchers, count, err);
 }
 
 static motus_status finish(job *j, double seconds, motus_error *err)
 {
     const options *o = j->options;
-    motus_status status = MOTUS_OK;
-    if (o->plot)
+    motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
+    if (!status && o->plot)
         status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     for (int i = 0; !status && i < FILES; i++)
         status = file_finish(&j->files[i], err);

@@ -16,7 +16,7 @@ enum { CHUNK = 64 };
 typedef struct walker {
     motus_run *run;
     double start, until, step;           /* step with its sign */
-    int64_t total, last_whole, now;
+    int64_t total, now;
     double *values;                      /* CHUNK rows of the widest watcher */
 } walker;
 
@@ -72,8 +72,6 @@ static int64_t next_stop(const walker *w, const walk_watcher *watchers, size_t c
     int64_t next = w->total;
     for (size_t i = 0; i < count; i++) {
         const walk_watcher *o = &watchers[i];
-        if (o->whole && w->now < w->last_whole && w->last_whole < next)
-            next = w->last_whole;
         if (o->stride > 0 && w->total - w->now > o->stride - w->now % o->stride) {
             int64_t stop = w->now + (o->stride - w->now % o->stride);
             next = stop < next ? stop : next;
@@ -86,8 +84,7 @@ static motus_status looks(walker *w, const walk_watcher *watchers, size_t count,
 {
     for (size_t i = 0; i < count; i++) {
         const walk_watcher *o = &watchers[i];
-        bool due = o->whole ? w->now == w->last_whole
-                            : w->now == w->total || (o->stride > 0 && w->now % o->stride == 0);
+        bool due = w->now == w->total || (o->stride > 0 && w->now % o->stride == 0);
         motus_status status = due ? look(w, o, err) : MOTUS_OK;
         if (status)
             return status;
@@ -120,9 +117,6 @@ motus_status walk(motus_run *run, double start, double until, const walk_watcher
     walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size};
     w.total = motus_run_steps_total(run);
     w.now = motus_run_steps(run);
-    w.last_whole = motus_run_last_step(run) != 0 && w.total > 0 ? w.total - 1 : w.total;
-    if (w.last_whole < w.now)
-        w.last_whole = w.now;
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = watchers[i].period > 0 ? CHUNK : 1;

@@ -5,11 +5,10 @@
 #include "motus.h"
 
 /* One who looks: at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period (values between
- * steps) and at the end; or, with `whole`, once, after the last step of full size, without columns. */
+ * steps) and at the end. */
 typedef struct walk_watcher {
     int64_t stride;
     double period;
-    int whole;
     const size_t *columns;
     size_t count;
     motus_status (*take)(void *context, const double *values, motus_error *);

@@ -15,7 +15,7 @@ show run models/damped-cubic.motus     --plot out/damped-cubic.svg
 show run models/damped-cubic.motus     --plot out/damped-cubic-phase.svg --plot-of "x,x'" --quiet
 show compare models/driven-oscillator.motus
 show compare models/damped-cubic.motus
-show converge models/damped-cubic.motus
+show converge models/damped-cubic.motus --methods verlet,newmark,rk4,gauss6
 
 echo
 echo "Plots and trajectories are in $(pwd)/out:"

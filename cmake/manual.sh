@@ -4,7 +4,7 @@ set -eu
 cd "$(dirname "$0")/.."
 table=$(mktemp)
 trap 'rm -f "$table" doc/manual.md.new' EXIT
-build/motus methods --markdown >"$table"
+"${MOTUS:-build/motus}" methods --markdown >"$table"
 awk -v table="$table" '
     /<!-- \/methods -->/ { inside = 0 }
     !inside { print }

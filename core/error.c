@@ -55,7 +55,12 @@ static void make_safe(char *text)
 /* A text too long for its place ends in "..." and is cut between characters. */
 static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list arguments)
 {
+    locale_t point = newlocale(LC_ALL_MASK, "C", (locale_t)0), host = point ? uselocale(point) : (locale_t)0;
     int wanted = vsnprintf(out, MOTUS_TEXT_MAX, format, arguments);
+    if (point) {                     /* numbers have a point whatever the host's locale */
+        uselocale(host);
+        freelocale(point);
+    }
     if (wanted < 0) out[0] = 0;
     if (wanted >= MOTUS_TEXT_MAX) {
         size_t end = MOTUS_TEXT_MAX - 4;

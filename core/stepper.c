@@ -240,21 +240,37 @@ static void go_back(stepper *s)
     load(s, s->snapshot_step, s->snapshot_evaluations, s->snapshot_iterations, s->snapshot);
 }
 
-/* From the failure somewhere after the snapshot to the last good step; says what the failure was. */
-static motus_status recover(stepper *s, motus_error *err)
+/* Number of finished steps that led to a finite state: all, or all but the last one. */
+static int64_t good_steps(stepper *s, int bad)
+{
+    return s->work.n - (bad == STEP_DIVERGED && s->body->check(&s->work));
+}
+
+/* From a failure after the snapshot to the last good step; says what the failure was. */
+static motus_status recover(stepper *s, int bad, motus_error *err)
 {
     work *w = &s->work;
-    const bool check = w->check;
-    w->check = true;
+    double t = time_of(w, w->n);
+    int64_t good = good_steps(s, bad);
+    if (!w->check) {                   /* infinities may be some steps old, and may be what made the last step fail */
+        const size_t which = w->which;
+        const bool in_v = w->in_v;
+        const int64_t end = w->n;
+        w->check = true;
+        go_back(s);
+        if (s->body->run(w, end - w->n) == STEP_DIVERGED) {
+            bad = STEP_DIVERGED;
+            t = time_of(w, w->n);
+            good = good_steps(s, bad);
+        } else {
+            w->which = which;
+            w->in_v = in_v;
+        }
+        w->check = false;
+    }
+    const motus_status status = report(s, bad, t, err);
     go_back(s);
-    int bad = STEP_OK;
-    while (!bad && w->n < s->snapshot_step + SNAPSHOT) bad = s->body->run(w, 1);
-    const int64_t good = bad == STEP_DIVERGED && w->n > s->snapshot_step && s->body->check(w) ? w->n - 1 : w->n;
-    if (!bad) bad = STEP_CALLBACK;     /* it went well the second time: only a callback can have done that */
-    const motus_status status = report(s, bad, time_of(w, w->n), err);
-    go_back(s);
-    w->check = check;
-    if (s->body->run(w, good - s->snapshot_step)) go_back(s);
+    if (s->body->run(w, good - w->n)) go_back(s);
     s->snapshot_step = -1;
     return status;
 }
@@ -272,7 +288,7 @@ motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
         const int64_t room = SNAPSHOT - (w->n - s->snapshot_step), chunk = steps < room ? steps : room;
         int bad = s->body->run(w, chunk);
         if (!bad && !w->check) bad = s->body->check(w);
-        if (bad) return recover(s, err);
+        if (bad) return recover(s, bad, err);
         steps -= chunk;
     }
     return MOTUS_OK;

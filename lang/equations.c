@@ -44,6 +44,8 @@ static bool equation(model *m, const statement *s, outputs *into)
     if (!lower_target(&l, s, &o))
         return false;
     value v = lower_expression(&l, s->value);
+    if (m->graph->too_large)
+        source_complain(&m->source, MOTUS_LIMIT, s->at, "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
     if (source_failed(&m->source) || !same_shape(m, s, state, v, "the right side"))
         return false;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {

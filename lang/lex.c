@@ -207,6 +207,15 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     } else if (c == '!') {
         source_complain(s, MOTUS_SYNTAX, at, "! alone means nothing");
         source_hint(s, "write != for unequal, not for the logical not");
+    } else if (c == 0xB0) {
+        source_complain(s, MOTUS_SYNTAX, at, "angles are in radians");
+        source_hint(s, "write 30 pi/180 for 30 degrees");
+    } else if (c == '\\') {
+        source_complain(s, MOTUS_SYNTAX, at, "the character \\ has no meaning here");
+        source_hint(s, "write Greek letters as they are, ω, or by name, omega");
+    } else if (c == '%') {
+        source_complain(s, MOTUS_SYNTAX, at, "the character %% has no meaning here");
+        source_hint(s, "a comment begins with #");
     } else if (c >= 0x20 && c < 0x7F) {
         source_complain(s, MOTUS_SYNTAX, at, "the character %c has no meaning here", (char)c);
     } else {
@@ -278,7 +287,7 @@ token lex_next(lexer *l)
         source_hint(s, "write 0.%c", b[from + 1]);
         return stop(l, from);
     }
-    if (c < 0x80 && strchr("+-*/^()[]|,.=<>:", (int)c)) {
+    if (c > 0 && c < 0x80 && strchr("+-*/^()[]|,.=<>:", (int)c)) {
         l->at += size;
         if (!bracket(l, (char)c, from))
             return stop(l, from);

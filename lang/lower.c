@@ -643,8 +643,6 @@ static value lower_name(lowering *l, const tree *t)
         HINT(l, "for the exponential write exp(…)");
     if (!strcmp(t->name, "ln"))
         HINT(l, "the natural logarithm is log(…)");
-    if (!strcmp(t->name, "v") && symbols_find(l->model, "x").state)
-        HINT(l, "the velocity is x'");
     symbols_suggest(l->model, t->name, names, (uint32_t)l->name_count);
     return wrong(l);
 }
@@ -669,6 +667,8 @@ static value lower_initial(lowering *l, const tree *t)
                 HINT(l, "write %s*(%s) or %s (%s)", name->name, b, name->name, b);
         } else {
             source_complain(&l->model->source, MOTUS_NAME, at, "%s is neither a function nor defined", name->name);
+            if (bracket->kind == TREE_NAME && !strcmp(bracket->name, "t"))
+                HINT(l, "define it by %s = …, which may use t, and write %s alone", name->name, name->name);
             static const char *const functions[] = {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log",
                                                     "sqrt", "cbrt", "hypot", "abs", "min", "max", "floor", "mod", "sign", "erf", "dot", "cross",
                                                     "if", "sum"};
@@ -695,18 +695,17 @@ static value lower_initial(lowering *l, const tree *t)
         return wrong(l);
     if (at != l->model->start) {
         COMPLAIN(l, t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
-        HINT(l, "for a product write %s*(…) or put a blank and a name", name->name);
+        HINT(l, "for a product write %s*(…)", name->name);
         return wrong(l);
     }
-    if (!resolve_start(l->model, s.state))
-        return wrong(l);
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
     if ((int)name->index_count != s.state->dims) {
         COMPLAIN(l, name->at, "%s has %d indices", name->name, s.state->dims);
         return wrong(l);
     }
-    if (!subscripts(l, name, s.state->dims, &r, low, high) || (s.state->dims && !covered(l, s.state, name, low, high)))
+    if (!resolve_hull(l->model, s.state) || !subscripts(l, name, s.state->dims, &r, low, high) ||
+        (s.state->dims && !covered(l, s.state, name, low, high)) || !resolve_start(l->model, s.state, name->primes, low, high))
         return wrong(l);
     return load(l, s.state->start_array[name->primes], s.state->components, &r);
 }
@@ -721,6 +720,8 @@ static bool equal_shapes(lowering *l, const tree *t, const tree *a, value va, co
     if (va.count == vb.count)
         return true;
     COMPLAIN(l, t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y), shape_name(va, p), shape_name(vb, q));
+    if (!va.count || !vb.count)
+        HINT(l, "nothing is made a vector silently: write a vector (…, …), or take the length |%s| or a component", va.count ? x : y);
     return false;
 }
 

@@ -40,7 +40,10 @@ typedef struct model_state {
     uint16_t array;                  /* number within a block of state arrays, component 0 */
     uint16_t start_array[2];         /* POOL arrays of x(0) and x'(0), component 0 */
     uint32_t line, last_line;        /* 1 + number of the first and last statement about it */
-    uint8_t progress, start_progress;
+    uint8_t progress;
+    bool shaped, start_done;         /* components are known; every initial value is */
+    uint8_t *start_map[2];           /* per hull cell: has x(0), x'(0) a value, and from what kind of line */
+    uint32_t *start_own[2];          /* per hull cell: 1 + number of the line about it alone, 0 none; NULL until asked for */
 } model_state;
 
 typedef enum definition_kind { DEFINED_UNKNOWN, DEFINED_PARAMETER, DEFINED_QUANTITY, DEFINED_INVARIANT } definition_kind;
@@ -71,6 +74,7 @@ typedef struct model {
     double *pool; size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors, whatever N is */
 
+    int start_depth;                 /* initial values that use one another */
     uint64_t lowered;                /* trees lowered so far: bounds what quantities of quantities can cost */
     model_state *states; uint32_t state_count;
     model_definition *definitions; uint32_t definition_count;
@@ -110,8 +114,10 @@ typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 /* resolve.c: constants, layout, initial values */
 bool resolve_all(model *);
 bool resolve_definition(model *, model_definition *);
+bool resolve_hull(model *, model_state *);       /* where its indices range, and which cells have equations */
 bool resolve_state(model *, model_state *);
-bool resolve_start(model *, model_state *);
+/* x(0) (primes 0) or x'(0) (1) at the cells [low, high]: afterwards in start_array. */
+bool resolve_start(model *, model_state *, int primes, const int64_t low[], const int64_t high[]);
 bool resolve_start_time(model *);
 bool resolve_number(model *, node, span at, double *value);
 int resolve_int(model *, node, span at, int64_t *value);        /* the int slot, or -1 */

@@ -106,11 +106,33 @@ static void unexpected(parser *p, const char *wanted)
         COMPLAIN(p, p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
 }
 
+/* A bracket left open runs on into the next statement, because line ends inside it do not count [8]: that is told where the bracket is. */
+static bool left_open(parser *p)
+{
+    if (p->lexer.depth == 0 || failed(p))
+        return false;
+    uint32_t from = p->lexer.opened[p->lexer.depth - 1];
+    span open = {p->token.at.text, from, from + 1};
+    if (source_line(p->source, open) == source_line(p->source, p->token.at))
+        return false;
+    char closer = p->lexer.closer[p->lexer.depth - 1];
+    COMPLAIN(p, open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
+    HINT(p, "add the missing %c", closer);
+    return true;
+}
+
 static bool expect(parser *p, char c, const char *where)
 {
     if (is(p, c)) {
         advance(p);
         return true;
+    }
+    if (is(p, '=') && (c == ')' || c == ']')) {
+        if (!left_open(p)) {
+            COMPLAIN(p, p->token.at, "%c %s expected, but here is =", c, where);
+            HINT(p, "to compare write ==");
+        }
+        return false;
     }
     char wanted[80];
     snprintf(wanted, sizeof wanted, "%c %s", c, where);
@@ -148,8 +170,12 @@ static bool parse_loop(parser *p, loop *l)
         return false;
     }
     advance(p);
-    if (!expect(p, '=', "after the index"))
+    if (!is(p, '=')) {
+        unexpected(p, "= after the index");
+        HINT(p, "write %s = 1..N", l->name);
         return false;
+    }
+    advance(p);
     skip_lines(p);
     l->first = parse_inside(p);
     if (failed(p))
@@ -475,8 +501,10 @@ static tree *parse_factor(parser *p)
         tree *t = grow(p, TREE_NUMBER, p->token.at);
         t->number = p->token.number;
         advance(p);
-        if (p->token.kind == TOKEN_PRIMES && !p->token.blank)
-            COMPLAIN(p, p->token.at, "a prime follows a name, not a number");
+        if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
+            COMPLAIN(p, p->token.at, "a prime follows a name, not a number or a power");
+            HINT(p, "write the derivative out");
+        }
         return t;
     }
     if (p->token.kind == TOKEN_NAME) {
@@ -489,6 +517,8 @@ static tree *parse_factor(parser *p)
             return failed(p) ? t : parse_components(p, t);
         }
         if (parse_reserved(text) && strcmp(text, "t") && strcmp(text, "pi")) {
+            if (left_open(p))
+                return nothing(p);
             COMPLAIN(p, at, "%s is a word of the language and cannot stand here", text);
             if (!strcmp(text, "for"))
                 HINT(p, "something is missing before it");
@@ -528,6 +558,7 @@ static tree *parse_power(parser *p)
         return base;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
         COMPLAIN(p, p->token.at, "a prime follows a name, not a power");
+        HINT(p, "write the derivative out");
         return base;
     }
     if (minus) {
@@ -771,7 +802,8 @@ static void parse_for(parser *p, statement *s)
     } while (is(p, ',') && !failed(p));
 }
 
-static void end_of_statement(parser *p)
+/* `line` is where the statement begins. */
+static void end_of_statement(parser *p, int line)
 {
     if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END)
         return;
@@ -787,6 +819,8 @@ static void end_of_statement(parser *p)
     }
     if (is(p, '=')) {
         COMPLAIN(p, p->token.at, "a second = in one statement");
+        if (line != source_line(p->source, p->token.at))
+            HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
         HINT(p, "one statement a line; to compare write ==");
         return;
     }
@@ -809,7 +843,7 @@ static void parse_value(parser *p, statement *s)
     }
     s->value = parse_or(p);
     parse_for(p, s);
-    end_of_statement(p);
+    end_of_statement(p, source_line(p->source, s->at));
 }
 
 /* "method" text: up to the end of the line; names have dashes, and arguments in brackets */
@@ -854,7 +888,7 @@ static void parse_setting(parser *p, statement *s)
         s->steps = true;
         advance(p);
     }
-    end_of_statement(p);
+    end_of_statement(p, source_line(p->source, s->at));
 }
 
 /* The usual ways to write a derivative that are not ours. */
@@ -883,8 +917,15 @@ static bool parse_leibniz(parser *p, const statement *s)
 static void parse_left(parser *p, statement *s)
 {
     if (p->token.kind != TOKEN_NAME) {
+        lexer ahead = p->lexer;
+        token next = is(p, '/') ? lex_next(&ahead) : p->token;
+        bool slashes = is(p, '/') && next.kind == TOKEN_CHARACTER && (next.character == '/' || next.character == '*');
         unexpected(p, "a statement");
-        if (p->token.kind == TOKEN_NUMBER || is(p, '-') || is(p, '('))
+        if (slashes)
+            HINT(p, "a comment begins with #");
+        if (is(p, '+') || is(p, '-') || is(p, '*') || is(p, '/'))
+            HINT(p, "a line goes on in the next where it ends with an operator, or inside a bracket");
+        if (p->token.kind == TOKEN_NUMBER || is(p, '('))
             HINT(p, "a statement begins with a name: x'' = …, k = 2, x(0) = 1");
         return;
     }
@@ -896,6 +937,7 @@ static void parse_left(parser *p, statement *s)
             COMPLAIN(p, s->name_at, "t is the time and cannot be defined");
         else
             COMPLAIN(p, s->name_at, "%s is a word of the language and cannot be defined", s->name);
+        HINT(p, "take another name");
         return;
     }
     advance(p);
@@ -931,7 +973,10 @@ static void parse_left(parser *p, statement *s)
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
-            HINT(p, "write %s'(0) = …", s->name);
+            if (s->start_at->kind == TREE_NAME)
+                HINT(p, "write %s%s = …; that it depends on t is understood", s->name, p->token.primes == 1 ? "'" : "''");
+            else
+                HINT(p, "write %s'(0) = …", s->name);
             return;
         }
         if (s->primes == 2) {
@@ -967,7 +1012,10 @@ static void parse_left(parser *p, statement *s)
             unexpected(p, "=");
         }
     } else {
+        char near[80];
         unexpected(p, "=");
+        if (p->token.kind == TOKEN_NUMBER && words_nearest_statement(s->name, near, sizeof near))
+            HINT(p, "did you mean %s?", near);
     }
 }
 

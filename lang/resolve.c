@@ -3,6 +3,7 @@
  * has the value that a machine would compute. */
 #include "lang/lower.h"
 #include "lang/tape.h"
+#include "lang/words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -484,7 +485,7 @@ static bool mark_owners(model *m, model_state *s)
 }
 
 /* progress: 1 and 2 while and after the hull is found */
-static bool resolve_hull(model *m, model_state *s)
+bool resolve_hull(model *m, model_state *s)
 {
     if (s->progress >= 2)
         return true;
@@ -515,129 +516,265 @@ static bool resolve_hull(model *m, model_state *s)
     return true;
 }
 
-/* One pass over the lines of x(0) (or x'(0)): families first, then single cells, which have precedence. */
-static bool start_pass(model *m, model_state *s, int primes, bool families, uint8_t *map, bool *shaped)
+/* The first line of initial values gives the state its shape and its room. */
+static bool give_shape(model *m, model_state *s, const statement *one, int components)
 {
-    EACH_LINE(m, s, one) {
-        if (one->kind != STATEMENT_START || one->primes != primes || (one->loop_count > 0) != families)
-            continue;
-        char what[MOTUS_NAME_MAX + 32];
-        snprintf(what, sizeof what, "%s%s at the start", s->name, primes ? "'" : "");
-        if ((int)one->index_count != s->dims) {
-            source_complain(&m->source, MOTUS_SHAPE, one->at, "%s has %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
+    int parts = components ? components : 1;
+    size_t base;
+    s->shaped = true;
+    s->components = components;
+    if ((double)s->hull * parts > MODEL_NUMBERS_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name, (double)s->hull * parts, MODEL_NUMBERS_MAX);
+        return false;
+    }
+    for (int d = 0; d < s->order; d++) {
+        if (!pool_room(m, s->hull * (size_t)parts, &base) || !add_arrays(m, parts, &s->start_array[d]))
             return false;
-        }
-        lowering l;
-        output o = {0};
-        lower_start(&l, m, PLACE_CONSTANT, "an initial value");
-        if (!lower_target(&l, one, &o))
-            return false;
-        value v = lower_expression(&l, one->value);
-        if (failed(m))
-            return false;
-        if (v.boolean || (*shaped && v.count != s->components)) {
-            char now[40], before[40];
-            snprintf(now, sizeof now, v.count ? "a vector of length %d" : "a number", v.count);
-            snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
-            source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s is %s here, but %s before", what, v.boolean ? "a condition" : now, before);
-            return false;
-        }
-        int parts = v.count ? v.count : 1;
-        if (!*shaped) {
-            *shaped = true;
-            s->components = v.count;
-            if ((double)s->hull * parts > MODEL_NUMBERS_MAX) {
-                source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name, (double)s->hull * parts, MODEL_NUMBERS_MAX);
-                return false;
-            }
-            size_t base;
-            for (int d = 0; d < s->order; d++) {
-                if (!pool_room(m, s->hull * (size_t)parts, &base) || !add_arrays(m, parts, &s->start_array[d]))
-                    return false;
-                for (int k = 0; k < parts; k++)
-                    shape_array(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
-            }
-        }
-        int64_t first[MAX_DIMS], last[MAX_DIMS];
-        target_hull(m, &l, &o, first, last);
-        for (int d = 0; d < s->dims; d++)
-            if (first[d] < s->first[d] || last[d] > s->last[d]) {
-                source_complain(&m->source, MOTUS_NAME, one->at, "%s has an initial value at index %lld, but no equation there", s->name,
-                                (long long)(first[d] < s->first[d] ? first[d] : last[d]));
-                return false;
-            }
-        size_t base = m->arrays[s->start_array[primes]].base;
-        if (!run_into_pool(m, &o, v, base, s->first, s->last, s->hull))
-            return false;
-        if (s->dims == 0) {
-            if (map[0]) {
-                source_complain(&m->source, MOTUS_NAME, one->at, "%s is given twice", what);
-                return false;
-            }
-            map[0] = 1;
-        } else if (!mark(m, s, one, first, last, map, 1, false)) {
-            return false;
-        }
+        for (int k = 0; k < parts; k++)
+            shape_array(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
     }
     return true;
 }
 
-static bool check_start(model *m, model_state *s, int primes, const uint8_t *map)
+/* Runs a line into the pool, or puts its numbers there where they are known. */
+static bool run_start(model *m, model_state *s, const statement *one, const output *o, value v)
+{
+    size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
+    int64_t at;
+    bool known = o->loops == 0;
+    for (int k = 0; k < (v.count ? v.count : 1); k++)
+        known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
+    if (!known)
+        return run_into_pool(m, o, v, base, s->first, s->last, s->hull);
+    for (int d = 0; d < s->dims; d++) {
+        at = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
+        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at - s->first[d]);
+    }
+    for (int k = 0; k < (v.count ? v.count : 1); k++)
+        m->pool[base + (size_t)k * s->hull + cell] = graph_at(m->graph, v.item[k])->value;
+    return true;
+}
+
+enum { START_OF_FAMILY = 1, START_OF_CELL = 2 };     /* a cell's own line has precedence, whichever is computed first */
+
+/* One line x(0) = …, x'(0) = …, x[i](0) = … for …; lines that it uses come first. */
+static bool start_line(model *m, model_state *s, statement *one)
+{
+    if (one->progress == 2)
+        return true;
+    if (one->progress == 1) {
+        source_complain(&m->source, MOTUS_NAME, one->at, "this initial value depends on itself, in a circle");
+        return false;
+    }
+    if (m->start_depth == MODEL_CHAIN_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, one->at, "initial values use one another more than %d deep", MODEL_CHAIN_MAX);
+        return false;
+    }
+    char what[MOTUS_NAME_MAX + 32];
+    snprintf(what, sizeof what, "%s%s at the start", s->name, one->primes ? "'" : "");
+    if ((int)one->index_count != s->dims) {
+        source_complain(&m->source, MOTUS_SHAPE, one->at, "%s has %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
+        return false;
+    }
+    one->progress = 1;
+    m->start_depth++;
+    lowering l;
+    output o = {0};
+    lower_start(&l, m, PLACE_CONSTANT, "an initial value");
+    if (!lower_target(&l, one, &o))
+        return false;
+    value v = lower_expression(&l, one->value);
+    if (failed(m))
+        return false;
+    m->start_depth--;
+    if (v.boolean || (s->shaped && v.count != s->components)) {
+        char now[40], before[40];
+        snprintf(now, sizeof now, v.count ? "a vector of length %d" : "a number", v.count);
+        snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
+        source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s is %s here, but %s before", what, v.boolean ? "a condition" : now, before);
+        return false;
+    }
+    if (!s->shaped && !give_shape(m, s, one, v.count))
+        return false;
+    int64_t first[MAX_DIMS], last[MAX_DIMS];
+    target_hull(m, &l, &o, first, last);
+    for (int d = 0; d < s->dims; d++)
+        if (first[d] < s->first[d] || last[d] > s->last[d]) {
+            source_complain(&m->source, MOTUS_NAME, one->at, "%s has an initial value at index %lld, but no equation there", s->name,
+                            (long long)(first[d] < s->first[d] ? first[d] : last[d]));
+            return false;
+        }
+    uint8_t *map = s->start_map[one->primes];
+    size_t base = m->arrays[s->start_array[one->primes]].base, parts = (size_t)(v.count ? v.count : 1), kept = 0;
+    double *keep = NULL;
+    if (one->loop_count > 0) {       /* cells that have their values from lines of their own */
+        for (size_t i = 0; i < s->hull; i++)
+            kept += map[i] == START_OF_CELL;
+        if (kept && !(keep = arena_grow(m->arena, NULL, 0, kept * parts * sizeof *keep)))
+            return false;
+    }
+    for (size_t i = 0, n = 0; n < kept * parts; i++)
+        for (size_t k = 0; k < parts && map[i] == START_OF_CELL; k++)
+            keep[n++] = m->pool[base + k * s->hull + i];
+    if (!run_start(m, s, one, &o, v))
+        return false;
+    for (size_t i = 0, n = 0; n < kept * parts; i++)
+        for (size_t k = 0; k < parts && map[i] == START_OF_CELL; k++)
+            m->pool[base + k * s->hull + i] = keep[n++];
+    if (s->dims == 0) {
+        if (map[0]) {
+            source_complain(&m->source, MOTUS_NAME, one->at, "%s is given twice", what);
+            return false;
+        }
+        map[0] = START_OF_CELL;
+    } else if (!mark(m, s, one, first, last, map, one->loop_count > 0 ? START_OF_FAMILY : START_OF_CELL, false)) {
+        return false;
+    }
+    one->progress = 2;
+    return true;
+}
+
+static bool start_maps(model *m, model_state *s)
+{
+    if (!resolve_start_time(m) || !resolve_hull(m, s))
+        return false;
+    for (int primes = 0; primes < s->order; primes++) {
+        if (s->start_map[primes])
+            continue;
+        s->start_map[primes] = arena_grow(m->arena, NULL, 0, s->hull);
+        if (!s->start_map[primes])
+            return false;
+        memset(s->start_map[primes], 0, s->hull);
+    }
+    return true;
+}
+
+/* Families first; `cells` adds the lines of single cells. */
+static bool start_lines(model *m, model_state *s, int primes, bool cells)
+{
+    for (int pass = 0; pass <= (int)cells; pass++)
+        for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
+            statement *one = &m->statements.item[i - 1];
+            if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == pass && !start_line(m, s, one))
+                return false;
+        }
+    return true;
+}
+
+static bool start_missing(model *m, const model_state *s, int primes, size_t cell)
 {
     char name[MOTUS_NAME_MAX + 64];
+    model_state_name(s, cell, -1, primes, name, sizeof name);
+    source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
+    source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name, primes ? "'" : "", m->start);
+    return false;
+}
+
+/* Which line is about which single cell; made once, so that long lists of such lines stay cheap. */
+static bool own_lines(model *m, model_state *s, int primes)
+{
+    if (s->start_own[primes])
+        return true;
+    s->start_own[primes] = arena_grow(m->arena, NULL, 0, s->hull * sizeof *s->start_own[primes]);
+    if (!s->start_own[primes])
+        return false;
+    memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);
+    for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
+        const statement *one = &m->statements.item[i - 1];
+        lowering l;
+        output o = {0};
+        int64_t first[MAX_DIMS], last[MAX_DIMS];
+        if (one->kind != STATEMENT_START || one->primes != primes || one->loop_count > 0 || (int)one->index_count != s->dims)
+            continue;
+        lower_start(&l, m, PLACE_CONSTANT, "an index");
+        if (!lower_target(&l, one, &o))
+            return false;
+        target_hull(m, &l, &o, first, last);
+        size_t cell = 0;
+        bool inside = true;
+        for (int d = 0; d < s->dims; d++) {
+            inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
+            cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(first[d] - s->first[d]);
+        }
+        if (inside)
+            s->start_own[primes][cell] = i;
+    }
+    return true;
+}
+
+bool resolve_start(model *m, model_state *s, int primes, const int64_t low[], const int64_t high[])
+{
+    if (s->start_done)
+        return true;
+    if (!start_maps(m, s))
+        return false;
+    size_t cell = 0;
+    bool single = true;
+    for (int d = 0; d < s->dims; d++) {
+        single &= low[d] == high[d];
+        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(low[d] - s->first[d]);
+    }
+    if (!single)
+        return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
+    if (!own_lines(m, s, primes))
+        return false;
+    uint32_t own = s->start_own[primes][cell];
+    if (own ? !start_line(m, s, &m->statements.item[own - 1]) : !start_lines(m, s, primes, false))
+        return false;
+    return s->start_map[primes][cell] != 0 || start_missing(m, s, primes, cell);
+}
+
+/* The line that gave a cell its value, as far as one can tell; else the equation. */
+static span start_span(const model *m, const model_state *s, int primes, bool own)
+{
+    EACH_LINE(m, s, one) {
+        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own)
+            return one->at;
+    }
+    return s->at;
+}
+
+static bool check_start(model *m, model_state *s, int primes)
+{
+    char name[MOTUS_NAME_MAX + 64];
+    const uint8_t *map = s->start_map[primes];
     size_t base = m->arrays[s->start_array[primes]].base, parts = (size_t)(s->components ? s->components : 1);
     for (size_t i = 0; i < s->cells.count; i++) {
         size_t cell = s->cells.offset ? s->cells.offset[i] : i;
-        if (!map[cell]) {
-            model_state_name(s, cell, -1, primes, name, sizeof name);
-            source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
-            source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name, primes ? "'" : "", m->start);
-            return false;
-        }
+        if (!map[cell])
+            return start_missing(m, s, primes, cell);
         for (size_t k = 0; k < parts; k++)
             if (!isfinite(m->pool[base + k * s->hull + cell])) {
                 model_state_name(s, cell, s->components ? (int)k : -1, primes, name, sizeof name);
-                source_complain(&m->source, MOTUS_ARGUMENT, s->at, "the initial value %s(%g) is not a finite number", name, m->start);
+                source_complain(&m->source, MOTUS_ARGUMENT, start_span(m, s, primes, map[cell] == START_OF_CELL),
+                                "the initial value %s(%g) is not a finite number", name, m->start);
+                source_hint(&m->source, "look for a division by zero, or a root or logarithm of a negative number");
                 return false;
             }
     }
     return true;
 }
 
-bool resolve_start(model *m, model_state *s)
+bool resolve_state(model *m, model_state *s)
 {
-    if (s->start_progress == 2)
+    if (s->start_done)
         return true;
-    if (s->start_progress == 1)
-        return circle(m, s->at, s->name);
-    if (!resolve_start_time(m) || !resolve_hull(m, s))
+    if (!start_maps(m, s))
         return false;
-    s->start_progress = 1;
-    bool shaped = false;
-    uint8_t *map[2] = {0};
     for (int primes = 0; primes < s->order; primes++) {
-        map[primes] = arena_grow(m->arena, NULL, 0, s->hull);
-        if (!map[primes])
+        if (!start_lines(m, s, primes, true))
             return false;
-        memset(map[primes], 0, s->hull);
-        if (!start_pass(m, s, primes, true, map[primes], &shaped) || !start_pass(m, s, primes, false, map[primes], &shaped))
-            return false;
-        if (!shaped) {
+        if (!s->shaped) {
             source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s%s(%g) is missing", s->name, s->dims ? "[…]" : "", m->start);
             source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name, s->dims ? "[i]" : "", m->start, s->name);
             return false;
         }
     }
     for (int primes = 0; primes < s->order; primes++)
-        if (!check_start(m, s, primes, map[primes]))
+        if (!check_start(m, s, primes))
             return false;
-    s->start_progress = 2;
+    s->start_done = true;
     return true;
-}
-
-bool resolve_state(model *m, model_state *s)
-{
-    return s->start_progress == 2 || resolve_start(m, s);
 }
 
 /* Places in x and v, and the five blocks of arrays. */
@@ -654,8 +791,13 @@ static bool lay_out(model *m)
             s->array = (uint16_t)parts;
             total += s->hull * (size_t)(s->components ? s->components : 1);
             parts += (uint32_t)(s->components ? s->components : 1);
-            if (total > MODEL_NUMBERS_MAX || parts > UINT16_MAX / 8) {
+            if (total > MODEL_NUMBERS_MAX) {
                 source_complain(&m->source, MOTUS_LIMIT, s->at, "the states have more than the %d numbers that fit", MODEL_NUMBERS_MAX);
+                return false;
+            }
+            if (parts > UINT16_MAX / 8) {
+                source_complain(&m->source, MOTUS_LIMIT, s->at, "more than %d variables and components", UINT16_MAX / 8);
+                source_hint(&m->source, "a family, x[i]'' = … for i = 1..N, is one variable however large N is");
                 return false;
             }
         }
@@ -750,11 +892,18 @@ static bool check_orphans(model *m)
                            ? symbols_find(m, s->name) : (symbol){0};
         const char *what = s->kind == STATEMENT_EXACT ? "an exact motion" : "an initial value";
         if ((s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT) && !named.state) {
+            if (s->kind == STATEMENT_START && s->start_at->kind == TREE_NAME && !strcmp(s->start_at->name, "t")) {
+                source_complain(&m->source, MOTUS_SYNTAX, s->at, "a name is defined without its (t)");
+                source_hint(&m->source, "write %s = …; it may use t", s->name);
+                return false;
+            }
             source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has %s, but no equation of motion", s->name, what);
             if (s->kind == STATEMENT_START && named.definition)
                 source_hint(&m->source, "%s is a %s", s->name, named.definition->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
-            else
-                symbols_suggest(m, s->name, NULL, 0);
+            for (uint32_t k = 0; k < m->state_count; k++)
+                if (words_near(s->name, m->states[k].name))
+                    source_hint(&m->source, "did you mean %s?", m->states[k].name);
+            source_hint(&m->source, "write one: %s'' = …", s->name);
             return false;
         }
         if (s->kind == STATEMENT_START && s->primes >= named.state->order) {

@@ -9,13 +9,17 @@ bool source_failed(const source *s) { return s->failed || s->arena->failed; }
 
 static bool continues(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 
-int source_line(const source *s, span at)
+int source_line(source *s, span at)
 {
     const struct source_text *text = &s->texts[at.text];
-    int line = 1;
-    for (uint32_t i = 0; i < at.from && i < text->length; i++)
-        line += text->bytes[i] == '\n';
-    return line;
+    if (s->known.text != at.text || s->known.at > at.from || s->known.line == 0) {
+        s->known.text = at.text;
+        s->known.at = 0;
+        s->known.line = 1;
+    }
+    for (; s->known.at < at.from && s->known.at < text->length; s->known.at++)
+        s->known.line += text->bytes[s->known.at] == '\n';
+    return s->known.line;
 }
 
 /* Copies characters [from, to) of a line so that a terminal can show them: control characters become '?', tabs blanks. */
@@ -38,7 +42,7 @@ static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uin
 }
 
 /* The part of the line around the place that fits the error's fields, and a caret line of the same width under it. */
-static void point(const source *s, span at, motus_error *e)
+static void point(source *s, span at, motus_error *e)
 {
     const struct source_text *text = &s->texts[at.text];
     enum { ROOM = 160 };

@@ -23,12 +23,13 @@ typedef struct source {
     uint32_t count;
     motus_status status;             /* of the first complaint */
     bool failed;
+    struct { uint32_t text, at; int line; } known;   /* the last place whose line was asked for: places are asked for in order */
 } source;
 
 bool source_failed(const source *);  /* a complaint, or no memory */
 void source_complain(source *, motus_status, span at, const char *format, ...) __attribute__((format(printf, 4, 5)));
 void source_hint(source *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-int source_line(const source *, span at);                       /* 1-based */
+int source_line(source *, span at);                             /* 1-based */
 /* The bytes of a span, shortened in the middle to fit `out`, newlines as blanks. */
 const char *source_excerpt(const source *, span at, char *out, size_t size);
 

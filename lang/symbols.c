@@ -193,6 +193,31 @@ bool symbols_collect(model *m, const motus_text_def *def)
     return true;
 }
 
+static bool known(const model *m, const char *name, const char *const *more, uint32_t more_count)
+{
+    for (uint32_t i = 0; i < more_count; i++)
+        if (!strcmp(name, more[i]))
+            return true;
+    symbol s = symbols_find(m, name);
+    return s.state || s.definition || !strcmp(name, "t") || !strcmp(name, "pi");
+}
+
+/* mg where m and g are names: a product wants a blank [1]. */
+static bool product_of_two(model *m, const char *name, const char *const *more, uint32_t more_count)
+{
+    char left[MOTUS_NAME_MAX];
+    for (size_t n = 1; name[n]; n++) {
+        if (((unsigned char)name[n] & 0xC0) == 0x80)
+            continue;                /* within a character */
+        snprintf(left, sizeof left, "%.*s", (int)n, name);
+        if (known(m, left, more, more_count) && known(m, name + n, more, more_count)) {
+            source_hint(&m->source, "%s is one name; for the product write %s %s", name, left, name + n);
+            return true;
+        }
+    }
+    return false;
+}
+
 void symbols_suggest(model *m, const char *name, const char *const *more, uint32_t more_count)
 {
     const char *best = NULL;
@@ -212,8 +237,12 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
     char codes[64];
     if (best && words_look_alike(name, best, codes, sizeof codes))
         source_hint(&m->source, "it looks like %s, which is defined, but is another character (%s)", best, codes);
+    else if (product_of_two(m, name, more, more_count))
+        return;
     else if (best)
         source_hint(&m->source, "did you mean %s?", best);
+    else if (!strcmp(name, "v") && symbols_find(m, "x").state)
+        source_hint(&m->source, "the velocity is x'");
     else if (parse_function(name) >= 0)
         source_hint(&m->source, "write %s(…)", name);
     else
@@ -235,7 +264,7 @@ static bool definition_moves(model *m, model_definition *d, span at, int chain, 
         return true;
     if (d->progress == 1) {
         source_complain(&m->source, MOTUS_NAME, at, "%s is defined by itself, in a circle", d->name);
-        source_hint(&m->source, "a state, such as x, stands on the right side of quantities; a definition never on its own");
+        source_hint(&m->source, "follow the names on the right side until %s comes back, and cut there", d->name);
         return false;
     }
     if (chain > MODEL_CHAIN_MAX) {

@@ -165,7 +165,7 @@ bool tape_bind(tape *t, const binding *b)
     frame *f = &t->frame;
     f->code = c;
     f->binding = &t->binding;
-    f->base[SPACE_POOL] = (double *)(uintptr_t)b->pool;      /* the pool is never written: its outputs have no space */
+    f->base = NULL;
     t->machine->execute(f, c->instructions);
     return true;
 }
@@ -173,9 +173,7 @@ bool tape_bind(tape *t, const binding *b)
 void tape_run(tape *t, double time, double *const base[SPACES])
 {
     frame *f = &t->frame;
-    for (int s = 0; s < SPACES; s++)
-        if (s != SPACE_POOL)
-            f->base[s] = base[s];
+    f->base = base;
     f->t = time;
     t->machine->execute(f, f->code->instructions + f->code->bind_count);
 }

@@ -130,8 +130,9 @@ static uint32_t load(writer *w, node n, bool lanes)
     const reference *ref = &w->plan.g->references[w->plan.g->nodes[n].a];
     uint32_t s = site_at(w, ref, lanes);
     if (!lanes) {
+        bool pool = w->plan.g->arrays[ref->array].space == SPACE_POOL;
         uint32_t r = fresh(w, SCALAR_REGISTER);
-        put(w, fixed(ref) ? CODE_FETCH_FIXED : CODE_FETCH, 0, (instruction){ .r = r, .a = s }, R);
+        put(w, fixed(ref) && !pool ? CODE_FETCH_FIXED : CODE_FETCH, 0, (instruction){ .r = r, .a = s }, R);
         return r;
     }
     uint32_t r = fresh(w, POINTER_REGISTER), memory = NONE;

@@ -19,7 +19,7 @@ typedef enum tape_op {
     CODE_TIME,                  /* r = t */
     CODE_PARAM,                 /* r = pool[a] */
     CODE_INDEX,                 /* r = index of level a */
-    CODE_FETCH_FIXED,           /* r = memory at site a, whose address no index moves */
+    CODE_FETCH_FIXED,           /* r = memory at site a, whose address no index moves, and which is not the pool */
     CODE_FETCH,                 /* the same, with indices */
     CODE_PUT_FIXED,             /* memory at site b = a */
     CODE_PUT,
@@ -77,7 +77,7 @@ typedef struct frame {
     const code *code;
     const binding *binding;
     double t;
-    double *base[SPACES];
+    double *const *base;             /* of the spaces, for this run; the pool comes from the binding */
     double *scalars;
     double **pointers;               /* of blocks, then views */
     size_t width, lanes;

@@ -32,7 +32,8 @@ static double *place_of(const frame *f, const site *s)
         int64_t v = s->wrap[k].add + (s->wrap[k].level >= 0 ? f->index[s->wrap[k].level] : 0);
         at += wrapped(v, s->wrap[k].modulus) * s->wrap[k].step;
     }
-    return f->base[s->space] + at;
+    /* The pool is never written: no output goes there. */
+    return (s->space == SPACE_POOL ? (double *)(uintptr_t)f->binding->pool : f->base[s->space]) + at;
 }
 
 /* Lanes from the present one on, at most `limit`, until a modular subscript wraps. */

@@ -43,7 +43,6 @@ static int advance_run(work *w, whole steps)
         int bad = advance_step(w);
         if (bad) return bad;
         w->n++;
-        w->fresh = false;
         if (w->check && (bad = advance_check(w))) return bad;
     }
     return STEP_OK;

@@ -14,7 +14,7 @@
  *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
  *
  * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and nowhere else. `a` and
- * `delta` belong to the state (x, v, n) while `fresh` is true.
+ * `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them takes them by work_reuse, which ends that.
  */
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_MEMORY };
 

@@ -396,7 +396,7 @@ static motus_status ask(compare *c, const study_grid *g)
                 return status;
         }
     }
-    return MOTUS_OK;
+    return study_broken(s);
 }
 
 static motus_status prepare(compare *c, motus_system *system, motus_error *err)
@@ -435,7 +435,7 @@ static motus_status compare_all(compare *c)
     else
         g = study_grid_of(s, c->step, s->total, s->last_step, &per);
     study_part(s, 0, TRUTH_SHARE);
-    motus_status status = truth_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, &c->truth);
+    motus_status status = truth_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, 0, &c->truth);
     if (status == MOTUS_OK)
         status = ask(c, &g);
     for (size_t k = 0; k < c->count && status == MOTUS_OK; k++) {

@@ -3,7 +3,7 @@
  * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS times; its error is the
  * largest over these times and over all numbers of the state, each in units of how far its variable moves. Where even T/8 is so fine
  * for a high order that too few points lie above round-off, the row begins at T/4, T/2 or T, and all of it is compared at as many times. Orders from 4 on also run
- * with steps between (T/24, T/48, …), because few doublings fit between instability and round-off there. Steps are halved until
+ * with steps between, because few doublings fit between instability and round-off there. Steps are halved until
  * round-off is reached or the work is spent, never only until the slope looks right. Which points the slope is taken from is said
  * at the top of fit.c.
  *
@@ -20,21 +20,23 @@
 #include <string.h>
 
 #define INTERVALS 8                  /* a power of 2 */
-#define POINTS_MAX 44
-#define POINTS_LEAST 7               /* taken whatever they cost */
-#define FINE_ORDER 4                 /* from this order on, steps between the halvings */
-/* Work is evaluations × (numbers + OVERHEAD). The first bound is 2^18 evaluations of one oscillator per method. A method that is
+#define POINTS_MAX 80
+#define POINTS_LEAST 7               /* before anything is concluded */
+#define STEPS_LEAST 32               /* in an interval: taken whatever they cost */
+#define FINE_ORDER 4                 /* from here on four steps an octave */
+/* The bound on the work (study_work) is first 2^18 evaluations of one oscillator per method. A method that is
  * neither at round-off by then nor shows a slope that has come to rest gets EXTENSION times as much. */
 #define WORK 4.7e6
-#define OVERHEAD 16
 #define EXTENSION 8
 #define REST 0.03
 #define COARSE_ENOUGH 1e-4         /* a row whose coarsest error is larger than this lacks no coarse steps */
 /* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could move, excited or
- * not: more than STIFF_MOST would leave explicit methods no stable step. */
-#define TURNS_MOST 16.0
+ * not: more than STIFF_MOST would leave explicit methods no stable step. And where the motion is at its most violent, low orders need
+ * very short steps: no more than VIOLENT_MOST of such turns. */
+#define TURNS_MOST 12.0
 #define TURNS_GOOD 8.0
 #define STIFF_MOST 2000.0
+#define VIOLENT_MOST 200.0
 #define SURVEY 64                    /* intervals of the look at the whole motion */
 #define SURVEY_PROBES 8              /* states of it whose fastest rate is asked */
 #define SURVEY_TRUST 0.1             /* of the motion's size: a survey less certain tells only of the start */
@@ -118,23 +120,29 @@ static motus_status choose_end(converge *c, double *until)
         return MOTUS_OK;
     study_grid g = even_grid(s, s->until, SURVEY);
     truth survey;
-    motus_status status = truth_find(s, &g, SURVEY, &survey);
-    double turns = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
+    motus_status status = truth_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
+    double turns = 0, violent = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
     bool trusted = survey.known && survey.scaled < SURVEY_TRUST;
     for (size_t r = 0; r <= (trusted ? SURVEY : 0) && status == MOTUS_OK; r++) {
         double t = s->from + direction * (double)r * g.interval;
         const double *y = survey.rows + r * s->numbers;
-        turns = fmax(turns, 2 * probe_speed(s, t, y));       /* a NaN does not count */
+        double speed = 2 * probe_speed(s, t, y);
+        violent = fmax(violent, speed);      /* a NaN does not count */
+        turns += isnan(speed) ? 0 : speed / (trusted ? SURVEY + 1 : 1);
         if (r % (SURVEY / SURVEY_PROBES) == 0)
             stiff = fmax(stiff, probe_rate(s, t, y));
     }
     truth_free(s, &survey);
+    if (status == MOTUS_OK)
+        status = study_broken(s);
     if (status != MOTUS_OK)
         return status;
     double duration = fabs(s->until - s->from);
     double longest = duration;
     if (turns * duration > TURNS_MOST)
         longest = TURNS_GOOD / turns;
+    if (violent * longest > VIOLENT_MOST)
+        longest = VIOLENT_MOST / violent;
     if (stiff * longest > STIFF_MOST)
         longest = STIFF_MOST / stiff;
     if (longest == duration)
@@ -146,22 +154,24 @@ static motus_status choose_end(converge *c, double *until)
 
 /* One method ----------------------------------------------------------------------------------------------------- */
 
-/* Steps per interval at point i: 1, 2, 4, …, or 1, 2, 3, 4, 6, 8, 12, … */
-static int64_t steps_per_interval(size_t i, int order)
+/* Steps per interval at point i: 1, 2, 4, …, or for high orders 1 to 8, 10, 12, 14, 16, 20, … */
+static int64_t steps_per_interval(int64_t i, int order)
 {
-    if (order < FINE_ORDER || i < 2)
-        return (int64_t)1 << i;
-    return (int64_t)(i % 2 ? 2 : 3) << ((i - (i % 2 ? 1 : 2)) / 2);
+    int64_t octave = order < FINE_ORDER ? 1 : 4;
+    if (i < octave - 1)
+        return i + 1;
+    i -= octave - 1;
+    return (octave + i % octave) << (i / octave);
 }
 
-static motus_status measure(converge *c, const char *method, const study_grid *g, int64_t per, motus_point *point, double *evaluations, motus_error *e,
-                            motus_status *failed)
+static motus_status measure(converge *c, const motus_method *card, const char *method, const study_grid *g, int64_t per, motus_point *point,
+                            double *spent, motus_error *e, motus_status *failed)
 {
     study *s = &c->s;
     study_cost cost;
     *point = (motus_point){ g->interval / (double)per, NAN, 0 };
     motus_status status = study_walk(s, method, g, per, c->table, &cost, e);
-    *evaluations = (double)cost.evaluations;
+    *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
     if (study_fatal(status)) {
         if (s->err && !s->cancelled)
             *s->err = *e;
@@ -187,22 +197,21 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
     study *s = &c->s;
     study_grid g = even_grid(s, c->grid.until, intervals);
     double work = 0, bound = WORK, base = s->base, span = s->span, duration = fabs(g.until - g.from);
-    double per_evaluation = (double)(s->numbers + OVERHEAD);
     *fit = (fit_order_result){ .verdict = FIT_FEW, .observed = NAN, .standard_error = NAN };
     for (size_t i = 0; i < POINTS_MAX; i++) {
-        int64_t per = steps_per_interval(i, row->declared);
-        double evaluations, next = (double)intervals * (double)per * fmax(1, card->evaluations) * per_evaluation;
-        if (i >= POINTS_LEAST && work + next > bound) {
+        int64_t per = steps_per_interval((int64_t)i, row->declared);
+        double next = study_work(s, card, (double)intervals * (double)per, -1), spent;
+        if (per > STEPS_LEAST && work + next > bound) {
             bool shown = fit->settled || fit->verdict == FIT_EXACT || (fit->verdict == FIT_SLOPE && fit->unrest < REST);
             if (shown || bound > WORK || work + next > EXTENSION * WORK)
                 break;
             bound = EXTENSION * WORK;
         }
         study_part(s, base + span * fmin(1, work / bound), span * fmin(1, next / bound));
-        motus_status status = measure(c, method, &g, per, &points[i], &evaluations, e, failed);
+        motus_status status = measure(c, card, method, &g, per, &points[i], &spent, e, failed);
         if (status != MOTUS_OK)
             return status;
-        work += fmax(next, evaluations * per_evaluation);
+        work += fmax(next, spent);
         row->point_count = i + 1;
         *fit = fit_order(points, row->point_count, duration, s->noise, c->truth.scaled);
         if (row->point_count > POINTS_LEAST && (fit->settled || fit->verdict == FIT_EXACT))
@@ -249,6 +258,11 @@ static motus_status make_row(converge *c, size_t k)
     if (status == MOTUS_OK) {
         row->declared = card->order;
         status = motus_method_admits(s->system, method, &e);
+    }
+    if (study_fatal(status)) {
+        if (s->err && !s->cancelled)
+            *s->err = e;
+        return status;
     }
     if (status != MOTUS_OK) {
         row->status = status;
@@ -300,7 +314,7 @@ static motus_status converge_all(converge *c)
         return status;
     c->grid = even_grid(s, until, INTERVALS);
     study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
-    if ((status = truth_find(s, &c->grid, INTERVALS, &c->truth)) != MOTUS_OK)
+    if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK)
         return status;
     if (!c->truth.known)
         return study_fail(s->err, MOTUS_DIVERGED, "let the motion end earlier, or give its exact line",

@@ -3,16 +3,16 @@
  * The rule that chooses the points of a fit (nothing is chosen by hand; the declared order has no part in it; points run coarse to
  * fine):
  *
- *  1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size: above that the method is unstable
- *     at this step or the error is no longer small.
+ *  1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if the same held at least an octave
+ *     coarser or no coarser step was tried: close to its limit of stability a method is not itself.
  *  2. Round-off. It is at least the error of the truth. The rest is read off the errors: where the slope to the next point and to
- *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already below FIT_PLATEAU,
- *     the plateau begins, and its first errors are the round-off. Where no plateau was reached, it is taken for what a random walk of n roundings
+ *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already below FIT_PLATEAU
+ *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first errors are the round-off. Where no plateau was reached, it is taken for what a random walk of n roundings
  *     may come to, FIT_WALK sqrt(n) of one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not
  *     count: the remaining share of round-off, 1/30, bends a local slope by less than the certificate's margin.
- *  3. Of what is left, the finest are nearest to the limit that the order speaks of. The three finest local slopes are taken; the
- *     range is carried on to coarser steps as long as the local slope stays within FIT_STEADY (FIT_STEADY_PART of a high order) of
- *     their median. So coarse points that are better (superconvergent) or worse (not yet asymptotic) than the order are left out by
+ *  3. Of what is left, the finest are nearest to the limit that the order speaks of. The finest FIT_POINTS_MIN are taken, and
+ *     as many more as it takes to span an octave; the range is carried on to coarser steps as long as the local slope stays within
+ *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better (superconvergent) or worse (not yet asymptotic) than the order are left out by
  *     the same rule.
  *  4. At least FIT_POINTS_MIN points; the order is the least-squares slope of log error against log step. If its standard error is
  *     above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
@@ -29,9 +29,10 @@
 #define FIT_FLAT 0.5
 #define FIT_CLEARANCE 30.0
 #define FIT_WALK 2.0
-#define FIT_STEADY 0.1
+#define FIT_STEADY 0.05
 #define FIT_STEADY_PART 0.02
 #define FIT_ROUGHNESS 0.5
+#define OCTAVE 1.999               /* 2, but for the rounding of steps */
 #define EXACT_STEPS 8.0
 #define FIT_MARGIN 0.15           /* the certificate's */
 #define FIT_POINTS_MAX 128
@@ -71,11 +72,6 @@ static double local_slope(const motus_point *p, const motus_point *q)
     return log(p->error / q->error) / log(p->step / q->step);
 }
 
-static double median3(double a, double b, double c)
-{
-    return fmax(fmin(a, b), fmin(fmax(a, b), c));
-}
-
 /* A point whose run ended with an error that is small and not zero. */
 static bool counts(const motus_point *p)
 {
@@ -83,12 +79,13 @@ static bool counts(const motus_point *p)
 }
 
 /* The index where the plateau of round-off begins, or count. */
-static size_t plateau(const motus_point *points, size_t count)
+static size_t plateau(const motus_point *points, size_t count, double duration, double noise)
 {
     for (size_t i = 0; i + 1 < count; i++) {
         if (points[i + 1].error == 0)
             return i + 1;
-        if (!counts(&points[i]) || !counts(&points[i + 1]) || points[i].error > FIT_PLATEAU)
+        double steps = duration / points[i].step;
+        if (!counts(&points[i]) || !counts(&points[i + 1]) || points[i].error > fmax(FIT_PLATEAU, noise * steps * steps))
             continue;
         if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT)
             continue;
@@ -116,7 +113,7 @@ static bool exact_everywhere(const motus_point *points, size_t count, double dur
 /* The points that count and stand clear of the round-off, which is found here, coarse to fine. */
 static size_t find_clear(motus_point *points, size_t count, double duration, double noise, fit_order_result *r, motus_point **clear)
 {
-    size_t flat = plateau(points, count), n = 0;
+    size_t flat = plateau(points, count, duration, noise), n = 0;
     /* A flat stretch at the very end may still turn out to be a dip. */
     r->settled = flat + 2 < count;
     if (flat < count) {
@@ -125,12 +122,15 @@ static size_t find_clear(motus_point *points, size_t count, double duration, dou
             level += isnan(points[i].error) ? 0 : points[i].error / 3;
         r->floor = fmax(r->floor, level);
     }
+    double longest = INFINITY;
     for (size_t i = 0; i < count && i <= flat && n < FIT_POINTS_MAX; i++) {
         double walk = r->settled ? 0 : noise * (1 + FIT_WALK * sqrt(duration / points[i].step));
-        if (points[i].error >= FIT_CEILING)
+        if (points[i].error >= FIT_CEILING || (n == 0 && isnan(points[i].error))) {
             n = 0;                   /* whatever was small before this was so by accident */
-        else if (counts(&points[i]) && points[i].error >= FIT_CLEARANCE * fmax(r->floor, walk))
+            longest = points[i].step / OCTAVE;
+        } else if (counts(&points[i]) && points[i].step <= longest && points[i].error >= FIT_CLEARANCE * fmax(r->floor, walk)) {
             clear[n++] = &points[i];
+        }
     }
     return n;
 }
@@ -152,12 +152,11 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
     if (n < FIT_POINTS_MIN)
         return r;
 
-    double slope[FIT_POINTS_MIN - 1];        /* the finest, finest first */
-    for (size_t i = 0; i < FIT_POINTS_MIN - 1; i++)
-        slope[i] = local_slope(clear[n - 2 - i], clear[n - 1 - i]);
-    r.unrest = fabs(slope[0] - slope[1]);
-    double middle = median3(slope[0], slope[1], slope[2]), steady = fmax(FIT_STEADY, FIT_STEADY_PART * fabs(middle));
     size_t least = n - FIT_POINTS_MIN;
+    while (least > 0 && clear[least]->step < OCTAVE * clear[n - 1]->step)
+        least--;
+    double middle = local_slope(clear[least], clear[n - 1]), steady = fmax(FIT_STEADY, FIT_STEADY_PART * fabs(middle));
+    r.unrest = fabs(local_slope(clear[n - 2], clear[n - 1]) - local_slope(clear[n - 3], clear[n - 2]));
     while (least > 0 && fabs(local_slope(clear[least - 1], clear[least]) - middle) <= steady)
         least--;
 

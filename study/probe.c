@@ -18,10 +18,14 @@ bool probe_acceleration(study *s, double t, const double *y, double *a)
 {
     motus_run *run = NULL;
     motus_error ignored = motus_default_error();
-    bool ok = study_run(s, STUDY_PLAINEST, 1, t, t + 1, y, &run, &ignored) == MOTUS_OK
-           && motus_run_step(run, 1, &ignored) == MOTUS_OK
-           && motus_run_state(run, NULL, a, &ignored) == MOTUS_OK;
+    motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, y, &run, &ignored);
+    if (status == MOTUS_OK)
+        status = motus_run_step(run, 1, &ignored);
+    if (status == MOTUS_OK)
+        status = motus_run_state(run, NULL, a, &ignored);
     motus_run_destroy(run);
+    study_note(s, status);
+    bool ok = status == MOTUS_OK;
     for (size_t k = 0; k < s->nv && ok; k++) {
         a[k] -= y[s->nx + k];
         ok = isfinite(a[k]);
@@ -57,6 +61,8 @@ static bool jacobian(study *s, double t, const double *y, const double *u, doubl
 double probe_speed(study *s, double t, const double *y)
 {
     double *a = study_take(s->allocator, s->nv, sizeof(double)), most = NAN;
+    if (!a)
+        study_note(s, MOTUS_MEMORY);
     if (a && probe_acceleration(s, t, y, a)) {
         most = 0;
         for (size_t k = 0; k < s->nx; k++)
@@ -72,8 +78,10 @@ double probe_rate(study *s, double t, const double *y)
 {
     size_t n = s->numbers;
     double *room = study_take(s->allocator, 5 * n, sizeof(double));
-    if (!room)
+    if (!room) {
+        study_note(s, MOTUS_MEMORY);
         return NAN;
+    }
     double *u = room, *next = u + n, *moved = next + n, *plus = moved + n, *minus = plus + n;
     for (size_t k = 0; k < n; k++)
         u[k] = scatter(k);
@@ -117,10 +125,12 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
         motus_run *run = NULL;
         motus_error ignored = motus_default_error();
         double *out = pattern < 0 ? before : after;
-        bool ok = study_run(s, STUDY_PLAINEST, 1, t, t + 1, moved, &run, &ignored) == MOTUS_OK
-               && motus_run_values(run, columns, column_count, out, &ignored) == MOTUS_OK;
+        motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, moved, &run, &ignored);
+        if (status == MOTUS_OK)
+            status = motus_run_values(run, columns, column_count, out, &ignored);
         motus_run_destroy(run);
-        if (!ok)
+        study_note(s, status);
+        if (status != MOTUS_OK)
             break;
         for (size_t c = 0; c < column_count && pattern >= 0; c++) {
             double change = fabs(after[c] - before[c]) / PATTERN_OFFSET;

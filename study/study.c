@@ -15,6 +15,9 @@
 #include <time.h>
 
 #define TELL_SECONDS 0.01         /* between two calls of the progress hook */
+#define EVALUATION_OVERHEAD 16.0     /* of an evaluation, in numbers */
+#define SOLVE_PASSES 4.0
+#define SOLVE_FLOPS 3e4              /* of elimination that take as long as an evaluation */
 #define STILL 1e-10               /* a group that moves less than this part of its size does not move */
 
 void *study_take(const motus_allocator *a, size_t count, size_t bytes)
@@ -71,6 +74,17 @@ double study_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double study_work(const study *s, const motus_method *m, double steps, double evaluations)
+{
+    double numbers = (double)s->numbers, unknowns = numbers * m->stages;
+    if (evaluations < 0)
+        evaluations = steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
+    /* A solve needs a Jacobian, one evaluation a column, and its elimination. */
+    if (m->evaluations == 0)
+        evaluations += steps * (numbers + unknowns * unknowns * unknowns / SOLVE_FLOPS);
+    return evaluations * (numbers + EVALUATION_OVERHEAD);
+}
+
 double study_larger(double a, double b)
 {
     return isnan(a) || isnan(b) ? NAN : a > b ? a : b;
@@ -79,6 +93,18 @@ double study_larger(double a, double b)
 bool study_fatal(motus_status status)
 {
     return status == MOTUS_CANCELLED || status == MOTUS_MEMORY;
+}
+
+void study_note(study *s, motus_status status)
+{
+    s->starved = s->starved || status == MOTUS_MEMORY;
+}
+
+motus_status study_broken(const study *s)
+{
+    if (s->cancelled)
+        return MOTUS_CANCELLED;
+    return s->starved ? study_fail(s->err, MOTUS_MEMORY, "", "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
 /* Progress ------------------------------------------------------------------------------------------------------- */
@@ -199,6 +225,13 @@ void study_close(study *s)
     study_give(s->allocator, s->start);
 }
 
+bool study_admits(study *s, const char *method)
+{
+    motus_status status = motus_method_admits(s->system, method, NULL);
+    study_note(s, status);
+    return status == MOTUS_OK;
+}
+
 motus_status study_methods(study *s, const motus_study_def *def, const char ***names, size_t *count)
 {
     bool all = !def->methods || def->method_count == 0;
@@ -212,9 +245,8 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
         if (all) {
             m = motus_method_at(k);
             /* The exact motion is what the others are compared with. */
-            if (strcmp(m->family, "exact") == 0 || motus_method_admits(s->system, m->name, NULL) != MOTUS_OK)
-                continue;
-            (*names)[(*count)++] = m->name;
+            if (strcmp(m->family, "exact") != 0 && study_admits(s, m->name))
+                (*names)[(*count)++] = m->name;
             continue;
         }
         if (!def->methods[k])
@@ -224,6 +256,8 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
             return status;
         (*names)[(*count)++] = def->methods[k];
     }
+    if (study_broken(s) != MOTUS_OK)
+        return study_broken(s);
     if (*count == 0)
         return study_fail(s->err, MOTUS_METHOD, "see what the analysis says about each", "no method admits this model");
     return MOTUS_OK;

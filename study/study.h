@@ -40,6 +40,7 @@ typedef struct study {
     void *context;
     double base, span, told;         /* the part of the whole that the present walk is */
     bool cancelled;
+    bool starved;                    /* memory ran out where an answer could only be "unknown" */
 } study;
 
 /* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` if that is not among them. */
@@ -68,6 +69,7 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
 motus_status study_open(study *, motus_system *, const motus_study_def *, double step, motus_error *err);
 void study_close(study *);
 
+bool study_admits(study *, const char *method);
 /* The methods to be studied: those named, or every admitted one but the exact motion itself. */
 motus_status study_methods(study *, const motus_study_def *, const char ***names, size_t *count);
 
@@ -75,6 +77,9 @@ motus_status study_methods(study *, const motus_study_def *, const char ***names
 void study_part(study *, double base, double span);
 /* CANCELLED when the user asked for it. */
 motus_status study_tick(study *, double fraction);
+/* Notes a failure that a probe or a survey met, and hands it on as the study's: OK unless memory ran out or the user cancelled. */
+void study_note(study *, motus_status);
+motus_status study_broken(const study *);
 /* True for what ends the study and not only the row: memory and cancellation. */
 bool study_fatal(motus_status);
 
@@ -94,6 +99,9 @@ motus_status study_walk(study *, const char *method, const study_grid *, int64_t
 typedef struct study_modes { fenv_t saved; } study_modes;
 void study_enter(study_modes *);
 void study_leave(const study_modes *);
+/* What so many steps and evaluations cost, in numbers of a state updated by one evaluation; a rough measure, but the same on every
+ * machine. evaluations < 0: a guess before the run. */
+double study_work(const study *, const motus_method *, double steps, double evaluations);
 double study_seconds(void);          /* a steady clock */
 
 /* scale: for each number how far its group moved over the rows (the first is the start); what never moves has the size of

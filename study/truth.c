@@ -17,10 +17,9 @@
 #define TRUTH_LEVELS 24           /* halvings of an interval */
 #define TRUTH_SMALL 1e-6          /* a difference that stops falling below this is round-off, above it a motion not yet resolved */
 #define TRUTH_FALL 1.5            /* the least fall per halving that counts as one */
-/* Work is evaluations × (numbers + TRUTH_OVERHEAD). About half a second; or, where the judged methods themselves work longer, as
- * much as TRUTH_PASSES of them. */
-#define TRUTH_WORK 6e7
-#define TRUTH_OVERHEAD 16
+/* The bound on the work (study_work). About a fifth of a second of a small model; or, where the judged methods themselves work longer,
+ * as much as TRUTH_PASSES evaluations for each of their steps. */
+#define TRUTH_WORK 3e7
 #define TRUTH_PASSES 32
 
 typedef struct candidate {
@@ -29,14 +28,14 @@ typedef struct candidate {
     double x, v, scaled;             /* the estimated error; scaled is NaN where there is none */
 } candidate;
 
-static size_t candidates(const study *s, candidate *out)
+static size_t candidates(study *s, candidate *out)
 {
     size_t count = 0;
     int highest = 0;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || motus_method_admits(s->system, m->name, NULL) != MOTUS_OK)
+            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name))
                 continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
@@ -59,13 +58,13 @@ static size_t candidates(const study *s, candidate *out)
     return count;
 }
 
-static const char *exact_method(const study *s)
+static const char *exact_method(study *s)
 {
     if (!motus_has_exact(s->system))
         return NULL;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (strcmp(m->family, "exact") == 0 && motus_method_admits(s->system, m->name, NULL) == MOTUS_OK)
+        if (strcmp(m->family, "exact") == 0 && study_admits(s, m->name))
             return m->name;
     }
     return NULL;
@@ -100,9 +99,9 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Halves the step until nothing but round-off is left or the work is spent. *now and *before are tables with room for the points
+/* Halves the step until nothing but round-off is left, or the error is below `enough`, or the work is spent. *now and *before are tables with room for the points
  * (without the start); at the end *now holds the best. */
-static motus_status refine(study *s, const study_grid *g, double budget, candidate *c, double **now, double **before)
+static motus_status refine(study *s, const study_grid *g, double budget, double enough, candidate *c, double **now, double **before)
 {
     double work = 0, cost = 0;
     study_distance d = { NAN, NAN, NAN }, last = d;
@@ -118,8 +117,8 @@ static motus_status refine(study *s, const study_grid *g, double budget, candida
             return status;
         }
         /* A run that failed early was cheap, and says nothing about the price of the next. */
-        double least = (double)g->intervals * (double)per * (c->card->evaluations > 0 ? c->card->evaluations : 1);
-        cost = fmax((double)spent.evaluations, least) * (double)(s->numbers + TRUTH_OVERHEAD);
+        double steps = (double)g->intervals * (double)per;
+        cost = fmax(study_work(s, c->card, (double)spent.steps, (double)spent.evaluations), study_work(s, c->card, steps, -1));
         work += cost;
         if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
@@ -136,7 +135,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, candida
             if (have) {
                 double theory = ldexp(1, c->card->order);
                 estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, TRUTH_FALL), theory) - 1, step);
-                if (d.scaled <= 2 * s->noise) {
+                if (d.scaled <= fmax(2 * s->noise, enough)) {
                     estimate(c, d, 1, step);
                     return MOTUS_OK;
                 }
@@ -158,18 +157,17 @@ static motus_status refine(study *s, const study_grid *g, double budget, candida
     return MOTUS_OK;
 }
 
-static motus_status find_reference(study *s, const study_grid *g, int64_t steps, truth *t, double *kept, double *now, double *before)
+static motus_status find_reference(study *s, const study_grid *g, int64_t steps, double enough, truth *t, double *kept, double *now, double *before)
 {
     candidate list[TRUTH_CANDIDATES + 1];
     size_t count = candidates(s, list);
     const candidate *best = NULL;
     double *best_table = NULL;
-    double per_evaluation = (double)(s->numbers + TRUTH_OVERHEAD);
-    double budget = fmax(TRUTH_WORK, TRUTH_PASSES * (double)steps * per_evaluation);
+    double budget = count ? fmax(TRUTH_WORK, study_work(s, list[0].card, 0, TRUTH_PASSES * (double)steps)) : 0;
     double base = s->base, span = s->span;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
         study_part(s, base + span * (double)k / (double)count, span / (double)count);
-        motus_status status = refine(s, g, budget / (double)count, &list[k], &now, &before);
+        motus_status status = refine(s, g, budget / (double)count, enough, &list[k], &now, &before);
         if (status != MOTUS_OK)
             return status;
         if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
@@ -181,6 +179,8 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
         }
     }
     study_part(s, base, span);
+    if (study_broken(s) != MOTUS_OK)
+        return study_broken(s);
     if (!best) {
         snprintf(t->text, sizeof t->text, "none: no method followed the motion to the end");
         return MOTUS_OK;
@@ -198,7 +198,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     return MOTUS_OK;
 }
 
-motus_status truth_find(study *s, const study_grid *g, int64_t steps, truth *t)
+motus_status truth_find(study *s, const study_grid *g, int64_t steps, double enough, truth *t)
 {
     *t = (truth){ .error = NAN, .scaled = NAN };
     t->rows = study_take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
@@ -229,7 +229,7 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, truth *t)
     double *room = study_take(s->allocator, 3 * table, sizeof(double));
     if (!room)
         return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
-    motus_status status = find_reference(s, g, steps, t, room, room + table, room + 2 * table);
+    motus_status status = find_reference(s, g, steps, enough, t, room, room + table, room + 2 * table);
     study_give(s->allocator, room);
     return status;
 }

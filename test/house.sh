@@ -56,6 +56,9 @@ declare -A also=(
     [lang/words.c]='parse_'                         # the words that lang/tree.h asks for
     [run/interpreter.c]='machine_'                  # a machine is a file; run/run.h names them
     [run/callback.c]='machine_'
+    [api/columns.c]='system_'                       # parts of api/system.h
+    [api/explain.c]='system_'
+    [lang/tape_regions.c]='plan_'                   # the plan of a tape, lang/tape_regions.h
 )
 archive=$build/libmotus.a
 if [ ! -f "$archive" ]; then

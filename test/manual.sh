@@ -26,7 +26,7 @@ sed -n '/<!-- methods -->/,/<!-- \/methods -->/p' doc/manual.md | sed '1d;$d' >"
 "$motus" methods --markdown >"$place/rows" 2>&1
 judge "doc/manual.md has the table of methods (make manual writes it)" "$(diff "$place/printed" "$place/rows" | head -n 20)"
 judge "every method's citation is in doc/references.bib" "$(
-    "$motus" methods --json | jq -r '.. | .cite? // .citation? // empty' | grep -oE '[A-Z][A-Za-z]*[0-9]{2}[a-z]?' | sort -u |
+    "$motus" methods --json | jq -r '.methods[].cite | split(", ")[] | split(" ")[0]' | grep -xE '[A-Za-z]+[0-9]{2,4}[a-z]?' | sort -u |
         while read -r key; do grep -q "{$key," doc/references.bib || echo "$key"; done)"
 
 # --- options ------------------------------------------------------------------------------------------------------------------------
@@ -65,7 +65,8 @@ judge "check --json has the documented keys" "$("$motus" check models/spring.mot
 # --- links ------------------------------------------------------------------------------------------------------------------------------
 judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md; do
     grep -oE '\]\([^)#]+\)' "$file" | sed 's/^](//; s/)$//' | while read -r link; do
-        [[ $link == http* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
+        # x[i](0) is no link
+        [[ $link == http* || $link != *[./]* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
 judge "anchors of the manual exist" "$(grep -oE '\]\(#[^)]+\)' doc/manual.md | sed 's/^](#//; s/)$//' | while read -r anchor; do
     grep -E '^#+ ' doc/manual.md | sed -E 's/^#+ //' | tr 'A-Z ' 'a-z-' | tr -d '.,' | grep -qx -- "$anchor" || echo "$anchor"; done)"
 

@@ -1,0 +1,514 @@
+/* The public calls that need no run: definitions, systems from texts and callbacks, what they hold, the catalogue, and every status.
+ *
+ * Runs are in run_test.c, restart states in restart_test.c, memory in alloc_test.c.
+ */
+#include "test/given.h"
+
+static const char spring[] = "x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 1\n";
+
+/* Words ------------------------------------------------------------------------------------------------------------- */
+
+static void statuses_have_words(void **state)
+{
+    (void)state;
+    for (int i = 0; i < MOTUS_STATUS_COUNT; i++) {
+        assert_true(strlen(motus_status_word(i)) > 1);
+        assert_true(strlen(motus_status_text(i)) > 3);
+        assert_true(i == 0 ? motus_status_exit(i) == 0 : motus_status_exit(i) == 1 || motus_status_exit(i) == 2);
+        for (int j = 0; j < i; j++)
+            assert_string_not_equal(motus_status_word(i), motus_status_word(j));
+    }
+    assert_string_equal(motus_status_word(MOTUS_DIVERGED), "diverged");
+    assert_int_equal(motus_status_exit(MOTUS_SYNTAX), 2);
+    assert_non_null(motus_status_text((motus_status)999));
+    assert_non_null(motus_status_word((motus_status)-1));
+    assert_string_equal(motus_version(), MOTUS_VERSION);
+    char version[32];
+    snprintf(version, sizeof version, "%d.%d.%d", MOTUS_VERSION_MAJOR, MOTUS_VERSION_MINOR, MOTUS_VERSION_PATCH);
+    assert_string_equal(motus_version(), version);
+}
+
+/* Definitions -------------------------------------------------------------------------------------------------------- */
+
+static void defaults_are_what_the_manual_says(void **state)
+{
+    (void)state;
+    motus_error e = motus_default_error();
+    assert_int_equal(e.size, sizeof e);
+    assert_int_equal(e.status, MOTUS_OK);
+    assert_true(isnan(e.time));
+    motus_text_def t = motus_default_text();
+    assert_int_equal(t.size, sizeof t);
+    assert_true(t.length == SIZE_MAX && !t.text && !t.set_count && !t.allocator.allocate);
+    motus_callback_def c = motus_default_callback();
+    assert_int_equal(c.size, sizeof c);
+    assert_true(c.depends_on_velocity == 1 && c.depends_on_time == 1 && c.linear_in_velocity == 0);
+    motus_run_def r = motus_default_run();
+    assert_int_equal(r.size, sizeof r);
+    assert_true(isnan(r.step) && isnan(r.until) && isnan(r.start) && !r.method && !r.x && !r.v && !r.progress);
+    motus_study_def s = motus_default_study();
+    assert_int_equal(s.size, sizeof s);
+    assert_true(isnan(s.step) && isnan(s.until) && s.evaluations == 0 && !s.methods);
+}
+
+/* A caller built against an older header has room for less, one built against a newer one for more: nothing beyond is touched, and
+ * what the library does not know is zero. */
+static void defaults_fill_what_there_is(void **state)
+{
+    (void)state;
+    for (int kind = MOTUS_DEF_ERROR; kind <= MOTUS_DEF_STUDY; kind++)
+        for (uint32_t size = 4; size <= sizeof(motus_error) + 32; size++) {
+            _Alignas(16) unsigned char room[sizeof(motus_error) + 64];
+            memset(room, 0xA5, sizeof room);
+            motus_default((motus_def_kind)kind, room, size);
+            uint32_t said;
+            memcpy(&said, room, sizeof said);
+            assert_int_equal(said, size);
+            for (size_t i = size; i < sizeof room; i++)
+                assert_int_equal(room[i], 0xA5);
+            if (size > sizeof(motus_error))
+                assert_int_equal(room[size - 1], 0);
+        }
+}
+
+static int pull(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    (void)v;
+    a[0] = -x[0];
+    return 0;
+}
+
+/* Half of a definition, then a page of rubbish; and a whole one, then more rubbish that a newer header would mean something by. */
+static void definitions_may_be_older_or_newer(void **state)
+{
+    (void)state;
+    struct { motus_text_def def; unsigned char more[64]; } text;
+    struct { motus_callback_def def; unsigned char more[64]; } call;
+    struct { motus_run_def def; unsigned char more[64]; } run;
+    struct { motus_study_def def; unsigned char more[64]; } study;
+    const double x[1] = {1}, v[1] = {0};
+    const char *methods[] = {"verlet"};
+    for (int newer = 0; newer < 2; newer++) {
+        memset(&text, 0xFF, sizeof text);
+        memset(&call, 0xFF, sizeof call);
+        memset(&run, 0xFF, sizeof run);
+        memset(&study, 0xFF, sizeof study);
+        motus_default(MOTUS_DEF_TEXT, &text, newer ? sizeof text : offsetof(motus_text_def, length));
+        motus_default(MOTUS_DEF_CALLBACK, &call, newer ? sizeof call : offsetof(motus_callback_def, derivative));
+        motus_default(MOTUS_DEF_RUN, &run, newer ? sizeof run : offsetof(motus_run_def, until));
+        motus_default(MOTUS_DEF_STUDY, &study, newer ? sizeof study : offsetof(motus_study_def, step));
+        text.def.text = spring;
+        call.def.positions = 1;
+        call.def.companions = 0;
+        call.def.x = x;
+        call.def.v = v;
+        call.def.acceleration = pull;
+        run.def.step = 0.25;
+        study.def.methods = methods;
+        study.def.method_count = 1;
+        motus_error err = motus_default_error();
+        motus_system *s = NULL, *c = NULL;
+        motus_run *r = NULL;
+        motus_comparison *result = NULL;
+        must(motus_system_from_text(&text.def, &s, &err), &err, "text");
+        must(motus_system_from_callback(&call.def, &c, &err), &err, "callback");
+        must(motus_run_create(s, &run.def, &r, &err), &err, "run");
+        assert_int_equal(motus_run_steps_total(r), 4);
+        must(motus_compare(s, &study.def, &result, &err), &err, "compare");
+        assert_int_equal(result->row_count, 1);
+        motus_comparison_destroy(result);
+        motus_run_destroy(r);
+        motus_system_destroy(c);
+        motus_system_destroy(s);
+    }
+}
+
+/* Errors ------------------------------------------------------------------------------------------------------------- */
+
+static motus_status read_text(const char *text, motus_error *err)
+{
+    motus_text_def def = motus_default_text();
+    motus_system *s = (motus_system *)&def;
+    *err = motus_default_error();
+    def.text = text;
+    def.file = "given.motus";
+    motus_status status = motus_system_from_text(&def, &s, err);
+    if (status != MOTUS_OK)
+        assert_null(s);
+    motus_system_destroy(s);
+    return status;
+}
+
+static void every_status_of_a_text_is_reached(void **state)
+{
+    (void)state;
+    static const struct { motus_status status; const char *text; int line; } cases[] = {
+        {MOTUS_SYNTAX, "x'' = -x +\nx(0) = 1\nx'(0) = 0", 2},
+        {MOTUS_SYNTAX, "x'' = (-x", 1},
+        {MOTUS_NAME, "x'' = -y\nx(0) = 1\nx'(0) = 0", 1},
+        {MOTUS_NAME, "x'' = -x\nx(0) = 1", 1},
+        {MOTUS_SHAPE, "x'' = (1, 2)\nx(0) = 1\nx'(0) = 0", 1},
+        {MOTUS_LIMIT, "x[i]'' = -x[i] for i = 1..1000000000\nx[i](0) = 1 for i = 1..1000000000\nx[i]'(0) = 0 for i = 1..1000000000", 0},
+        {MOTUS_UNAVAILABLE, "x'' = -x\nx(0) = 1\nx'(0) = 0\nwhen x = 0: record", 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        motus_error err;
+        motus_status status = read_text(cases[i].text, &err);
+        if (status != cases[i].status)
+            fail_msg("%s: %s instead of %s: %s", cases[i].text, motus_status_word(status), motus_status_word(cases[i].status), err.message);
+        assert_int_equal(err.status, status);
+        assert_true(strlen(err.message) > 5 && !strchr(err.message, '\n'));
+        assert_true(err.line > 0 && err.column > 0);
+        if (cases[i].line)
+            assert_int_equal(err.line, cases[i].line);
+        assert_string_equal(err.file, "given.motus");
+        assert_non_null(strchr(err.caret, '^'));
+        assert_true(strlen(err.source) > 0 && isnan(err.time) && !err.variable[0]);
+    }
+}
+
+static void errors_name_the_place(void **state)
+{
+    (void)state;
+    motus_error err;
+    assert_int_equal(read_text("k = 2\nx'' = -kk x   # stiff\nx(0) = 1\nx'(0) = 0", &err), MOTUS_NAME);
+    assert_int_equal(err.line, 2);
+    assert_int_equal(err.column, 8);
+    assert_string_equal(err.source, "x'' = -kk x   # stiff");
+    assert_int_equal(strspn(err.caret, " "), 7);
+    assert_non_null(strstr(err.message, "kk"));
+}
+
+static void refusals(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    motus_run *r = NULL;
+    size_t first, count;
+    assert_int_equal(motus_system_from_text(NULL, &s, &err), MOTUS_ARGUMENT);
+    motus_text_def text = motus_default_text();
+    assert_int_equal(motus_system_from_text(&text, &s, &err), MOTUS_ARGUMENT);
+    text.text = spring;
+    assert_int_equal(motus_system_from_text(&text, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_create(NULL, NULL, &r, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_step(NULL, 1, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_finish(NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_state(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_values(NULL, NULL, 0, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_sample(NULL, NULL, 0, NULL, 0, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_save(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_restore(NULL, NULL, 0, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_column_find(NULL, "x", &first, &count, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_method_find(NULL, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_method_admits(NULL, "verlet", &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_compare(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_converge(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
+    /* No handle: no numbers, and nothing happens. */
+    motus_system_destroy(NULL);
+    motus_run_destroy(NULL);
+    motus_comparison_destroy(NULL);
+    motus_convergence_destroy(NULL);
+    assert_true(motus_positions(NULL) == 0 && motus_velocities(NULL) == 0 && motus_column_count(NULL) == 0);
+    assert_true(motus_run_steps(NULL) == 0 && isnan(motus_run_time(NULL)) && !motus_run_done(NULL));
+    /* A NULL error is allowed. */
+    assert_int_equal(motus_system_from_text(NULL, &s, NULL), MOTUS_ARGUMENT);
+    text.text = "x'' = ";
+    assert_int_equal(motus_system_from_text(&text, &s, NULL), MOTUS_SYNTAX);
+}
+
+static void text_with_a_length_and_settings(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_text_def def = motus_default_text();
+    motus_system *s = NULL;
+    char text[] = "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nstep 0.5\nuntil 1\n)))";
+    const char *set[] = {"k=4", "x(0) = 3", "x'(0)=k"}, *wrong[] = {"q=1"}, *mangled[] = {"k="};
+    def.text = text;
+    def.length = strlen(text) - 3;
+    def.set = set;
+    def.set_count = 3;
+    must(motus_system_from_text(&def, &s, &err), &err, "text");
+    memset(text, '?', sizeof text);          /* the text was copied */
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    assert_true(value(s, r, "x") == 3 && value(s, r, "x'") == 4);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    def.text = "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\n";
+    def.length = SIZE_MAX;
+    def.set_count = 1;
+    def.set = wrong;
+    assert_int_equal(motus_system_from_text(&def, &s, &err), MOTUS_NAME);
+    assert_non_null(strstr(err.message, "q"));
+    def.set = mangled;
+    assert_int_not_equal(motus_system_from_text(&def, &s, &err), MOTUS_OK);
+}
+
+/* What a system holds -------------------------------------------------------------------------------------------------- */
+
+static const char rich[] =
+    "N = 4\nk = 2\nm = [1, 2, 3, 4]\n"
+    "x[i]'' = k (x[i+1] - 2 x[i] + x[i-1])/m[i]   for i = 1..N\n"
+    "x[0] = 0\nx[N+1] = 0.1 sin(t)\n"
+    "x[i](0) = 0.1 i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\n"
+    "r'' = -r - 0.1 r'\nr(0) = (1, 0)\nr'(0) = (0, 1)\n"
+    "w'' = -w\nw(0) = (1, 2, 3, 4, 5)\nw'(0) = (0, 0, 0, 0, 0)\n"
+    "s' = |r'|^2 - s\ns(0) = 0.5\n"
+    "speed = |r'|\nstretch = x[2] - x[1]\n"
+    "invariant w2 = (w[1]^2 + w'[1]^2, w[2]^2 + w'[2]^2)\n"
+    "method rk4\nstep 0.01\nuntil 1\nevery 0.1\n";
+
+static void variables(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(rich);
+    assert_int_equal(motus_variable_count(s), 4);
+    assert_int_equal(motus_positions(s), 4 + 2 + 5);
+    assert_int_equal(motus_velocities(s), 4 + 2 + 5 + 1);
+    motus_variable v;
+    assert_int_equal(motus_variable_at(s, 0, &v), MOTUS_OK);
+    assert_string_equal(v.name, "x");
+    assert_true(v.order == 2 && v.components == 0 && v.dimensions == 1 && v.first[0] == 1 && v.last[0] == 4 && v.count == 4);
+    assert_int_equal(motus_variable_at(s, 2, &v), MOTUS_OK);
+    assert_true(!strcmp(v.name, "w") && v.components == 5 && v.dimensions == 0 && v.count == 5);
+    assert_int_equal(motus_variable_at(s, 3, &v), MOTUS_OK);
+    assert_true(!strcmp(v.name, "s") && v.order == 1);
+    assert_int_equal(motus_variable_at(s, 4, &v), MOTUS_ARGUMENT);
+    size_t numbers = 0;
+    assert_int_equal(motus_quantity_count(s), 2);
+    assert_string_equal(motus_quantity_name(s, 1, &numbers), "stretch");
+    assert_int_equal(numbers, 1);
+    assert_int_equal(motus_invariant_count(s), 1);
+    assert_string_equal(motus_invariant_name(s, 0, &numbers), "w2");
+    assert_int_equal(numbers, 2);
+    assert_null(motus_invariant_name(s, 1, NULL));
+    assert_false(motus_has_exact(s));
+    motus_system_destroy(s);
+}
+
+static void columns_are_found_by_their_own_names(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "t", "x[1]", "x[2]", "x[3]", "x[4]", "r.x", "r.y", "w[1]", "w[2]", "w[3]", "w[4]", "w[5]",
+        "x[1]'", "x[2]'", "x[3]'", "x[4]'", "r'.x", "r'.y", "w'[1]", "w'[2]", "w'[3]", "w'[4]", "w'[5]",
+        "s", "speed", "stretch", NULL, NULL};
+    motus_system *s = given_text(rich);
+    assert_int_equal(motus_column_count(s), sizeof expected / sizeof *expected);
+    for (size_t k = 0; k < motus_column_count(s); k++) {
+        motus_column c;
+        size_t first = 99, count = 99;
+        motus_error err = motus_default_error();
+        assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
+        if (expected[k])
+            assert_string_equal(c.name, expected[k]);
+        must(motus_column_find(s, c.name, &first, &count, &err), &err, c.name);
+        assert_int_equal(first, k);
+        assert_int_equal(count, 1);
+    }
+    motus_column c;
+    assert_int_equal(motus_column_at(s, motus_column_count(s), &c), MOTUS_ARGUMENT);
+    assert_int_equal(motus_column_at(s, 14, &c), MOTUS_OK);
+    assert_true(c.kind == MOTUS_VELOCITY && c.variable == 0 && c.is_velocity);
+    assert_int_equal(motus_column_at(s, 23, &c), MOTUS_OK);
+    assert_int_equal(c.kind, MOTUS_COMPANION);
+    motus_system_destroy(s);
+}
+
+static void columns_of_whole_variables(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(rich);
+    static const struct { const char *name; size_t first, count; } cases[] = {
+        {"x", 1, 4}, {"x'", 12, 4}, {"r", 5, 2}, {"r'", 16, 2}, {"w", 7, 5}, {"w'", 18, 5}, {"x[3]", 3, 1}, {"w[5]", 11, 1}, {"w2", 26, 2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t first = 0, count = 0;
+        motus_error err = motus_default_error();
+        must(motus_column_find(s, cases[i].name, &first, &count, &err), &err, cases[i].name);
+        assert_int_equal(first, cases[i].first);
+        assert_int_equal(count, cases[i].count);
+    }
+    static const char *const none[] = {"", "q", "x[0]", "x[5]", "x[", "x[1", "x[1]]", "x''", "x.x", "r.z", "r.", "r.q", "w[6]", "w[0]", "exact x", "t'",
+                                       "speed'", "speed.x", "s'", "x[99999999999999999999]", "x[1][1]", "t[1]", "stretc", "r[1]'.x"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        size_t first = 0, count = 0;
+        motus_error err = motus_default_error();
+        if (motus_column_find(s, none[i], &first, &count, &err) != MOTUS_NAME)
+            fail_msg("a column %s was found: %zu, %zu", none[i], first, count);
+        assert_true(err.message[0] != 0);
+        if (!strcmp(none[i], "stretc"))
+            assert_non_null(strstr(err.hint, "stretch"));
+    }
+    char *loud = malloc(100000);
+    assert_non_null(loud);
+    memset(loud, 'x', 99999);
+    loud[99999] = 0;
+    size_t first, count;
+    assert_int_equal(motus_column_find(s, loud, &first, &count, NULL), MOTUS_NAME);
+    free(loud);
+    motus_system_destroy(s);
+}
+
+static void values_of_columns(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(rich);
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    motus_error err = motus_default_error();
+    size_t all = motus_column_count(s), columns[64];
+    double out[64], x[11], v[12];
+    for (size_t k = 0; k < all; k++)
+        columns[k] = all - 1 - k;            /* in any order */
+    take_steps(r, 7);
+    must(motus_run_values(r, columns, all, out, &err), &err, "values");
+    must(motus_run_state(r, x, v, &err), &err, "state");
+    assert_true(out[all - 1] == motus_run_time(r));
+    for (size_t k = 0; k < 11; k++)
+        assert_true(out[all - 2 - k] == x[k]);
+    for (size_t k = 0; k < 12; k++)
+        assert_true(out[all - 13 - k] == v[k]);
+    near(value(s, r, "speed"), hypot(v[4], v[5]), 4 * ROUNDING, "speed");
+    assert_true(value(s, r, "stretch") == x[1] - x[0]);
+    columns[0] = all;
+    assert_int_equal(motus_run_values(r, columns, 1, out, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_values(r, NULL, 0, NULL, &err), MOTUS_OK);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+static void exact_columns(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -4 x\nx(0) = 1\nx'(0) = 0\nexact x = cos(2 t)\nmethod verlet\nstep 0.1\nuntil 1\n");
+    assert_true(motus_has_exact(s));
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    finish(r);
+    near(value(s, r, "exact x"), cos(2), 4 * ROUNDING, "exact x");
+    near(value(s, r, "exact x'"), -2 * sin(2), 8 * ROUNDING, "exact x'");
+    motus_column c;
+    assert_int_equal(motus_column_at(s, 4, &c), MOTUS_OK);
+    assert_true(c.kind == MOTUS_EXACT && c.is_velocity && !strcmp(c.name, "exact x'"));
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+static void settings_and_analysis(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(rich);
+    motus_settings set;
+    motus_analysis a;
+    motus_settings_of(s, &set);
+    assert_string_equal(set.method, "rk4");
+    assert_true(set.step == 0.01 && set.until == 1 && set.from == 0 && set.every_time == 0.1 && set.every_steps == 0 && isnan(set.tolerance));
+    motus_analysis_of(s, &a);
+    assert_true(a.velocity_dependent && a.time_dependent && !a.constant && !a.gyroscopic && !a.exact_recognised);
+    assert_true(strlen(motus_explain(s)) > 20);
+    assert_ptr_equal(motus_explain(s), motus_explain(s));
+    motus_system_destroy(s);
+    s = given_text("x'' = x^3 - x\nx(0) = 1\nx'(0) = 0\nevery 5 steps\n");
+    motus_settings_of(s, &set);
+    assert_true(isnan(set.step) && isnan(set.until) && !set.method && isnan(set.every_time) && set.every_steps == 5);
+    motus_analysis_of(s, &a);
+    assert_true(!a.velocity_dependent && !a.time_dependent && !a.affine && a.gradient && a.smooth);
+    assert_non_null(strstr(motus_equation_text(s, 0), "x'' ="));
+    assert_null(motus_equation_text(s, 1));
+    motus_system_destroy(s);
+    s = given_text("g = (0, -9.81)\nr'' = g\nr(0) = (0, 0)\nr'(0) = (1, 2)\n");
+    motus_analysis_of(s, &a);
+    assert_true(a.constant && a.affine && a.exact_recognised && motus_has_exact(s));
+    motus_system_destroy(s);
+    s = given_text("r'' = cross(r', (0, 0, 2))\nr(0) = (0, 0, 0)\nr'(0) = (1, 2, 3)\n");
+    motus_analysis_of(s, &a);
+    assert_true(a.velocity_dependent && a.linear_in_velocity && a.gyroscopic);
+    motus_system_destroy(s);
+    s = given_text("x'' = -abs(x) - x'^2\nx(0) = 0\nx'(0) = 1\n");
+    motus_analysis_of(s, &a);
+    assert_true(a.velocity_dependent && !a.linear_in_velocity && !a.smooth && !a.gyroscopic);
+    motus_system_destroy(s);
+}
+
+/* The catalogue --------------------------------------------------------------------------------------------------------- */
+
+static void methods_are_found(void **state)
+{
+    (void)state;
+    const motus_method *m = NULL;
+    motus_error err = motus_default_error();
+    assert_true(motus_method_count() >= 30);
+    assert_null(motus_method_at(motus_method_count()));
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *card = motus_method_at(k);
+        must(motus_method_find(card->name, &m, &err), &err, card->name);
+        assert_ptr_equal(m, card);
+        assert_true(card->formula[0] && card->use[0] && card->family[0]);
+        char alias[128];
+        for (const char *p = card->aliases; *p; p += strspn(p, " ")) {
+            size_t n = strcspn(p, " ");
+            snprintf(alias, sizeof alias, "%.*s", (int)n, p);
+            must(motus_method_find(alias, &m, &err), &err, alias);
+            assert_ptr_equal(m, card);
+            p += n;
+        }
+    }
+    must(motus_method_find("RK4", &m, &err), &err, "RK4");
+    assert_string_equal(m->name, "rk4");
+    must(motus_method_find("newmark(1/6, 1/2)", &m, &err), &err, "newmark");
+    assert_int_equal(m->order, 2);
+    static const char *const wrong[] = {"", "verlot", "newmark(1/6", "newmark(a, b)", "newmark(1/0, 1)", "rk4(2)", "newmark(1/6, 1/2) x"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(motus_method_find(wrong[i], &m, &err), MOTUS_METHOD);
+        assert_null(m);
+    }
+    assert_int_equal(motus_method_find("verlot", NULL, &err), MOTUS_METHOD);
+    assert_non_null(strstr(err.hint, "verlet"));
+}
+
+static void methods_are_refused_with_a_reason(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("x'' = -x - x'\nx(0) = 1\nx'(0) = 0\n");
+    assert_int_equal(motus_method_admits(s, "verlet", &err), MOTUS_OK);
+    assert_int_equal(motus_method_admits(s, "leapfrog", &err), MOTUS_METHOD);
+    assert_non_null(strstr(err.message, "velocity"));
+    assert_true(strlen(err.hint) > 5);
+    assert_int_equal(motus_method_admits(s, "boris", &err), MOTUS_METHOD);
+    assert_int_equal(motus_method_admits(s, "exact", &err), MOTUS_METHOD);
+    assert_int_equal(motus_method_admits(s, "nonsense", &err), MOTUS_METHOD);
+    assert_int_equal(motus_method_admits(s, NULL, &err), MOTUS_ARGUMENT);
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "leapfrog";
+    def.step = 0.1;
+    def.until = 1;
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_METHOD);
+    assert_null(r);
+    motus_system_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(statuses_have_words),
+        cmocka_unit_test(defaults_are_what_the_manual_says),
+        cmocka_unit_test(defaults_fill_what_there_is),
+        cmocka_unit_test(definitions_may_be_older_or_newer),
+        cmocka_unit_test(every_status_of_a_text_is_reached),
+        cmocka_unit_test(errors_name_the_place),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(text_with_a_length_and_settings),
+        cmocka_unit_test(variables),
+        cmocka_unit_test(columns_are_found_by_their_own_names),
+        cmocka_unit_test(columns_of_whole_variables),
+        cmocka_unit_test(values_of_columns),
+        cmocka_unit_test(exact_columns),
+        cmocka_unit_test(settings_and_analysis),
+        cmocka_unit_test(methods_are_found),
+        cmocka_unit_test(methods_are_refused_with_a_reason),
+    };
+    return cmocka_run_group_tests_name("the public calls", tests, NULL, NULL);
+}

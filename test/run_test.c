@@ -1,0 +1,643 @@
+/* Runs: the same motion however it is walked, looked at, cut short, watched or broken off; and what a caller's floating-point modes and
+ * locale must not change.
+ */
+#include "test/given.h"
+
+#include <fenv.h>
+#include <locale.h>
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with companions and driven boundary cells. */
+static const char *const texts[] = {
+    "x'' = -x + x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\n",
+    "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
+    "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\n",
+    "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\n",
+    "x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 sin(t)\nx[6] = 0\n"
+    "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n",
+    "r'' = (0.5, -9.81)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\nexact r = r(0) + r'(0) t + (0.5, -9.81) t^2/2\n",
+};
+enum { TEXTS = sizeof texts / sizeof *texts };
+
+/* For every method that admits a text. */
+static void each(void (*law)(motus_system *, const char *method))
+{
+    for (int i = 0; i < TEXTS; i++) {
+        motus_system *s = given_text(texts[i]);
+        int admitted = 0;
+        for (size_t k = 0; k < motus_method_count(); k++)
+            if (motus_method_admits(s, motus_method_at(k)->name, NULL) == MOTUS_OK) {
+                law(s, motus_method_at(k)->name);
+                admitted++;
+            }
+        assert_true(admitted > 10);
+        motus_system_destroy(s);
+    }
+}
+
+/* Walking and looking --------------------------------------------------------------------------------------------------- */
+
+static int two_step_literal(const char *method) { return !strcmp(method, "verlet-literal"); }
+
+static void stepwise(motus_system *s, const char *method)
+{
+    double until = two_step_literal(method) ? 0.5 : 0.4951;      /* the second is cut short */
+    motus_run *at_once = given_run(s, method, 0.01, until), *by_steps = given_run(s, method, 0.01, until), *looking = given_run(s, method, 0.01, until);
+    finish(at_once);
+    for (int64_t n = 1; !motus_run_done(by_steps); n = n % 7 + 1)
+        take_steps(by_steps, n);
+    while (!motus_run_done(looking)) {
+        free(whole_state(s, looking, NULL));
+        value(s, looking, "t");
+        double t = fmin(motus_run_time(looking) + 0.004, until), x;
+        size_t k = 1;
+        motus_error err = motus_default_error();
+        must(motus_run_sample(looking, &t, 1, &k, 1, &x, &err), &err, "sample");
+        free(whole_state(s, looking, NULL));
+        take_steps(looking, 1);
+    }
+    same_state(s, at_once, by_steps, "at once and by steps");
+    same_state(s, at_once, looking, "unseen and looked at");
+    assert_int_equal(motus_run_steps(at_once), motus_run_steps(by_steps));
+    assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(by_steps));
+    assert_int_equal(motus_run_iterations(at_once), motus_run_iterations(by_steps));
+    assert_int_equal(motus_run_steps(at_once), motus_run_steps_total(at_once));
+    assert_true(motus_run_time(at_once) == until && motus_run_time(looking) == until);
+    motus_run_destroy(at_once);
+    motus_run_destroy(by_steps);
+    motus_run_destroy(looking);
+}
+
+static void stepwise_is_at_once(void **state)
+{
+    (void)state;
+    each(stepwise);
+}
+
+static void samples_of(motus_system *s, const char *method)
+{
+    enum { N = 12 };
+    motus_run *sampled = given_run(s, method, 0.01, 0.12), *stepped = given_run(s, method, 0.01, 0.12);
+    size_t all = motus_column_count(s), columns[64];
+    double *rows = malloc((N + 1) * all * sizeof *rows), *row = malloc(all * sizeof *row), times[N + 1];
+    motus_error err = motus_default_error();
+    assert_true(rows && row && all <= 64);
+    for (size_t k = 0; k < all; k++)
+        columns[k] = k;
+    for (int n = 0; n <= N; n++)
+        times[n] = n == N ? 0.12 : 0.01 * n;
+    must(motus_run_sample(sampled, times, N + 1, columns, all, rows, &err), &err, "sample");
+    for (int n = 0; n <= N; n++) {
+        must(motus_run_values(stepped, columns, all, row, &err), &err, "values");
+        for (size_t k = 0; k < all; k++)
+            if (memcmp(&row[k], &rows[(size_t)n * all + k], sizeof *row))
+                fail_msg("%s: column %zu after %d steps is %a, sampled %a", method, k, n, row[k], rows[(size_t)n * all + k]);
+        if (n < N)
+            take_steps(stepped, 1);
+    }
+    free(rows);
+    free(row);
+    motus_run_destroy(sampled);
+    motus_run_destroy(stepped);
+}
+
+static void samples_at_steps_are_the_state(void **state)
+{
+    (void)state;
+    each(samples_of);
+}
+
+/* Between two exact states only the polynomial errs: h^6 in the position, h^5 in the velocity. A slope estimated from h and h/2 is off by
+ * O(h), half of which is left in the next one: twice their difference bounds what is left. */
+static void the_quintic_has_local_error_h_6(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0.5\nexact x = cos(t) + 0.5 sin(t)\n");
+    size_t columns[2] = {column(s, "x"), column(s, "x'")};
+    double log_error[4][2];
+    for (int i = 0; i < 4; i++) {
+        double h = ldexp(0.8, -i), t = h * 0.4, out[2];
+        motus_run *r = given_run(s, "exact", h, h);
+        motus_error err = motus_default_error();
+        must(motus_run_sample(r, &t, 1, columns, 2, out, &err), &err, "sample");
+        assert_true(motus_run_time(r) == h);
+        log_error[i][0] = log2(fabs(out[0] - (cos(t) + 0.5 * sin(t))));
+        log_error[i][1] = log2(fabs(out[1] - (-sin(t) + 0.5 * cos(t))));
+        motus_run_destroy(r);
+    }
+    for (int k = 0; k < 2; k++) {
+        double before = log_error[1][k] - log_error[2][k], last = log_error[2][k] - log_error[3][k];
+        near(last, 6 - k, 2 * fabs(last - before), k ? "slope of the velocity" : "slope of the position");
+        assert_true(fabs(last - before) < 0.25 && last >= 5 - 0.5 * k);
+    }
+    motus_system_destroy(s);
+}
+
+static void samples_between_steps_hit_the_neighbours(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -sin(x) + 0.1 cos(t)\nx(0) = 1\nx'(0) = 0\n");
+    size_t k[2] = {column(s, "x"), column(s, "x'")};
+    motus_error err = motus_default_error();
+    /* A hair before and after every step: no time in between is refused, and the motion is continuous. */
+    static const double steps[] = {0.1, 0.07, 0.3, 0.011, 0.013, 1.0 / 3};
+    motus_run *r, *q;
+    for (size_t j = 0; j < sizeof steps / sizeof *steps; j++) {
+        r = given_run(s, "rk4", steps[j], 301 * steps[j]);
+        q = given_run(s, "rk4", steps[j], 301 * steps[j]);
+        for (int n = 1; n <= 300; n++) {
+            double at = n * steps[j], times[3] = {nextafter(at, 0), at, nextafter(at, INFINITY)}, out[6];
+            must(motus_run_sample(r, times, 3, k, 2, out, &err), &err, "sample");
+            take_steps(q, 1);
+            assert_true(out[2] == value(s, q, "x") && out[3] == value(s, q, "x'"));
+            for (size_t i = 0; i < 3; i++) {
+                near(out[2 * i], out[2], 2 * (at * 2 + 4) * ROUNDING, "x beside a step");
+                near(out[2 * i + 1], out[3], 2 * (at * 2 + 4) * ROUNDING / steps[j], "x' beside a step");
+            }
+        }
+        motus_run_destroy(r);
+        motus_run_destroy(q);
+    }
+    r = given_run(s, "rk4", 0.1, 3);
+    static const struct { double first, second; } wrong[] = {{0.1, 3.01}, {0.1, INFINITY}, {0.1, NAN}, {2.5, 0.1}, {0.5, -1}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        double times[2] = {wrong[i].first, wrong[i].second}, out[4];
+        motus_run *p = given_run(s, "rk4", 0.1, 3);
+        assert_int_equal(motus_run_sample(p, times, 2, k, 2, out, &err), MOTUS_ARGUMENT);
+        motus_run_destroy(p);
+    }
+    double t = 1.55, out;
+    size_t none = 99;
+    assert_int_equal(motus_run_sample(r, &t, 1, &none, 1, &out, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_sample(r, NULL, 0, NULL, 0, NULL, &err), MOTUS_OK);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* Start and end ----------------------------------------------------------------------------------------------------------- */
+
+static void another_start(void **state)
+{
+    (void)state;
+    motus_system *moved = given_text("x'' = -x + sin(t)\nx(0) = 1\nx'(0) = 2\n"), *s = given_text("x'' = -x + sin(t)\nx(3) = 5\nx'(3) = 6\n");
+    const double x = 5, v = 6;
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *a = NULL, *b = given_run(s, "verlet", 0.01, 4);
+    def.method = "verlet";
+    def.step = 0.01;
+    def.start = 3;
+    def.until = 4;
+    def.x = &x;
+    def.v = &v;
+    must(motus_run_create(moved, &def, &a, &err), &err, "start");
+    assert_true(motus_run_time(a) == 3 && motus_run_time(b) == 3);
+    finish(a);
+    finish(b);
+    double *p = whole_state(moved, a, NULL), *q = whole_state(s, b, NULL);
+    assert_memory_equal(p, q, 2 * sizeof *p);
+    free(p);
+    free(q);
+    motus_run_destroy(a);
+    def.x = NULL;
+    must(motus_run_create(moved, &def, &a, &err), &err, "start");
+    assert_true(value(moved, a, "x") == 1 && value(moved, a, "x'") == 6);
+    motus_run_destroy(a);
+    double bad = NAN;
+    def.x = &bad;
+    assert_int_equal(motus_run_create(moved, &def, &a, &err), MOTUS_ARGUMENT);
+    assert_null(a);
+    motus_run_destroy(b);
+    motus_system_destroy(moved);
+    motus_system_destroy(s);
+}
+
+/* Every number of the order `outside`: x by variable, cell and component, then v. */
+static void starts_are_in_the_order_of_the_columns(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("r[i]'' = -r[i] for i = 1..3\nr[i](0) = (1, 2) for i = 1..3\nr[i]'(0) = (0, 0) for i = 1..3\n"
+                                 "y'' = -y\ny(0) = 0\ny'(0) = 0\ns' = -s\ns(0) = 1\n");
+    size_t nx = motus_positions(s), nv = motus_velocities(s);
+    double x[7], v[8];
+    assert_true(nx == 7 && nv == 8);
+    for (size_t k = 0; k < nv; k++) {
+        if (k < nx)
+            x[k] = 10 + (double)k;
+        v[k] = 20 + (double)k;
+    }
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.step = 0.1;
+    def.until = 1;
+    def.x = x;
+    def.v = v;
+    must(motus_run_create(s, &def, &r, &err), &err, "start");
+    for (size_t k = 0; k < nx + nv; k++) {
+        motus_column c;
+        assert_int_equal(motus_column_at(s, 1 + k, &c), MOTUS_OK);
+        assert_true(value(s, r, c.name) == (k < nx ? x[k] : v[k - nx]));
+    }
+    assert_true(value(s, r, "r[2].y") == 13 && value(s, r, "r[3]'.x") == 24 && value(s, r, "s") == 27);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* A reversible method comes back; the sign of the step is that of the direction. What is lost is rounding: a few units per step. */
+static void backward(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -sin(x)\nx(0) = 1\nx'(0) = 0.5\n");
+    static const char *const methods[] = {"velocity-verlet", "verlet", "kahan-li6", "gauss4", "leapfrog"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        motus_run *there = given_run(s, methods[i], 0.01, 1), *back = NULL;
+        finish(there);
+        double *y = whole_state(s, there, NULL);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        def.method = methods[i];
+        def.step = 0.01;
+        def.start = 1;
+        def.until = 0;
+        def.x = y;
+        def.v = y + 1;
+        must(motus_run_create(s, &def, &back, &err), &err, "back");
+        assert_true(motus_run_step_size(back) == 0.01);
+        take_steps(back, 30);
+        near(motus_run_time(back), 0.7, 4 * ROUNDING, "time on the way back");
+        size_t k = column(s, "x");
+        double t[2] = {0.695, 0.5}, out[2];
+        must(motus_run_sample(back, t, 2, &k, 1, out, &err), &err, "sample");
+        finish(back);
+        assert_true(motus_run_time(back) == 0);
+        const double lost = ROUNDING * 200 * 18;         /* steps there and back, operations on each number in the longest step */
+        near(value(s, back, "x"), 1, lost, methods[i]);
+        near(value(s, back, "x'"), 0.5, lost, methods[i]);
+        free(y);
+        motus_run_destroy(there);
+        motus_run_destroy(back);
+    }
+    motus_system_destroy(s);
+}
+
+/* The main line is whole steps; the short one is a step of its own from there, in the method's one-step form. */
+static void short_end(motus_system *s, const char *method)
+{
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL, *whole = NULL, *last = NULL;
+    def.method = method;
+    def.step = 0.01;
+    def.until = 0.1037;
+    motus_status status = motus_run_create(s, &def, &r, &err);
+    if (two_step_literal(method)) {
+        assert_int_equal(status, MOTUS_METHOD);
+        assert_true(strstr(err.message, "equal steps") && err.hint[0]);
+        return;
+    }
+    must(status, &err, method);
+    assert_int_equal(motus_run_steps_total(r), 11);
+    near(motus_run_last_step(r), 0.0037, 4 * ROUNDING * 0.1, "the last step");
+    take_steps(r, 10);
+    assert_false(motus_run_done(r));
+    whole = given_run(s, method, 0.01, 0.1);
+    finish(whole);
+    assert_true(motus_run_last_step(whole) == 0);
+    same_state(s, r, whole, "ten whole steps");
+    finish(r);
+    assert_true(motus_run_time(r) == 0.1037);
+    assert_int_equal(motus_run_steps(r), 11);
+    take_steps(r, 5);                    /* there is nothing after the end */
+    assert_int_equal(motus_run_steps(r), 11);
+    size_t nx = motus_positions(s);
+    double *y = whole_state(s, whole, NULL);
+    def.start = motus_run_time(whole);
+    def.x = y;
+    def.v = y + nx;
+    def.step = 1;
+    if (strcmp(method, "exact")) {       /* which is one motion, not a map */
+        must(motus_run_create(s, &def, &last, &err), &err, method);
+        finish(last);
+        same_state(s, r, last, "the short step");
+        motus_run_destroy(last);
+    }
+    free(y);
+    motus_run_destroy(r);
+    motus_run_destroy(whole);
+}
+
+static void the_last_step_is_shortened(void **state)
+{
+    (void)state;
+    each(short_end);
+}
+
+static void steps_and_ends_that_are_refused(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
+    static const struct { double step, until, start; motus_status status; } cases[] = {
+        {NAN, 1, NAN, MOTUS_ARGUMENT}, {0.1, NAN, NAN, MOTUS_ARGUMENT}, {0, 1, NAN, MOTUS_ARGUMENT}, {-0.1, 1, NAN, MOTUS_ARGUMENT},
+        {INFINITY, 1, NAN, MOTUS_ARGUMENT}, {0.1, INFINITY, NAN, MOTUS_ARGUMENT}, {1e-20, 1, NAN, MOTUS_LIMIT}, {1e-3, 1e20, NAN, MOTUS_LIMIT},
+        {1e-3, 1e16 + 4, 1e16, MOTUS_ARGUMENT}, {0.1, 1, INFINITY, MOTUS_ARGUMENT}, {1e-300, 1e300, NAN, MOTUS_LIMIT},
+        {0.1, 0, NAN, MOTUS_OK}, {5, 1, NAN, MOTUS_OK}, {1e-300, 1e-299, NAN, MOTUS_OK}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        motus_error err = motus_default_error();
+        motus_run_def def = motus_default_run();
+        motus_run *r = NULL;
+        def.step = cases[i].step;
+        def.until = cases[i].until;
+        def.start = cases[i].start;
+        motus_status status = motus_run_create(s, &def, &r, &err);
+        if (status != cases[i].status)
+            fail_msg("case %zu: %s, %s", i, motus_status_word(status), err.message);
+        if (status == MOTUS_OK) {
+            finish(r);
+            assert_true(motus_run_time(r) == cases[i].until);
+            assert_int_equal(motus_run_step(r, -1, &err), MOTUS_ARGUMENT);
+        } else
+            assert_null(r);
+        motus_run_destroy(r);
+    }
+    motus_system_destroy(s);
+}
+
+/* A quotient of `until` and the step that is whole but for the rounding of both is whole. */
+static void slivers_are_no_steps(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
+    for (int n = 1; n <= 3000; n++) {
+        motus_run *r = given_run(s, "leapfrog", 0.001, n * 0.001), *q = given_run(s, "leapfrog", 1.0 / n, 1);
+        assert_true(motus_run_steps_total(r) == n && motus_run_last_step(r) == 0);
+        assert_true(motus_run_steps_total(q) == n && motus_run_last_step(q) == 0);
+        motus_run_destroy(r);
+        motus_run_destroy(q);
+    }
+    motus_system_destroy(s);
+}
+
+/* What goes wrong ---------------------------------------------------------------------------------------------------------- */
+
+static void divergence_names_time_and_variable(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\ny'' = y^3\ny(0) = 2\ny'(0) = 2\n");
+    static const char *const methods[] = {"rk4", "verlet", "velocity-verlet", "kahan-li8", "explicit-euler", "verlet-literal"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        motus_run *r = given_run(s, methods[i], 0.01, 100);
+        motus_error err = motus_default_error();
+        assert_int_equal(motus_run_finish(r, &err), MOTUS_DIVERGED);
+        assert_int_equal(err.status, MOTUS_DIVERGED);
+        assert_true(err.time > 0.1 && err.time < 100);
+        assert_true(!strcmp(err.variable, "y") || !strcmp(err.variable, "y'"));
+        assert_true(strstr(err.message, "t = ") && err.hint[0]);
+        /* The run stands at the last good step and says the same again. */
+        double x[2], v[2], t = motus_run_time(r);
+        motus_error look = motus_default_error();
+        motus_status seen = motus_run_state(r, x, v, &look);
+        /* Where the velocity waits for the acceleration at the same place, that may be the first infinity: then the look says so. */
+        assert_true(seen == MOTUS_OK || (seen == MOTUS_DIVERGED && look.time == t));
+        for (int k = 0; k < 2 && seen == MOTUS_OK; k++)
+            assert_true(isfinite(x[k]) && isfinite(v[k]));
+        assert_true(t <= err.time && t >= err.time - 0.0101);
+        motus_error again = motus_default_error();
+        assert_int_equal(motus_run_step(r, 1, &again), MOTUS_DIVERGED);
+        assert_true(motus_run_time(r) == t && again.time == err.time);
+        /* The same steps in a run that stops there. */
+        motus_run *q = given_run(s, methods[i], 0.01, 100);
+        take_steps(q, motus_run_steps(r));
+        double w[2];
+        assert_int_equal(motus_run_state(q, w, NULL, NULL), seen);
+        assert_true(seen != MOTUS_OK || !memcmp(w, x, sizeof w));
+        motus_run_destroy(r);
+        motus_run_destroy(q);
+    }
+    motus_system_destroy(s);
+    s = given_text("x'' = 1/(x - 1)\nx(0) = 1\nx'(0) = 0\n");       /* a division by zero at the start */
+    motus_run *r = given_run(s, "verlet", 0.01, 1);
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_run_finish(r, &err), MOTUS_DIVERGED);
+    assert_true(motus_run_steps(r) == 0);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+static void an_implicit_equation_without_solution(void **state)
+{
+    (void)state;
+    /* v' = exp(v): no v1 solves the midpoint rule once the step is too large. */
+    motus_system *s = given_text("x'' = exp(x')\nx(0) = 0\nx'(0) = 1\n");
+    motus_run *r = given_run(s, "implicit-midpoint", 2, 10);
+    motus_error err = motus_default_error();
+    motus_status status = motus_run_finish(r, &err);
+    assert_int_equal(status, MOTUS_SOLVE);
+    assert_true(err.time == 0 || err.time == 2);
+    assert_true(err.variable[0] == 'x' && err.hint[0]);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+typedef struct watcher { int calls, cancel_at; double last; } watcher;
+
+static int watch(void *context, double fraction)
+{
+    watcher *w = context;
+    assert_true(fraction >= w->last && fraction <= 1);
+    w->last = fraction;
+    return ++w->calls == w->cancel_at;
+}
+
+static motus_run *watched(motus_system *s, watcher *w, double until)
+{
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "kahan-li8";
+    def.step = 0.001;
+    def.until = until;
+    def.progress = watch;
+    def.context = w;
+    must(motus_run_create(s, &def, &r, &err), &err, "watched");
+    return r;
+}
+
+static void progress_and_cancellation(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -sin(x)\nx(0) = 1\nx'(0) = 0\n");
+    motus_error err = motus_default_error();
+    watcher w = {0, 0, 0}, impatient = {0, 2, 0};
+    const double until = 100;                    /* some 10^5 steps: a few tenths of a second */
+    motus_run *seen = watched(s, &w, until), *unseen = given_run(s, "kahan-li8", 0.001, until), *cut = watched(s, &impatient, until);
+    finish(seen);
+    finish(unseen);
+    assert_true(w.calls > 2);
+    same_state(s, seen, unseen, "watched and unwatched");
+    assert_int_equal(motus_run_finish(cut, &err), MOTUS_CANCELLED);
+    assert_true(impatient.calls == 2 && !motus_run_done(cut) && motus_run_steps(cut) > 0);
+    finish(cut);                                 /* cancelled is not broken */
+    same_state(s, cut, unseen, "cancelled and gone on");
+    motus_run_destroy(seen);
+    motus_run_destroy(unseen);
+    motus_run_destroy(cut);
+    motus_system_destroy(s);
+}
+
+/* Not at every step of a walk by single steps: it would cost more than the steps. */
+static void progress_is_told_now_and_then(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(texts[0]);
+    watcher w = {0, 0, 0};
+    motus_run *r = watched(s, &w, 10);
+    while (!motus_run_done(r))
+        take_steps(r, 1);
+    assert_true(w.calls < 1000);                 /* of 10000 steps */
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* The caller's modes -------------------------------------------------------------------------------------------------------- */
+
+/* A motion that dies away through the subnormal numbers, where flushing them would show. */
+static const char dying[] = "x'' = -2 x' - 3 x\nx(0) = 1e-300\nx'(0) = 0\ny'' = -sin(y)\ny(0) = 1.1\ny'(0) = 1/3\nq = x y + 1/3\n";
+
+static uint64_t everything(void)
+{
+    uint64_t h = 14695981039346656037u;
+    motus_system *s = given_text(dying);
+    static const char *const methods[] = {"rk4", "verlet", "gauss6", "newmark(1/6, 1/2)"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        motus_run *r = given_run(s, methods[i], 0.013, 30), *again = given_run(s, methods[i], 0.013, 30);
+        size_t columns[8], all = motus_column_count(s);
+        double out[8], t[2] = {29.5, 29.999};
+        for (size_t k = 0; k < all; k++)
+            columns[k] = k;
+        motus_error err = motus_default_error();
+        take_steps(r, 2000);
+        const char *text;
+        size_t length;
+        must(motus_run_save(r, &text, &length, &err), &err, "save");
+        must(motus_run_restore(again, text, length, &err), &err, "restore");
+        for (int turn = 0; turn < 2; turn++, r = again) {
+            for (int j = 0; j < 2; j++) {
+                must(motus_run_sample(r, &t[j], 1, columns, all, out, &err), &err, "sample");
+                for (size_t k = 0; k < all * sizeof *out; k++)
+                    h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
+            }
+            finish(r);
+            must(motus_run_values(r, columns, all, out, &err), &err, "values");
+            for (size_t k = 0; k < all * sizeof *out; k++)
+                h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
+            motus_run_destroy(r);
+        }
+    }
+    motus_system_destroy(s);
+    return h;
+}
+
+static void rounding_and_flush_modes(void **state)
+{
+    (void)state;
+    uint64_t plain = everything();
+    static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    for (int i = 0; i < 4; i++)
+        for (int flush = 0; flush < 2; flush++) {
+            fesetround(roundings[i]);
+#if defined(__x86_64__)
+            unsigned before = _mm_getcsr();
+            if (flush)
+                _mm_setcsr(before | 0x8040);     /* flush to zero, denormals are zero */
+            unsigned set = _mm_getcsr() & ~0x3Fu;
+#endif
+            uint64_t other = everything();
+            int rounding = fegetround();
+#if defined(__x86_64__)
+            unsigned after = _mm_getcsr() & ~0x3Fu;      /* but for the flags of exceptions */
+            _mm_setcsr(before);
+#endif
+            fesetround(FE_TONEAREST);
+            assert_int_equal(rounding, roundings[i]);
+#if defined(__x86_64__)
+            assert_int_equal(after, set);
+#endif
+            if (other != plain)
+                fail_msg("with rounding mode %d%s the bits are others", roundings[i], flush ? " and flushing" : "");
+        }
+}
+
+/* A locale with a decimal comma: one that the system has, or one made for the occasion. */
+static int decimal_comma(char *folder)
+{
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8", "pt_BR.UTF-8"};
+    for (int made = 0; made < 2; made++) {
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            if (setlocale(LC_ALL, names[i]) && !strcmp(localeconv()->decimal_point, ","))
+                return 1;
+        char command[256];
+        snprintf(command, sizeof command, "localedef --no-archive -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/log 2>&1", folder, folder);
+        if (made || system(command) == -1 || setenv("LOCPATH", folder, 1))
+            return 0;
+    }
+    return 0;
+}
+
+static void a_decimal_comma_changes_nothing(void **state)
+{
+    (void)state;
+    char folder[] = P_tmpdir "/motus-locale-XXXXXX", command[64];
+    uint64_t plain = everything();
+    assert_non_null(mkdtemp(folder));
+    int found = decimal_comma(folder);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+    if (!found) {
+        setlocale(LC_ALL, "C");
+        skip();
+    }
+    uint64_t other = everything();
+    motus_system *s = given_text("k = 2.5\nx'' = -k x\nx(0) = 0.5\nx'(0) = 0\nmethod newmark(0.25, 0.5)\n");
+    motus_run *r = given_run(s, NULL, 0.125, 1);
+    char equation[64], method[64], message[MOTUS_TEXT_MAX];
+    snprintf(equation, sizeof equation, "%s", motus_equation_text(s, 0));
+    snprintf(method, sizeof method, "%s", motus_run_method(r));
+    double far = 2.5, out, x = value(s, r, "x");
+    size_t k = 1;
+    motus_error err = motus_default_error();
+    motus_status status = motus_run_sample(r, &far, 1, &k, 1, &out, &err);
+    snprintf(message, sizeof message, "%s", err.message);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    setlocale(LC_ALL, "C");
+    assert_true(other == plain && x == 0.5 && status == MOTUS_ARGUMENT);
+    assert_string_equal(method, "newmark(0.25, 0.5)");
+    assert_null(strchr(equation, ','));
+    assert_non_null(strstr(message, "2.5"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stepwise_is_at_once),
+        cmocka_unit_test(samples_at_steps_are_the_state),
+        cmocka_unit_test(the_quintic_has_local_error_h_6),
+        cmocka_unit_test(samples_between_steps_hit_the_neighbours),
+        cmocka_unit_test(another_start),
+        cmocka_unit_test(starts_are_in_the_order_of_the_columns),
+        cmocka_unit_test(backward),
+        cmocka_unit_test(the_last_step_is_shortened),
+        cmocka_unit_test(steps_and_ends_that_are_refused),
+        cmocka_unit_test(slivers_are_no_steps),
+        cmocka_unit_test(divergence_names_time_and_variable),
+        cmocka_unit_test(an_implicit_equation_without_solution),
+        cmocka_unit_test(progress_and_cancellation),
+        cmocka_unit_test(progress_is_told_now_and_then),
+        cmocka_unit_test(rounding_and_flush_modes),
+        cmocka_unit_test(a_decimal_comma_changes_nothing),
+    };
+    return cmocka_run_group_tests_name("runs", tests, NULL, NULL);
+}
