@@ -26,6 +26,7 @@ motus_status motus_method_admits(const motus_system *given, const char *name, mo
     motus_status status = row_choose(name, &c, &card, err);
     if (status != MOTUS_OK)
         return status;
-    system_sample_gyroscopic(s);
+    if (!system_sample_gyroscopic(s))
+        return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     return row_admits(&c, &s->problem.traits, err);
 }

@@ -19,16 +19,19 @@ static double random_number(uint64_t *state)         /* splitmix64, to (-1, 1) *
 }
 
 /* w·(J u) = sign · u·(J w) at random states and directions, to rounding: J is symmetric (sign 1) or antisymmetric (-1). A derivative
- * that is not fails at almost every state. */
-static bool symmetric(motus_system *s, bool in_v, double sign)
+ * that is not fails at almost every state. Returns false where there is no memory to find out. */
+static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 {
     problem *p = &s->problem;
     size_t n = p->nv, work = 7 * (n + 1);
-    double *x = take(&s->allocator, work, sizeof *x);
-    if (!x || !p->jvp) {
-        give(&s->allocator, x);
+    *answer = false;
+    if (!p->jvp)
+        return true;
+    if (p->prepare && !p->prepare(p->ctx, in_v))
         return false;
-    }
+    double *x = take(&s->allocator, work, sizeof *x);
+    if (!x)
+        return false;
     double *v = x + n + 1, *u = v + n + 1, *w = u + n + 1, *ju = w + n + 1, *jw = ju + n + 1, *mask = jw + n + 1;
     /* Only cells with an equation vary. */
     for (uint32_t i = 0; i < s->state_count; i++)
@@ -67,33 +70,31 @@ static bool symmetric(motus_system *s, bool in_v, double sign)
         ok = fabs(a - sign * b) <= 1e-11 * size;
     }
     give(&s->allocator, x);
-    return ok && judged > 0;
+    *answer = ok && judged > 0;
+    return true;
 }
 
-void system_sample_gyroscopic(motus_system *s)
+bool system_sample_gyroscopic(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gyroscopic)
-        return;
-    s->sampled_gyroscopic = true;
-    if (!t->velocity || !t->linear_v || t->companions || !s->model)
-        return;
+    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->companions || !s->model)
+        return true;
     modes m = modes_enter();
-    t->gyroscopic = symmetric(s, true, -1);
+    s->sampled_gyroscopic = symmetric(s, true, -1, &t->gyroscopic);
     modes_leave(m);
+    return s->sampled_gyroscopic;
 }
 
-void system_sample_gradient(motus_system *s)
+bool system_sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gradient)
-        return;
-    s->sampled_gradient = true;
-    if (t->velocity || t->companions || !s->model)
-        return;
+    if (s->sampled_gradient || t->velocity || t->companions || !s->model)
+        return true;
     modes m = modes_enter();
-    t->gradient = t->constant || symmetric(s, false, 1);
+    s->sampled_gradient = symmetric(s, false, 1, &t->gradient);
+    t->gradient = t->gradient || t->constant;
     modes_leave(m);
+    return s->sampled_gradient;
 }
 
 void motus_analysis_of(const motus_system *given, motus_analysis *a)
@@ -112,7 +113,7 @@ void motus_analysis_of(const motus_system *given, motus_analysis *a)
 
 /* ---- words ---- */
 
-typedef struct words { char *text; size_t length, room; arena *arena; } words;
+typedef struct words { char *text; size_t length, room; arena *arena; bool failed; } words;
 
 static void say(words *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void say(words *w, const char *format, ...)
@@ -127,6 +128,8 @@ static void say(words *w, const char *format, ...)
         if (more) {
             w->text = more;
             w->room = room;
+        } else {
+            w->failed = true;
         }
     }
     if (n >= 0 && w->length + (size_t)n + 1 <= w->room)
@@ -224,15 +227,15 @@ const char *motus_explain(motus_system *s)
         return s->explanation;
     if (!s->model)
         return "the acceleration is a callback: nothing can be read off it\n";
-    system_sample_gyroscopic(s);
-    system_sample_gradient(s);
+    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+        return "";
     modes m = modes_enter();
     words w = {.arena = &s->arena};
     say_variables(&w, s);
     say_forces(&w, s);
     modes_leave(m);
-    if (!w.text)
-        return "";
+    if (!w.text || w.failed || s->arena.failed)
+        return "";                   /* the whole of it or nothing */
     s->explanation = w.text;
     return s->explanation;
 }

@@ -8,8 +8,6 @@
 
 #define STEPS_MAX 1e15               /* between the start and `until`; a nanosecond each would be eleven days */
 
-bool row_uniform(const chosen *method);
-
 /* ---- creation ---- */
 
 static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *err)
@@ -112,10 +110,9 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     motus_settings set;
     motus_settings_of(s, &set);
     motus_status status = row_choose(def.method ? def.method : set.method ? set.method : "verlet", &r->chosen, &r->card, err);
-    if (status == MOTUS_OK && r->card->forces != MOTUS_FORCES_XVT)
-        system_sample_gyroscopic(s);
-    if (status == MOTUS_OK && !strcmp(r->card->name, "boris"))
-        system_sample_gyroscopic(s);
+    bool may_turn = status == MOTUS_OK && (r->card->forces != MOTUS_FORCES_XVT || !strcmp(r->card->name, "boris"));
+    if (may_turn && !system_sample_gyroscopic(s))
+        status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     if (status == MOTUS_OK)
         status = row_admits(&r->chosen, &s->problem.traits, err);
     if (status == MOTUS_OK)

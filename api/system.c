@@ -118,7 +118,8 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     s->callback = def;
-    motus_status status = callback_problem(&s->callback, &s->problem, err);
+    s->calling.def = &s->callback;
+    motus_status status = callback_problem(&s->calling, &s->problem, err);
     if (status == MOTUS_OK) {
         size_t nx = s->problem.nx, nv = s->problem.nv;
         s->machine = &machine_callback;
@@ -126,6 +127,8 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
         s->x0 = arena_grow(&s->arena, NULL, 0, (nx + 1) * sizeof(double));
         s->v0 = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
         s->states = arena_grow(&s->arena, NULL, 0, 2 * sizeof *s->states);
+        if (def.derivative)
+            s->calling.zeros = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
         if (s->x0 && s->v0 && s->states) {
             if (nx)
                 memcpy(s->x0, def.x, nx * sizeof(double));

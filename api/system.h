@@ -21,6 +21,7 @@ struct motus_system {
     model *model;                    /* NULL: a callback */
     interpreter *interpreter;
     motus_callback_def callback;
+    calling calling;
     problem problem;
     const machine *machine;
     double start;
@@ -35,9 +36,9 @@ struct motus_system {
     char *equation;
 };
 
-/* Finds out what needs sampled states; called when someone asks. */
-void system_sample_gyroscopic(motus_system *);
-void system_sample_gradient(motus_system *);
+/* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
+bool system_sample_gyroscopic(motus_system *);
+bool system_sample_gradient(motus_system *);
 /* Between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

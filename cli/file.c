@@ -49,13 +49,11 @@ static motus_status read_all(int fd, const char *path, size_t most, size_t guess
             buffer = larger;
         }
         ssize_t got = read(fd, buffer + used, room - used - 1);
-        if (got < 0 && errno == EINTR && !stop_requested())
+        if (got < 0 && errno == EINTR)
             continue;
         if (got < 0) {
             int code = errno;
             free(buffer);
-            if (stop_requested())
-                return complain(err, MOTUS_CANCELLED, "cancelled");
             return cannot_read(path, strerror(code), err);
         }
         if (got == 0)

@@ -4,7 +4,9 @@
 
 #include <stdbool.h>
 
-void stop_watch(void);            /* from now on the signals ask, they do not kill */
+/* From now on the signals ask, they do not kill: to be called where work begins that looks at the answer (the hook below, stop_requested()).
+ * Before, while a model is read, they kill as ever. */
+void stop_watch(void);
 bool stop_requested(void);
 void stop_reader_gone(void);      /* whoever read standard output went away: to be treated like SIGPIPE */
 /* When a signal asked: die of it, as whoever sent it expects. Call after everything is cleaned up; else returns. */

@@ -83,6 +83,7 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
     *s = (solver){.problem = p, .stages = stages, .use_x = use_x, .use_v = use_v, .constant = constant, .stride = stride};
     if (allocator) s->allocator = *allocator;
     motus_status status = structure(s, err);
+    if (!status && p->prepare && ((use_x && !p->prepare(p->ctx, false)) || (use_v && !p->prepare(p->ctx, true)))) status = no_memory(err);
     if (!status) {
         const size_t height = diagonal(s) ? 1 : 2 * s->lower + s->upper + 1, nv = p->nv;
         bool ok = (!use_x || solver_colour(nv, &s->x, &s->allocator)) && (!use_v || solver_colour(nv, &s->v, &s->allocator));

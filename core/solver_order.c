@@ -20,13 +20,15 @@ void solver_release(sparse *m, const motus_allocator *allocator)
 
 /* Pattern ----------------------------------------------------------------------------------------------------------- */
 
-typedef struct gather { sparse *to; size_t rows; bool filling, broken; } gather;
+typedef struct gather { sparse *to; size_t rows, room; bool filling, broken, torn; } gather;
 
-/* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. */
+/* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. A problem that runs out of memory on
+ * the way may say less the first time than the second: then the pattern is torn. */
 static void gather_entry(void *arg, size_t row, size_t column)
 {
     gather *g = arg;
     if (row >= g->rows || column >= g->to->columns) g->broken = true;
+    else if (g->filling && g->to->start[column] >= g->room) g->torn = true;
     else if (g->filling) g->to->row[g->to->start[column]++] = (uint32_t)row;
     else g->to->start[column + 1]++;
 }
@@ -60,10 +62,12 @@ bool solver_pattern(const problem *p, bool in_v, sparse *m, const motus_allocato
     m->row = take(allocator, entries, sizeof *m->row);
     if (!m->row) return false;
     g.filling = true;
+    g.room = entries;
     gather_all(p, in_v, &g);
     size_t kept = 0, first = 0;
     for (size_t c = 0; c < m->columns; c++) {             /* start[c] now is the end of column c: sort, drop doubles, close up */
         const size_t end = m->start[c];
+        if (g.torn || end < first) return false;
         qsort(m->row + first, end - first, sizeof *m->row, ascending);
         m->start[c] = kept;
         for (size_t i = first; i < end; i++)

@@ -32,6 +32,9 @@ typedef struct problem {
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);
     /* da = (da/dx) dx + (da/dv) dv at (t, x, v); dx or dv may be NULL (zero). NULL function: difference quotients. */
     int (*jvp)(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da);
+    /* Makes jvp ready for calls with dv alone (in_v) or dx alone; false: there was no memory for that, or for what `pattern` last told. NULL: it is
+     * ready. */
+    bool (*prepare)(void *ctx, bool in_v);
     /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero, duplicates
      * allowed. NULL function: dense. */
     void (*pattern)(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg);

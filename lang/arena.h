@@ -15,7 +15,7 @@ typedef struct arena {
     motus_allocator allocator;
     struct arena_block *blocks;
     bool failed;
-    _Alignas(64) char spare[ARENA_SPARE];
+    _Alignas(max_align_t) char spare[ARENA_SPARE];   /* no stricter: an arena lies in blocks from the hooks, aligned as malloc's */
 } arena;
 
 void arena_init(arena *, const motus_allocator *);

@@ -135,21 +135,16 @@ static bool looked_at(model *m, model_definition *d)
         hull *= (size_t)(l.high[k] - l.low[k] + 1);
     }
     d->numbers = hull * (size_t)parts;
-    if (d->numbers > MODEL_NUMBERS_MAX || m->array_count + (uint32_t)parts > UINT16_MAX) {
+    if (d->numbers > MODEL_NUMBERS_MAX) {
         source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name, d->numbers, MODEL_NUMBERS_MAX);
         return false;
     }
     d->outputs = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *d->outputs);
-    array *arrays = arena_grow(m->arena, m->arrays, m->array_count * sizeof *arrays, (m->array_count + (size_t)parts) * sizeof *arrays);
-    if (!d->outputs || !arrays)
+    if (!d->outputs || !resolve_arrays(m, parts, &d->array))
         return false;
-    m->arrays = arrays;
-    m->array_capacity = m->array_count + (uint32_t)parts;
-    m->graph->arrays = arrays;
-    d->array = (uint16_t)m->array_count;
     for (int k = 0; k < parts; k++) {
         shape.base = hull * (size_t)k;
-        m->arrays[m->array_count++] = shape;
+        m->arrays[d->array + k] = shape;
         d->outputs[k] = o;
         d->outputs[k].value = v.item[k];
         d->outputs[k].to.array = (uint16_t)(d->array + k);

@@ -38,7 +38,8 @@ typedef enum operation {
     OPERATIONS
 } operation;
 /* Operations are the rows of operations.def: leaves CONST TIME PARAM INDEX LOAD; SUM; NEG ADD SUB MUL DIV; FMA = a*b+c, FMS = a*b-c,
- * FNMA = c-a*b, and the leaf TOTAL (these four made by the normal form only: see program.c); LT LE GT GE EQ NE (1.0 or 0.0); AND OR NOT; SELECT(c, a, b); POW; and the functions
+ * FNMA = c-a*b, and the leaf TOTAL (these four made by the normal form only: see program.c); LT LE GT GE EQ NE (1.0 or 0.0);
+ * AND OR NOT; SELECT(c, a, b); POW; and the functions
  * SIN COS TAN ASIN ACOS ATAN ATAN2 SINH COSH TANH EXP LOG SQRT CBRT HYPOT ABS MIN MAX FLOOR MOD SIGN ERF. */
 
 /* What a node depends on, transitively. Bits 0 … MAX_LEVELS-1: loop variables bound outside the node. */

@@ -1,7 +1,8 @@
 /* A node as text in the language, with as few brackets as the grammar allows.
  *
  * Invariant: the text reads back as a node of the same value, bit for bit, but that what the graph shares is written out (and so may be fused
- * otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of multiplications are powers again. Nodes to be written wait on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX: written as a tree, a shared graph may be endless.
+ * otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of multiplications are powers again. Nodes to be written wait
+ * on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX: written as a tree, a shared graph may be endless.
  */
 #include "lang/graph_walk.h"
 #include "lang/number.h"

@@ -147,7 +147,11 @@ static void take_constant(lowering *l, const tree *t, int sign, affine *a)
     }
     const graph_node *g = graph_at(l->model->graph, n);
     if (g->op == OP_CONST) {
-        if (g->value != floor(g->value) || fabs(g->value) > 1e9) {
+        if (fabs(g->value) > 1e9) {
+            source_complain(&l->model->source, MOTUS_LIMIT, t->at, "an index is at most 1e9, and this is %g", g->value);
+            return;
+        }
+        if (g->value != floor(g->value)) {
             COMPLAIN(l, t->at, "an index is a whole number, not %g", g->value);
             return;
         }
@@ -932,6 +936,7 @@ static value lower_sum(lowering *l, const tree *t)
         return wrong(l);
     }
     node mask = 0;
+    bool masked = false, never = false;              /* a condition that is false whatever happens leaves nothing to sum */
     for (uint32_t i = 0; i + 1 < t->count; i++) {
         value c = lower_expression(&inner, t->item[i]);
         if (failed(l))
@@ -940,7 +945,9 @@ static value lower_sum(lowering *l, const tree *t)
             COMPLAIN(l, t->item[i]->at, "a condition is due here, such as j != i");
             return wrong(l);
         }
-        mask = mask ? binary(l, OP_AND, mask, c.item[0]) : c.item[0];
+        mask = masked ? binary(l, OP_AND, mask, c.item[0]) : c.item[0];
+        masked = true;
+        never |= mask == 0;
     }
     value body = lower_expression(&inner, t->item[t->count - 1]);
     if (!want_number(l, body, t->item[t->count - 1]))
@@ -948,6 +955,10 @@ static value lower_sum(lowering *l, const tree *t)
     value v = vector(l, body.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         node n = body.item[k];
+        if (never) {
+            v.item[k] = 0;
+            continue;
+        }
         for (int i = (int)t->loop_count - 1; i >= 0; i--)
             n = graph_sum(g, l->levels + i, &ranges[i], i == (int)t->loop_count - 1 ? mask : 0, n);
         v.item[k] = n;
@@ -982,9 +993,9 @@ static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
     if (t->kind == TREE_AND || t->kind == TREE_OR) {
-        value right = lower_truth(l, b);
-        if (!failed(l) && !left.boolean)
+        if (!left.boolean)
             COMPLAIN(l, a->at, "and, or, not join conditions, such as x > 0");
+        value right = lower_truth(l, b);
         return failed(l) ? wrong(l) : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
     value right = lower_expression(l, b);
@@ -1021,7 +1032,7 @@ static value lower_chain(lowering *l, const tree *t)
     return v;
 }
 
-value lower_expression(lowering *l, const tree *t)
+static value lower_any(lowering *l, const tree *t)
 {
     if (failed(l)) {
         if (l->model->graph->too_large)
@@ -1070,4 +1081,18 @@ value lower_expression(lowering *l, const tree *t)
     case TREE_SUM: return lower_sum(l, t);
     default: return lower_chain(l, t);
     }
+}
+
+value lower_expression(lowering *l, const tree *t)
+{
+    model *m = l->model;
+    if (m->depth == MODEL_DEPTH_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, t->at, "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
+        source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
+        return wrong(l);
+    }
+    m->depth++;
+    value v = lower_any(l, t);
+    m->depth--;
+    return v;
 }

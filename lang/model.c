@@ -181,9 +181,12 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
 static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
 {
     const model *m = model_;
+    out[0] = 0;
     if (n->op == OP_PARAM)
         name_parameter(m, n->a, out, size);
-    else
+    else if (n->op == OP_INDEX && n->level == MAX_LEVELS)
+        snprintf(out, size, "%lld", (long long)m->ints[n->a]);
+    else if (n->op == OP_LOAD)
         name_reference(m, &m->graph->references[n->a], out, size);
 }
 

@@ -15,10 +15,12 @@ enum {
     MODEL_NUMBERS_MAX = 50000000,    /* state, all components and boundary cells */
     MODEL_LIST_MAX = 50000000,       /* numbers in parameters' lists and families */
     MODEL_COMPONENTS_MAX = 4096,     /* length of a vector */
-    MODEL_CHAIN_MAX = 400            /* definitions that use definitions that use … */
+    MODEL_CHAIN_MAX = 400,           /* definitions that use definitions that use … */
+    MODEL_DEPTH_MAX = 2000           /* brackets and definitions within one another, all counted: what the C stack must bear */
 };
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, all uses of quantities counted */
 #define MODEL_TERMS_MAX 1e12         /* of nested sums and families, per evaluation */
+#define MODEL_CONSTANT_TERMS_MAX 2e9 /* of all sums in constants together: they are computed while the model is read */
 
 typedef struct model_cells {         /* the cells of a family that have an equation, in the order of their indices */
     size_t count;
@@ -74,6 +76,8 @@ typedef struct model {
     double *pool; size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors, whatever N is */
 
+    double constant_terms;           /* of sums in constants so far */
+    int depth;                       /* expressions within expressions, at present */
     int start_depth;                 /* initial values that use one another */
     uint64_t lowered;                /* trees lowered so far: bounds what quantities of quantities can cost */
     model_state *states; uint32_t state_count;
@@ -121,6 +125,8 @@ bool resolve_start(model *, model_state *, int primes, const int64_t low[], cons
 bool resolve_start_time(model *);
 bool resolve_number(model *, node, span at, double *value);
 int resolve_int(model *, node, span at, int64_t *value);        /* the int slot, or -1 */
+/* Room for arrays, zeroed; their numbers begin at *first. */
+bool resolve_arrays(model *, int count, uint16_t *first);
 bool resolve_run(model *, const output *, size_t count, double t, double *const base[SPACES]);
 
 /* equations.c */

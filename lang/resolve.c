@@ -48,7 +48,7 @@ static bool pool_room(model *m, size_t count, size_t *first)
     return true;
 }
 
-static bool add_arrays(model *m, int count, uint16_t *first)
+bool resolve_arrays(model *m, int count, uint16_t *first)
 {
     uint32_t need = m->array_count + (uint32_t)count;
     if (need > UINT16_MAX) {
@@ -108,7 +108,7 @@ static bool compute(model *m, const node *nodes, int count, double *out)
     uint32_t arrays = m->array_count;
     uint16_t first;
     output *o = arena_grow(m->arena, NULL, 0, (size_t)count * sizeof *o);
-    if (!o || !add_arrays(m, count, &first))
+    if (!o || !resolve_arrays(m, count, &first))
         return false;
     for (int k = 0; k < count; k++) {
         shape_array(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
@@ -137,7 +137,11 @@ int resolve_int(model *m, node n, span at, int64_t *value)
     double v;
     if (!resolve_number(m, n, at, &v))
         return -1;
-    if (v != floor(v) || fabs(v) > 1e9) {
+    if (fabs(v) > 1e9) {
+        source_complain(&m->source, MOTUS_LIMIT, at, "a bound of an index is at most 1e9, and this is %g", v);
+        return -1;
+    }
+    if (v != floor(v)) {
         source_complain(&m->source, MOTUS_SHAPE, at, "a whole number is due here, not %g", v);
         return -1;
     }
@@ -226,7 +230,7 @@ static bool resolve_list(model *m, model_definition *d)
     int parts = d->components ? d->components : 1;
     size_t base;
     uint16_t at;
-    if (!pool_room(m, (size_t)n * (size_t)parts, &base) || !add_arrays(m, parts, &at))
+    if (!pool_room(m, (size_t)n * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
         return false;
     d->array = at;
     node *column = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *column);
@@ -265,7 +269,7 @@ static bool run_into_pool(model *m, const output *target, value v, size_t base, 
     uint32_t arrays = m->array_count;
     uint16_t at;
     output *o = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *o);
-    if (!o || !add_arrays(m, parts, &at))
+    if (!o || !resolve_arrays(m, parts, &at))
         return false;
     for (int k = 0; k < parts; k++) {
         shape_array(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
@@ -308,7 +312,7 @@ static bool resolve_family(model *m, model_definition *d)
         return false;
     }
     uint16_t at;
-    if (!pool_room(m, hull * (size_t)parts, &base) || !add_arrays(m, parts, &at))
+    if (!pool_room(m, hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
         return false;
     d->array = at;
     for (int k = 0; k < parts; k++)
@@ -528,7 +532,7 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
         return false;
     }
     for (int d = 0; d < s->order; d++) {
-        if (!pool_room(m, s->hull * (size_t)parts, &base) || !add_arrays(m, parts, &s->start_array[d]))
+        if (!pool_room(m, s->hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &s->start_array[d]))
             return false;
         for (int k = 0; k < parts; k++)
             shape_array(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
@@ -808,7 +812,7 @@ static bool lay_out(model *m)
     m->block_size = (uint16_t)parts;
     static const space spaces[5] = {SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV};
     for (int b = 0; b < 5; b++) {
-        if (!add_arrays(m, (int)parts, &m->block[b]))
+        if (!resolve_arrays(m, (int)parts, &m->block[b]))
             return false;
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];

@@ -119,8 +119,11 @@ static bool replace(model *m, uint32_t text)
         } else if (old->index_count != one->index_count) {
             continue;
         }
-        if (found++ == 0)
+        if (found++ == 0) {
+            tree *replaced = old->value;
             *old = *one;
+            old->replaced = replaced;
+        }
         else
             old->kind = STATEMENT_METHOD, old->text = NULL;     /* an emptied line */
     }
@@ -285,7 +288,7 @@ static bool definition_moves(model *m, model_definition *d, span at, int chain, 
 }
 
 /* The left side of a long chain of operators is followed in the loop: trees lean left. */
-static bool moves(model *m, const tree *t, int chain, bool *yes)
+static bool moves_inside(model *m, const tree *t, int chain, bool *yes)
 {
     for (;;) {
         if (t->kind == TREE_NAME) {
@@ -304,13 +307,38 @@ static bool moves(model *m, const tree *t, int chain, bool *yes)
     }
 }
 
+static bool moves(model *m, const tree *t, int chain, bool *yes)
+{
+    if (m->depth == MODEL_DEPTH_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, t->at, "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
+        source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
+        return false;
+    }
+    m->depth++;
+    bool ok = moves_inside(m, t, chain, yes);
+    m->depth--;
+    return ok;
+}
+
 bool symbols_classify(model *m)
 {
     bool yes = false;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (!definition_moves(m, &m->definitions[i], m->definitions[i].statement->name_at, 0, &yes))
             return false;
-    for (uint32_t i = 0; i < m->definition_count; i++)
-        m->definitions[i].progress = 0;
+    for (uint32_t i = 0; i < m->definition_count; i++) {
+        model_definition *d = &m->definitions[i];
+        d->progress = 0;
+        yes = false;
+        if (!d->statement->replaced)
+            continue;
+        if (!moves(m, d->statement->replaced, 0, &yes))
+            return false;
+        if (yes) {
+            source_complain(&m->source, MOTUS_ARGUMENT, d->statement->name_at, "%s is a quantity and follows from the motion", d->name);
+            source_hint(&m->source, "parameters and initial values can be set");
+            return false;
+        }
+    }
     return true;
 }

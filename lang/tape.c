@@ -9,7 +9,7 @@ enum {
     BLOCK_BYTES = 24 << 10,          /* what all blocks together may take: most of a 32 KiB L1 cache, the state needs some too */
     WIDEST = 1024,
     PAD = 8,                         /* doubles between blocks: blocks a power of two apart would fight for the same cache sets */
-    FEW_LANES = 2                    /* up to here a kernel call costs more than the scalars it saves */
+    FEW_LANES = 1                    /* up to here calling a kernel costs more than it saves */
 };
 
 struct tape {

@@ -291,7 +291,7 @@ static void execute(frame *f, const instruction *i)
 #include "lang/operations.def"
 #undef OP
         [CODE_CONST] = &&l_other, [CODE_TIME] = &&l_time, [CODE_PARAM] = &&l_other, [CODE_INDEX] = &&l_other,
-        [CODE_FETCH_FIXED] = &&l_fetch, [CODE_FETCH] = &&l_other, [CODE_PUT_FIXED] = &&l_put, [CODE_PUT] = &&l_other,
+        [CODE_FETCH_FIXED] = &&l_fetch, [CODE_FETCH] = &&l_fetch_along, [CODE_PUT_FIXED] = &&l_put, [CODE_PUT] = &&l_other,
         [CODE_BLOCK] = &&l_block, [CODE_IOTA] = &&l_other, [CODE_FILL] = &&l_other, [CODE_VIEW] = &&l_other,
         [CODE_TARGET] = &&l_other, [CODE_WRITE] = &&l_other, [CODE_LOOP] = &&l_other, [CODE_NEXT] = &&l_other,
         [CODE_TERMS] = &&l_other, [CODE_END] = &&l_end
@@ -310,6 +310,13 @@ static void execute(frame *f, const instruction *i)
 l_function: R[i->r] = function(i, R); NEXT;
 l_time: R[i->r] = f->t; NEXT;
 l_fetch: { const site *s = &f->code->sites[i->a]; R[i->r] = f->base[s->space][s->offset]; NEXT; }
+l_fetch_along: {
+    const site *s = &f->code->sites[i->a];
+    if (s->terms > 1 || s->wraps || s->space == SPACE_POOL)
+        goto l_other;
+    R[i->r] = f->base[s->space][s->offset + f->index[s->level[0]] * s->step[0]];
+    NEXT;
+}
 l_put: { const site *s = &f->code->sites[i->b]; f->base[s->space][s->offset] = R[i->a]; NEXT; }
 l_block: block(f, i); NEXT;
 l_other: i = other(f, i); goto *label[i->code];

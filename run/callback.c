@@ -8,25 +8,25 @@
 
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
-    const motus_callback_def *def = ctx;
+    const motus_callback_def *def = ((const calling *)ctx)->def;
     return def->acceleration(def->context, t, x, v, a);
 }
 
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
-    const motus_callback_def *def = ctx;
-    return def->derivative(def->context, t, x, v, dx, dv, da);
+    const calling *c = ctx;
+    return c->def->derivative(c->def->context, t, x, v, dx ? dx : c->zeros, dv ? dv : c->zeros, da);
 }
 
 static int exact(void *ctx, double t, double *x, double *v)
 {
-    const motus_callback_def *def = ctx;
+    const motus_callback_def *def = ((const calling *)ctx)->def;
     return def->exact(def->context, t, x, v);
 }
 
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
-    const motus_callback_def *def = ctx;
+    const motus_callback_def *def = ((const calling *)ctx)->def;
     if (!in_v)
         snprintf(out, size, "x[%zu]", k);
     else if (k < def->positions)
@@ -35,8 +35,9 @@ static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
         snprintf(out, size, "s[%zu]", k - def->positions);
 }
 
-motus_status callback_problem(const motus_callback_def *def, problem *p, motus_error *err)
+motus_status callback_problem(const calling *c, problem *p, motus_error *err)
 {
+    const motus_callback_def *def = c->def;
     if (!def->acceleration)
         return fail(err, MOTUS_ARGUMENT, "the definition has no acceleration callback");
     if (def->positions + def->companions == 0)
@@ -45,7 +46,7 @@ motus_status callback_problem(const motus_callback_def *def, problem *p, motus_e
         return fail(err, MOTUS_LIMIT, "at most %d positions and companions fit", MODEL_NUMBERS_MAX);
     if ((def->positions && !def->x) || !def->v)
         return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
-    *p = (problem){.ctx = (void *)def, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
+    *p = (problem){.ctx = (void *)c, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
                    .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name};
     p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
                          .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};

@@ -83,6 +83,12 @@ static tape *derive(interpreter *in, int along)
     return in->jvp[along] = make(m, o, m->accel_count);
 }
 
+static bool prepare(void *ctx, bool in_v)
+{
+    interpreter *in = ctx;
+    return derive(in, in_v ? ALONG_V : ALONG_X) && !in->model->arena->failed;
+}
+
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
     interpreter *in = ctx;
@@ -170,7 +176,7 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     if (m->arena->failed || !in->accel || !in->looks)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(in->looks, 0, (m->definition_count + 1) * sizeof *in->looks);
-    *p = (problem){.ctx = in, .nx = m->nx, .nv = m->nv, .traits = m->traits, .accel = accel, .jvp = jvp, .pattern = pattern,
+    *p = (problem){.ctx = in, .nx = m->nx, .nv = m->nv, .traits = m->traits, .accel = accel, .jvp = jvp, .prepare = prepare, .pattern = pattern,
                    .refresh = m->driven ? refresh : NULL, .exact = in->exact ? exact : NULL, .name = name};
     *out = in;
     return MOTUS_OK;

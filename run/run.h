@@ -33,7 +33,9 @@ motus_status interpreter_create(model *, interpreter **, problem *, motus_error 
 /* The numbers of a quantity or invariant at a state, into out (definition->numbers of them). False: no memory. */
 bool interpreter_look(interpreter *, model_definition *, double t, double *x, double *v, double *out);
 
-/* A problem from a callback definition, which must outlive it. */
-motus_status callback_problem(const motus_callback_def *, problem *, motus_error *);
+/* A problem from a callback definition; both must outlive it. `zeros`, as many as there are velocities and companions, stand in for a direction
+ * that is not given; needed where the definition has a derivative. */
+typedef struct calling { const motus_callback_def *def; const double *zeros; } calling;
+motus_status callback_problem(const calling *, problem *, motus_error *);
 
 #endif

@@ -183,8 +183,8 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     }
     double error = 0;
     for (size_t p = 0, every = INTERVALS / g->intervals; p < g->intervals; p++) {
-        const double *truth = c->truth.rows + (p + 1) * every * s->numbers;
-        error = study_larger(error, study_measure(s, c->table + p * s->numbers, truth).scaled);
+        const double *at = c->truth.rows + (p + 1) * every * s->numbers;
+        error = study_larger(error, study_measure(s, c->table + p * s->numbers, at).scaled);
     }
     point->error = isfinite(error) ? error : NAN;
     return MOTUS_OK;

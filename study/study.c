@@ -123,8 +123,9 @@ motus_status study_tick(study *s, double fraction)
     if (s->told >= 0 && now - s->told < TELL_SECONDS)
         return MOTUS_OK;
     s->told = now;
-    double whole = s->base + s->span * fraction;
-    s->cancelled = s->progress(s->context, whole < 0 ? 0 : whole > 1 ? 1 : whole) != 0;
+    /* Some parts are gone over again, with a shorter step: progress waits there and never goes back. */
+    s->reached = fmin(1, fmax(s->reached, s->base + s->span * fraction));
+    s->cancelled = s->progress(s->context, s->reached) != 0;
     if (!s->cancelled)
         return MOTUS_OK;
     return study_fail(s->err, MOTUS_CANCELLED, "", "%s", motus_status_text(MOTUS_CANCELLED));

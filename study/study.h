@@ -38,7 +38,8 @@ typedef struct study {
     double *work;                    /* 2 numbers + 2 groups: working space of study_scale */
     int (*progress)(void *context, double fraction);
     void *context;
-    double base, span, told;         /* the part of the whole that the present walk is */
+    double base, span;               /* the part of the whole that the present walk is */
+    double reached, told;            /* the fraction and the moment of the last call */
     bool cancelled;
     bool starved;                    /* memory ran out where an answer could only be "unknown" */
 } study;

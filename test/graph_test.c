@@ -253,6 +253,11 @@ static void seeds_shift_arrays(void **state)
         wanted += 2 * w.x[1 + k] * w.dx[1 + k];
     double got = run_one(&f, graph_derivative(g, bin(g, OP_MUL, squares, graph_time(g)), graph_seed_direction, &shift), 2);
     assert_true(fabs(got - 2 * wanted) < 1e-12);
+    /* A masked sum's derivative is masked: 1/(k - 2) is not to be seen at k = 2. */
+    node k = graph_index(g, 0), two = graph_const(g, 2);
+    node masked = sum_over(g, 0, r, bin(g, OP_NE, k, two), bin(g, OP_DIV, load(g, ref1(CHAIN, level(0, 0))), bin(g, OP_SUB, k, two)));
+    got = run_one(&f, graph_derivative(g, masked, graph_seed_direction, &shift), 0);
+    assert_true(fabs(got - (w.dx[4] - w.dx[2])) < 1e-12);
     graph_shift motion = { CHAIN_V - CHAIN, 0 };
     double still = wanted = 0;
     for (int k = 1; k <= 3; k++) {
@@ -445,6 +450,7 @@ static void nodes_are_written_in_the_language(void **state)
         { bin(g, OP_MUL, x, minus), "x*(-2)" }, { un(g, OP_NEG, bin(g, OP_MUL, F, x)), "-F x" }, { bin(g, OP_MUL, un(g, OP_NEG, F), x), "(-F) x" },
         { un(g, OP_NEG, un(g, OP_NEG, x)), "-(-x)" }, { un(g, OP_NEG, xs), "-(x + t)" }, { graph_power(g, xs, 6), "(x + t)^6" },
         { graph_power(g, x, -3), "1/x^3" }, { bin(g, OP_MUL, F, graph_power(g, x, 2)), "F x^2" }, { graph_power(g, un(g, OP_SIN, t), 2), "sin(t)^2" },
+        { bin(g, OP_MUL, graph_power(g, x, 3), x), "x^3 x" }, { bin(g, OP_MUL, bin(g, OP_MUL, x, x), x), "x^3" },
         { bin(g, OP_POW, x, F), "x^F" }, { bin(g, OP_POW, bin(g, OP_POW, x, F), t), "(x^F)^t" }, { bin(g, OP_POW, x, bin(g, OP_POW, F, t)), "x^F^t" },
         { bin(g, OP_POW, un(g, OP_NEG, x), graph_const(g, 1.5)), "(-x)^1.5" }, { bin(g, OP_ATAN2, x, t), "atan2(x, t)" },
         { graph_op(g, OP_SELECT, bin(g, OP_AND, bin(g, OP_LT, x, t), bin(g, OP_OR, un(g, OP_NOT, F), bin(g, OP_NE, x, two))), x, t),

@@ -212,15 +212,6 @@ static void what_does_not_fit_is_refused(void **state)
         motus_run_destroy(untouched);
         motus_system_destroy(other);
     }
-    /* What is only looked at may differ. */
-    char more[512];
-    snprintf(more, sizeof more, "%sq = x[1] + 1\ninvariant e = x[2]\n", chain);
-    motus_system *looked = given_text(more);
-    motus_run *q = given_run(looked, given.method, given.step, 5);
-    motus_error err;
-    must(restore(q, k, &err), &err, "a quantity more");
-    motus_run_destroy(q);
-    motus_system_destroy(looked);
     free(k.text);
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -336,7 +327,7 @@ static void forged_states_do_no_harm(void **state)
     assert_true(refused > 100);
     /* Numbers that are none, counters that are negative or too large, a carry that is too long. */
     static const struct { const char *from, *to; } forged[] = {
-        {"\nat 7 ", "\nat -7 "}, {"\nat 7 ", "\nat 99999999999999999999 "}, {"\nat 7 ", "\nat 101 "}, {"\ncarry ", "\ncarry 9"}, {"\ncarry ", "\ncarry 0"},
+        {"\nat 7 ", "\nat -7 "}, {"\nat 7 ", "\nat 99999999999999999999 "}, {"\nat 7 ", "\nat 101 "}, {"\ncarry ", "\ncarry 9"}, {"\ncarry ", "\ncarry 1"},
         {"\nstep 0x1", "\nstep 0x2"}, {"p-", "p-9"}, {"p-", "p+9"}, {"p-", "p-99999"}, {"p-", "p-999999999999"}, {"0x1.", "0x1"}, {"0x1.", "nan "}, {"method verlet", "method leapfrog"}};
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++) {
         const char *at = strstr(k.text, forged[i].from);

@@ -161,6 +161,8 @@ static node random_leaf(fixture *f, const scope *s)
             if (!draw(5)) return load(g, ref1(CHAIN, folded(l, (int32_t)draw(7) - 3, INT_N)));
             return load(g, ref1(draw(3) ? CHAIN : CHAIN_V, level(l, shift)));
         case OVER_ROWS:
+            if (!draw(5))
+                return load(g, ref2(GRID, level(l, shift), folded(l, 0, INT_COLUMNS)));
             if (s->over[m] == OVER_COLUMNS)
                 return load(g, ref2(GRID, draw(4) ? level(l, shift) : folded(l, shift, INT_ROWS), level(m, (int32_t)draw(3) - 1)));
             return load(g, ref2(GRID, level(l, shift), draw(2) ? literal(1) : slot(INT_COLUMNS, 0)));
@@ -278,7 +280,7 @@ static void parameters_and_sizes_are_bound_again(void **state)
                  .to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = { r } };
     program *form = program_create(g, &o, 1);
     tape *t = tape_create(&f.arena, form);
-    static const int64_t sizes[] = { 30, 2, 1, 0, 17, 30 };      /* down to where scalars serve, and up again */
+    static const int64_t sizes[] = { 1, 30, 2, 0, 17, 30 };      /* where scalars serve and where blocks do */
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         static double wanted[4096];
         w.ints[INT_N] = sizes[k];
@@ -357,7 +359,7 @@ static bool all_of_it(arena *a, world *w)
     if (!t || !tape_bind(t, &w->binding))
         return false;
     tape_run(t, 1, w->base);
-    w->ints[INT_N] = 2;                      /* the other code */
+    w->ints[INT_N] = 1;                      /* the other code */
     bool bound = tape_bind(t, &w->binding);
     w->ints[INT_N] = 29;
     return bound && known && !a->failed;

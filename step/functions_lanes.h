@@ -1,0 +1,121 @@
+/* The vocabulary of functions_core.h for vectors of LANES doubles, as GCC and clang have them; the names end in _x and the width:
+ * motus_sin_x4. Include <immintrin.h> before it where there is one.
+ *
+ * Invariant: an operation on a wide vector is the same operation on each lane. Where LANES is a register of the machine, each is
+ * one instruction; wider vectors are made of such registers, and without them the loops below serve.
+ */
+#define LANES_JOIN_(a, b) a##b
+#define LANES_JOIN(a, b) LANES_JOIN_(a, b)
+#define NAME(f) LANES_JOIN(motus_##f##_x, LANES)
+
+typedef double NAME(real) __attribute__((vector_size(8 * LANES)));
+typedef uint64_t NAME(bits) __attribute__((vector_size(8 * LANES)));
+typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
+#define real NAME(real)
+#define bits NAME(bits)
+#define mask NAME(mask)
+
+#define LANE(x, k) (x)[k]
+#define REAL(c) ((c) - (real){ 0 })                     /* c - 0 is c, even where that is -0 */
+#define BITS(c) ((uint64_t)(c) | (bits){ 0 })
+#define AS_BITS(x) ((bits)(x))
+#define AS_REAL(b) ((real)(b))
+#define FMA(a, b, c) NAME(fused)(a, b, c)
+#define SQRT(x) NAME(root)(x)
+#define SELECT(m, a, b) NAME(select)(m, a, b)
+#define ANY(m) NAME(any)(m)
+#define INLINE static inline __attribute__((always_inline))
+#define COLD __attribute__((noinline, cold, unused)) static
+#define CONSTANT static const
+
+/* Of LANES_PART doubles each: the registers that a vector of LANES is made of. */
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && LANES % 8 == 0
+#define LANES_PART 8
+#define LANES_REGISTER __m512d
+#define LANES_FMA _mm512_fmadd_pd
+#define LANES_SQRT _mm512_sqrt_pd
+#define LANES_SELECT(m, a, b) _mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)(m)), b, a)
+#define LANES_ANY(m) (_mm512_movepi64_mask((__m512i)(m)) != 0)
+#elif defined(__AVX2__) && defined(__FMA__) && LANES % 4 == 0
+#define LANES_PART 4
+#define LANES_REGISTER __m256d
+#define LANES_FMA _mm256_fmadd_pd
+#define LANES_SQRT _mm256_sqrt_pd
+#define LANES_SELECT(m, a, b) _mm256_blendv_pd(b, a, m)
+#define LANES_ANY(m) (_mm256_movemask_pd(m) != 0)
+#elif defined(__AVX2__) && defined(__FMA__) && LANES % 2 == 0
+#define LANES_PART 2
+#define LANES_REGISTER __m128d
+#define LANES_FMA _mm_fmadd_pd
+#define LANES_SQRT _mm_sqrt_pd
+#define LANES_SELECT(m, a, b) _mm_blendv_pd(b, a, m)
+#define LANES_ANY(m) (_mm_movemask_pd(m) != 0)
+#endif
+
+#ifdef LANES_PART
+typedef union NAME(parts) { real whole; LANES_REGISTER part[LANES / LANES_PART]; } NAME(parts);
+#define EACH_PART for (int i = 0; i < LANES / LANES_PART; i++)
+
+INLINE real NAME(fused)(real a, real b, real c)
+{
+    NAME(parts) x = { a }, y = { b }, z = { c };
+    EACH_PART x.part[i] = LANES_FMA(x.part[i], y.part[i], z.part[i]);
+    return x.whole;
+}
+
+INLINE real NAME(root)(real a)
+{
+    NAME(parts) x = { a };
+    EACH_PART x.part[i] = LANES_SQRT(x.part[i]);
+    return x.whole;
+}
+
+INLINE real NAME(select)(mask m, real a, real b)
+{
+    NAME(parts) x = { a }, y = { b }, z = { (real)m };
+    EACH_PART x.part[i] = LANES_SELECT(z.part[i], x.part[i], y.part[i]);
+    return x.whole;
+}
+
+INLINE int NAME(any)(mask m)
+{
+    NAME(parts) x = { (real)m };
+    int found = 0;
+    EACH_PART found |= LANES_ANY(x.part[i]);
+    return found;
+}
+#else
+INLINE real NAME(fused)(real a, real b, real c)
+{
+    real r;
+    for (int i = 0; i < LANES; i++) r[i] = fma(a[i], b[i], c[i]);
+    return r;
+}
+
+INLINE real NAME(root)(real a)
+{
+    real r;
+    for (int i = 0; i < LANES; i++) r[i] = sqrt(a[i]);
+    return r;
+}
+
+INLINE real NAME(select)(mask m, real a, real b)
+{
+    return (real)(((bits)a & (bits)m) | ((bits)b & ~(bits)m));
+}
+
+INLINE int NAME(any)(mask m)
+{
+    int64_t found = 0;
+    for (int i = 0; i < LANES; i++) found |= m[i];
+    return found != 0;
+}
+#endif
+
+#undef EACH_PART
+#undef LANES_PART
+#undef LANES_REGISTER
+#undef LANES_FMA
+#undef LANES_SQRT
+#undef LANES_SELECT
+#undef LANES_ANY

@@ -1,0 +1,438 @@
+/* Memory that runs out, at every allocation in turn: each call then succeeds or returns MOTUS_MEMORY, nothing is lost, and every handle can
+ * still be destroyed. Two ways of running out: the k-th request alone is refused, or the k-th and all that follow.
+ *
+ * A success in spite of a refusal must be a whole one: the numbers are those of a run that had all the memory it wanted.
+ */
+#include "test/given.h"
+
+/* A bank lends blocks and counts them; each is framed, so that a stray write next to it shows when it comes back. */
+typedef struct bank {
+    int64_t requests, refuse, live, peak_requests;
+    int forever;
+    int64_t refused;
+} bank;
+enum { FRAME = 32 };
+
+static void *lend(void *context, size_t bytes)
+{
+    bank *b = context;
+    b->requests++;
+    if (b->refuse && (b->forever ? b->requests >= b->refuse : b->requests == b->refuse)) {
+        b->refused++;
+        return NULL;
+    }
+    unsigned char *block = malloc(bytes + 2 * FRAME);
+    if (!block)
+        return NULL;
+    memcpy(block, &bytes, sizeof bytes);
+    memset(block + sizeof bytes, 0xC3, FRAME - sizeof bytes);
+    memset(block + FRAME, 0x5A, bytes);          /* what was there before: not zero */
+    memset(block + FRAME + bytes, 0xC3, FRAME);
+    b->live++;
+    return block + FRAME;
+}
+
+static void take_back(void *context, void *given)
+{
+    bank *b = context;
+    if (!given)
+        return;
+    unsigned char *block = (unsigned char *)given - FRAME;
+    size_t bytes;
+    memcpy(&bytes, block, sizeof bytes);
+    for (size_t i = sizeof bytes; i < FRAME; i++)
+        assert_int_equal(block[i], 0xC3);
+    for (size_t i = 0; i < FRAME; i++)
+        assert_int_equal(block[FRAME + bytes + i], 0xC3);
+    b->live--;
+    free(block);
+}
+
+static motus_allocator hooks(bank *b) { return (motus_allocator){lend, take_back, b}; }
+
+/* Counting starts anew: the `refuse`-th request from now on is refused. 0: none. */
+static void arm(bank *b, int64_t refuse, int forever)
+{
+    b->requests = 0;
+    b->refuse = refuse;
+    b->forever = forever;
+}
+
+static const char rich[] =
+    "N = 3\ng = 9.81\nk = [1, 4, 9]\nA = [2, 1, 0.5]\nc[i] = k[i] + 0   for i = 1..N\n"
+    "x[i]'' = -c[i] x[i] + x[0]   for i = 1..N\nx[0] = 0\n"
+    "x[i](0) = A[i]   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nexact x[i] = A[i] cos(sqrt(k[i]) t)   for i = 1..N\n"
+    "r'' = (0, -g)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\nexact r = r(0) + r'(0) t + (0, -g) t^2/2\n"
+    "s' = -s\ns(0) = 1\nexact s = exp(-t)\n"
+    "speed = |r'|\nmean = sum(i = 1..N: x[i])/N\npush = x[1]''\nfar[i] = x[i]^2 + x[i-1]^2   for i = 1..N\n"
+    "invariant e = |r'|^2/2 + g r.y\ninvariant f = sum(i = 1..N: x[i]'^2/2 + k[i] x[i]^2/2)\n"
+    "method verlet\nstep 0.01\nuntil 0.205\n";
+static const char wide[] =
+    "N = 3000\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
+    "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: x[i]'^2)\nstep 0.01\nuntil 0.205\n";
+static const char *const texts[] = {
+    rich, wide,
+    "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\nstep 0.01\nuntil 0.205\n",
+    "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\nstep 0.01\nuntil 0.205\n",
+};
+enum { TEXTS = sizeof texts / sizeof *texts };
+
+static motus_status read_text(bank *b, const char *text, motus_system **s, motus_error *err)
+{
+    motus_text_def def = motus_default_text();
+    *err = motus_default_error();
+    def.text = text;
+    def.file = "given.motus";
+    def.allocator = hooks(b);
+    return motus_system_from_text(&def, s, err);
+}
+
+static int pull(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    a[0] = -x[0] - v[0] * fabs(v[0]) + cos(t);
+    a[1] = -x[1] + x[0];
+    a[2] = v[0] * v[1];
+    return 0;
+}
+
+static int energy(void *context, double t, const double *x, const double *v, double *value)
+{
+    (void)context;
+    (void)t;
+    *value = x[0] + v[0];
+    return 0;
+}
+
+static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
+{
+    static const double x[2] = {1, 2}, v[3] = {0, 1, 0};
+    motus_callback_def def = motus_default_callback();
+    *err = motus_default_error();
+    def.positions = 2;
+    def.companions = 1;
+    def.x = x;
+    def.v = v;
+    def.acceleration = pull;
+    def.invariant = energy;
+    def.allocator = hooks(b);
+    return motus_system_from_callback(&def, s, err);
+}
+
+/* The law ---------------------------------------------------------------------------------------------------------------- */
+
+/* What is tried: on a system, with results as a hash of all numbers that came out. */
+typedef motus_status (*attempt)(motus_system *s, const char *method, uint64_t *result, motus_error *err);
+
+static uint64_t mix(uint64_t h, const void *bytes, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        h = (h ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
+    return h;
+}
+
+static void allowed(motus_status status, const motus_error *err, const char *what, const char *method, int64_t k)
+{
+    if (status == MOTUS_OK)
+        return;
+    if (status != MOTUS_MEMORY)
+        fail_msg("%s, %s, request %lld refused: %s: %s", what, method, (long long)k, motus_status_word(status), err->message);
+    assert_int_equal(err->status, MOTUS_MEMORY);
+    assert_true(strlen(err->message) > 3);
+}
+
+/* Every request of `try` refused in turn; the system is made anew each time, with all the memory it wants. */
+static int64_t refuse_each(const char *text, const char *method, attempt try, const char *what)
+{
+    uint64_t whole = 0;
+    int64_t requests = 0;
+    for (int forever = 0; forever < 2; forever++)
+        for (int64_t k = 0;; k++) {              /* k = 0: nothing is refused, and the result is what it should be */
+            bank b = {0};
+            motus_system *s = NULL;
+            motus_error err;
+            must(text ? read_text(&b, text, &s, &err) : from_callback(&b, &s, &err), &err, what);
+            arm(&b, k, forever);
+            err = motus_default_error();
+            uint64_t result = 0;
+            motus_status status = try(s, method, &result, &err);
+            int64_t refused = b.refused;
+            requests = b.requests;
+            if (k == 0) {
+                must(status, &err, what);
+                whole = result;
+            } else {
+                allowed(status, &err, what, method, k);
+                if (status == MOTUS_OK && result != whole)
+                    fail_msg("%s, %s, request %lld refused: a success with other numbers", what, method, (long long)k);
+            }
+            arm(&b, 0, 0);
+            motus_system_destroy(s);
+            if (b.live)
+                fail_msg("%s, %s, request %lld refused: %lld blocks lost", what, method, (long long)k, (long long)b.live);
+            if (k && !refused)
+                break;
+        }
+    return requests;
+}
+
+/* Systems -------------------------------------------------------------------------------------------------------------------- */
+
+static void systems(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= TEXTS; i++)
+        for (int forever = 0; forever < 2; forever++) {
+            int64_t k = 0;
+            for (int refused = 1; refused;) {
+                bank b = {0};
+                motus_system *s = NULL;
+                motus_error err;
+                arm(&b, ++k, forever);
+                motus_status status = i < TEXTS ? read_text(&b, texts[i], &s, &err) : from_callback(&b, &s, &err);
+                allowed(status, &err, "system", "", k);
+                refused = b.refused > 0;
+                if (status != MOTUS_OK)
+                    assert_null(s);
+                else
+                    assert_int_equal(refused, 0);        /* a system needs all that it asks for */
+                motus_system_destroy(s);
+                assert_int_equal(b.live, 0);
+            }
+            assert_true(k > (i < TEXTS ? 2 : 1));        /* the hooks were asked at all */
+        }
+}
+
+/* A text that is wrong leaves nothing behind either, and runs out of memory before or says what is wrong. */
+static void wrong_texts(void **state)
+{
+    (void)state;
+    static const struct { const char *text; motus_status status; } cases[] = {
+        {"x'' = -y\nx(0) = 1\nx'(0) = 0", MOTUS_NAME}, {"x'' = (-x", MOTUS_SYNTAX}, {"x'' = (1, 2)\nx(0) = 1\nx'(0) = 0", MOTUS_SHAPE},
+        {"x'' = -x\nx(0) = 1\nx'(0) = 0\nexact x = sin(t)", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int64_t k = 1, refused = 1; refused; k++) {
+            bank b = {0};
+            motus_system *s = NULL;
+            motus_error err;
+            arm(&b, k, 1);
+            motus_status status = read_text(&b, cases[i].text, &s, &err);
+            refused = b.refused;
+            if (status == MOTUS_OK || (status != MOTUS_MEMORY && cases[i].status && status != cases[i].status) || (!refused && status == MOTUS_MEMORY))
+                fail_msg("%s: %s, %s", cases[i].text, motus_status_word(status), err.message);
+            assert_null(s);
+            assert_int_equal(b.live, 0);
+        }
+}
+
+/* Runs ------------------------------------------------------------------------------------------------------------------------ */
+
+/* All that a run can do: walk, look at every column, read between steps, save, go back, and end with a short step. */
+static motus_status travel(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    size_t count = motus_column_count(s), nx = motus_positions(s), nv = motus_velocities(s), *columns = malloc(count * sizeof *columns);
+    double *out = malloc(count * sizeof *out), *y = malloc((nx + nv) * sizeof *y), times[2] = {0.033, 0.05};
+    char *kept = NULL;
+    size_t length = 0;
+    const char *text = NULL;
+    uint64_t h = 1;
+    assert_true(columns && out && y);
+    for (size_t k = 0; k < count; k++)
+        columns[k] = k;
+    def.method = method;
+    def.step = 0.01;
+    def.until = strcmp(method, "verlet-literal") ? 0.205 : 0.2;
+    motus_status status = motus_run_create(s, &def, &r, err);
+    if (status != MOTUS_OK)
+        assert_null(r);
+    if (status == MOTUS_OK)
+        status = motus_run_step(r, 2, err);
+    for (int i = 0; i < 2 && status == MOTUS_OK; i++) {
+        status = motus_run_sample(r, &times[i], 1, columns, count, out, err);
+        h = mix(h, out, status == MOTUS_OK ? count * sizeof *out : 0);
+    }
+    if (status == MOTUS_OK)
+        status = motus_run_save(r, &text, &length, err);
+    if (status == MOTUS_OK) {
+        h = mix(h, text, length);
+        kept = malloc(length + 1);
+        assert_non_null(kept);
+        memcpy(kept, text, length + 1);
+        status = motus_run_step(r, 3, err);
+    }
+    if (status == MOTUS_OK)
+        status = motus_run_restore(r, kept, length, err);
+    if (status == MOTUS_OK)
+        status = motus_run_finish(r, err);
+    if (status == MOTUS_OK)
+        status = motus_run_values(r, columns, count, out, err);
+    if (status == MOTUS_OK)
+        h = mix(h, out, count * sizeof *out);
+    if (status == MOTUS_OK)
+        status = motus_run_state(r, y, y + nx, err);
+    if (status == MOTUS_OK)
+        h = mix(h, y, (nx + nv) * sizeof *y);
+    *result = h;
+    motus_run_destroy(r);
+    free(kept);
+    free(columns);
+    free(out);
+    free(y);
+    return status;
+}
+
+static void runs(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= TEXTS; i++) {
+        const char *text = i < TEXTS ? texts[i] : NULL;
+        bank b = {0};
+        motus_system *s = NULL;
+        motus_error err;
+        must(text ? read_text(&b, text, &s, &err) : from_callback(&b, &s, &err), &err, "system");
+        int admitted = 0;
+        for (size_t k = 0; k < motus_method_count(); k++) {
+            const char *method = motus_method_at(k)->name;
+            if (motus_method_admits(s, method, NULL) != MOTUS_OK)
+                continue;
+            assert_true(refuse_each(text, method, travel, "run") >= 3);
+            admitted++;
+        }
+        assert_true(admitted > 8);
+        motus_system_destroy(s);
+        assert_int_equal(b.live, 0);
+    }
+}
+
+/* Whether a method is admitted may depend on sampled derivatives, which want memory: none is no reason to refuse the method. */
+static motus_status admit(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    *result = 1;
+    return motus_method_admits(s, method, err);
+}
+
+static void admission(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(texts[2], "boris", admit, "admission") > 0);
+}
+
+/* Words and studies -------------------------------------------------------------------------------------------------------------- */
+
+static motus_status explain(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    (void)method;
+    (void)err;
+    const char *words = motus_explain(s), *equation = motus_equation_text(s, 0);
+    assert_non_null(words);
+    /* A text has no status: it is whole, or empty. */
+    *result = mix(1, words, strlen(words));
+    if (equation)
+        *result = mix(*result, equation, strlen(equation));
+    if (words[0] && equation)
+        return MOTUS_OK;
+    *err = (motus_error){.status = MOTUS_MEMORY, .message = "no words"};
+    return MOTUS_MEMORY;
+}
+
+static void explanations(void **state)
+{
+    (void)state;
+    for (int i = 0; i < TEXTS; i++)
+        refuse_each(texts[i], "", explain, "explain");
+}
+
+static motus_status compare(motus_system *s, const char *methods, uint64_t *result, motus_error *err)
+{
+    motus_comparison *c = NULL;
+    motus_study_def def = motus_default_study();
+    const char *names[] = {"verlet", "rk4", "gauss4"};
+    (void)methods;
+    def.methods = names;
+    def.method_count = 3;
+    def.step = 0.02;
+    def.until = 0.2;
+    motus_status status = motus_compare(s, &def, &c, err);
+    if (status != MOTUS_OK)
+        assert_null(c);
+    *result = 1;
+    for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++) {
+        assert_int_equal(c->rows[i].status, MOTUS_OK);
+        *result = mix(*result, &c->rows[i].error_final_x, sizeof(double));
+        *result = mix(*result, &c->rows[i].reversal, sizeof(double));
+    }
+    motus_comparison_destroy(c);
+    return status;
+}
+
+static motus_status converge(motus_system *s, const char *methods, uint64_t *result, motus_error *err)
+{
+    motus_convergence *c = NULL;
+    motus_study_def def = motus_default_study();
+    const char *names[] = {"verlet", "rk4"};
+    (void)methods;
+    def.methods = names;
+    def.method_count = 2;
+    def.step = 0.05;
+    def.until = 0.2;
+    motus_status status = motus_converge(s, &def, &c, err);
+    if (status != MOTUS_OK)
+        assert_null(c);
+    *result = 1;
+    for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++)
+        *result = mix(*result, &c->rows[i].observed, sizeof(double));
+    motus_convergence_destroy(c);
+    return status;
+}
+
+static void studies(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(rich, "", compare, "compare") > 10);
+    assert_true(refuse_each(texts[3], "", compare, "compare") > 10);
+    assert_true(refuse_each(NULL, "", compare, "compare") > 10);
+    assert_true(refuse_each(texts[3], "", converge, "converge") > 10);
+}
+
+/* Without hooks it is malloc; with `allocate` alone nothing is given back, and that is the caller's own affair. */
+static void *from_pool(void *context, size_t bytes)
+{
+    static _Alignas(64) unsigned char pool[1 << 20];
+    size_t *used = context, at = (*used + 63) / 64 * 64;
+    if (bytes > sizeof pool - at)
+        return NULL;
+    *used = at + bytes;
+    return pool + at;
+}
+
+static void a_pool_without_release(void **state)
+{
+    (void)state;
+    size_t used = 0;
+    motus_text_def def = motus_default_text();
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    def.text = texts[3];
+    def.allocator = (motus_allocator){from_pool, NULL, &used};
+    must(motus_system_from_text(&def, &s, &err), &err, "pool");
+    uint64_t result;
+    must(travel(s, "gauss6", &result, &err), &err, "pool");
+    assert_true(used > 1000);
+    motus_system_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(systems),
+        cmocka_unit_test(wrong_texts),
+        cmocka_unit_test(runs),
+        cmocka_unit_test(admission),
+        cmocka_unit_test(explanations),
+        cmocka_unit_test(studies),
+        cmocka_unit_test(a_pool_without_release),
+    };
+    return cmocka_run_group_tests_name("memory that runs out", tests, NULL, NULL);
+}

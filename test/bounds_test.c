@@ -1,0 +1,545 @@
+/* A model is untrusted input: whatever the bytes, one clear answer, in bounded time and memory; and memory that gives out anywhere is an
+ * error, never a crash or a leak.
+ *
+ * Invariant: every block that the library takes is counted through the allocation hooks, and after destroy none is left.
+ */
+#include "test/given.h"
+
+#include <stdbool.h>
+#include <time.h>
+
+/* ---- counted memory ---- */
+
+typedef struct ledger {
+    size_t blocks, bytes, peak;
+    long calls, fail_at;             /* fail_at: the call that gets nothing, 0: none */
+    bool fail_after;                 /* and all after it */
+    size_t limit;                    /* bytes; 0: none */
+} ledger;
+
+enum { HEADER = 32 };
+
+static void *take_counted(void *context, size_t bytes)
+{
+    ledger *l = context;
+    l->calls++;
+    if (l->fail_at && (l->fail_after ? l->calls >= l->fail_at : l->calls == l->fail_at))
+        return NULL;
+    if (l->limit && l->bytes + bytes > l->limit)
+        return NULL;
+    char *p = bytes < SIZE_MAX - HEADER ? malloc(bytes + HEADER) : NULL;
+    if (!p)
+        return NULL;
+    memcpy(p, &bytes, sizeof bytes);
+    l->blocks++;
+    l->bytes += bytes;
+    l->peak = l->bytes > l->peak ? l->bytes : l->peak;
+    return p + HEADER;
+}
+
+static void release_counted(void *context, void *block)
+{
+    ledger *l = context;
+    size_t bytes;
+    if (!block)
+        return;
+    memcpy(&bytes, (char *)block - HEADER, sizeof bytes);
+    l->blocks--;
+    l->bytes -= bytes;
+    free((char *)block - HEADER);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#ifdef SANITIZED
+enum { SLOWER = 20 };
+#else
+enum { SLOWER = 1 };
+#endif
+
+/* ---- texts that are built ---- */
+
+typedef struct text { char *bytes; size_t length, room; } text;
+
+static text make(size_t room)
+{
+    text t = {malloc(room + 1), 0, room};
+    assert_non_null(t.bytes);
+    return t;
+}
+
+__attribute__((format(printf, 2, 3))) static void say(text *t, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    int n = vsnprintf(t->bytes + t->length, t->room - t->length, format, list);
+    va_end(list);
+    assert_true(n >= 0 && t->length + (size_t)n < t->room);
+    t->length += (size_t)n;
+}
+
+/* Reads, explains, runs three steps; checks the answer, the time and the memory. Frees the text. */
+static void answer(text t, const char *what, motus_status expected, const char *named, double seconds, size_t megabytes)
+{
+    ledger l = {.limit = (size_t)3 << 30};
+    motus_text_def def = motus_default_text();
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    def.text = t.bytes;
+    def.length = t.length;
+    def.allocator = (motus_allocator){take_counted, release_counted, &l};
+    double start = now();
+    motus_status status = motus_system_from_text(&def, &s, &err);
+    if (status == MOTUS_OK) {
+        motus_run *r = NULL;
+        motus_run_def run = motus_default_run();
+        motus_settings settings;
+        motus_settings_of(s, &settings);
+        run.step = 1e-3;
+        run.until = settings.from + 1;
+        run.method = "rk4";
+        (void)motus_explain(s);
+        (void)motus_equation_text(s, 0);
+        status = motus_run_create(s, &run, &r, &err);
+        if (status == MOTUS_OK)
+            status = motus_run_step(r, 3, &err);
+        motus_run_destroy(r);
+    }
+    double took = now() - start;
+    motus_system_destroy(s);
+    free(t.bytes);
+    print_message("%s: %s, %.2f s, %zu MB%s%s\n", what, motus_status_word(status), took, l.peak >> 20, status ? ": " : "", status ? err.message : "");
+    if (status != expected || (status != MOTUS_OK && !strstr(err.message, named)))
+        fail_msg("%s: %s: %s", what, motus_status_word(status), err.message);
+    if (took > seconds * SLOWER)
+        fail_msg("%s takes %.1f s, not %.1f", what, took, seconds);
+    if (l.peak > megabytes << 20)
+        fail_msg("%s takes %zu MB, not %zu", what, l.peak >> 20, megabytes);
+    assert_int_equal(l.blocks, 0);
+}
+
+static const char start[] = "\nx(0) = 1\nx'(0) = 0\n";
+
+static uint32_t state = 12345;
+static uint32_t chance(void) { return state = state * 1664525u + 1013904223u, state >> 8; }
+
+static void random_bytes(void **unused)
+{
+    (void)unused;
+    for (int kind = 0; kind < 3; kind++) {
+        text t = make(10 << 20);
+        static const char alphabet[] = "xyt'()[]|+-*/^=., \n0123456789:#<>ifsum";
+        for (; t.length < t.room; t.length++)
+            t.bytes[t.length] = kind == 0 ? (char)chance() : kind == 1 ? alphabet[chance() % (sizeof alphabet - 1)] : (char)(0x20 + chance() % 0x5F);
+        if (kind > 0)
+            memcpy(t.bytes, "x = ", 4);
+        answer(t, "10 MB of chance", MOTUS_SYNTAX, "", 2, 200);
+    }
+}
+
+static void long_remark(void **unused)
+{
+    (void)unused;
+    text t = make(10 << 20);
+    say(&t, "x'' = -x%s#", start);
+    memset(t.bytes + t.length, 'a', t.room - t.length);
+    t.length = t.room;
+    answer(t, "10 MB of remark", MOTUS_OK, "", 1, 50);
+}
+
+static void too_long(void **unused)
+{
+    (void)unused;
+    text t = make(17 << 20);
+    memset(t.bytes, '\n', t.room);
+    t.length = t.room;
+    answer(t, "17 MB of lines", MOTUS_LIMIT, "bytes", 1, 50);
+}
+
+/* One expression of 10 MB; its terms are shared in the graph, or bounded by its size. */
+static void long_expressions(void **unused)
+{
+    (void)unused;
+    text t = make((10 << 20) + 200);
+    say(&t, "x'' = -x");
+    while (t.length < 10 << 20)
+        say(&t, " + x");
+    say(&t, "%s", start);
+    answer(t, "10 MB of + x", MOTUS_LIMIT, "large", 20, 2500);
+
+    t = make(1 << 20);
+    say(&t, "x'' = -x");
+    for (int i = 0; i < 100000; i++)
+        say(&t, " + %d", i % 10);
+    say(&t, "%s", start);
+    answer(t, "100 000 additions", MOTUS_OK, "", 5, 500);
+
+    t = make(2 << 20);
+    say(&t, "x'' = -x");
+    for (int i = 0; i < 100000; i++)
+        say(&t, " + x x'");
+    say(&t, "%s", start);
+    answer(t, "100 000 products", MOTUS_OK, "", 5, 500);
+
+    t = make(2 << 20);
+    say(&t, "x'' = -x");
+    for (int i = 0; i < 100000; i++)
+        say(&t, " - sin(x + %d)", i);
+    say(&t, "%s", start);
+    answer(t, "100 000 functions", MOTUS_OK, "", 10, 800);
+
+    t = make(2 << 20);
+    say(&t, "x'' = -x 1");
+    t.length -= 2;
+    for (int i = 0; i < 100000; i++)
+        say(&t, "*x/2");
+    say(&t, "%s", start);
+    answer(t, "200 000 factors", MOTUS_OK, "", 5, 500);
+
+    t = make(2 << 20);
+    say(&t, "x'' = if(x > 0");
+    for (int i = 0; i < 50000; i++)
+        say(&t, " and x > -%d", i);
+    say(&t, ", -x, 0)%s", start);
+    answer(t, "50 000 conditions", MOTUS_OK, "", 5, 500);
+}
+
+/* 10 MB of sums that are valid. */
+static void many_sums(void **unused)
+{
+    (void)unused;
+    text t = make((10 << 20) + 200);
+    say(&t, "N = 5\nx'' = -x%s", start);
+    for (int i = 0; t.length < 10 << 20; i++)
+        say(&t, "q%d = sum(i = 1..N, i != 2: i x + sum(j = 1..i: j))\n", i);
+    answer(t, "10 MB of sums", MOTUS_LIMIT, "", 30, 2500);
+}
+
+static void nested(const char *what, int depth, const char *open, const char *inside, const char *close, motus_status expected, const char *named)
+{
+    text t = make((size_t)depth * (strlen(open) + strlen(close)) + 4096);
+    say(&t, "x'' = -");
+    for (int i = 0; i < depth; i++)
+        say(&t, "%s", open);
+    say(&t, "%s", inside);
+    for (int i = 0; i < depth; i++)
+        say(&t, "%s", close);
+    say(&t, "%s", start);
+    answer(t, what, expected, named, 2, 200);
+}
+
+static void nesting(void **unused)
+{
+    (void)unused;
+    nested("10 000 brackets", 10000, "(", "x", ")", MOTUS_LIMIT, "nested");
+    nested("10 000 open brackets", 10000, "(", "x", "", MOTUS_LIMIT, "nested");
+    nested("10 000 functions", 10000, "sin(", "x", ")", MOTUS_LIMIT, "nested");
+    nested("10 000 bars", 10000, "|1 + ", "x", "|", MOTUS_LIMIT, "nested");
+    nested("10 000 powers", 10000, "2^", "x", "", MOTUS_LIMIT, "nested");
+    nested("10 000 denials", 10000, "", "if(not not not x > 1, 1, 2)", "", MOTUS_OK, "");
+    nested("10 000 lists", 10000, "[", "x", "]", MOTUS_LIMIT, "nested");
+    nested("10 000 indices", 10000, "x[", "1", "]", MOTUS_LIMIT, "nested");
+    nested("10 000 sums", 10000, "sum(i = 1..2: ", "x", ")", MOTUS_LIMIT, "nested");
+    nested("10 000 conditions", 10000, "if(x > 0, ", "x", ", 1)", MOTUS_LIMIT, "nested");
+    nested("200 brackets", 200, "(", "x", ")", MOTUS_OK, "");
+    nested("200 right sides", 200, "(x + ", "x", ")", MOTUS_OK, "");
+    nested("200 functions", 200, "sin(", "x", ")", MOTUS_OK, "");
+    nested("200 powers", 200, "1.01^", "x", "", MOTUS_OK, "");
+    text t = make(100000);
+    say(&t, "x'' = if(");
+    for (int i = 0; i < 10000; i++)
+        say(&t, "not ");
+    say(&t, "x > 0, 1, 2)%s", start);
+    answer(t, "10 000 times not", MOTUS_LIMIT, "nested", 2, 100);
+}
+
+static void chains(void **unused)
+{
+    (void)unused;
+    text t = make(1 << 20);
+    say(&t, "q0 = x\n");
+    for (int i = 1; i <= 60; i++)
+        say(&t, "q%d = q%d + q%d\n", i, i - 1, i - 1);
+    say(&t, "x'' = -q60%s", start);
+    answer(t, "2^60 uses of x", MOTUS_OK, "", 1, 100);
+
+    t = make(1 << 20);
+    say(&t, "q0[i] = x for i = 1..3\n");
+    for (int i = 1; i <= 60; i++)
+        say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
+    say(&t, "x'' = -q60[1]%s", start);
+    answer(t, "2^60 uses in families", MOTUS_LIMIT, "", 10, 2500);
+
+    t = make(1 << 20);
+    say(&t, "q0[i] = x for i = 1..3\n");
+    for (int i = 1; i <= 31; i++)
+        say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
+    say(&t, "x'' = -q31[1]%s", start);
+    answer(t, "2^31 uses in families", MOTUS_LIMIT, "often", 10, 2500);
+
+    t = make(1 << 20);
+    for (int i = 0; i < 300; i++)
+        say(&t, "p%d = p%d + 1\n", i, i + 1);
+    say(&t, "p300 = 1\nx'' = -p0 x%s", start);
+    answer(t, "300 parameters in a chain", MOTUS_OK, "", 1, 200);
+
+    for (int quantity = 0; quantity < 2; quantity++) {
+        t = make(4 << 20);
+        for (int i = 0; i < 100000; i++)
+            say(&t, "p%d = p%d + 1\n", i, i + 1);
+        say(&t, "p100000 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
+        answer(t, "100 000 definitions in a chain", MOTUS_LIMIT, "deep", 2, 300);
+
+        t = make(4 << 20);           /* the order in which they are met makes no difference */
+        say(&t, "p0 = %s\n", quantity ? "x" : "1");
+        for (int i = 1; i <= 300; i++)
+            say(&t, "p%d = p%d + 1\n", i, i - 1);
+        say(&t, "x'' = -p300 x%s", start);
+        answer(t, "300 definitions forward", MOTUS_OK, "", 1, 200);
+    }
+}
+
+/* Chains of definitions, each of them nested deeply: both bounds are kept, and together they would exhaust the stack. */
+static void deep_chains(void **unused)
+{
+    (void)unused;
+    for (int quantity = 0; quantity < 2; quantity++)
+        for (int sines = 0; sines < 2; sines++) {
+            text t = make(4 << 20);
+            for (int i = 0; i < 390; i++) {
+                say(&t, "p%d = ", i);
+                for (int k = 0; k < 240; k++)
+                    say(&t, "%s", sines ? "sin(" : "(1 + ");
+                say(&t, "p%d", i + 1);
+                for (int k = 0; k < 240; k++)
+                    say(&t, ")");
+                say(&t, "\n");
+            }
+            say(&t, "p390 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
+            answer(t, "a chain of deep definitions", MOTUS_LIMIT, "deep", 5, 1000);
+        }
+    for (int sines = 0; sines < 2; sines++) {        /* parameters that are known when they are used: nothing is deep */
+        text t = make(4 << 20);
+        say(&t, "p0 = 1\n");
+        for (int i = 1; i < 390; i++) {
+            say(&t, "p%d = ", i);
+            for (int k = 0; k < 240; k++)
+                say(&t, "%s", sines ? "sin(" : "(1 + ");
+            say(&t, "p%d", i - 1);
+            for (int k = 0; k < 240; k++)
+                say(&t, ")");
+            say(&t, "\n");
+        }
+        say(&t, "x'' = -p389 x%s", start);
+        answer(t, "deep definitions, one after the other", MOTUS_OK, "", 5, 1000);
+    }
+    text t = make(4 << 20);
+    say(&t, "x'' = -x%s", start);
+    for (int i = 0; i < 390; i++) {
+        say(&t, "y%d'' = 0\ny%d'(0) = 0\ny%d(0) = ", i, i, i);
+        for (int k = 0; k < 240; k++)
+            say(&t, "(1 + ");
+        say(&t, i < 389 ? "y%d(0)" : "%d", i + 1);
+        for (int k = 0; k < 240; k++)
+            say(&t, ")");
+        say(&t, "\n");
+    }
+    answer(t, "a chain of deep initial values", MOTUS_LIMIT, "deep", 5, 1000);
+}
+
+static void many_names(void **unused)
+{
+    (void)unused;
+    text t = make(8 << 20);
+    say(&t, "x'' = -p99999 x%s", start);
+    for (int i = 0; i < 100000; i++)
+        say(&t, "p%d = %d\n", i, i);
+    answer(t, "100 000 parameters", MOTUS_OK, "", 3, 500);
+
+    t = make(8 << 20);
+    say(&t, "x'' = -p99999 x%s", start);
+    for (int i = 0; i < 100000; i++)
+        say(&t, "p%d = 2*%d + sqrt(%d)\n", i, i, i);
+    answer(t, "100 000 computed parameters", MOTUS_OK, "", 3, 500);
+
+    t = make(8 << 20);
+    say(&t, "x'' = -x%sa = 2\np0 = a\n", start);
+    for (int i = 1; i < 20000; i++)
+        say(&t, "p%d = a + p%d\n", i, i - 1);
+    answer(t, "20 000 parameters of parameters", MOTUS_OK, "", 5, 1000);
+
+    t = make(8 << 20);
+    say(&t, "x'' = -x%s", start);
+    for (int i = 0; i < 20000; i++)
+        say(&t, "q%d = x + %d\n", i, i);
+    answer(t, "20 000 quantities", MOTUS_OK, "", 3, 1000);
+
+    t = make(16 << 20);
+    for (int i = 1; i <= 7000; i++)
+        say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
+    answer(t, "7 000 states", MOTUS_OK, "", 5, 1000);
+
+    t = make(16 << 20);
+    for (int i = 1; i <= 30000; i++)
+        say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
+    answer(t, "30 000 states", MOTUS_LIMIT, "", 5, 1000);
+
+    t = make(16 << 20);
+    say(&t, "m = [");
+    for (int i = 1; i < 1000000; i++)
+        say(&t, "%d,", i);
+    say(&t, "1]\nx'' = -m[1000000] x%s", start);
+    answer(t, "a list of a million", MOTUS_OK, "", 5, 1500);
+}
+
+static void many_lines(void **unused)
+{
+    (void)unused;
+    text t = make(16 << 20);
+    for (int i = 1; i <= 33000; i++)
+        say(&t, "u[%d]'' = -u[%d]\nu[%d](0) = %d\nu[%d]'(0) = 0\n", i, i, i, i, i);
+    answer(t, "100 000 lines of one family", MOTUS_OK, "", 10, 1500);
+
+    t = make(16 << 20);
+    say(&t, "k = 2\n");
+    for (int i = 1; i <= 20000; i++)
+        say(&t, "u[%d]'' = -u[%d]\nu[%d](0) = k + %d\nu[%d]'(0) = k u[%d](0)\n", i, i, i, i, i, i);
+    answer(t, "60 000 lines with parameters", MOTUS_OK, "", 10, 2000);
+
+    t = make(16 << 20);
+    for (int i = 0; i < 1100000; i++)
+        say(&t, "p=1\n");
+    answer(t, "1 100 000 statements", MOTUS_LIMIT, "statements", 3, 1000);
+
+    t = make(16 << 20);
+    for (int i = 0; i < 100000; i++)
+        say(&t, "step 1\n");
+    answer(t, "100 000 settings", MOTUS_SYNTAX, "equation", 3, 300);
+}
+
+/* N a million: parsed and started in under a second, and memory grows with state. */
+static void large_family(void **unused)
+{
+    (void)unused;
+    text t = make(4096);
+    say(&t, "N = 1000000\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.7 ((x[i+1] - x[i])^3 - (x[i] - x[i-1])^3) for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
+            "x[i](0) = sin(pi i/(N+1)) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\ninvariant energy = sum(i = 1..N: x[i]'^2/2)\n");
+    answer(t, "a chain of a million", MOTUS_OK, "", 2, 300);
+
+    t = make(4096);
+    say(&t, "N = 1000\nu[i,j]'' = u[mod(i, N)+1, j] - u[i,j] + u[i,mod(j, N)+1] for i = 1..N, j = 1..N\nu[i,j](0) = i + j for i = 1..N, j = 1..N\n"
+            "u[i,j]'(0) = 0 for i = 1..N, j = 1..N\n");
+    answer(t, "a lattice of a million", MOTUS_OK, "", 2, 300);
+
+    static const char *const huge[] = {"49999999", "1e9", "1e15", "1e300", "2^62"};
+    for (size_t i = 1; i < sizeof huge / sizeof *huge; i++) {
+        t = make(4096);
+        say(&t, "N = %s\nx[i]'' = 0 for i = 1..N\nx[i](0) = 0 for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n", huge[i]);
+        answer(t, "a family far too large", MOTUS_LIMIT, "", 0.1, 10);
+    }
+    t = make(4096);
+    say(&t, "x'' = -x%sq = sum(i = 1..1000000000: i)\n", start);
+    answer(t, "a sum nobody looks at", MOTUS_OK, "", 0.1, 10);
+}
+
+/* ---- memory that gives out ---- */
+
+static const char rich[] =
+    "G = 1\nN = 3\nm = [1, 2, 3]\nw[i] = 2 i for i = 1..N\nplaces = [(1, 0), (0, 1), (-1, 0)]\n"
+    "r[i]'' = sum(j = 1..N, j != i: G m[j] (r[j] - r[i])/|r[j] - r[i]|^3) - 0.1 r[i]' + (0, sin(t)) for i = 1..N\n"
+    "r[i](0) = places[i] for i = 1..N\nr[i]'(0) = (0, w[i]/10) for i = 1..N\n"
+    "u[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = sin(t)\nu[N+1] = 0\nu[i](0) = i for i = 1..N\nu[2](0) = 5\nu[i]'(0) = u[i](0) for i = 1..N\n"
+    "s' = if(s > 0, -s, 1)\ns(0) = 1\nfar = |r[1] - r[2]|\ninvariant P = sum(i = 1..N: m[i] r[i]')\nacc = u[2]''\nstep 0.01\nuntil 0.05\n";
+static const char *const methods[] = {"rk4", "verlet", "gauss6", "implicit-midpoint", "newmark", "velocity-verlet"};
+
+/* The whole life of a system, with the memory of `l`. */
+static motus_status life(ledger *l, const char *method, motus_error *err)
+{
+    static const char *const set[] = {"G=2", "r[2](0) = (0, 1.5)"};
+    motus_text_def def = motus_default_text();
+    motus_run_def run = motus_default_run();
+    motus_system *s = NULL;
+    motus_run *r = NULL;
+    def.text = rich;
+    def.set = set;
+    def.set_count = 2;
+    def.allocator = (motus_allocator){take_counted, release_counted, l};
+    run.method = method;
+    motus_status status = motus_system_from_text(&def, &s, err);
+    if (status != MOTUS_OK)
+        assert_null(s);
+    if (status == MOTUS_OK) {
+        (void)motus_explain(s);
+        (void)motus_equation_text(s, 0);
+        status = motus_run_create(s, &run, &r, err);
+    }
+    if (status == MOTUS_OK)
+        status = motus_run_finish(r, err);
+    for (size_t k = 0; status == MOTUS_OK && k < motus_column_count(s); k++) {
+        double value;
+        status = motus_run_values(r, &k, 1, &value, err);
+        if (status == MOTUS_OK)
+            assert_true(isfinite(value));
+    }
+    if (status == MOTUS_OK) {
+        const char *saved;
+        size_t length;
+        status = motus_run_save(r, &saved, &length, err);
+        if (status == MOTUS_OK)
+            status = motus_run_restore(r, saved, length, err);
+    }
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return status;
+}
+
+static void every_allocation_may_fail(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        ledger whole = {0};
+        motus_error err = motus_default_error();
+        must(life(&whole, methods[i], &err), &err, methods[i]);
+        assert_int_equal(whole.blocks, 0);
+        assert_true(whole.calls > 5);
+        for (int after = 0; after < 2; after++)
+            for (long k = 1; k <= whole.calls; k++) {
+                ledger l = {.fail_at = k, .fail_after = after};
+                err = motus_default_error();
+                motus_status status = life(&l, methods[i], &err);
+                /* what only prints (motus_explain, motus_equation_text) returns NULL, and the rest goes on */
+                if (status != MOTUS_MEMORY && status != MOTUS_OK)
+                    fail_msg("%s: allocation %ld of %ld failed, and the answer is %s: %s", methods[i], k, whole.calls, motus_status_word(status), err.message);
+                if (status == MOTUS_MEMORY && (err.status != MOTUS_MEMORY || !err.message[0]))
+                    fail_msg("%s: allocation %ld failed without a message", methods[i], k);
+                if (l.blocks)
+                    fail_msg("%s: allocation %ld failed, and %zu blocks leaked", methods[i], k, l.blocks);
+            }
+        print_message("%s: %ld allocations, each failing\n", methods[i], whole.calls);
+    }
+}
+
+/* An argument names the tests to run, * for any letters. */
+int main(int count, char **arguments)
+{
+    if (count > 1)
+        cmocka_set_test_filter(arguments[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_bytes), cmocka_unit_test(long_remark), cmocka_unit_test(too_long), cmocka_unit_test(long_expressions), cmocka_unit_test(many_sums),
+        cmocka_unit_test(nesting), cmocka_unit_test(chains), cmocka_unit_test(deep_chains), cmocka_unit_test(many_names), cmocka_unit_test(many_lines), cmocka_unit_test(large_family),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

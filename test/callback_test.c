@@ -1,0 +1,486 @@
+/* Systems from C: the same motion as from a text, with and without a derivative, with companions, an exact motion, an invariant.
+ *
+ * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product that is added at once is
+ * a fused multiply-add), the bits are the same, for every explicit method.
+ */
+#include "test/given.h"
+
+typedef struct oscillator {
+    double F, k, c;
+    int64_t calls, derivatives, fail_at, failures;
+} oscillator;
+
+static motus_system *system_of(const motus_callback_def *def)
+{
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    must(motus_system_from_callback(def, &s, &err), &err, "callback");
+    return s;
+}
+
+/* x'' = -x + x^3 + F cos(t) */
+static int driven(void *context, double t, const double *x, const double *v, double *a)
+{
+    oscillator *o = context;
+    (void)v;
+    if (++o->calls == o->fail_at) {
+        o->failures++;
+        return 1;
+    }
+    a[0] = fma(o->F, cos(t), fma(x[0] * x[0], x[0], -x[0]));
+    return 0;
+}
+
+static int driven_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+{
+    oscillator *o = context;
+    (void)t;
+    (void)v;
+    (void)dv;
+    o->derivatives++;
+    da[0] = (3 * x[0] * x[0] - 1) * dx[0];
+    return 0;
+}
+
+static const char driven_text[] = "F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0.25\nx'(0) = 0.125\n";
+
+static motus_callback_def driven_def(oscillator *o)
+{
+    static const double x = 0.25, v = 0.125;
+    motus_callback_def def = motus_default_callback();
+    *o = (oscillator){.F = 0.1};
+    def.positions = 1;
+    def.x = &x;
+    def.v = &v;
+    def.acceleration = driven;
+    def.depends_on_velocity = 0;
+    def.context = o;
+    return def;
+}
+
+static int implicit(const char *method)
+{
+    const motus_method *m = NULL;
+    assert_int_equal(motus_method_find(method, &m, NULL), MOTUS_OK);
+    return !strcmp(m->family, "implicit");
+}
+
+static void text_and_callback_give_the_same_bits(void **state)
+{
+    (void)state;
+    oscillator o;
+    motus_callback_def def = driven_def(&o);
+    motus_system *c = system_of(&def), *s = given_text(driven_text);
+    int compared = 0;
+    for (size_t i = 0; i < motus_method_count(); i++) {
+        const char *method = motus_method_at(i)->name;
+        if (motus_method_admits(c, method, NULL) != MOTUS_OK || implicit(method))
+            continue;
+        motus_run *p = given_run(s, method, 0.01, 10), *q = given_run(c, method, 0.01, 10);
+        finish(p);
+        finish(q);
+        size_t n = 0;
+        double *y = whole_state(s, p, &n), *z = whole_state(c, q, NULL);
+        assert_int_equal(n, 2);
+        if (memcmp(y, z, sizeof(double[2])))
+            fail_msg("%s: %a, %a from the text, %a, %a from the callback", method, y[0], y[1], z[0], z[1]);
+        assert_int_equal(motus_run_evaluations(p), motus_run_evaluations(q));
+        assert_string_equal(motus_run_machine(p), "interpreter");
+        assert_string_equal(motus_run_machine(q), "callback");
+        free(y);
+        free(z);
+        motus_run_destroy(p);
+        motus_run_destroy(q);
+        compared++;
+    }
+    assert_true(compared > 20);
+    motus_system_destroy(c);
+    motus_system_destroy(s);
+}
+
+/* Evaluations are what the callback was called for: as many as the card says, and one for the start where a method needs it. */
+static void calls_are_counted(void **state)
+{
+    (void)state;
+    enum { STEPS = 100 };
+    for (size_t i = 0; i < motus_method_count(); i++) {
+        const motus_method *m = motus_method_at(i);
+        oscillator o;
+        motus_callback_def def = driven_def(&o);
+        motus_system *c = system_of(&def);
+        if (motus_method_admits(c, m->name, NULL) == MOTUS_OK) {
+            motus_run *r = given_run(c, m->name, 0.01, 0.01 * STEPS);
+            take_steps(r, STEPS);
+            assert_int_equal(motus_run_evaluations(r), o.calls);
+            if (m->evaluations) {
+                int64_t more = o.calls - (int64_t)m->evaluations * STEPS;
+                if (more < 0 || more > 1)
+                    fail_msg("%s: %lld calls in %d steps, %d a step declared", m->name, (long long)o.calls, STEPS, m->evaluations);
+            }
+            motus_run_destroy(r);
+        }
+        motus_system_destroy(c);
+    }
+}
+
+/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each number of a step is solved
+ * to some units in its last place, and the motion keeps what it is given: 1000 steps, each of them off by a few units. */
+static void difference_quotients_stand_in_for_a_derivative(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"newmark", "newmark(1/6, 1/2)", "implicit-midpoint", "gauss4", "gauss6", "gauss8"};
+    const double bound = 1000 * 8 * ROUNDING;
+    motus_system *s = given_text(driven_text);
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        oscillator with, without;
+        motus_callback_def a = driven_def(&with), b = driven_def(&without);
+        a.derivative = driven_derivative;
+        motus_system *p = system_of(&a), *q = system_of(&b);
+        motus_run *given = given_run(s, methods[i], 0.01, 10), *derived = given_run(p, methods[i], 0.01, 10), *quotient = given_run(q, methods[i], 0.01, 10);
+        finish(given);
+        finish(derived);
+        finish(quotient);
+        assert_true(with.derivatives > 0 && without.derivatives == 0);
+        near(value(p, derived, "x[0]"), value(s, given, "x"), bound, methods[i]);
+        near(value(q, quotient, "x[0]"), value(s, given, "x"), bound, methods[i]);
+        near(value(q, quotient, "x[0]'"), value(s, given, "x'"), bound, methods[i]);
+        /* And not for want of trying: with an inexact derivative Newton's method takes at most a little longer. */
+        assert_true(motus_run_iterations(quotient) <= 2 * motus_run_iterations(derived));
+        motus_run_destroy(given);
+        motus_run_destroy(derived);
+        motus_run_destroy(quotient);
+        motus_system_destroy(p);
+        motus_system_destroy(q);
+    }
+    motus_system_destroy(s);
+}
+
+/* Two masses with quadratic drag, coupled in positions and velocities, and heat as a companion: s' = the power that the drag takes. */
+static int dragged(void *context, double t, const double *x, const double *v, double *a)
+{
+    oscillator *o = context;
+    (void)t;
+    o->calls++;
+    double w = v[0] - v[1], drag = o->c * w * fabs(w);
+    a[0] = -o->k * x[0] - drag;
+    a[1] = -o->k * x[1] + drag;
+    a[2] = drag * w;
+    return 0;
+}
+
+static int dragged_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+{
+    oscillator *o = context;
+    (void)t;
+    (void)x;
+    o->derivatives++;
+    double w = v[0] - v[1], dw = dv[0] - dv[1], slope = 2 * o->c * fabs(w);
+    da[0] = -o->k * dx[0] - slope * dw;
+    da[1] = -o->k * dx[1] + slope * dw;
+    da[2] = 1.5 * slope * w * dw;
+    return 0;
+}
+
+static int dragged_energy(void *context, double t, const double *x, const double *v, double *value)
+{
+    const oscillator *o = context;
+    (void)t;
+    *value = (v[0] * v[0] + v[1] * v[1] + o->k * (x[0] * x[0] + x[1] * x[1])) / 2 + v[2];
+    return 0;
+}
+
+static motus_callback_def dragged_def(oscillator *o)
+{
+    static const double x[2] = {1, -0.5}, v[3] = {0, 1, 0.25};
+    motus_callback_def def = motus_default_callback();
+    *o = (oscillator){.k = 2, .c = 0.3};
+    def.positions = 2;
+    def.companions = 1;
+    def.x = x;
+    def.v = v;
+    def.acceleration = dragged;
+    def.invariant = dragged_energy;
+    def.depends_on_time = 0;
+    def.context = o;
+    return def;
+}
+
+static const char dragged_text[] =
+    "k = 2\nc = 0.3\nw = x' - y'\ndrag = c w |w|\nx'' = -k x - drag\ny'' = -k y + drag\ns' = drag w\n"
+    "x(0) = 1\nx'(0) = 0\ny(0) = -0.5\ny'(0) = 1\ns(0) = 0.25\ninvariant e = (x'^2 + y'^2 + k (x^2 + y^2))/2 + s\n";
+
+static void nonlinear_velocity_terms_and_companions(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"verlet", "verlet-literal", "newmark", "gauss4", "gauss6", "rk4", "implicit-midpoint"};
+    motus_system *s = given_text(dragged_text);
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        oscillator with, without;
+        motus_callback_def a = dragged_def(&with), b = dragged_def(&without);
+        a.derivative = dragged_derivative;
+        motus_system *p = system_of(&a), *q = system_of(&b);
+        motus_run *given = given_run(s, methods[i], 0.01, 5), *derived = given_run(p, methods[i], 0.01, 5), *quotient = given_run(q, methods[i], 0.01, 5);
+        finish(given);
+        finish(derived);
+        finish(quotient);
+        const int64_t calls = without.calls;             /* before anybody looks, which is not counted */
+        static const char *const names[][2] = {{"x", "x[0]"}, {"y", "x[1]"}, {"x'", "x[0]'"}, {"y'", "x[1]'"}, {"s", "s[0]"}, {"e", "invariant"}};
+        /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end of each. */
+        const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
+        for (size_t k = 0; k < 6; k++) {
+            near(value(p, derived, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
+            near(value(q, quotient, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
+        }
+        int explicit = !strcmp(methods[i], "rk4");
+        assert_true(explicit ? with.derivatives == 0 : with.derivatives > 0);
+        assert_int_equal(motus_run_evaluations(quotient), calls);
+        motus_run_destroy(given);
+        motus_run_destroy(derived);
+        motus_run_destroy(quotient);
+        motus_system_destroy(p);
+        motus_system_destroy(q);
+    }
+    motus_system_destroy(s);
+}
+
+/* x'' = -k x - c x': said to be linear, it is solved in one step, without iterations, to the bits of the text. */
+static int braked(void *context, double t, const double *x, const double *v, double *a)
+{
+    oscillator *o = context;
+    (void)t;
+    o->calls++;
+    a[0] = fma(-o->c, v[0], -o->k * x[0]);
+    return 0;
+}
+
+static int braked_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+{
+    const oscillator *o = context;
+    (void)t;
+    (void)x;
+    (void)v;
+    da[0] = fma(-o->c, dv[0], -o->k * dx[0]);
+    return 0;
+}
+
+static void linear_velocity_terms_take_one_step(void **state)
+{
+    (void)state;
+    static const double x = 1, v = 0.5;
+    motus_system *s = given_text("k = 2\nc = 0.75\nx'' = -k x - c x'\nx(0) = 1\nx'(0) = 0.5\n");
+    for (int quotient = 0; quotient < 2; quotient++) {
+        oscillator o = {.k = 2, .c = 0.75};
+        motus_callback_def def = motus_default_callback();
+        def.positions = 1;
+        def.x = &x;
+        def.v = &v;
+        def.acceleration = braked;
+        def.derivative = quotient ? NULL : braked_derivative;
+        def.linear_in_velocity = 1;
+        def.depends_on_time = 0;
+        def.context = &o;
+        motus_system *c = system_of(&def);
+        motus_run *p = given_run(c, "verlet", 0.01, 10), *q = given_run(s, "verlet", 0.01, 10);
+        finish(p);
+        finish(q);
+        assert_int_equal(motus_run_iterations(p), 0);
+        near(value(c, p, "x[0]"), value(s, q, "x"), 1000 * 4 * ROUNDING, "x");
+        near(value(c, p, "x[0]'"), value(s, q, "x'"), 1000 * 4 * ROUNDING, "x'");
+        motus_run_destroy(p);
+        motus_run_destroy(q);
+        motus_system_destroy(c);
+    }
+    motus_system_destroy(s);
+}
+
+/* Failures and the rest of the definition ------------------------------------------------------------------------------------ */
+
+static void a_failing_callback_stops_the_run_and_not_more(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"verlet", "velocity-verlet", "rk4", "gauss4", "kahan-li8", "newmark", "beeman", "leapfrog"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
+        for (int64_t when = 1; when < 400; when = when * 2 + 5) {
+            oscillator o, steady;
+            motus_callback_def def = driven_def(&o), good = driven_def(&steady);
+            motus_system *s = system_of(&def), *g = system_of(&good);
+            motus_run *r = given_run(s, methods[i], 0.01, 5), *whole = given_run(g, methods[i], 0.01, 5);
+            motus_error err = motus_default_error();
+            o.fail_at = when;
+            if (motus_run_finish(r, &err) != MOTUS_CALLBACK)
+                fail_msg("%s, call %lld: %s", methods[i], (long long)when, err.message);
+            assert_int_equal(o.failures, 1);
+            assert_true(err.time >= 0 && err.time <= 5 && err.status == MOTUS_CALLBACK);
+            assert_non_null(strstr(err.message, "callback"));
+            assert_false(motus_run_done(r));
+            int64_t at = motus_run_steps(r);
+            assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01 && err.time <= motus_run_time(r) + 0.01);
+            /* The failure over, it goes on to the bits of a run that knew none. */
+            finish(r);
+            finish(whole);
+            same_state(s, r, whole, "after a failure");
+            motus_run_destroy(r);
+            motus_run_destroy(whole);
+            motus_system_destroy(s);
+            motus_system_destroy(g);
+        }
+}
+
+static int circle(void *context, double t, double *x, double *v)
+{
+    oscillator *o = context;
+    if (o->fail_at < 0)
+        return 1;
+    x[0] = cos(t);
+    v[0] = -sin(t);
+    return 0;
+}
+
+static int pull(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    (void)v;
+    a[0] = -x[0];
+    return 0;
+}
+
+static int broken_invariant(void *context, double t, const double *x, const double *v, double *value)
+{
+    (void)context;
+    (void)t;
+    (void)x;
+    (void)v;
+    (void)value;
+    return -3;
+}
+
+static void exact_and_invariant_callbacks(void **state)
+{
+    (void)state;
+    const double x = 1, v = 0;
+    oscillator o = {0};
+    motus_callback_def def = motus_default_callback();
+    def.positions = 1;
+    def.x = &x;
+    def.v = &v;
+    def.acceleration = pull;
+    def.exact = circle;
+    def.invariant = broken_invariant;
+    def.depends_on_velocity = def.depends_on_time = 0;
+    def.context = &o;
+    motus_system *s = system_of(&def);
+    assert_true(motus_has_exact(s));
+    assert_int_equal(motus_column_count(s), 1 + 2 + 1 + 2);
+    assert_int_equal(motus_invariant_count(s), 1);
+    motus_run *r = given_run(s, "leapfrog", 0.1, 2), *e = given_run(s, "exact", 0.1, 2);
+    finish(r);
+    finish(e);
+    assert_true(value(s, r, "exact x[0]") == cos(2) && value(s, r, "exact x[0]'") == -sin(2));
+    assert_true(value(s, e, "x[0]") == cos(2) && value(s, e, "x[0]'") == -sin(2));
+    /* A callback that fails says so, and the rest can still be seen. */
+    size_t k = column(s, "invariant");
+    double out;
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
+    assert_non_null(strstr(err.message, "invariant"));
+    o.fail_at = -1;
+    k = column(s, "exact x[0]");
+    assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
+    assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK);    /* already seen */
+    assert_true(isfinite(value(s, r, "x[0]")));
+    /* The words for a system that has no text. */
+    assert_true(strlen(motus_explain(s)) > 10);
+    assert_null(motus_equation_text(s, 0));
+    motus_settings set;
+    motus_settings_of(s, &set);
+    assert_true(set.from == 0 && isnan(set.step) && isnan(set.until) && !set.method);
+    motus_run_destroy(r);
+    motus_run_destroy(e);
+    motus_system_destroy(s);
+}
+
+static void definitions_that_are_refused(void **state)
+{
+    (void)state;
+    const double x[2] = {1, 2}, v[3] = {0, 0, 0}, bad[2] = {1, INFINITY};
+    motus_callback_def good = motus_default_callback();
+    good.positions = 2;
+    good.x = x;
+    good.v = v;
+    good.acceleration = pull;
+    motus_callback_def defs[8];
+    for (int i = 0; i < 8; i++)
+        defs[i] = good;
+    defs[0].acceleration = NULL;
+    defs[1].positions = 0;
+    defs[2].x = NULL;
+    defs[3].v = NULL;
+    defs[4].x = bad;
+    defs[5].v = bad;
+    defs[6].start = NAN;
+    defs[7].positions = SIZE_MAX;
+    for (int i = 0; i < 8; i++) {
+        motus_system *s = (motus_system *)&good;
+        motus_error err = motus_default_error();
+        motus_status status = motus_system_from_callback(&defs[i], &s, &err);
+        assert_int_equal(status, i == 7 ? MOTUS_LIMIT : MOTUS_ARGUMENT);
+        assert_null(s);
+        assert_true(strlen(err.message) > 5);
+    }
+    motus_system *s = NULL;
+    assert_int_equal(motus_system_from_callback(NULL, &s, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_system_from_callback(&good, NULL, NULL), MOTUS_ARGUMENT);
+}
+
+/* Companions alone are a system too: s' = f. And the initial values were copied. */
+static int decay(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    (void)x;
+    a[0] = -v[0];
+    a[1] = v[0];
+    return 0;
+}
+
+static void companions_alone(void **state)
+{
+    (void)state;
+    double v[2] = {1, 0};
+    motus_callback_def def = motus_default_callback();
+    def.companions = 2;
+    def.v = v;
+    def.acceleration = decay;
+    motus_system *s = system_of(&def), *text = given_text("p' = -p\nq' = p\np(0) = 1\nq(0) = 0\n");
+    v[0] = v[1] = 99;
+    assert_true(motus_positions(s) == 0 && motus_velocities(s) == 2);
+    static const char *const methods[] = {"rk4", "gauss6", "verlet", "newmark"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        motus_run *p = given_run(s, methods[i], 0.01, 1), *q = given_run(text, methods[i], 0.01, 1);
+        finish(p);
+        finish(q);
+        near(value(s, p, "s[0]") + value(s, p, "s[1]"), 1, 100 * 8 * ROUNDING, "the sum");
+        near(value(s, p, "s[0]"), value(text, q, "p"), 100 * 8 * ROUNDING, methods[i]);
+        motus_run_destroy(p);
+        motus_run_destroy(q);
+    }
+    motus_system_destroy(s);
+    motus_system_destroy(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_and_callback_give_the_same_bits),
+        cmocka_unit_test(calls_are_counted),
+        cmocka_unit_test(difference_quotients_stand_in_for_a_derivative),
+        cmocka_unit_test(nonlinear_velocity_terms_and_companions),
+        cmocka_unit_test(linear_velocity_terms_take_one_step),
+        cmocka_unit_test(a_failing_callback_stops_the_run_and_not_more),
+        cmocka_unit_test(exact_and_invariant_callbacks),
+        cmocka_unit_test(definitions_that_are_refused),
+        cmocka_unit_test(companions_alone),
+    };
+    return cmocka_run_group_tests_name("callbacks", tests, NULL, NULL);
+}
