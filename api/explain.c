@@ -252,5 +252,5 @@ const char *motus_equation_text(motus_system *s, size_t k)
     modes m = modes_enter();
     bool any = model_equation(s->model, k, s->equation, ROOM);
     modes_leave(m);
-    return any ? s->equation : NULL;
+    return any && !s->arena.failed ? s->equation : NULL;
 }

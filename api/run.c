@@ -1,6 +1,8 @@
 /* Runs. See run.h. */
 #include "api/run.h"
 
+#include "run/cache.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,6 +60,77 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
     return MOTUS_OK;
 }
 
+/* ---- which machine ---- */
+
+/* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
+#define WORTH_COMPILING 4e8
+
+/* Operations of the graph that the whole run takes. */
+static double operations(const motus_run *r)
+{
+    const motus_system *s = r->system;
+    return (double)r->total * (r->card->evaluations ? r->card->evaluations : 4 * r->card->stages) * ((double)s->model->graph->count + 4 * (double)s->problem.nv);
+}
+
+static motus_status choose_machine(motus_run *r, const char *wanted, motus_error *err)
+{
+    motus_system *s = r->system;
+    r->machine = s->machine;
+    r->problem = &s->problem;
+    r->note = "";
+    bool automatic = !wanted || !strcmp(wanted, "auto");
+    if (!automatic && strcmp(wanted, "compiled") && strcmp(wanted, "interpreter")) {
+        fail(err, MOTUS_ARGUMENT, "there is no machine %s", wanted);
+        hint(err, "the machines are auto, interpreter and compiled");
+        return MOTUS_ARGUMENT;
+    }
+    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && operations(r) < WORTH_COMPILING))
+        return MOTUS_OK;
+    if (!s->compiled) {
+        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
+        if (status != MOTUS_OK)
+            return status;
+    }
+    s->compiled_problem.traits = s->problem.traits;
+    const char *why = compiled_prepare(s->compiled, &r->chosen);
+    if (!why) {
+        r->machine = &machine_compiled;
+        r->problem = &s->compiled_problem;
+    } else if (!automatic) {
+        fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
+        hint(err, "--machine interpreter needs no compiler");
+        return MOTUS_TOOL;
+    } else {
+        r->note = why;
+    }
+    return MOTUS_OK;
+}
+
+const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
+
+const char *motus_compiled_text(motus_system *s, const char *method, motus_error *err)
+{
+    chosen c;
+    const motus_method *card;
+    size_t length;
+    motus_settings set;
+    motus_settings_of(s, &set);
+    if (!s || !s->model) {
+        fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
+        return NULL;
+    }
+    if (row_choose(method ? method : set.method ? set.method : "verlet", &c, &card, err) != MOTUS_OK || row_admits(&c, &s->problem.traits, err) != MOTUS_OK)
+        return NULL;
+    if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err) != MOTUS_OK)
+        return NULL;
+    const char *text = compiled_text(s->compiled, &c, &length);
+    if (!text)
+        fail(err, MOTUS_MEMORY, "no memory for the text");
+    return text;
+}
+
+int motus_cache_clear(void) { return cache_clear(); }
+
 /* The initial state, inside order. */
 static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *err)
 {
@@ -72,7 +145,7 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     for (size_t k = 0; k < p->nv; k++)
         if (!isfinite(r->v[k]) || (k < p->nx && !isfinite(r->x[k])))
             return fail(err, MOTUS_ARGUMENT, "the initial state is not finite");
-    return s->machine->open(p, &r->chosen, r->t0, r->h, r->x, r->v, &r->allocator, &r->engine, err);
+    return r->machine->open(r->problem, &r->chosen, r->t0, r->h, r->x, r->v, &r->allocator, &r->engine, err);
 }
 
 motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
@@ -118,6 +191,8 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     if (status == MOTUS_OK)
         status = plan(r, &def, err);
     if (status == MOTUS_OK)
+        status = choose_machine(r, def.machine, err);
+    if (status == MOTUS_OK)
         status = begin(r, &def, err);
     modes_leave(m);
     if (status != MOTUS_OK) {
@@ -134,16 +209,16 @@ void motus_run_destroy(motus_run *r)
         return;
     motus_allocator a = r->allocator;
     if (r->engine)
-        r->system->machine->close(r->engine);
+        r->machine->close(r->engine);
     if (r->tail)
-        r->system->machine->close(r->tail);
+        r->machine->close(r->tail);
     give(&a, r->saved);
     give(&a, r);
 }
 
 /* ---- time ---- */
 
-static int64_t done(const motus_run *r) { return r->system->machine->steps(r->engine); }
+static int64_t done(const motus_run *r) { return r->machine->steps(r->engine); }
 
 double run_time(const motus_run *r)
 {
@@ -159,16 +234,16 @@ double motus_run_step_size(const motus_run *r) { return r ? fabs(r->h) : NAN; }
 int64_t motus_run_steps(const motus_run *r) { return r ? done(r) + (r->tail != NULL) : 0; }
 int64_t motus_run_steps_total(const motus_run *r) { return r ? r->total : 0; }
 double motus_run_last_step(const motus_run *r) { return r ? fabs(r->last) : 0; }
-int64_t motus_run_evaluations(const motus_run *r) { return r ? r->system->machine->evaluations(r->engine) + r->tail_evaluations : 0; }
-int64_t motus_run_iterations(const motus_run *r) { return r ? r->system->machine->iterations(r->engine) + r->tail_iterations : 0; }
+int64_t motus_run_evaluations(const motus_run *r) { return r ? r->machine->evaluations(r->engine) + r->tail_evaluations : 0; }
+int64_t motus_run_iterations(const motus_run *r) { return r ? r->machine->iterations(r->engine) + r->tail_iterations : 0; }
 const char *motus_run_method(const motus_run *r) { return r ? r->chosen.name : ""; }
-const char *motus_run_machine(const motus_run *r) { return r ? r->system->machine->name : ""; }
+const char *motus_run_machine(const motus_run *r) { return r ? r->machine->name : ""; }
 
 /* ---- looking ---- */
 
 motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 {
-    const machine *m = r->system->machine;
+    const machine *m = r->machine;
     if (r->synchronised && (r->with_a || !with_a))
         return MOTUS_OK;
     motus_status status = m->sync(r->tail ? r->tail : r->engine, r->x, r->v, with_a ? r->a : NULL, err);
@@ -213,7 +288,7 @@ static double now(void)
 /* n whole steps; where somebody watches, in pieces of about ten milliseconds, however the caller cuts the way into calls. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
-    const machine *m = r->system->machine;
+    const machine *m = r->machine;
     r->synchronised = false;
     while (n > 0) {
         int64_t piece = !r->progress || n < r->piece ? n : r->piece;
@@ -241,10 +316,10 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 /* The shorter last step, by an engine of its own: two-step methods take it in their one-step form. */
 static motus_status finish(motus_run *r, motus_error *err)
 {
-    const machine *m = r->system->machine;
+    const machine *m = r->machine;
     motus_status status = run_sync(r, false, err);
     if (status == MOTUS_OK)
-        status = m->open(&r->system->problem, &r->chosen, run_time(r), r->last, r->x, r->v, &r->allocator, &r->tail, err);
+        status = m->open(r->problem, &r->chosen, run_time(r), r->last, r->x, r->v, &r->allocator, &r->tail, err);
     if (status == MOTUS_OK)
         status = m->advance(r->tail, 1, err);
     if (status != MOTUS_OK) {

@@ -10,6 +10,9 @@
 
 struct motus_run {
     motus_system *system;
+    const machine *machine;
+    const problem *problem;          /* the system's, or the compiled machine's */
+    const char *note;
     motus_allocator allocator;
     chosen chosen;
     const motus_method *card;

@@ -138,7 +138,7 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
 {
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
-    const machine *m = r->system->machine;
+    const machine *m = r->machine;
     size_t n = m->carry(r->engine), room = HEAD_ROOM + n * NUMBER_ROOM;
     double *carry = take(&r->allocator, n + 1, sizeof *carry);
     if (room > r->saved_room) {
@@ -250,7 +250,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
         return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
     if (steps > r->whole)
         return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", start + (double)steps * h, r->until);
-    if ((size_t)n != r->system->machine->carry(r->engine))
+    if ((size_t)n != r->machine->carry(r->engine))
         return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
     if (!carry)
@@ -262,12 +262,12 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     if (!ok || in.at != in.end)
         status = unreadable(err);
     else
-        status = r->system->machine->load(r->engine, steps, evaluations, iterations, carry, err);
+        status = r->machine->load(r->engine, steps, evaluations, iterations, carry, err);
     give(&r->allocator, carry);
     if (status != MOTUS_OK)
         return status;               /* and the run is where it was */
     if (r->tail)
-        r->system->machine->close(r->tail);
+        r->machine->close(r->tail);
     r->tail = NULL;
     r->tail_evaluations = r->tail_iterations = 0;
     r->synchronised = r->before = false;

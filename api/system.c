@@ -23,6 +23,7 @@ void motus_system_destroy(motus_system *s)
     if (!s)
         return;
     motus_allocator a = s->allocator;
+    compiled_close(s->compiled);
     arena_release(&s->arena);
     give(&a, s);
 }

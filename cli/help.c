@@ -39,6 +39,10 @@ static const page pages[] = {
      "  motus methods\n"
      "  motus methods verlet\n"
      "  motus methods --json\n"},
+    {VERB_CACHE, "motus cache --clear",
+     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it; it is\n"
+     "made again where it is wanted.",
+     "  motus cache --clear\n"},
 };
 
 void help_program(FILE *out)
@@ -48,7 +52,8 @@ void help_program(FILE *out)
           "  motus compare  MODEL     every method side by side\n"
           "  motus converge MODEL     error against step, the observed order, a certificate\n"
           "  motus check    MODEL     what the program understood, which methods it admits\n"
-          "  motus methods [METHOD]   the catalogue, or the card of one method\n\n"
+          "  motus methods [METHOD]   the catalogue, or the card of one method\n"
+          "  motus cache    --clear   forget the compiled models\n\n"
           "  motus VERB --help        options and examples;  motus --version\n\n"
           "A model is a text that reads like a textbook:\n\n"
           "  x''   = -x + x^3 + 0.1 cos(t)\n"

@@ -25,6 +25,7 @@ static const verb verbs[] = {
     {"converge", VERB_CONVERGE, converge_verb},
     {"check", VERB_CHECK, check_verb},
     {"methods", VERB_METHODS, methods_verb},
+    {"cache", VERB_CACHE, cache_verb},
     {"sweep", 0, NULL},
     {"lab", 0, NULL},
     {"bench", 0, NULL},

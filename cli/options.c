@@ -41,7 +41,9 @@ static const option table[] = {
     {"--plot-of",     NULL, "X,Y",     WORD,     AT(plot_of),     VERB_RUN,      "draw column Y against column X: \"x,x'\""},
     {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
     {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
-    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     MOTION,        "auto or interpreter"},
+    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     VERB_RUN,      "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
+    {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
     {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
     {"--json",        NULL, NULL,      FLAG,     AT(json),        ANY,           "one JSON object on standard output"},
     {"--quiet",       "-q", NULL,      FLAG,     AT(quiet),       ANY,           "print nothing but errors and --json"},
@@ -49,7 +51,7 @@ static const option table[] = {
 };
 enum { OPTIONS = sizeof table / sizeof *table };
 
-static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods"};
+static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods", "cache"};
 
 static const char *verb_name(unsigned verb)
 {
@@ -285,11 +287,9 @@ static motus_status store(options *o, const option *row, const char *value, motu
 static motus_status check(const options *o, motus_error *err)
 {
     const char *machine = o->machine;
-    if (machine && strcmp(machine, "compiled") == 0)
-        return complain(err, MOTUS_UNAVAILABLE, "--machine compiled is not available in this version: use interpreter");
-    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0) {
+    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 && strcmp(machine, "compiled") != 0) {
         complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
-        complain_hint(err, "auto or interpreter");
+        complain_hint(err, "auto, interpreter or compiled");
         return MOTUS_ARGUMENT;
     }
     if (o->plot_of && !o->plot) {

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /* Verbs, as bits, so that an option can say where it belongs. */
-enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16 };
+enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32 };
 
 typedef struct options_list { const char **items; size_t count; } options_list;
 
@@ -22,7 +22,7 @@ typedef struct options {
     int64_t evaluations;                 /* 0: not given */
     options_list set, methods;
     char *methods_text;                  /* what the items of `methods` point into */
-    bool json, quiet, help, markdown;
+    bool json, quiet, help, markdown, emit_c, clear;
     int argc;
     char **argv;                         /* the whole command, for the header of files */
 } options;

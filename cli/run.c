@@ -88,11 +88,14 @@ static motus_status begin(job *j, motus_error *err)
     def.method = o->method;
     def.step = o->step;
     def.until = o->until;
+    def.machine = o->machine;
     def.progress = stop_progress_hook;
     def.context = &j->progress;
     status = motus_run_create(j->model.system, &def, &j->run, err);
     if (status)
         return status;
+    if (motus_run_note(j->run)[0] && !o->quiet)
+        complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model, o);
     status = drift_begin(&j->drift, &j->model, j->run, err);
@@ -168,8 +171,26 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     return status;
 }
 
+/* The text of the compiled machine, for reading. */
+static motus_status emit(const options *o, motus_error *err)
+{
+    load model;
+    motus_status status = load_model(&model, o, err);
+    const char *text = status ? NULL : motus_compiled_text(model.system, o->method, err);
+    if (!status && !text)
+        status = err->status;
+    if (text) {
+        fputs(text, stdout);
+        status = file_flush_output(err);
+    }
+    load_free(&model);
+    return status;
+}
+
 motus_status run_verb(const options *o, motus_error *err)
 {
+    if (o->emit_c)
+        return emit(o, err);
     job j = {.options = o};
     motus_status status = begin(&j, err);
     if (!status) {

@@ -7,6 +7,13 @@ file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   core/*.c lang/*.c run/*.c api/*.c study/*.c)
 list(REMOVE_ITEM library_sources ${kernels})
 
+# The texts of step/ travel in the library: the compiled machine compiles them again, with a model between them.
+file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h)
+set(texts ${PROJECT_BINARY_DIR}/texts.c)
+add_custom_command(OUTPUT ${texts} DEPENDS ${step_texts} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+  COMMAND ${CMAKE_COMMAND} -DOUT=${texts} -DROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+  COMMENT "Embedding the texts of step/")
+
 function(motus_objects target)
   add_library(${target} OBJECT ${ARGN})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
@@ -16,7 +23,7 @@ function(motus_objects target)
   target_link_libraries(${target} PRIVATE motus_flags)
 endfunction()
 
-motus_objects(motus_objects ${library_sources})
+motus_objects(motus_objects ${library_sources} ${texts})
 set(objects $<TARGET_OBJECTS:motus_objects>)
 
 foreach(kernel IN LISTS kernels)
@@ -45,8 +52,8 @@ foreach(library motus_static motus_shared)
   target_include_directories(${library} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endforeach()
-target_link_libraries(motus_static PUBLIC m)
-target_link_libraries(motus_shared PRIVATE m $<BUILD_INTERFACE:motus_flags>)
+target_link_libraries(motus_static PUBLIC m ${CMAKE_DL_LIBS})
+target_link_libraries(motus_shared PRIVATE m ${CMAKE_DL_LIBS} $<BUILD_INTERFACE:motus_flags>)
 set_target_properties(motus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 set_target_properties(motus_static PROPERTIES EXPORT_NAME static)
 set_target_properties(motus_shared PROPERTIES EXPORT_NAME shared)

@@ -65,6 +65,7 @@ static motus_status structure(solver *s, motus_error *err)
     if ((s->use_x && !solver_pattern(p, false, &s->x, allocator, &broken))
         || (s->use_v && !solver_pattern(p, true, &s->v, allocator, &broken)))
         return broken ? fail(err, MOTUS_ARGUMENT, "the pattern of the derivative names an entry outside of it") : no_memory(err);
+    if (p->prepare && ((s->use_x && !p->prepare(p->ctx, false)) || (s->use_v && !p->prepare(p->ctx, true)))) return no_memory(err);
     s->place = take(allocator, p->nv, sizeof *s->place);
     if (!s->place || !solver_order(p->nv, s->use_x ? &s->x : NULL, s->use_v ? &s->v : NULL, s->place, &s->lower, &s->upper, allocator))
         return no_memory(err);
@@ -83,7 +84,6 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
     *s = (solver){.problem = p, .stages = stages, .use_x = use_x, .use_v = use_v, .constant = constant, .stride = stride};
     if (allocator) s->allocator = *allocator;
     motus_status status = structure(s, err);
-    if (!status && p->prepare && ((use_x && !p->prepare(p->ctx, false)) || (use_v && !p->prepare(p->ctx, true)))) status = no_memory(err);
     if (!status) {
         const size_t height = diagonal(s) ? 1 : 2 * s->lower + s->upper + 1, nv = p->nv;
         bool ok = (!use_x || solver_colour(nv, &s->x, &s->allocator)) && (!use_v || solver_colour(nv, &s->v, &s->allocator));

@@ -16,7 +16,7 @@ enum { SNAPSHOT = 16, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a
 
 struct stepper {
     problem problem;
-    machine machine;
+    stepper_host machine;
     motus_allocator allocator;
     chosen method;
     work work;

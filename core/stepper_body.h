@@ -8,28 +8,20 @@
 #include <float.h>
 #include <math.h>
 
-#define clock motus_clock             /* the C library has a function of that name */
-#define real double
-typedef double clock;
-typedef int64_t whole;
-#define FMA(a, b, c) fma((a), (b), (c))
-#define ABS(x) fabs(x)
-#define FINITE(x) ((x) - (x) == 0)    /* an infinity or a NaN minus itself is a NaN; unlike isfinite, this becomes vector code */
-#define EPSILON DBL_EPSILON
-#define SQRT_EPSILON 0x1p-26
-#define EACH(k) for (size_t k = 0; k < w->nx; k++)
-#define EACHV(k) for (size_t k = 0; k < w->nv; k++)
-#define TRACE(w, i) ((void)(w), (void)(i))
-
+#include "step/scalar.h"
 #include "step/work.h"
 
-typedef struct machine { const problem *problem; solver *solver; } machine;      /* work.user points to it */
+typedef struct stepper_host { const problem *problem; solver *solver; } stepper_host;      /* work.user points to it */
 
 typedef struct stepper_body {
     const char *name;
     int (*run)(work *, whole steps);                         /* advance_run */
     int (*sync)(work *, real *x, real *v, real *a);          /* advance_sync */
     int (*check)(work *);                                    /* advance_check */
+    /* What a compiled body calls back for. */
+    int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
+    void (*back)(work *, real *r);
+    void (*apply)(work *, clock c, const real *y, real *out);
 } stepper_body;
 
 extern const stepper_body stepper_body_base;

@@ -245,6 +245,9 @@ typedef struct motus_run_def {
     /* Called now and then (not more often than every 10 ms or so of work); a value other than 0 cancels. */
     int (*progress)(void *context, double fraction);
     void *context;
+    /* "interpreter"; "compiled": the equations and the method as machine code, made by the system's C compiler and kept in
+     * $XDG_CACHE_HOME/motus; NULL or "auto": compiled where the run is long enough to repay it and a compiler is there. The bits are the same. */
+    const char *machine;
 } motus_run_def;
 
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
@@ -264,7 +267,13 @@ MOTUS_API double motus_run_last_step(const motus_run *);      /* size of the sho
 MOTUS_API int64_t motus_run_evaluations(const motus_run *);
 MOTUS_API int64_t motus_run_iterations(const motus_run *);    /* of Newton's method, in all */
 MOTUS_API const char *motus_run_method(const motus_run *);
-MOTUS_API const char *motus_run_machine(const motus_run *);   /* "interpreter", "callback" */
+MOTUS_API const char *motus_run_machine(const motus_run *);   /* "interpreter", "compiled", "callback" */
+/* Why "auto" took the interpreter where it would have compiled, or "". */
+MOTUS_API const char *motus_run_note(const motus_run *);
+/* The C text that the compiled machine compiles for a method of this model; owned by the system. NULL with an error if there is none. */
+MOTUS_API const char *motus_compiled_text(motus_system *, const char *method, motus_error *);
+/* Removes the compiled objects kept between runs; how many, or -1 where they cannot be reached. */
+MOTUS_API int motus_cache_clear(void);
 
 /* The state now; x of motus_positions(), v of motus_velocities() numbers; either may be NULL. v is at the same time as x. */
 MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_error *);

@@ -77,8 +77,7 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     output o = {0};
     lower_start(&l, m, place, what);
     if ((int)s->index_count != state->dims) {
-        source_complain(&m->source, MOTUS_SHAPE, s->at, "%s has %d ind%s", s->name, state->dims, state->dims == 1 ? "ex" : "ices");
-        return false;
+        return resolve_indices_wrong(m, state, s->at);
     }
     if (!lower_target(&l, s, &o))
         return false;

@@ -374,9 +374,10 @@ static bool subscripts(lowering *l, const tree *t, int dims, reference *r, int64
     return true;
 }
 
-/* Every index that a state is read at has an equation or a boundary line. */
+/* Every index that a state is read at has an equation or a boundary line; its highest derivative, an equation. */
 static bool covered(lowering *l, const model_state *s, const tree *t, const int64_t low[], const int64_t high[])
 {
+    bool derivative = t->primes == s->order;
     int64_t at[MAX_DIMS];
     bool outside = false, empty = false;
     for (int d = 0; d < s->dims; d++) {
@@ -394,7 +395,7 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
         size_t offset = 0;
         for (int d = 0; d < s->dims; d++)
             offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
-        if (!s->owner[offset]) {
+        if (!s->owner[offset] || (derivative && s->owner[offset] != 1)) {
             ok = false;
             break;
         }
@@ -410,6 +411,11 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
     size_t n = 0;
     for (int d = 0; d < s->dims && n < sizeof index; d++)
         n += (size_t)snprintf(index + n, sizeof index - n, "%s%lld", d ? "," : "", (long long)at[d]);
+    if (derivative && !outside) {
+        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s]%s is used here, but has no equation", s->name, index, s->order == 2 ? "''" : "'");
+        HINT(l, "a boundary line says where it is, not how it is driven");
+        return false;
+    }
     source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s] is used here, but has neither an equation nor a boundary line", s->name, index);
     HINT(l, "add a boundary line: %s[%s] = 0; or wrap the index: mod(i, N) + 1", s->name, index);
     return false;
@@ -458,7 +464,7 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);
         return wrong(l);
     }
-    if (!resolve_state(l->model, s))
+    if (!start_state(l->model, s))
         return wrong(l);
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
@@ -705,11 +711,11 @@ static value lower_initial(lowering *l, const tree *t)
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
     if ((int)name->index_count != s.state->dims) {
-        COMPLAIN(l, name->at, "%s has %d indices", name->name, s.state->dims);
+        resolve_indices_wrong(l->model, s.state, name->at);
         return wrong(l);
     }
     if (!resolve_hull(l->model, s.state) || !subscripts(l, name, s.state->dims, &r, low, high) ||
-        (s.state->dims && !covered(l, s.state, name, low, high)) || !resolve_start(l->model, s.state, name->primes, low, high))
+        (s.state->dims && !covered(l, s.state, name, low, high)) || !start_cells(l->model, s.state, name->primes, low, high))
         return wrong(l);
     return load(l, s.state->start_array[name->primes], s.state->components, &r);
 }
@@ -933,6 +939,10 @@ static value lower_sum(lowering *l, const tree *t)
     if (inner.terms > MODEL_TERMS_MAX) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at, "%.3g terms are more than the %.0e that an evaluation may take", inner.terms,
                         MODEL_TERMS_MAX);
+        return wrong(l);
+    }
+    if (l->place == PLACE_CONSTANT && (l->model->constant_terms += inner.terms) > MODEL_CONSTANT_TERMS_MAX) {
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
         return wrong(l);
     }
     node mask = 0;

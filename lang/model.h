@@ -20,7 +20,7 @@ enum {
 };
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, all uses of quantities counted */
 #define MODEL_TERMS_MAX 1e12         /* of nested sums and families, per evaluation */
-#define MODEL_CONSTANT_TERMS_MAX 2e9 /* of all sums in constants together: they are computed while the model is read */
+#define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together: they are computed while the model is read */
 
 typedef struct model_cells {         /* the cells of a family that have an equation, in the order of their indices */
     size_t count;
@@ -118,16 +118,20 @@ typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 /* resolve.c: constants, layout, initial values */
 bool resolve_all(model *);
 bool resolve_definition(model *, model_definition *);
+/* The complaint that a line has not the indices that its state has; false. */
+bool resolve_indices_wrong(model *, const model_state *, span at);
 bool resolve_hull(model *, model_state *);       /* where its indices range, and which cells have equations */
-bool resolve_state(model *, model_state *);
-/* x(0) (primes 0) or x'(0) (1) at the cells [low, high]: afterwards in start_array. */
-bool resolve_start(model *, model_state *, int primes, const int64_t low[], const int64_t high[]);
 bool resolve_start_time(model *);
 bool resolve_number(model *, node, span at, double *value);
 int resolve_int(model *, node, span at, int64_t *value);        /* the int slot, or -1 */
 /* Room for arrays, zeroed; their numbers begin at *first. */
 bool resolve_arrays(model *, int count, uint16_t *first);
 bool resolve_run(model *, const output *, size_t count, double t, double *const base[SPACES]);
+
+/* start.c: initial values */
+bool start_state(model *, model_state *);
+/* x(0) (primes 0) or x'(0) (1) at the cells [low, high]: afterwards in start_array. */
+bool start_cells(model *, model_state *, int primes, const int64_t low[], const int64_t high[]);
 
 /* equations.c */
 bool equations_all(model *);

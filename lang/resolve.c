@@ -32,7 +32,7 @@ bool resolve_run(model *m, const output *outputs, size_t count, double t, double
 
 /* ---- the pool and the arrays ---- */
 
-static bool pool_room(model *m, size_t count, size_t *first)
+bool resolve_pool(model *m, size_t count, size_t *first)
 {
     if (m->pool_count + count > m->pool_capacity) {
         size_t room = m->pool_capacity + m->pool_capacity / 2 + count + 64;
@@ -70,7 +70,7 @@ bool resolve_arrays(model *m, int count, uint16_t *first)
     return true;
 }
 
-static size_t shape_array(array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])
+size_t resolve_shape(array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])
 {
     size_t count = 1;
     *a = (array){.space = space, .dims = dims, .base = base};
@@ -111,7 +111,7 @@ static bool compute(model *m, const node *nodes, int count, double *out)
     if (!o || !resolve_arrays(m, count, &first))
         return false;
     for (int k = 0; k < count; k++) {
-        shape_array(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
+        resolve_shape(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
         o[k] = (output){.value = nodes[k], .to = {.array = (uint16_t)(first + k)}};
     }
     double *base[SPACES] = {[SPACE_OUT] = out};
@@ -230,14 +230,14 @@ static bool resolve_list(model *m, model_definition *d)
     int parts = d->components ? d->components : 1;
     size_t base;
     uint16_t at;
-    if (!pool_room(m, (size_t)n * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
+    if (!resolve_pool(m, (size_t)n * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
         return false;
     d->array = at;
     node *column = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *column);
     if (!column)
         return false;
     for (int k = 0; k < parts; k++) {
-        shape_array(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
+        resolve_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++)
             column[i] = item[i].item[k];
         double *out = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *out);
@@ -249,7 +249,7 @@ static bool resolve_list(model *m, model_definition *d)
 }
 
 /* The hull of what a left side runs over. */
-static void target_hull(const model *m, const lowering *l, const output *o, int64_t first[], int64_t last[])
+void resolve_target(const model *m, const lowering *l, const output *o, int64_t first[], int64_t last[])
 {
     for (int d = 0; d < o->to.dims; d++) {
         const subscript *s = &o->to.at[d];
@@ -263,7 +263,7 @@ static void target_hull(const model *m, const lowering *l, const output *o, int6
 }
 
 /* Runs a statement's components into the pool, at `base` on, as an array of the given hull. */
-static bool run_into_pool(model *m, const output *target, value v, size_t base, const int64_t first[], const int64_t last[], size_t hull)
+bool resolve_into_pool(model *m, const output *target, value v, size_t base, const int64_t first[], const int64_t last[], size_t hull)
 {
     int parts = v.count ? v.count : 1;
     uint32_t arrays = m->array_count;
@@ -272,7 +272,7 @@ static bool run_into_pool(model *m, const output *target, value v, size_t base, 
     if (!o || !resolve_arrays(m, parts, &at))
         return false;
     for (int k = 0; k < parts; k++) {
-        shape_array(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
+        resolve_shape(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
         o[k] = *target;
         o[k].value = v.item[k];
         o[k].to.array = (uint16_t)(at + k);
@@ -295,7 +295,7 @@ static bool resolve_family(model *m, model_definition *d)
         source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
         return false;
     }
-    target_hull(m, &l, &o, d->first, d->last);
+    resolve_target(m, &l, &o, d->first, d->last);
     d->dims = o.to.dims;
     if (d->kind != DEFINED_PARAMETER)
         return true;                 /* its expression is put in where it is used */
@@ -306,18 +306,18 @@ static bool resolve_family(model *m, model_definition *d)
     d->list = true;
     d->components = v.count;
     array probe;
-    size_t hull = shape_array(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
+    size_t hull = resolve_shape(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
     if (hull * (size_t)parts > MODEL_LIST_MAX) {
         source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "%zu numbers are more than the %d that fit", hull * (size_t)parts, MODEL_LIST_MAX);
         return false;
     }
     uint16_t at;
-    if (!pool_room(m, hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
+    if (!resolve_pool(m, hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
         return false;
     d->array = at;
     for (int k = 0; k < parts; k++)
-        shape_array(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
-    return run_into_pool(m, &o, v, base, d->first, d->last, hull) && finite_values(m, d, m->pool + base, hull * (size_t)parts);
+        resolve_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
+    return resolve_into_pool(m, &o, v, base, d->first, d->last, hull) && finite_values(m, d, m->pool + base, hull * (size_t)parts);
 }
 
 bool resolve_definition(model *m, model_definition *d)
@@ -393,12 +393,22 @@ bool resolve_start_time(model *m)
 
 /* ---- states ---- */
 
+bool resolve_indices_wrong(model *m, const model_state *s, span at)
+{
+    static const char *const indices[] = {"", "[i]", "[i,j]", "[i,j,k]", "[i,j,k,l]"};
+    if (s->dims == 0)
+        source_complain(&m->source, MOTUS_SHAPE, at, "%s is not a family and has no index", s->name);
+    else
+        source_complain(&m->source, MOTUS_SHAPE, at, "%s is a family and needs %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
+    source_hint(&m->source, "by its equation in line %d it is written %s%s", source_line(&m->source, s->at), s->name, indices[s->dims]);
+    return false;
+}
+
 #define EACH_LINE(m, s, one) \
     for (const statement *one = (s)->line ? &(m)->statements.item[(s)->line - 1] : NULL; one; \
          one = one->next ? &(m)->statements.item[one->next - 1] : NULL)
 
-/* Marks the cells of a left side in a map over the hull. With `owner`, a cell can be taken once. */
-static bool mark(model *m, const model_state *s, const statement *from, const int64_t first[], const int64_t last[], uint8_t *map, uint8_t as, bool once)
+bool resolve_mark(model *m, const model_state *s, const statement *from, const int64_t first[], const int64_t last[], uint8_t *map, uint8_t as, bool once)
 {
     int64_t at[MAX_DIMS];
     for (int d = 0; d < s->dims; d++)
@@ -414,7 +424,8 @@ static bool mark(model *m, const model_state *s, const statement *from, const in
             source_hint(&m->source, "each index has exactly one equation or boundary line");
             return false;
         }
-        map[offset] = as;
+        if (map[offset] < as)
+            map[offset] = as;
         int d = s->dims - 1;
         while (d >= 0 && ++at[d] > last[d]) {
             at[d] = first[d];
@@ -432,8 +443,7 @@ static bool gather_hull(model *m, model_state *s, bool boundary)
         if (one->kind != STATEMENT_EQUATION && !(boundary && one->kind == STATEMENT_DEFINITION))
             continue;
         if ((int)one->index_count != s->dims) {
-            source_complain(&m->source, MOTUS_SHAPE, one->at, "%s has %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
-            return false;
+            return resolve_indices_wrong(m, s, one->at);
         }
         lowering l;
         output o = {0};
@@ -441,7 +451,7 @@ static bool gather_hull(model *m, model_state *s, bool boundary)
         lower_start(&l, m, PLACE_CONSTANT, "an index");
         if (!lower_target(&l, one, &o))
             return false;
-        target_hull(m, &l, &o, first, last);
+        resolve_target(m, &l, &o, first, last);
         for (int d = 0; d < s->dims; d++) {
             int64_t *lo = boundary ? &s->first[d] : &s->eq_first[d], *hi = boundary ? &s->last[d] : &s->eq_last[d];
             if (!any || first[d] < *lo)
@@ -465,8 +475,8 @@ static bool mark_owners(model *m, model_state *s)
         lower_start(&l, m, PLACE_CONSTANT, "an index");
         if (!lower_target(&l, one, &o))
             return false;
-        target_hull(m, &l, &o, first, last);
-        if (!mark(m, s, one, first, last, s->owner, one->kind == STATEMENT_EQUATION ? 1 : 2, true))
+        resolve_target(m, &l, &o, first, last);
+        if (!resolve_mark(m, s, one, first, last, s->owner, one->kind == STATEMENT_EQUATION ? 1 : 2, true))
             return false;
     }
     size_t count = 0;
@@ -520,267 +530,6 @@ bool resolve_hull(model *m, model_state *s)
     return true;
 }
 
-/* The first line of initial values gives the state its shape and its room. */
-static bool give_shape(model *m, model_state *s, const statement *one, int components)
-{
-    int parts = components ? components : 1;
-    size_t base;
-    s->shaped = true;
-    s->components = components;
-    if ((double)s->hull * parts > MODEL_NUMBERS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name, (double)s->hull * parts, MODEL_NUMBERS_MAX);
-        return false;
-    }
-    for (int d = 0; d < s->order; d++) {
-        if (!pool_room(m, s->hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &s->start_array[d]))
-            return false;
-        for (int k = 0; k < parts; k++)
-            shape_array(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
-    }
-    return true;
-}
-
-/* Runs a line into the pool, or puts its numbers there where they are known. */
-static bool run_start(model *m, model_state *s, const statement *one, const output *o, value v)
-{
-    size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
-    int64_t at;
-    bool known = o->loops == 0;
-    for (int k = 0; k < (v.count ? v.count : 1); k++)
-        known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
-    if (!known)
-        return run_into_pool(m, o, v, base, s->first, s->last, s->hull);
-    for (int d = 0; d < s->dims; d++) {
-        at = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
-        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at - s->first[d]);
-    }
-    for (int k = 0; k < (v.count ? v.count : 1); k++)
-        m->pool[base + (size_t)k * s->hull + cell] = graph_at(m->graph, v.item[k])->value;
-    return true;
-}
-
-enum { START_OF_FAMILY = 1, START_OF_CELL = 2 };     /* a cell's own line has precedence, whichever is computed first */
-
-/* One line x(0) = …, x'(0) = …, x[i](0) = … for …; lines that it uses come first. */
-static bool start_line(model *m, model_state *s, statement *one)
-{
-    if (one->progress == 2)
-        return true;
-    if (one->progress == 1) {
-        source_complain(&m->source, MOTUS_NAME, one->at, "this initial value depends on itself, in a circle");
-        return false;
-    }
-    if (m->start_depth == MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "initial values use one another more than %d deep", MODEL_CHAIN_MAX);
-        return false;
-    }
-    char what[MOTUS_NAME_MAX + 32];
-    snprintf(what, sizeof what, "%s%s at the start", s->name, one->primes ? "'" : "");
-    if ((int)one->index_count != s->dims) {
-        source_complain(&m->source, MOTUS_SHAPE, one->at, "%s has %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
-        return false;
-    }
-    one->progress = 1;
-    m->start_depth++;
-    lowering l;
-    output o = {0};
-    lower_start(&l, m, PLACE_CONSTANT, "an initial value");
-    if (!lower_target(&l, one, &o))
-        return false;
-    value v = lower_expression(&l, one->value);
-    if (failed(m))
-        return false;
-    m->start_depth--;
-    if (v.boolean || (s->shaped && v.count != s->components)) {
-        char now[40], before[40];
-        snprintf(now, sizeof now, v.count ? "a vector of length %d" : "a number", v.count);
-        snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
-        source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s is %s here, but %s before", what, v.boolean ? "a condition" : now, before);
-        return false;
-    }
-    if (!s->shaped && !give_shape(m, s, one, v.count))
-        return false;
-    int64_t first[MAX_DIMS], last[MAX_DIMS];
-    target_hull(m, &l, &o, first, last);
-    for (int d = 0; d < s->dims; d++)
-        if (first[d] < s->first[d] || last[d] > s->last[d]) {
-            source_complain(&m->source, MOTUS_NAME, one->at, "%s has an initial value at index %lld, but no equation there", s->name,
-                            (long long)(first[d] < s->first[d] ? first[d] : last[d]));
-            return false;
-        }
-    uint8_t *map = s->start_map[one->primes];
-    size_t base = m->arrays[s->start_array[one->primes]].base, parts = (size_t)(v.count ? v.count : 1), kept = 0;
-    double *keep = NULL;
-    if (one->loop_count > 0) {       /* cells that have their values from lines of their own */
-        for (size_t i = 0; i < s->hull; i++)
-            kept += map[i] == START_OF_CELL;
-        if (kept && !(keep = arena_grow(m->arena, NULL, 0, kept * parts * sizeof *keep)))
-            return false;
-    }
-    for (size_t i = 0, n = 0; n < kept * parts; i++)
-        for (size_t k = 0; k < parts && map[i] == START_OF_CELL; k++)
-            keep[n++] = m->pool[base + k * s->hull + i];
-    if (!run_start(m, s, one, &o, v))
-        return false;
-    for (size_t i = 0, n = 0; n < kept * parts; i++)
-        for (size_t k = 0; k < parts && map[i] == START_OF_CELL; k++)
-            m->pool[base + k * s->hull + i] = keep[n++];
-    if (s->dims == 0) {
-        if (map[0]) {
-            source_complain(&m->source, MOTUS_NAME, one->at, "%s is given twice", what);
-            return false;
-        }
-        map[0] = START_OF_CELL;
-    } else if (!mark(m, s, one, first, last, map, one->loop_count > 0 ? START_OF_FAMILY : START_OF_CELL, false)) {
-        return false;
-    }
-    one->progress = 2;
-    return true;
-}
-
-static bool start_maps(model *m, model_state *s)
-{
-    if (!resolve_start_time(m) || !resolve_hull(m, s))
-        return false;
-    for (int primes = 0; primes < s->order; primes++) {
-        if (s->start_map[primes])
-            continue;
-        s->start_map[primes] = arena_grow(m->arena, NULL, 0, s->hull);
-        if (!s->start_map[primes])
-            return false;
-        memset(s->start_map[primes], 0, s->hull);
-    }
-    return true;
-}
-
-/* Families first; `cells` adds the lines of single cells. */
-static bool start_lines(model *m, model_state *s, int primes, bool cells)
-{
-    for (int pass = 0; pass <= (int)cells; pass++)
-        for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
-            statement *one = &m->statements.item[i - 1];
-            if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == pass && !start_line(m, s, one))
-                return false;
-        }
-    return true;
-}
-
-static bool start_missing(model *m, const model_state *s, int primes, size_t cell)
-{
-    char name[MOTUS_NAME_MAX + 64];
-    model_state_name(s, cell, -1, primes, name, sizeof name);
-    source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
-    source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name, primes ? "'" : "", m->start);
-    return false;
-}
-
-/* Which line is about which single cell; made once, so that long lists of such lines stay cheap. */
-static bool own_lines(model *m, model_state *s, int primes)
-{
-    if (s->start_own[primes])
-        return true;
-    s->start_own[primes] = arena_grow(m->arena, NULL, 0, s->hull * sizeof *s->start_own[primes]);
-    if (!s->start_own[primes])
-        return false;
-    memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);
-    for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
-        const statement *one = &m->statements.item[i - 1];
-        lowering l;
-        output o = {0};
-        int64_t first[MAX_DIMS], last[MAX_DIMS];
-        if (one->kind != STATEMENT_START || one->primes != primes || one->loop_count > 0 || (int)one->index_count != s->dims)
-            continue;
-        lower_start(&l, m, PLACE_CONSTANT, "an index");
-        if (!lower_target(&l, one, &o))
-            return false;
-        target_hull(m, &l, &o, first, last);
-        size_t cell = 0;
-        bool inside = true;
-        for (int d = 0; d < s->dims; d++) {
-            inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
-            cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(first[d] - s->first[d]);
-        }
-        if (inside)
-            s->start_own[primes][cell] = i;
-    }
-    return true;
-}
-
-bool resolve_start(model *m, model_state *s, int primes, const int64_t low[], const int64_t high[])
-{
-    if (s->start_done)
-        return true;
-    if (!start_maps(m, s))
-        return false;
-    size_t cell = 0;
-    bool single = true;
-    for (int d = 0; d < s->dims; d++) {
-        single &= low[d] == high[d];
-        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(low[d] - s->first[d]);
-    }
-    if (!single)
-        return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
-    if (!own_lines(m, s, primes))
-        return false;
-    uint32_t own = s->start_own[primes][cell];
-    if (own ? !start_line(m, s, &m->statements.item[own - 1]) : !start_lines(m, s, primes, false))
-        return false;
-    return s->start_map[primes][cell] != 0 || start_missing(m, s, primes, cell);
-}
-
-/* The line that gave a cell its value, as far as one can tell; else the equation. */
-static span start_span(const model *m, const model_state *s, int primes, bool own)
-{
-    EACH_LINE(m, s, one) {
-        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own)
-            return one->at;
-    }
-    return s->at;
-}
-
-static bool check_start(model *m, model_state *s, int primes)
-{
-    char name[MOTUS_NAME_MAX + 64];
-    const uint8_t *map = s->start_map[primes];
-    size_t base = m->arrays[s->start_array[primes]].base, parts = (size_t)(s->components ? s->components : 1);
-    for (size_t i = 0; i < s->cells.count; i++) {
-        size_t cell = s->cells.offset ? s->cells.offset[i] : i;
-        if (!map[cell])
-            return start_missing(m, s, primes, cell);
-        for (size_t k = 0; k < parts; k++)
-            if (!isfinite(m->pool[base + k * s->hull + cell])) {
-                model_state_name(s, cell, s->components ? (int)k : -1, primes, name, sizeof name);
-                source_complain(&m->source, MOTUS_ARGUMENT, start_span(m, s, primes, map[cell] == START_OF_CELL),
-                                "the initial value %s(%g) is not a finite number", name, m->start);
-                source_hint(&m->source, "look for a division by zero, or a root or logarithm of a negative number");
-                return false;
-            }
-    }
-    return true;
-}
-
-bool resolve_state(model *m, model_state *s)
-{
-    if (s->start_done)
-        return true;
-    if (!start_maps(m, s))
-        return false;
-    for (int primes = 0; primes < s->order; primes++) {
-        if (!start_lines(m, s, primes, true))
-            return false;
-        if (!s->shaped) {
-            source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s%s(%g) is missing", s->name, s->dims ? "[…]" : "", m->start);
-            source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name, s->dims ? "[i]" : "", m->start, s->name);
-            return false;
-        }
-    }
-    for (int primes = 0; primes < s->order; primes++)
-        if (!check_start(m, s, primes))
-            return false;
-    s->start_done = true;
-    return true;
-}
-
 /* Places in x and v, and the five blocks of arrays. */
 static bool lay_out(model *m)
 {
@@ -817,7 +566,7 @@ static bool lay_out(model *m)
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];
             for (int k = 0; k < (s->components ? s->components : 1); k++)
-                shape_array(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims, s->first, s->last);
+                resolve_shape(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims, s->first, s->last);
         }
     }
     m->x0 = arena_grow(m->arena, NULL, 0, (m->nx + 1) * sizeof *m->x0);
@@ -926,13 +675,13 @@ bool resolve_all(model *m)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
             m->scalar_slots += m->source.texts[t].bytes[i] == ',' ? 2 : 0;
     size_t first;
-    if (!pool_room(m, m->scalar_slots, &first) || !check_orphans(m) || !resolve_start_time(m))
+    if (!resolve_pool(m, m->scalar_slots, &first) || !check_orphans(m) || !resolve_start_time(m))
         return false;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (!resolve_definition(m, &m->definitions[i]))
             return false;
     for (uint32_t i = 0; i < m->state_count; i++)
-        if (!resolve_state(m, &m->states[i]))
+        if (!start_state(m, &m->states[i]))
             return false;
     return resolve_settings(m) && lay_out(m);
 }

@@ -106,6 +106,12 @@ static bool replace(model *m, uint32_t text)
         source_hint(s, "write --set F=0.2 or --set \"x(0)=1\"; method, step and until have options of their own");
         return false;
     }
+    for (uint32_t i = 0; one->kind == STATEMENT_DEFINITION && i < m->statements.count; i++)
+        if (m->statements.item[i].kind == STATEMENT_EQUATION && !strcmp(m->statements.item[i].name, one->name)) {
+            source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s has an equation of motion and cannot be set", one->name);
+            source_hint(s, "its initial values can: %s%s(0) = …", one->name, one->index_count ? "[…]" : "");
+            return false;
+        }
     int found = 0;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         statement *old = &m->statements.item[i];
@@ -114,8 +120,8 @@ static bool replace(model *m, uint32_t text)
         if (one->kind == STATEMENT_START) {
             if (old->primes != one->primes)
                 continue;
-            if (one->index_count > 0 && one->loop_count == 0)
-                continue;            /* one cell: an additional line, which has precedence over a family's */
+            if (one->index_count > 0)
+                continue;            /* an additional line, which has precedence over the model's */
         } else if (old->index_count != one->index_count) {
             continue;
         }
@@ -138,6 +144,17 @@ static bool replace(model *m, uint32_t text)
         m->statements.item = item;
         m->statements.capacity = ++m->statements.count;
         return true;
+    }
+    for (uint32_t i = 0; i < m->statements.count; i++) {
+        const statement *old = &m->statements.item[i];
+        if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name))
+            continue;
+        source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s can only be set as a whole", one->name);
+        if (old->value->kind == TREE_LIST)
+            source_hint(s, "write %s = [1, 2, …]", one->name);
+        else
+            source_hint(s, "write it as the model does, in line %d", source_line(s, old->at));
+        return false;
     }
     source_complain(s, MOTUS_NAME, one->name_at, "the model has no parameter %s", one->name);
     for (uint32_t i = 0; i < m->statements.count; i++) {

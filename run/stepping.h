@@ -16,9 +16,10 @@ size_t stepping_carry(const engine *);
 void stepping_save(const engine *, double *carry);
 motus_status stepping_load(engine *, int64_t step, int64_t evaluations, int64_t iterations, const double *carry, motus_error *);
 
-#define STEPPING                                                                                                                      \
-    .open = stepping_open, .close = stepping_close, .advance = stepping_advance, .sync = stepping_sync, .steps = stepping_steps,      \
+#define STEPPING_BUT_OPEN                                                                                                             \
+    .close = stepping_close, .advance = stepping_advance, .sync = stepping_sync, .steps = stepping_steps,                             \
     .evaluations = stepping_evaluations, .iterations = stepping_iterations, .carry = stepping_carry, .save = stepping_save,           \
     .load = stepping_load
+#define STEPPING .open = stepping_open, STEPPING_BUT_OPEN
 
 #endif

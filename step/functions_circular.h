@@ -1,7 +1,8 @@
 /* sin, cos, tan over the whole range.
  *
- * |x| = q pi/2 + r, |r| <= pi/4, r a pair. Up to 2^30 by three parts of pi/2 [CodyWaite80]: the fused first step is exact, the second
- * exact as a pair, the third leaves an error below 2^-120, where r itself is above 2^-60. Beyond, by the bits of 2/pi that matter
+ * |x| = q pi/2 + r, |r| <= pi/4, r a pair. Up to 2^22 by three parts of pi/2 [CodyWaite80]; the first two steps are exact: the
+ * first because the fused product has all its bits, the second because it leaves a sum, and the second part is so short that q times it
+ * is a double. What remains is wrong by 2^-117 at most, where r is not below 2^-60. Beyond, by the bits of 2/pi that matter
  * [PayneHanek83], lane by lane. Then
  *
  *     sin r = r + r^3 S(r^2)                within 3.5e-18 r
@@ -9,8 +10,6 @@
  *
  * minimax among polynomials with double coefficients on |r| <= 0.7854. Invariant: a lane's reduction depends on that lane alone.
  */
-#define ANGLE_EASY REAL(0x1p30)
-
 /* The bits of 2/pi, behind 64 zeros. */
 CONSTANT uint64_t NAME(two_over_pi)[21] = {
     0x0000000000000000, 0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, 0xfe5163abdebbc561, 0xb7246e3a424dd2e0,
@@ -27,7 +26,7 @@ COLD uint64_t NAME(upper)(uint64_t a, uint64_t b)
     return a1 * b1 + (mid >> 32) + (cross >> 32);
 }
 
-/* The quadrant of x >= 2^30, given by its bits, and r = hi + lo. x = m 2^e with m an integer, so the bits of 2/pi whose weight times
+/* The quadrant of x >= 2^22, given by its bits, and r = hi + lo. x = m 2^e with m an integer, so the bits of 2/pi whose weight times
  * 2^e is a multiple of 4 turn full circles; the 192 after them, times m, are x 2/pi modulo 4 to 2^-137. No double of this range is
  * nearer than 2^-62 to a multiple of pi/2. */
 COLD uint64_t NAME(reduce_huge)(uint64_t x, double *hi, double *lo)
@@ -76,22 +75,22 @@ typedef struct NAME(angle) { pair r; bits quadrant; } NAME(angle);
 #define angle NAME(angle)
 
 /* a >= 0. */
-INLINE angle NAME(angle_of)(real a)
+INLINE angle NAME(angle_of)(reals a)
 {
     angle y;
-    real shifted = FMA(a, REAL(0x1.45f306dc9c883p-1), SHIFTER);
-    real k = shifted - SHIFTER;
-    pair p = NAME(product)(k, REAL(0x1.1a62633145c07p-54));
-    y.r = NAME(difference)(FMA(-k, REAL(0x1.921fb54442d18p+0), a), p.hi);
-    y.r.lo -= FMA(k, REAL(-0x1.f1976b7ed8fbcp-110), p.lo);
+    reals shifted = FUSED(a, REAL(0x1.45f306dc9c883p-1), SHIFTER);
+    reals k = shifted - SHIFTER;
+    reals r = FUSED(-k, REAL(0x1.921fb54442d18p+0), a);
+    y.r.hi = FUSED(-k, REAL(0x1.1a62633p-54), r);
+    y.r.lo = FUSED(-k, REAL(0x1.45c06e0e68948p-86), FUSED(-k, REAL(0x1.1a62633p-54), r - y.r.hi));
     y.quadrant = AS_BITS(shifted);
-    mask huge = a >= ANGLE_EASY;
+    mask huge = a >= REAL(0x1p22);
     if (ANY(huge)) {
         angle z = y;
-        real x = a;
+        reals x = a;
         for (int i = 0; i < LANES; i++) {
             double lane = LANE(x, i), hi, lo;
-            if (!(lane >= 0x1p30)) continue;
+            if (!(lane >= 0x1p22)) continue;
             union { double x; uint64_t b; } u = { lane };
             LANE(z.quadrant, i) = NAME(reduce_huge)(u.b, &hi, &lo);
             LANE(z.r.hi, i) = hi;
@@ -108,41 +107,45 @@ typedef struct NAME(circle) { pair sin, cos; } NAME(circle);
 INLINE circle NAME(circle_of)(pair r)
 {
     circle y;
-    pair z = NAME(product)(r.hi, r.hi);
-    real z2 = z.hi * z.hi, z4 = z2 * z2, h = REAL(0.5) * z.hi;
-    real s = POLY6(z.hi, z2, z4, -0x1.5555555555549p-3, 0x1.111111110f8a7p-7, -0x1.a01a019c1644ep-13, 0x1.71de357b44dc3p-19,
-                   -0x1.ae5e68c0108fcp-26, 0x1.5d93ae1920918p-33);
-    real c = POLY6(z.hi, z2, z4, 0x1.555555555554cp-5, -0x1.6c16c16c15223p-10, 0x1.a01a019cbff92p-16, -0x1.27e4f813368bdp-22,
-                   0x1.1ee9f1b0a7553p-29, -0x1.8fb163896ae2bp-37);
-    y.cos = NAME(sum_ordered)(REAL(1.0), -h);
+    pair z = NAME(product)(r.hi, r.hi), cube = NAME(product)(r.hi, z.hi);
+    reals z2 = z.hi * z.hi, z4 = z2 * z2;
+    reals s = POLY5(z.hi, z2, z4, 0x1.111111110f8a7p-7, -0x1.a01a019c1644ep-13, 0x1.71de357b44dc3p-19, -0x1.ae5e68c0108fcp-26,
+                    0x1.5d93ae1920918p-33);
+    reals c = POLY6(z.hi, z2, z4, 0x1.555555555554cp-5, -0x1.6c16c16c15223p-10, 0x1.a01a019cbff92p-16, -0x1.27e4f813368bdp-22,
+                    0x1.1ee9f1b0a7553p-29, -0x1.8fb163896ae2bp-37);
+    y.cos.hi = FUSED(z.hi, REAL(-0.5), REAL(1.0));
+    y.cos.lo = FUSED(z.hi, REAL(-0.5), REAL(1.0) - y.cos.hi);
+    y.cos.lo = FUSED(z2, c, FUSED(-r.hi, r.lo, FUSED(z.lo, REAL(-0.5), y.cos.lo)));
+    /* The leading term, near -r^3/6, is kept apart from the others, with what the products of r^3 lose: it alone weighs. */
+    cube.lo = FUSED(r.hi, z.lo, cube.lo);
     y.sin.hi = r.hi;
-    y.sin.lo = FMA(r.hi * z.hi, s, r.lo * y.cos.hi);
-    y.cos.lo += FMA(z2, c, -FMA(r.hi, r.lo, REAL(0.5) * z.lo));
+    y.sin.lo = FUSED(cube.hi * z.hi, s, FUSED(cube.lo, REAL(-0x1.5555555555549p-3), r.lo * y.cos.hi));
+    y.sin.lo = FUSED(cube.hi, REAL(-0x1.5555555555549p-3), y.sin.lo);
     return y;
 }
 
-/* The sine of r + (quadrant) pi/2, its sign turned by `sign`. */
-INLINE real NAME(sin_angle)(pair r, bits quadrant, bits sign)
+/* The sine of r + (quadrant) pi/2, negated where `sign` has its top bit. */
+INLINE reals NAME(sin_angle)(pair r, bits quadrant, bits sign)
 {
     circle y = NAME(circle_of)(r);
-    mask odd = (quadrant & BITS(1)) != BITS(0);
-    real value = SELECT(odd, y.cos.hi, y.sin.hi) + SELECT(odd, y.cos.lo, y.sin.lo);
-    return SIGNED(value, ((quadrant & BITS(2)) << 62) ^ sign);
+    mask even = (quadrant & BITS(1)) == BITS(0);
+    reals value = SELECT(even, y.sin.hi, y.cos.hi) + SELECT(even, y.sin.lo, y.cos.lo);
+    return SIGNED(value, ((quadrant << 62) ^ sign) & SIGN_BIT);
 }
 
-INLINE real NAME(sin)(real x)
+INLINE reals NAME(sin)(reals x)
 {
     angle y = NAME(angle_of)(ABSOLUTE(x));
-    return NAME(sin_angle)(y.r, y.quadrant, SIGN_OF(x));
+    return NAME(sin_angle)(y.r, y.quadrant, AS_BITS(x));
 }
 
-INLINE real NAME(cos)(real x)
+INLINE reals NAME(cos)(reals x)
 {
     angle y = NAME(angle_of)(ABSOLUTE(x));
     return NAME(sin_angle)(y.r, y.quadrant + BITS(1), BITS(0));
 }
 
-INLINE real NAME(tan)(real x)
+INLINE reals NAME(tan)(reals x)
 {
     angle y = NAME(angle_of)(ABSOLUTE(x));
     circle c = NAME(circle_of)(y.r);
@@ -150,5 +153,5 @@ INLINE real NAME(tan)(real x)
     pair a, b;
     a.hi = SELECT(odd, c.cos.hi, c.sin.hi), a.lo = SELECT(odd, c.cos.lo, c.sin.lo);
     b.hi = SELECT(odd, c.sin.hi, c.cos.hi), b.lo = SELECT(odd, c.sin.lo, c.cos.lo);
-    return SIGNED(NAME(quotient)(a, b), ((y.quadrant & BITS(1)) << 63) ^ SIGN_OF(x));
+    return SIGNED(NAME(quotient)(a, b), (y.quadrant << 63) ^ SIGN_OF(x));
 }

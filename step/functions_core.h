@@ -7,15 +7,15 @@
  *     functions_core.h  functions_exponential.h  functions_logarithm.h  functions_power.h  functions_hyperbolic.h
  *     functions_circular.h  functions_inverse.h  functions_root.h  functions_error.h  functions_end.h
  *
- *     real, bits          doubles and unsigned 64-bit integers, one of each per lane
+ *     reals, bits         doubles and unsigned 64-bit integers, one of each per lane
  *     mask                what a comparison of reals or of bits gives; & and | combine masks
  *     LANES, LANE(x, k)   how many lanes, and lane k of a variable
  *     NAME(f)             the name of f in this vocabulary; for plain doubles motus_##f
  *     REAL(c), BITS(c)    a constant in every lane
  *     AS_BITS, AS_REAL    the same 64 bits, read the other way
- *     FMA(a, b, c)        a b + c, rounded once
+ *     FUSED(a, b, c)        a b + c, rounded once
  *     SQRT(x)             rounded correctly
- *     SELECT(m, a, b)     a where m holds, else b, both reals
+ *     SELECT(m, a, b)     a where m holds, else b; both are reals
  *     ANY(m)              whether m holds in some lane
  *     INLINE, COLD        what stands before a function of lanes, and before a rare one of scalars
  *     CONSTANT            what stands before a table
@@ -26,7 +26,7 @@
  * no lane that does not need it.
  */
 #ifndef NAME
-#define real double
+#define reals double
 #define bits uint64_t
 #define mask int
 #define LANES 1
@@ -34,7 +34,7 @@
 #define NAME(f) motus_##f
 #define REAL(c) (c)
 #define BITS(c) ((uint64_t)(c))
-#define FMA(a, b, c) fma(a, b, c)
+#define FUSED(a, b, c) fma(a, b, c)
 #define SQRT(x) sqrt(x)
 #define SELECT(m, a, b) ((m) ? (a) : (b))
 #define ANY(m) (m)
@@ -52,8 +52,8 @@ static inline double motus_as_real(uint64_t b) { union { uint64_t b; double x; }
 #endif
 
 #define SIGN_BIT BITS(0x8000000000000000)
-#define INFINITE AS_REAL(BITS(0x7ff0000000000000))
-#define NOT_A_NUMBER AS_REAL(BITS(0x7ff8000000000000))
+#define INFINITE REAL((double)INFINITY)
+#define NOT_A_NUMBER REAL((double)NAN)
 #define ABSOLUTE(x) AS_REAL(AS_BITS(x) & ~SIGN_BIT)
 #define SIGN_OF(x) (AS_BITS(x) & SIGN_BIT)
 #define SIGNED(x, s) AS_REAL(AS_BITS(x) ^ (s))          /* x, negated where s is the sign bit */
@@ -62,20 +62,20 @@ static inline double motus_as_real(uint64_t b) { union { uint64_t b; double x; }
 #define SHIFTER REAL(0x1.8p52)
 
 /* Polynomials from the constant up, by Estrin's tree: half the depth of Horner's for one or two powers more. x2 = x^2, x4 = x2^2. */
-#define POLY2(x, a, b) FMA(x, REAL(b), REAL(a))
-#define POLY3(x, x2, a, b, c) FMA(x2, REAL(c), POLY2(x, a, b))
-#define POLY4(x, x2, a, b, c, d) FMA(x2, POLY2(x, c, d), POLY2(x, a, b))
-#define POLY5(x, x2, x4, a, b, c, d, e) FMA(x4, REAL(e), POLY4(x, x2, a, b, c, d))
-#define POLY6(x, x2, x4, a, b, c, d, e, f) FMA(x4, POLY2(x, e, f), POLY4(x, x2, a, b, c, d))
-#define POLY7(x, x2, x4, a, b, c, d, e, f, g) FMA(x4, POLY3(x, x2, e, f, g), POLY4(x, x2, a, b, c, d))
-#define POLY8(x, x2, x4, a, b, c, d, e, f, g, h) FMA(x4, POLY4(x, x2, e, f, g, h), POLY4(x, x2, a, b, c, d))
+#define POLY2(x, a, b) FUSED(x, REAL(b), REAL(a))
+#define POLY3(x, x2, a, b, c) FUSED(x2, REAL(c), POLY2(x, a, b))
+#define POLY4(x, x2, a, b, c, d) FUSED(x2, POLY2(x, c, d), POLY2(x, a, b))
+#define POLY5(x, x2, x4, a, b, c, d, e) FUSED(x4, REAL(e), POLY4(x, x2, a, b, c, d))
+#define POLY6(x, x2, x4, a, b, c, d, e, f) FUSED(x4, POLY2(x, e, f), POLY4(x, x2, a, b, c, d))
+#define POLY7(x, x2, x4, a, b, c, d, e, f, g) FUSED(x4, POLY3(x, x2, e, f, g), POLY4(x, x2, a, b, c, d))
+#define POLY8(x, x2, x4, a, b, c, d, e, f, g, h) FUSED(x4, POLY4(x, x2, e, f, g, h), POLY4(x, x2, a, b, c, d))
 
 /* hi + lo, unevaluated, |lo| small beside |hi|. */
-typedef struct NAME(pair) { real hi, lo; } NAME(pair);
+typedef struct NAME(pair) { reals hi, lo; } NAME(pair);
 #define pair NAME(pair)
 
 /* a + b exactly, where a = 0 or no exponent of b is above a's. [Dekker71] */
-INLINE pair NAME(sum_ordered)(real a, real b)
+INLINE pair NAME(sum_ordered)(reals a, reals b)
 {
     pair s;
     s.hi = a + b;
@@ -84,40 +84,40 @@ INLINE pair NAME(sum_ordered)(real a, real b)
 }
 
 /* a - b exactly, whatever their sizes. [Knuth69] */
-INLINE pair NAME(difference)(real a, real b)
+INLINE pair NAME(difference)(reals a, reals b)
 {
     pair s;
     s.hi = a - b;
-    real minus_b = s.hi - a;
+    reals minus_b = s.hi - a;
     s.lo = (a - (s.hi - minus_b)) - (b + minus_b);
     return s;
 }
 
 /* a b exactly, unless it underflows. */
-INLINE pair NAME(product)(real a, real b)
+INLINE pair NAME(product)(reals a, reals b)
 {
     pair p;
     p.hi = a * b;
-    p.lo = FMA(a, b, -p.hi);
+    p.lo = FUSED(a, b, -p.hi);
     return p;
 }
 
 /* The quotient of two pairs to a rounding and a few hundredths, by one division. */
-INLINE real NAME(quotient)(pair a, pair b)
+INLINE reals NAME(quotient)(pair a, pair b)
 {
     a = NAME(sum_ordered)(a.hi, a.lo);
     b = NAME(sum_ordered)(b.hi, b.lo);
-    real r = REAL(1.0) / b.hi;
-    real q = a.hi * r;
-    real rest = FMA(-q, b.hi, a.hi) + FMA(-q, b.lo, a.lo);
-    return FMA(rest, r, q);
+    reals r = REAL(1.0) / b.hi;
+    reals q = a.hi * r;
+    reals rest = FUSED(-q, b.hi, a.hi) + FUSED(-q, b.lo, a.lo);
+    return FUSED(rest, r, q);
 }
 
 /* x 2^k, rounded once: `shifted` is SHIFTER + k, |k| < 2045. Two factors, because neither 2^1024 nor the subnormals are one. */
-INLINE real NAME(scale)(real x, real shifted)
+INLINE reals NAME(scale)(reals x, reals shifted)
 {
-    real k = shifted - SHIFTER;
-    bits half = AS_BITS(FMA(k, REAL(0.5), SHIFTER));
+    reals k = shifted - SHIFTER;
+    bits half = AS_BITS(FUSED(k, REAL(0.5), SHIFTER));
     bits rest = AS_BITS(shifted) - half;
     return x * AS_REAL((half + BITS(1023)) << 52) * AS_REAL((rest + BITS(1023)) << 52);
 }

@@ -2,7 +2,7 @@
  *
  * Invariant: after this file no macro of those texts is left; the functions and types, whose names NAME made, stay.
  */
-#undef real
+#undef reals
 #undef bits
 #undef mask
 #undef pair
@@ -13,7 +13,7 @@
 #undef NAME
 #undef REAL
 #undef BITS
-#undef FMA
+#undef FUSED
 #undef SQRT
 #undef SELECT
 #undef ANY
@@ -48,8 +48,6 @@
 #undef LN2_REST
 #undef SERIES_COSH
 #undef SERIES_SINH
-#undef EXP_RANGE
 #undef SINH_RANGE
-#undef ANGLE_EASY
 #undef PI_HI
 #undef PI_LO

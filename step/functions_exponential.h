@@ -15,35 +15,38 @@
 #define SERIES_SINH(z, z2, z4) \
     POLY5(z, z2, z4, 0x1.5555555555559p-3, 0x1.111111110f653p-7, 0x1.a01a01b0042acp-13, 0x1.71ddf80ebfe42p-19, 0x1.af5f2aef9d7e7p-26)
 
-typedef struct NAME(octave) { real shifted; pair r; } NAME(octave);
+typedef struct NAME(octave) { reals shifted; pair r; } NAME(octave);
 #define octave NAME(octave)
 
-/* |x| < 2000. x - k ln 2 is exact in its first step, because the fused product has all bits and the difference is below 1. */
-INLINE octave NAME(octave_of)(real x)
+/* For |x| < 2000. x - k ln 2 is exact in its first step, because the fused product has all bits and the difference is below 1. */
+INLINE octave NAME(octave_of)(reals x)
 {
     octave o;
-    o.shifted = FMA(x, REAL(0x1.71547652b82fep+0), SHIFTER);
-    real k = o.shifted - SHIFTER;
-    real r = FMA(-k, LN2_HI, x);
-    o.r.hi = FMA(-k, LN2_LO, r);
-    o.r.lo = FMA(-k, LN2_LO, r - o.r.hi);
+    o.shifted = FUSED(x, REAL(0x1.71547652b82fep+0), SHIFTER);
+    reals k = o.shifted - SHIFTER;
+    reals r = FUSED(-k, LN2_HI, x);
+    o.r.hi = FUSED(-k, LN2_LO, r);
+    o.r.lo = FUSED(-k, LN2_LO, r - o.r.hi);
     return o;
 }
 
 /* exp(r) 2^k */
-INLINE real NAME(exp_octave)(octave o)
+INLINE reals NAME(exp_octave)(octave o)
 {
-    real r = o.r.hi, z = r * r, z2 = z * z, z4 = z2 * z2;
-    real half = FMA(z, SERIES_COSH(z, z2, z4), FMA(r, SERIES_SINH(z, z2, z4), REAL(0.5)));
+    reals r = o.r.hi, z = r * r, z2 = z * z, z4 = z2 * z2;
+    reals half = FUSED(r, FUSED(r, SERIES_COSH(z, z2, z4), SERIES_SINH(z, z2, z4)), REAL(0.5));
     pair one = NAME(sum_ordered)(REAL(1.0), r);
-    real small = FMA(z, half, FMA(o.r.lo, r, o.r.lo));
+    reals small = FUSED(z, half, FUSED(o.r.lo, r, o.r.lo));
     return NAME(scale)(one.hi + (one.lo + small), o.shifted);
 }
 
-/* exp(710) overflows and exp(-746) is nearer to 0 than to any other number, by the operations below, not by decree. */
-#define EXP_RANGE(x) SELECT((x) > REAL(710.0), REAL(710.0), SELECT((x) < REAL(-746.0), REAL(-746.0), x))
-
-INLINE real NAME(exp)(real x)
+/* Beyond 710 the result overflows and below -746 it is nearer to 0 than to any other number; there `value` may be anything. */
+INLINE reals NAME(exp_bounded)(reals value, reals x)
 {
-    return NAME(exp_octave)(NAME(octave_of)(EXP_RANGE(x)));
+    return SELECT(x > REAL(710.0), INFINITE, SELECT(x < REAL(-746.0), REAL(0.0), value));
+}
+
+INLINE reals NAME(exp)(reals x)
+{
+    return NAME(exp_bounded)(NAME(exp_octave)(NAME(octave_of)(x)), x);
 }

@@ -8,19 +8,19 @@
 #define LANES_JOIN(a, b) LANES_JOIN_(a, b)
 #define NAME(f) LANES_JOIN(motus_##f##_x, LANES)
 
-typedef double NAME(real) __attribute__((vector_size(8 * LANES)));
+typedef double NAME(reals) __attribute__((vector_size(8 * LANES)));
 typedef uint64_t NAME(bits) __attribute__((vector_size(8 * LANES)));
 typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
-#define real NAME(real)
+#define reals NAME(reals)
 #define bits NAME(bits)
 #define mask NAME(mask)
 
 #define LANE(x, k) (x)[k]
-#define REAL(c) ((c) - (real){ 0 })                     /* c - 0 is c, even where that is -0 */
+#define REAL(c) ((c) - (reals){ 0 })                     /* c - 0 is c, even where that is -0 */
 #define BITS(c) ((uint64_t)(c) | (bits){ 0 })
 #define AS_BITS(x) ((bits)(x))
-#define AS_REAL(b) ((real)(b))
-#define FMA(a, b, c) NAME(fused)(a, b, c)
+#define AS_REAL(b) ((reals)(b))
+#define FUSED(a, b, c) NAME(fused)(a, b, c)
 #define SQRT(x) NAME(root)(x)
 #define SELECT(m, a, b) NAME(select)(m, a, b)
 #define ANY(m) NAME(any)(m)
@@ -32,76 +32,76 @@ typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && LANES % 8 == 0
 #define LANES_PART 8
 #define LANES_REGISTER __m512d
-#define LANES_FMA _mm512_fmadd_pd
+#define LANES_FUSED _mm512_fmadd_pd
 #define LANES_SQRT _mm512_sqrt_pd
 #define LANES_SELECT(m, a, b) _mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)(m)), b, a)
 #define LANES_ANY(m) (_mm512_movepi64_mask((__m512i)(m)) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 4 == 0
 #define LANES_PART 4
 #define LANES_REGISTER __m256d
-#define LANES_FMA _mm256_fmadd_pd
+#define LANES_FUSED _mm256_fmadd_pd
 #define LANES_SQRT _mm256_sqrt_pd
 #define LANES_SELECT(m, a, b) _mm256_blendv_pd(b, a, m)
 #define LANES_ANY(m) (_mm256_movemask_pd(m) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 2 == 0
 #define LANES_PART 2
 #define LANES_REGISTER __m128d
-#define LANES_FMA _mm_fmadd_pd
+#define LANES_FUSED _mm_fmadd_pd
 #define LANES_SQRT _mm_sqrt_pd
 #define LANES_SELECT(m, a, b) _mm_blendv_pd(b, a, m)
 #define LANES_ANY(m) (_mm_movemask_pd(m) != 0)
 #endif
 
 #ifdef LANES_PART
-typedef union NAME(parts) { real whole; LANES_REGISTER part[LANES / LANES_PART]; } NAME(parts);
+typedef union NAME(parts) { reals whole; LANES_REGISTER part[LANES / LANES_PART]; } NAME(parts);
 #define EACH_PART for (int i = 0; i < LANES / LANES_PART; i++)
 
-INLINE real NAME(fused)(real a, real b, real c)
+INLINE reals NAME(fused)(reals a, reals b, reals c)
 {
     NAME(parts) x = { a }, y = { b }, z = { c };
-    EACH_PART x.part[i] = LANES_FMA(x.part[i], y.part[i], z.part[i]);
+    EACH_PART x.part[i] = LANES_FUSED(x.part[i], y.part[i], z.part[i]);
     return x.whole;
 }
 
-INLINE real NAME(root)(real a)
+INLINE reals NAME(root)(reals a)
 {
     NAME(parts) x = { a };
     EACH_PART x.part[i] = LANES_SQRT(x.part[i]);
     return x.whole;
 }
 
-INLINE real NAME(select)(mask m, real a, real b)
+INLINE reals NAME(select)(mask m, reals a, reals b)
 {
-    NAME(parts) x = { a }, y = { b }, z = { (real)m };
+    NAME(parts) x = { a }, y = { b }, z = { (reals)m };
     EACH_PART x.part[i] = LANES_SELECT(z.part[i], x.part[i], y.part[i]);
     return x.whole;
 }
 
 INLINE int NAME(any)(mask m)
 {
-    NAME(parts) x = { (real)m };
+    NAME(parts) x = { (reals)m };
     int found = 0;
     EACH_PART found |= LANES_ANY(x.part[i]);
     return found;
 }
 #else
-INLINE real NAME(fused)(real a, real b, real c)
+INLINE reals NAME(fused)(reals a, reals b, reals c)
 {
-    real r;
+    reals r;
     for (int i = 0; i < LANES; i++) r[i] = fma(a[i], b[i], c[i]);
     return r;
 }
 
-INLINE real NAME(root)(real a)
+INLINE reals NAME(root)(reals a)
 {
-    real r;
+    reals r;
     for (int i = 0; i < LANES; i++) r[i] = sqrt(a[i]);
     return r;
 }
 
-INLINE real NAME(select)(mask m, real a, real b)
+INLINE reals NAME(select)(mask m, reals a, reals b)
 {
-    return (real)(((bits)a & (bits)m) | ((bits)b & ~(bits)m));
+    return (reals)(((bits)a & (bits)m) | ((bits)b & ~(bits)m));
 }
 
 INLINE int NAME(any)(mask m)
@@ -115,7 +115,7 @@ INLINE int NAME(any)(mask m)
 #undef EACH_PART
 #undef LANES_PART
 #undef LANES_REGISTER
-#undef LANES_FMA
+#undef LANES_FUSED
 #undef LANES_SQRT
 #undef LANES_SELECT
 #undef LANES_ANY

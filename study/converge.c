@@ -2,10 +2,10 @@
  *
  * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS times; its error is the
  * largest over these times and over all numbers of the state, each in units of how far its variable moves. Where even T/8 is so fine
- * for a high order that too few points lie above round-off, the row begins at T/4, T/2 or T, and all of it is compared at as many times. Orders from 4 on also run
- * with steps between, because few doublings fit between instability and round-off there. Steps are halved until
- * round-off is reached or the work is spent, never only until the slope looks right. Which points the slope is taken from is said
- * at the top of fit.c.
+ * for a high order that too few points lie above round-off, the row begins at T/4, T/2 or T, and all of it is compared at as many
+ * times. Orders from 4 on also run with steps between, because few doublings fit between instability and round-off there. Steps are
+ * halved until round-off is reached or the work is spent, never only until the slope looks right. Which points the slope is taken from
+ * is said at the top of fit.c.
  *
  * If the model's motion lasts so many turns that low orders would need steps without number, a shorter beginning of it is taken, and
  * the result says so.
@@ -299,8 +299,8 @@ static void describe(converge *c)
     int n = snprintf(r->reference, sizeof r->reference, "%s", c->truth.text);
     if (!isnan(c->whole) && n > 0 && (size_t)n < sizeof r->reference)
         snprintf(r->reference + n, sizeof r->reference - (size_t)n,
-                 "; until %.6g, not until %.6g: the whole motion has too many turns for every order to show between instability and "
-                 "round-off", c->grid.until, c->whole);
+                 "; until %.6g, not %.6g: a longer motion has too many turns for every order to show above round-off", c->grid.until,
+                 c->whole);
     r->seen.reference_error = c->truth.scaled;
 }
 

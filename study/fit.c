@@ -3,17 +3,18 @@
  * The rule that chooses the points of a fit (nothing is chosen by hand; the declared order has no part in it; points run coarse to
  * fine):
  *
- *  1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if the same held at least an octave
- *     coarser or no coarser step was tried: close to its limit of stability a method is not itself.
+ *  1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if its step is at most half of
+ *     the shortest at which this failed: close to its limit of stability a method is not itself.
  *  2. Round-off. It is at least the error of the truth. The rest is read off the errors: where the slope to the next point and to
  *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already below FIT_PLATEAU
- *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first errors are the round-off. Where no plateau was reached, it is taken for what a random walk of n roundings
- *     may come to, FIT_WALK sqrt(n) of one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not
- *     count: the remaining share of round-off, 1/30, bends a local slope by less than the certificate's margin.
+ *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first errors are the
+ *     round-off. Where no plateau was reached, it is taken for what a random walk of n roundings may come to, FIT_WALK sqrt(n) of
+ *     one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not count: the remaining share of
+ *     round-off, 1/30, bends a local slope by less than the certificate's margin.
  *  3. Of what is left, the finest are nearest to the limit that the order speaks of. The finest FIT_POINTS_MIN are taken, and
  *     as many more as it takes to span an octave; the range is carried on to coarser steps as long as the local slope stays within
- *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better (superconvergent) or worse (not yet asymptotic) than the order are left out by
- *     the same rule.
+ *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better (superconvergent) or
+ *     worse (not yet asymptotic) than the order are left out by the same rule.
  *  4. At least FIT_POINTS_MIN points; the order is the least-squares slope of log error against log step. If its standard error is
  *     above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
  *
@@ -96,14 +97,16 @@ static size_t plateau(const motus_point *points, size_t count, double duration, 
     return count;
 }
 
-/* At every step, coarse or fine, no more than rounding explains: each step rounds once or twice, and the truth has its own error. */
+/* At every step, coarse or fine, no more than rounding explains: each step rounds once or twice, a recursion of second order sums its
+ * sums, and the truth has its own error. */
 static bool exact_everywhere(const motus_point *points, size_t count, double duration, double noise, double reference_error)
 {
     size_t finite = 0;
     for (size_t i = 0; i < count; i++) {
         if (isnan(points[i].error))
             continue;
-        if (points[i].error > 4 * noise * (EXACT_STEPS + duration / points[i].step) + 4 * reference_error)
+        double steps = duration / points[i].step, sums = steps / EXACT_STEPS;
+        if (points[i].error > 4 * noise * (EXACT_STEPS + steps + sums * sums) + 4 * reference_error)
             return false;
         finite++;
     }

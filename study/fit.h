@@ -26,8 +26,8 @@ typedef struct fit_order_result {
     int settled;                     /* the plateau of round-off has been reached: finer steps teach nothing */
 } fit_order_result;
 
-/* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed; `used` is set. noise: the rounding
- * of one number, in the same units; reference_error: that of the truth. */
+/* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed; `used` is set.
+ * noise: the rounding of one number, in the same units; reference_error: that of the truth. */
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error);
 
 /* Whether an observed order meets the declared one. */

@@ -110,9 +110,9 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
     double plain = 0.5 * fabs(v->acceleration) * (k < v->count ? v->rows[k].step : 0) * length;
     const char *formula = fabs(plain - most) <= 1e-3 * most ? "½ |a| h t" : "½ |a| Σ h²";
     if (n && m)
-        say(out, "The acceleration is constant (%.6g in %.60s): %s fall%s behind the exact motion, %s run%s ahead of it, by equal and opposite "
-                 "amounts, %s = %.6g at the end. The one moves each step with the velocity at its beginning, the other with the velocity "
-                 "at its end, and the truth lies midway.",
+        say(out, "The acceleration is constant (%.6g in %.60s): %s fall%s behind the exact motion, %s run%s ahead of it, by equal and "
+                 "opposite amounts, %s = %.6g at the end. The one moves each step with the velocity at its beginning, the other with the "
+                 "velocity at its end, and the truth lies midway.",
             v->acceleration, axis.name, behind, n == 1 ? "s" : "", ahead, m == 1 ? "s" : "", formula, most);
     else if (n || m)
         say(out, "The acceleration is constant (%.6g in %.60s): %s miss%s the exact motion by %s = %.6g at the end, since each step "
@@ -181,7 +181,8 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
     if (n)
         say(out, "%.80s: with %s it grows without bound (%s%sfrom %.6g to %.6g here): no step is short enough for %s on an "
                  "oscillation, the stability limit is 0, and each step enlarges it.",
-            name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial, drift(v, worst, i)->final, n == 1 ? "it" : "them");
+            name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial, drift(v, worst, i)->final,
+            n == 1 ? "it" : "them");
     n = names(v, stays, i, list, sizeof list);
     /* A symplectic method follows a neighbouring energy only where there is an energy: no velocity terms. */
     if (n && !v->analysis.velocity_dependent)

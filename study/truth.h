@@ -18,7 +18,8 @@ typedef struct truth {
 } truth;
 
 /* A failure to find the truth is no error: then known is false. steps: how many steps the judged methods take (for the bound on
- * the work). enough: an error, in units of the motion's size, that need not be improved; 0 for the best. Sets the study's scale. truth_free in any case. */
+ * the work). enough: an error, in units of the motion's size, that need not be improved; 0 for the best. Sets the study's
+ * scale. truth_free in any case. */
 motus_status truth_find(study *, const study_grid *, int64_t steps, double enough, truth *);
 /* The truth on another grid of the same motion, at steps no larger than the one that was found good: grid->points rows. */
 motus_status truth_on(study *, const truth *, const study_grid *, double *rows);

@@ -331,7 +331,8 @@ static void columns_of_whole_variables(void **state)
         assert_int_equal(first, cases[i].first);
         assert_int_equal(count, cases[i].count);
     }
-    static const char *const none[] = {"", "q", "x[0]", "x[5]", "x[", "x[1", "x[1]]", "x''", "x.x", "r.z", "r.", "r.q", "w[6]", "w[0]", "exact x", "t'",
+    static const char *const none[] = {"", "q", "x[0]", "x[5]", "x[", "x[1", "x[1]]", "x''", "x.x", "r.z", "r.", "r.q", "w[6]",
+        "w[0]", "exact x", "t'",
                                        "speed'", "speed.x", "s'", "x[99999999999999999999]", "x[1][1]", "t[1]", "stretc", "r[1]'.x"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
         size_t first = 0, count = 0;
@@ -403,7 +404,8 @@ static void settings_and_analysis(void **state)
     motus_analysis a;
     motus_settings_of(s, &set);
     assert_string_equal(set.method, "rk4");
-    assert_true(set.step == 0.01 && set.until == 1 && set.from == 0 && set.every_time == 0.1 && set.every_steps == 0 && isnan(set.tolerance));
+    assert_true(set.step == 0.01 && set.until == 1 && set.from == 0 && set.every_time == 0.1 && set.every_steps == 0
+        && isnan(set.tolerance));
     motus_analysis_of(s, &a);
     assert_true(a.velocity_dependent && a.time_dependent && !a.constant && !a.gyroscopic && !a.exact_recognised);
     assert_true(strlen(motus_explain(s)) > 20);

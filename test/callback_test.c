@@ -1,7 +1,7 @@
 /* Systems from C: the same motion as from a text, with and without a derivative, with companions, an exact motion, an invariant.
  *
- * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product that is added at once is
- * a fused multiply-add), the bits are the same, for every explicit method.
+ * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product that is
+ * added at once is a fused multiply-add), the bits are the same, for every explicit method.
  */
 #include "test/given.h"
 
@@ -123,8 +123,9 @@ static void calls_are_counted(void **state)
     }
 }
 
-/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each number of a step is solved
- * to some units in its last place, and the motion keeps what it is given: 1000 steps, each of them off by a few units. */
+/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each number of a
+ * step is solved to some units in its last place, and the motion keeps what it is given: 1000 steps, each of them off by a few
+ * units. */
 static void difference_quotients_stand_in_for_a_derivative(void **state)
 {
     (void)state;
@@ -136,7 +137,8 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         motus_callback_def a = driven_def(&with), b = driven_def(&without);
         a.derivative = driven_derivative;
         motus_system *p = system_of(&a), *q = system_of(&b);
-        motus_run *given = given_run(s, methods[i], 0.01, 10), *derived = given_run(p, methods[i], 0.01, 10), *quotient = given_run(q, methods[i], 0.01, 10);
+        motus_run *given = given_run(s, methods[i], 0.01, 10), *derived = given_run(p, methods[i], 0.01, 10),
+            *quotient = given_run(q, methods[i], 0.01, 10);
         finish(given);
         finish(derived);
         finish(quotient);
@@ -219,12 +221,14 @@ static void nonlinear_velocity_terms_and_companions(void **state)
         motus_callback_def a = dragged_def(&with), b = dragged_def(&without);
         a.derivative = dragged_derivative;
         motus_system *p = system_of(&a), *q = system_of(&b);
-        motus_run *given = given_run(s, methods[i], 0.01, 5), *derived = given_run(p, methods[i], 0.01, 5), *quotient = given_run(q, methods[i], 0.01, 5);
+        motus_run *given = given_run(s, methods[i], 0.01, 5), *derived = given_run(p, methods[i], 0.01, 5), *quotient = given_run(q,
+            methods[i], 0.01, 5);
         finish(given);
         finish(derived);
         finish(quotient);
         const int64_t calls = without.calls;             /* before anybody looks, which is not counted */
-        static const char *const names[][2] = {{"x", "x[0]"}, {"y", "x[1]"}, {"x'", "x[0]'"}, {"y'", "x[1]'"}, {"s", "s[0]"}, {"e", "invariant"}};
+        static const char *const names[][2] = {{"x", "x[0]"}, {"y", "x[1]"}, {"x'", "x[0]'"}, {"y'", "x[1]'"}, {"s", "s[0]"}, {"e",
+            "invariant"}};
         /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end of each. */
         const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
         for (size_t k = 0; k < 6; k++) {
@@ -314,7 +318,8 @@ static void a_failing_callback_stops_the_run_and_not_more(void **state)
             assert_non_null(strstr(err.message, "callback"));
             assert_false(motus_run_done(r));
             int64_t at = motus_run_steps(r);
-            assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01 && err.time <= motus_run_time(r) + 0.01);
+            assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01
+                && err.time <= motus_run_time(r) + 0.01);
             /* The failure over, it goes on to the bits of a run that knew none. */
             finish(r);
             finish(whole);

@@ -52,7 +52,7 @@ empty() { [ ! -s "$1" ]; }
 absent() { [ ! -e "$1" ]; }
 nothing_left() { [ -z "$(find "$1" -name '.motus-*')" ]; }
 
-checker=build/test/tool/json_check
+checker=$PWD/build/test/tool/json_check
 if [ ! -x "$checker" ]; then
     checker=$place/json_check
     "${CC:-cc}" -std=c17 -O1 -o "$checker" test/cli/json_check.c || { echo "not ok - json_check is built"; echo "0 passed, 1 failed"; exit 1; }
@@ -127,7 +127,13 @@ refuses "a value missing" 2 "--step: its value is missing" "$motus" run $osc --s
 refuses "a flag with a value" 2 "--json takes no value" "$motus" run $osc --json=yes --quiet
 refuses "--tolerance" 2 "not available" "$motus" compare $osc --tolerance 1e-9
 refuses "--from" 2 "x(c)" "$motus" run $osc --from 1
-refuses "--machine compiled" 2 "not available in this version" "$motus" run $osc --machine compiled
+run_compiled=$(XDG_CACHE_HOME=$PWD/cache "$motus" run $osc --machine compiled --json) run_interpreted=$("$motus" run $osc --machine interpreter --json)
+that "--machine compiled: the same bits" [ "$(jq -c .state <<<"$run_interpreted")" = "$(jq -c .state <<<"$run_compiled")" ]
+that "--machine compiled is named" [ "$(jq -r .machine <<<"$run_compiled")" = compiled ]
+that "motus cache --clear" [ "$(XDG_CACHE_HOME=$PWD/cache "$motus" cache --clear --json | jq .removed)" = 1 ]
+gives "--emit-c" 0 "$motus" run $osc --emit-c
+that "--emit-c prints the loop" says advance_run
+refuses "motus cache alone" 2 "what is to be done" "$motus" cache
 refuses "--machine abacus" 2 "there is no such machine" "$motus" run $osc --machine abacus
 for bad in 0 -1 nan inf 1e999 0,1 0x10 1/0 abc '' 1e-2x; do refuses "--step '$bad'" 2 "--step" "$motus" run $osc --step "$bad"; done
 for bad in nan inf abc 1/x pi2 ''; do refuses "--until '$bad'" 2 "--until" "$motus" run $osc --until "$bad"; done

@@ -10,8 +10,9 @@
 enum { PAGE_STEPS = 60 };
 static const double PAGE_H = 0.05, PAGE_G = 9.81, PAGE_T = 3, PAGE_Y = -30.645, PAGE_X = 3;
 
-/* What rounding can do in n steps: each of them rounds y (below 31) and v (below 25) a last time, and what is lost in v acts for the rest of
- * the way; stages and products with h round quantities of the size h v once more; the literals 9.81, 4.5 and 0.05 are rounded too. */
+/* What rounding can do in n steps: each of them rounds y (below 31) and v (below 25) a last time, and what is lost in v acts for
+ * the rest of the way; stages and products with h round quantities of the size h v once more; the literals 9.81, 4.5 and 0.05
+ * are rounded too. */
 static double page_rounding(void)
 {
     const double n = PAGE_STEPS, y = 31, v = 25;

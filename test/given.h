@@ -73,7 +73,7 @@ UNUSED static motus_system *given_model(const char *name, const char *const *set
     return s;
 }
 
-/* NULL and NaN: as the model says. */
+/* NULL and NaN: as the model says. By the interpreter: what is tested here should need no compiler. */
 UNUSED static motus_run *given_run(motus_system *s, const char *method, double step, double until)
 {
     motus_error err = motus_default_error();
@@ -82,6 +82,7 @@ UNUSED static motus_run *given_run(motus_system *s, const char *method, double s
     def.method = method;
     def.step = step;
     def.until = until;
+    def.machine = "interpreter";
     must(motus_run_create(s, &def, &r, &err), &err, method ? method : "run");
     return r;
 }

@@ -199,7 +199,7 @@ static void rule_6_primes(void **unused)
     EXAMPLES({"x'", 3}, {"x''", -2}, {"r'.x", 4}, {"r''.z", -3}, {"u[3]'", 3}, {"u[2]''", 20}, {"s'", 2}, {"s", 7}, {"x′", 3}, {"x’", 3}, {"x″", -2}, {"x′′", -2}, {"−x", -2}, {"2 − x", 0},
              {"x'x", 6}, {"2x'", 6});
     REFUSALS({"(x y)'", MOTUS_SYNTAX, 6, "name"}, {"x^2'", MOTUS_SYNTAX, 4, "name"}, {"x'''", MOTUS_SYNTAX, 2, "x''"}, {"x‴", MOTUS_SYNTAX, 2, "x''"}, {"a'", MOTUS_NAME, 1, "parameter"},
-             {"r.x'", MOTUS_SYNTAX, 4, "r'.x"}, {"r[1]'", MOTUS_SHAPE, 1, "r'[…]"}, {"x '", MOTUS_SYNTAX, 3, "directly"}, {"x(0)'", MOTUS_SYNTAX, 5, "x'(0)"}, {"s''", MOTUS_SHAPE, 1, "first order"},
+             {"r.x'", MOTUS_SYNTAX, 4, "r'.x"}, {"r[1]'", MOTUS_SHAPE, 1, "r'[…]"}, {"x '", MOTUS_SYNTAX, 3, "directly"}, {"x(0)'", MOTUS_SYNTAX, 5, "x'(0)"}, {"s''", MOTUS_SHAPE, 1, "first order"}, {"u[0]''", MOTUS_NAME, 1, "no equation"}, {"sum(i = 0..2: u[i]'')", MOTUS_NAME, 15, "u[0]''"},
              {"t'", MOTUS_SHAPE, 1, "primes"}, {"m[1]'", MOTUS_NAME, 1, "primes"}, {"sin'(x)", MOTUS_SYNTAX, 4, "primes"}, {"|x|'", MOTUS_SYNTAX, 4, ""});
 }
 
@@ -208,7 +208,7 @@ static void rule_7_bars(void **unused)
     (void)unused;
     EXAMPLES({"a |r'|^2/2", 192.5}, {"x' |x'|", 9}, {"|-x| b |-y|", 48}, {"|x - |y||", 6}, {"||x| - a|", 3}, {"|x||y|", 16}, {"|(|x| - |y|)|", 6}, {"|x| + |y|", 10}, {"-|x|", -2}, {"2|x|/|y|", 0.5},
              {"|r|^2", 14}, {"|r|^4", 196}, {"|r|", sqrt(14)}, {"|r|^3", 14 * sqrt(14)}, {"|r - r'|^2", 27}, {"|(3, 4)|", 5}, {"sin(|x|)", sin(2)}, {"|x|^2", 4}, {"if(|x| > 1, |y|, 0)", 8},
-             {"|u[1] - u[2]|", 10}, {"(|x|)", 2}, {"|m[|-1|]|", 3}, {"|-3|", 3}, {"|x|^-1", 0.5}, {"x |y| b", 48});
+             {"|u[1] - u[2]|", 10}, {"(|x|)", 2}, {"|m[|-1|]|", 3}, {"|-3|", 3}, {"|x|^-1", 0.5}, {"x |y| b", 48}, {"|(x |-y|)|", 16}, {"|max(x |y|, 1) - 20|", 4});
     REFUSALS({"|x", MOTUS_SYNTAX, 1, "abs("}, {"a |", MOTUS_SYNTAX, 4, ""}, {"(|x)", MOTUS_SYNTAX, 2, "closed"}, {"||", MOTUS_SYNTAX, 3, ""});
 }
 
@@ -255,10 +255,10 @@ static void rule_10_set(void **unused)
 {
     (void)unused;
     const char *text = "p = 2 q\nq = 3\nx'' = -p x\nx(0) = p + q\nx'(0) = 0\nlist = [q, 2 q]\nw = (q, p)\nf = list[2] + w.y + 0 t\nh = list[1] + 0 t\n"
-                       "r'' = -r\nr(0) = w\nr'(0) = (0, 0)\nu[i]'' = 0 for i = 1..3\nu[i](0) = i for i = 1..3\nu[i]'(0) = 0 for i = 1..3\nN = 1\n";
+                       "r'' = -r\nr(0) = w\nr'(0) = (0, 0)\nu[i]'' = 0 for i = 1..3\nu[i](0) = i for i = 1..3\nu[i]'(0) = 0 for i = 1..3\nu[3](0) = 33\nu[1](0) = u[3](0)\nN = 1\n";
     static const setting one[] = {
         {"q=4", "x", 12}, {"p=7", "x", 10}, {"p = q^2", "x", 12}, {"x(0)=p", "x", 6}, {"x'(0)=-1", "x'", -1}, {"list=[7, 8]", "h", 7}, {"list=[1, 5]", "f", 11}, {"w=(1, 2)", "r.y", 2}, {"r(0)=(8, 9)", "r.y", 9},
-        {"u[i](0) = 10 i for i = 1..3", "u[2]", 20}, {"u[2](0) = 77", "u[2]", 77}, {"u[2](0) = 77", "u[3]", 3}, {"r'(0)=(1, 2)", "r'.x", 1}, {"  q = 5 ", "x", 15}, {"q=1e-3", "r.x", 1e-3},
+        {"u[i](0) = 10 i for i = 1..3", "u[2]", 20}, {"u[2](0) = 77", "u[2]", 77}, {"u[2](0) = 77", "u[3]", 33}, {"u[3](0) = 77", "u[3]", 77}, {"u[3](0) = 77", "u[1]", 77}, {"u[i](0) = 10 i for i = 1..3", "u[3]", 30}, {"u[i](0) = 10 i for i = 2..3", "u[1]", 30}, {"u[i](0) = 10 i for i = 1..2", "u[3]", 33}, {"r'(0)=(1, 2)", "r'.x", 1}, {"  q = 5 ", "x", 15}, {"q=1e-3", "r.x", 1e-3},
     };
     for (size_t i = 0; i < sizeof one / sizeof *one; i++) {
         double got = at_start(text, &one[i].set, 1, one[i].column);
@@ -272,11 +272,12 @@ static void rule_10_set(void **unused)
 static void rule_10_set_refused(void **unused)
 {
     (void)unused;
-    const char *text = "p = 2\nmoves = p x\nx'' = -p x\nx(0) = 1\nx'(0) = 0\ninvariant E = x\nmethod rk4\n";
+    const char *text = "p = 2\nmoves = p x\nx'' = -p x\nx(0) = 1\nx'(0) = 0\ninvariant E = x\nmethod rk4\nm = [1, 2]\n"
+                       "u[i]'' = u[i-1] for i = 1..2\nu[0] = 1\nu[i](0) = 0 for i = 1..2\nu[i]'(0) = 0 for i = 1..2\n";
     static const struct { const char *set; motus_status status; const char *named; } wrong[] = {
         {"moves=3", MOTUS_ARGUMENT, "quantity"}, {"E=3", MOTUS_NAME, "E"}, {"pp=3", MOTUS_NAME, "did you mean p?"}, {"p", MOTUS_SYNTAX, "="}, {"p=", MOTUS_SYNTAX, "value"}, {"", MOTUS_SYNTAX, "F=0.2"},
         {"p=(1, 2)", MOTUS_SHAPE, "vector"}, {"x''=-x", MOTUS_ARGUMENT, "parameters and initial values"}, {"method rk4", MOTUS_ARGUMENT, "option"},
-        {"p=1\nq=2", MOTUS_SYNTAX, "one definition"}, {"p=1 2", MOTUS_SYNTAX, "1*2"}, {"x=3", MOTUS_NAME, "x"}, {"y(0)=1", MOTUS_NAME, "y"}, {"x(1)=1", MOTUS_ARGUMENT, "start"}, {"p=p", MOTUS_NAME, "circle"},
+        {"p=1\nq=2", MOTUS_SYNTAX, "one definition"}, {"p=1 2", MOTUS_SYNTAX, "1*2"}, {"x=3", MOTUS_ARGUMENT, "x(0)"}, {"u[0]=3", MOTUS_ARGUMENT, "u[…](0)"}, {"m[2]=3", MOTUS_ARGUMENT, "[1, 2, …]"}, {"x[1](0)=3", MOTUS_SHAPE, "family"}, {"u(0)=3", MOTUS_SHAPE, "u[i]"}, {"y(0)=1", MOTUS_NAME, "y"}, {"x(1)=1", MOTUS_ARGUMENT, "start"}, {"p=p", MOTUS_NAME, "circle"},
         {"p=1/0", MOTUS_ARGUMENT, "finite"}, {"x''(0)=1", MOTUS_SYNTAX, "equation"}, {"step=0.1", MOTUS_SYNTAX, "step"},
     };
     int faults = 0;
@@ -408,6 +409,57 @@ static void analysis_reads_the_equations(void **unused)
     }
 }
 
+static void settings_are_read(void **unused)
+{
+    (void)unused;
+    static const char still[] = "x'' = 0\nx(2) = 1\nx'(2) = 0\n";
+    motus_settings m;
+    motus_system *s = given_text(still);
+    motus_settings_of(s, &m);
+    assert_null(m.method);
+    assert_true(isnan(m.step) && isnan(m.tolerance) && isnan(m.until) && isnan(m.every_time) && m.every_steps == 0 && m.from == 2);
+    motus_system_destroy(s);
+    char text[512];
+    snprintf(text, sizeof text, "h = 0.5\nstep h^2\nuntil 2 pi + h\nevery 3 h\ntolerance 1e-6   # for later\nmethod   newmark(1/6, 1/2)  # with arguments\nfrom 4 h\n%s", still);
+    s = given_text(text);
+    motus_settings_of(s, &m);
+    assert_string_equal(m.method, "newmark(1/6, 1/2)");
+    assert_true(m.step == 0.25 && m.tolerance == 1e-6 && m.until == 2 * 3.14159265358979323846 + 0.5 && m.every_time == 1.5 && m.every_steps == 0 && m.from == 2);
+    motus_system_destroy(s);
+    snprintf(text, sizeof text, "%sn = 5\nevery 2 n steps\n", still);
+    s = given_text(text);
+    motus_settings_of(s, &m);
+    assert_true(isnan(m.every_time) && m.every_steps == 10);
+    motus_system_destroy(s);
+}
+
+/* However long the line and whatever its letters, the caret stands under the character, and the column counts characters. */
+static void carets_stand_under_the_fault(void **unused)
+{
+    (void)unused;
+    for (int before = 0; before < 400; before += 7)
+        for (int after = 0; after < 300; after += 60) {
+            char text[4096] = "x'' = x";
+            for (int i = 0; i < before; i++)
+                strcat(text, i % 3 ? " + θ" : " - x");
+            strcat(text, " $");
+            for (int i = 0; i < after; i++)
+                strcat(text, "é");
+            motus_system *s = NULL;
+            motus_error err = motus_default_error();
+            assert_int_equal(read_text(text, NULL, 0, &s, &err), MOTUS_SYNTAX);
+            assert_int_equal(err.line, 1);
+            assert_int_equal(err.column, 9 + 4 * before);
+            size_t place = strcspn(err.caret, "^");
+            assert_int_equal(strspn(err.caret, " "), place);
+            const char *p = err.source;
+            while (place > 0 && *p)
+                for (place--, p++; ((unsigned char)*p & 0xC0) == 0x80;)
+                    p++;
+            assert_int_equal(*p, '$');
+        }
+}
+
 /* Texts without a line in them. */
 static void empty_texts(void **unused)
 {
@@ -430,7 +482,7 @@ int main(void)
         cmocka_unit_test(rule_4_brackets_behind_names), cmocka_unit_test(rule_4_refused), cmocka_unit_test(rule_5_functions), cmocka_unit_test(rule_6_primes), cmocka_unit_test(rule_7_bars),
         cmocka_unit_test(rule_8_lines), cmocka_unit_test(rule_9_shapes), cmocka_unit_test(rule_10_parameters_and_quantities), cmocka_unit_test(rule_10_set), cmocka_unit_test(rule_10_set_refused),
         cmocka_unit_test(rule_11_indices), cmocka_unit_test(rule_12_sums), cmocka_unit_test(rule_12_masks_select), cmocka_unit_test(rule_14_conditions), cmocka_unit_test(rule_14_no_leak_in_derivatives),
-        cmocka_unit_test(rule_15_normal_form), cmocka_unit_test(rule_15_parameters_do_not_rewrite), cmocka_unit_test(analysis_reads_the_equations), cmocka_unit_test(empty_texts),
+        cmocka_unit_test(rule_15_normal_form), cmocka_unit_test(rule_15_parameters_do_not_rewrite), cmocka_unit_test(analysis_reads_the_equations), cmocka_unit_test(settings_are_read), cmocka_unit_test(carets_stand_under_the_fault), cmocka_unit_test(empty_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,23 +1,24 @@
 /* Motions known to 22 digits and more, test/reference.txt, against the library's.
  *
- * How near a result must come is not chosen by hand. Three things keep a computation from the true digits.
- *     shift      The numbers of the model are rounded to double precision. By how much that alone moves any number of the true motion is known.
- *     halving    The method's truncation and rounding are measured: the largest change of any position, and of any velocity, when the step is
- *                halved and halved again, here or at an earlier time of the same case. Truncation of order p >= 2 is at most 4/3 of it;
- *                rounding is of its size, being different at every step.
- *     unit       The method's own numbers, step and coefficients, are rounded as well. That is the same at every step, so halving does not
- *                see it: as if time ran, and numbers were scaled, differently by one part in 2^53. It moves a number y by (y + t y') 2^-53.
- *     nudge      Where neighbouring motions part, what is rounded early grows. Measured: by how much the result moves when every number of the start
- *                is moved by one part in 2^30 of the largest of its kind, brought down to one part in 2^53.
- * The bound is 4 (shift + halving + unit + nudge): four for "times a few". `reference_test --write` measures halvings and nudges anew and
- * writes them into the file.
+ * How near a result must come is not chosen by hand. Four things keep a computation from the true digits:
+ *     shift    The numbers of the model are rounded to double precision. How far that alone moves any number of the true motion is
+ *              known.
+ *     halving  The method's truncation and rounding, measured: the largest change of any position, and of any velocity, when the
+ *              step is halved and halved again, here or at an earlier time of the same case. Truncation of order p >= 2 is at most
+ *              4/3 of it; rounding is of its size, being different at every step.
+ *     unit     The method's own numbers, step and coefficients, are rounded as well. That is the same at every step, so halving does
+ *              not see it: as if time ran, and numbers were scaled, differently by one part in 2^53. It moves y by (y + t y') 2^-53.
+ *     nudge    Where neighbouring motions part, what is rounded early grows. Measured: how far the result moves when every number of
+ *              the start is moved by one part in 2^30 of the largest of its kind, brought down to one part in 2^53.
+ * The bound is 4 (shift + halving + unit + nudge): four for "times a few". `reference_test --write` measures halvings and nudges
+ * anew and writes them into the file.
  */
 #include "test/given.h"
 
 enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
 static const double FEW = 4;
 
-typedef struct block {               /* what is computed, and the lines [first, last) of its values, after an `at` line */
+typedef struct block {               /* what is computed, as the lines of a case before its first `at` say */
     char label[64], model[64], method[32], text[TEXT_ROOM];
     char set[SETS_MAX][64];
     size_t set_count;
@@ -167,7 +168,8 @@ static void judge(const block *b, int at, largest *most)
     char names[COLUMNS_MAX][32], what[160];
     const char *list[COLUMNS_MAX];
     double until, shift, halving[2], nudge[2], expected[COLUMNS_MAX], got[COLUMNS_MAX], rate[COLUMNS_MAX];
-    if (sscanf(lines[at], "at %lf shift %lf halving %lf %lf nudge %lf %lf", &until, &shift, &halving[0], &halving[1], &nudge[0], &nudge[1]) != 6)
+    if (sscanf(lines[at], "at %lf shift %lf halving %lf %lf nudge %lf %lf", &until, &shift, &halving[0], &halving[1], &nudge[0],
+        &nudge[1]) != 6)
         fail_msg("reference.txt:%d: %s", at + 1, lines[at]);
     size_t n = read_values(at, names, list, expected);
     compute(b, list, n, until, 1, 0, got, rate);

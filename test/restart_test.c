@@ -28,8 +28,8 @@ static const char *const texts[] = {
     "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
     "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\n",
-    "x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 sin(t)\nx[6] = 0\n"
-    "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n",
+    ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 sin(t)\nx[6] = 0\n"
+     "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n"),
     "r'' = (0.5, -9.81)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\n",
 };
 
@@ -127,7 +127,8 @@ static void backward_runs_restart_too(void **state)
 {
     (void)state;
     motus_system *s = given_text(texts[0]);
-    motus_run *whole = given_run(s, "verlet", 0.01, -0.5), *again = given_run(s, "verlet", 0.01, -0.5), *forward = given_run(s, "verlet", 0.01, 1.5);
+    motus_run *whole = given_run(s, "verlet", 0.01, -0.5), *again = given_run(s, "verlet", 0.01, -0.5), *forward = given_run(s,
+        "verlet", 0.01, 1.5);
     motus_error err;
     take_steps(whole, 40);
     kept k = save(whole);
@@ -168,16 +169,20 @@ static void the_text_is_what_it_is(void **state)
 
 typedef struct offer { const char *why, *text, *method; double step, until, start; } offer;
 
+#define CHAIN(n, strength, side, stiffness, end)                                                                  \
+    "N = " #n "\nk = " #strength "\nx[i]'' = k x[i " #side " 1] - " #stiffness " x[i] for i = 1..N\nx[N+1] = " #end \
+    "\nx[0] = 0\nx[i](0) = i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
+
 static void what_does_not_fit_is_refused(void **state)
 {
     (void)state;
-    static const char chain[] = "k = 2\nx[i]'' = k x[i+1] - 2 x[i] for i = 1..3\nx[4] = 0\nx[0] = 0\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n";
+    static const char chain[] = CHAIN(3, 2, +, 2, 0);
     static const offer given = {"itself", chain, "verlet", 0.01, 1, NAN}, offers[] = {
-        {"another force", "k = 2\nx[i]'' = k x[i+1] - 3 x[i] for i = 1..3\nx[4] = 0\nx[0] = 0\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n", "verlet", 0.01, 1, NAN},
-        {"another neighbour", "k = 2\nx[i]'' = k x[i-1] - 2 x[i] for i = 1..3\nx[4] = 0\nx[0] = 0\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n", "verlet", 0.01, 1, NAN},
-        {"another parameter", "k = 3\nx[i]'' = k x[i+1] - 2 x[i] for i = 1..3\nx[4] = 0\nx[0] = 0\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n", "verlet", 0.01, 1, NAN},
-        {"another boundary", "k = 2\nx[i]'' = k x[i+1] - 2 x[i] for i = 1..3\nx[4] = 1\nx[0] = 0\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n", "verlet", 0.01, 1, NAN},
-        {"another length", "k = 2\nx[i]'' = k x[i+1] - 2 x[i] for i = 1..4\nx[5] = 0\nx[0] = 0\nx[i](0) = i for i = 1..4\nx[i]'(0) = 0 for i = 1..4\n", "verlet", 0.01, 1, NAN},
+        {"another force", CHAIN(3, 2, +, 3, 0), "verlet", 0.01, 1, NAN},
+        {"another neighbour", CHAIN(3, 2, -, 2, 0), "verlet", 0.01, 1, NAN},
+        {"another parameter", CHAIN(3, 3, +, 2, 0), "verlet", 0.01, 1, NAN},
+        {"another boundary", CHAIN(3, 2, +, 2, 1), "verlet", 0.01, 1, NAN},
+        {"another length", CHAIN(4, 2, +, 2, 0), "verlet", 0.01, 1, NAN},
         {"another method", chain, "leapfrog", 0.01, 1, NAN},
         {"another step", chain, "verlet", 0.02, 1, NAN},
         {"another start", chain, "verlet", 0.01, 1, 0.5},
@@ -221,7 +226,8 @@ static void what_does_not_fit_is_refused(void **state)
 static void sums_with_other_bounds_are_other_models(void **state)
 {
     (void)state;
-    static const char *const bodies[] = {"sum(j = 1..3, j != i: x[j] - x[i])", "sum(j = 1..2, j != i: x[j] - x[i])", "sum(j = 1..i, j != i: x[j] - x[i])",
+    static const char *const bodies[] = {"sum(j = 1..3, j != i: x[j] - x[i])", "sum(j = 1..2, j != i: x[j] - x[i])",
+        "sum(j = 1..i, j != i: x[j] - x[i])",
                                          "sum(j = 1..3, j < i: x[j] - x[i])"};
     enum { BODIES = 4 };
     kept k[BODIES];
@@ -327,8 +333,10 @@ static void forged_states_do_no_harm(void **state)
     assert_true(refused > 100);
     /* Numbers that are none, counters that are negative or too large, a carry that is too long. */
     static const struct { const char *from, *to; } forged[] = {
-        {"\nat 7 ", "\nat -7 "}, {"\nat 7 ", "\nat 99999999999999999999 "}, {"\nat 7 ", "\nat 101 "}, {"\ncarry ", "\ncarry 9"}, {"\ncarry ", "\ncarry 1"},
-        {"\nstep 0x1", "\nstep 0x2"}, {"p-", "p-9"}, {"p-", "p+9"}, {"p-", "p-99999"}, {"p-", "p-999999999999"}, {"0x1.", "0x1"}, {"0x1.", "nan "}, {"method verlet", "method leapfrog"}};
+        {"\nat 7 ", "\nat -7 "}, {"\nat 7 ", "\nat 99999999999999999999 "}, {"\nat 7 ", "\nat 101 "}, {"\ncarry ", "\ncarry 9"},
+            {"\ncarry ", "\ncarry 1"},
+        {"\nstep 0x1", "\nstep 0x2"}, {"p-", "p-9"}, {"p-", "p+9"}, {"p-", "p-99999"}, {"p-", "p-999999999999"}, {"0x1.", "0x1"},
+            {"0x1.", "nan "}, {"method verlet", "method leapfrog"}};
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++) {
         const char *at = strstr(k.text, forged[i].from);
         assert_non_null(at);

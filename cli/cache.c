@@ -1,0 +1,29 @@
+/* motus cache: the compiled models kept between runs. */
+#include "cli/complain.h"
+#include "cli/json.h"
+#include "cli/verbs.h"
+
+#include <stdio.h>
+
+motus_status cache_verb(const options *o, motus_error *err)
+{
+    if (o->operand || !o->clear) {
+        complain(err, MOTUS_ARGUMENT, o->operand ? "motus cache takes no model" : "what is to be done with the cache?");
+        complain_hint(err, "motus cache --clear removes every entry");
+        return MOTUS_ARGUMENT;
+    }
+    int count = motus_cache_clear();
+    if (count < 0)
+        return complain(err, MOTUS_FILE, "the cache cannot be reached");
+    if (o->json) {
+        json j = json_begin(stdout);
+        json_open(&j, '{');
+        json_key(&j, "removed");
+        json_integer(&j, count);
+        json_close(&j, '}');
+        json_end(&j);
+    } else if (!o->quiet) {
+        printf("%d compiled model%s removed\n", count, count == 1 ? "" : "s");
+    }
+    return MOTUS_OK;
+}

@@ -1,0 +1,240 @@
+/* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the system's compiler and loaded.
+ *
+ * Invariant: the object replaces only the stepper's body, so memory, errors, restart and looking are the library's own, and the bits are
+ * the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
+ */
+#include "run/compiled.h"
+
+#include "core/stepper_body.h"
+#include "lang/emit.h"
+#include "run/cache.h"
+#include "run/stepping.h"
+#include "run/texts.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
+
+#include "step/host.h"
+
+typedef struct object { const row *row; void *handle; stepper_body body; } object;
+
+struct compiled {
+    compiled_host host;              /* first: the object finds it through problem.ctx */
+    model *model;
+    problem interpreted;
+    object objects[OBJECTS_MAX];
+    int count;
+    program *force, *boundary;
+    double *u;
+    int64_t *q;
+    char note[NOTE_MAX];
+};
+
+/* ---- the problem, for everything that is not a step ---- */
+
+static const problem *of(void *ctx) { return &((compiled *)ctx)->interpreted; }
+
+static int accel(void *ctx, double t, double *x, double *v, double *a) { return of(ctx)->accel(of(ctx)->ctx, t, x, v, a); }
+static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
+{
+    return of(ctx)->jvp(of(ctx)->ctx, t, x, v, dx, dv, da);
+}
+static bool prepare(void *ctx, bool in_v) { return of(ctx)->prepare(of(ctx)->ctx, in_v); }
+static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), void *arg) { of(ctx)->pattern(of(ctx)->ctx, in_v, emit, arg); }
+static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refresh(of(ctx)->ctx, t, x, v); }
+static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
+static void name(void *ctx, bool in_v, size_t k, char *out, size_t size) { of(ctx)->name(of(ctx)->ctx, in_v, k, out, size); }
+
+motus_status compiled_create(model *m, const problem *interpreted, compiled **out, problem *p, motus_error *err)
+{
+    compiled *c = arena_grow(m->arena, NULL, 0, sizeof *c);
+    if (!c)
+        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    memset(c, 0, sizeof *c);
+    c->model = m;
+    c->interpreted = *interpreted;
+    *p = (problem){.ctx = c, .nx = m->nx, .nv = m->nv, .traits = interpreted->traits, .accel = accel, .jvp = interpreted->jvp ? jvp : NULL,
+                   .prepare = interpreted->prepare ? prepare : NULL, .pattern = interpreted->pattern ? pattern : NULL,
+                   .refresh = interpreted->refresh ? refresh : NULL, .exact = interpreted->exact ? exact : NULL, .name = name};
+    *out = c;
+    return MOTUS_OK;
+}
+
+void compiled_close(compiled *c)
+{
+    for (int i = 0; c && i < c->count; i++)
+        dlclose(c->objects[i].handle);
+    if (c)
+        c->count = 0;
+}
+
+/* ---- the text ---- */
+
+static bool add_text(emit_text *t, const char *which)
+{
+    for (const embedded_text *e = texts_table; e->name; e++)
+        if (!strcmp(e->name, which)) {
+            emit_add(t, "%s\n", e->text);
+            return true;
+        }
+    return false;
+}
+
+/* Scalar models have as many numbers in every run; families do not. */
+static bool sizes_are_structure(const model *m)
+{
+    for (uint32_t i = 0; i < m->state_count; i++)
+        if (m->states[i].dims > 0)
+            return false;
+    return true;
+}
+
+static void add_row(emit_text *t, const row *r)
+{
+    static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
+                                           [EXACT] = "EXACT"};
+    static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
+    emit_add(t, "#define THE_ROW {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d}\n\n", families[r->family], r->compensated,
+             r->gyroscopic, recurrences[r->two_step], r->newmark);
+}
+
+/* The family's text, and for the others what lets the loop's text compile without them. */
+static void add_family(emit_text *t, const row *r)
+{
+    static const struct { family family; const char *text, *without; } families[] = {
+        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n#define splitting_look(w) STEP_OK\n#define splitting_sync(w, v) ((void)0)\n"},
+        {RUNGE_KUTTA, "step/runge_kutta.h", "#define runge_kutta_step(w) STEP_OK\n"},
+        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"
+                                      "#define verlet_look(w) STEP_OK\n#define beeman_look(w) STEP_OK\n#define literal_look(w) STEP_OK\n"
+                                      "#define verlet_sync(w, v) ((void)0)\n#define beeman_sync(w, v) ((void)0)\n#define literal_sync(w, v) ((void)0)\n"},
+        {IMPLICIT, "step/implicit.h", "#define implicit_step(w) STEP_OK\n"}};
+    if (r->family == IMPLICIT)
+        add_text(t, "step/runge_kutta.h");             /* its stages are summed the same way */
+    for (size_t i = 0; i < sizeof families / sizeof *families; i++)
+        if (families[i].family == r->family)
+            add_text(t, families[i].text);
+        else if (!(r->family == IMPLICIT && families[i].family == RUNGE_KUTTA))
+            emit_add(t, "%s", families[i].without);
+}
+
+static bool write_text(compiled *c, const chosen *chosen, emit *e)
+{
+    model *m = c->model;
+    emit_text *t = &e->text;
+    const bool structure = sizes_are_structure(m);
+    e->literal = structure;
+    e->arrays = m->arrays;
+    if (!c->force)
+        c->force = program_create(m->graph, m->accel, m->accel_count);
+    if (!c->boundary && m->driven)
+        c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
+    if (m->arena->failed)
+        return false;
+    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
+                "#include <float.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n"
+                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
+    add_row(t, chosen->row);
+    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
+    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h", "step/elementary.h"};
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        add_text(t, before[i]);
+    emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
+    emit_operations(e);
+    emit_add(t, "\n");
+    emit_program(e, c->force, "compiled_force");
+    if (m->driven)
+        emit_program(e, c->boundary, "compiled_boundary");
+    add_text(t, "step/compiled.h");
+    add_text(t, "step/newton.h");
+    add_family(t, chosen->row);
+    add_text(t, "step/advance.h");
+    emit_add(t, "static const row the_row = THE_ROW;\n\n"
+                "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
+                "int motus_run(work *given, whole steps) { WITH_THE_ROW(given, advance_run(w, steps)); }\n"
+                "int motus_sync(work *given, real *x, real *v, real *a) { WITH_THE_ROW(given, advance_sync(w, x, v, a)); }\n"
+                "int motus_check(work *given) { WITH_THE_ROW(given, advance_check(w)); }\n",
+             m->driven ? "    compiled_boundary_bind(pool, q, u);\n" : "");
+    return !m->arena->failed;
+}
+
+const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
+{
+    emit e = {.text = {.arena = c->model->arena}};
+    if (!write_text(c, chosen, &e))
+        return NULL;
+    *length = e.text.length;
+    return e.text.bytes;
+}
+
+/* ---- engines ---- */
+
+/* The numbers that the text reads: bounds, strides, and what depends on parameters alone. The same for every row. */
+static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
+{
+    model *m = c->model;
+    c->q = arena_grow(m->arena, NULL, 0, (e->int_count + 1) * sizeof *c->q);
+    c->u = arena_grow(m->arena, NULL, 0, (e->fixed + 1) * sizeof *c->u);
+    if (!c->q || !c->u)
+        return false;
+    for (uint32_t k = 0; k < e->int_count; k++)
+        c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
+    bind(m->pool, c->q, c->u);
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .ctx = c, .exact = c->interpreted.exact ? exact : NULL,
+                              .refresh = c->interpreted.refresh ? refresh : NULL};
+    return true;
+}
+
+static const stepper_body *body_of(compiled *c, const chosen *chosen)
+{
+    for (int i = 0; i < c->count; i++)
+        if (c->objects[i].row == chosen->row)
+            return &c->objects[i].body;
+    c->note[0] = 0;
+    if (c->count == OBJECTS_MAX)
+        return NULL;
+    emit e = {.text = {.arena = c->model->arena}};
+    if (!write_text(c, chosen, &e))
+        return NULL;
+    bool fresh;
+    void *handle = cache_load(e.text.bytes, e.text.length, &c->model->arena->allocator, &fresh, c->note, sizeof c->note);
+    if (!handle)
+        return NULL;
+    void (*bind)(const double *, const int64_t *, double *);
+    object *o = &c->objects[c->count];
+    *o = (object){.row = chosen->row, .handle = handle, .body = stepper_body_base};
+    o->body.name = "compiled";
+    /* POSIX promises that a function's address survives the way through void *. */
+    *(void **)&bind = dlsym(handle, "motus_bind");
+    *(void **)&o->body.run = dlsym(handle, "motus_run");
+    *(void **)&o->body.sync = dlsym(handle, "motus_sync");
+    *(void **)&o->body.check = dlsym(handle, "motus_check");
+    if (!bind || !o->body.run || !o->body.sync || !o->body.check || !bind_numbers(c, &e, bind)) {
+        snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
+        dlclose(handle);
+        return NULL;
+    }
+    c->host.factor = stepper_body_base.factor;
+    c->host.back = stepper_body_base.back;
+    c->host.apply = stepper_body_base.apply;
+    c->count++;
+    return &o->body;
+}
+
+const char *compiled_prepare(compiled *c, const chosen *chosen) { return body_of(c, chosen) ? NULL : c->note; }
+
+static motus_status open_engine(const problem *p, const chosen *chosen, double t0, double h, const double *x, const double *v, const motus_allocator *a,
+                                engine **out, motus_error *err)
+{
+    const stepper_body *body = body_of(p->ctx, chosen);
+    if (!body)
+        return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", ((compiled *)p->ctx)->note);
+    motus_status status = stepping_open(p, chosen, t0, h, x, v, a, out, err);
+    if (status == MOTUS_OK)
+        stepper_use_body((stepper *)*out, body);
+    return status;
+}
+
+const machine machine_compiled = {.name = "compiled", STEPPING_BUT_OPEN, .open = open_engine};

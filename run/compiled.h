@@ -1,0 +1,19 @@
+/* The compiled machine's problem: the interpreter's, with the acceleration and the steps in machine code. */
+#ifndef RUN_COMPILED_H
+#define RUN_COMPILED_H
+
+#include "run/run.h"
+
+extern const machine machine_compiled;
+
+typedef struct compiled compiled;
+/* Nothing is compiled yet: that happens when a run opens an engine. The interpreter's problem must outlive it. */
+motus_status compiled_create(model *, const problem *interpreted, compiled **, problem *, motus_error *);
+/* Closes what was loaded; the memory is the model's. */
+void compiled_close(compiled *);
+/* The C text that runs a row of this model, in the model's arena; NULL: no memory. */
+const char *compiled_text(compiled *, const chosen *, size_t *length);
+/* Compiles (or finds) what a row needs. NULL, or why that failed. */
+const char *compiled_prepare(compiled *, const chosen *);
+
+#endif

@@ -1,0 +1,11 @@
+/* The texts of the elementary functions in their order, for one vocabulary; included once for each. */
+#include "step/functions_core.h"
+#include "step/functions_exponential.h"
+#include "step/functions_logarithm.h"
+#include "step/functions_power.h"
+#include "step/functions_hyperbolic.h"
+#include "step/functions_circular.h"
+#include "step/functions_inverse.h"
+#include "step/functions_root.h"
+#include "step/functions_error.h"
+#include "step/functions_end.h"

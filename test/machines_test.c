@@ -1,0 +1,319 @@
+/* The same bits on every machine: each model of models/ by one method of every family, interpreted and compiled; and the cache of compiled
+ * objects under damage.
+ *
+ * A compiled row costs a compiler run, so `make test` takes one row of each family's text (and of each kind of force); with MOTUS_ALL_ROWS set, all.
+ * Steps are few: bits that differ differ at once, and the longer runs are the golden test's.
+ */
+#include "motus.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char cache[] = "/tmp/motus-cache-XXXXXX";
+
+static char *read_model(const char *name)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/models/%s", MOTUS_SOURCE_DIR, name);
+    FILE *f = fopen(path, "rb");
+    assert_non_null(f);
+    static char text[1 << 16];
+    size_t n = fread(text, 1, sizeof text - 1, f);
+    fclose(f);
+    text[n] = 0;
+    return text;
+}
+
+static motus_system *open_text(const char *text, const char *set)
+{
+    motus_text_def def = motus_default_text();
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    def.text = text;
+    def.set = &set;
+    def.set_count = set != NULL;
+    if (motus_system_from_text(&def, &s, &err))
+        fail_msg("%s", err.message);
+    return s;
+}
+
+enum { STEPS = 40 };
+
+typedef struct end { double *state; size_t count; int64_t evaluations, iterations; motus_status status; } end;
+
+static end run_on(motus_system *s, const char *machine, const char *method)
+{
+    motus_settings set;
+    motus_settings_of(s, &set);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    def.machine = machine;
+    def.method = method;
+    def.step = set.step;
+    def.until = set.from + STEPS * set.step;
+    motus_run *r = NULL;
+    end e = {.count = motus_positions(s) + motus_velocities(s)};
+    if (motus_run_create(s, &def, &r, &err))
+        fail_msg("%s by %s: %s", machine, method, err.message);
+    assert_string_equal(motus_run_machine(r), machine);
+    e.state = calloc(e.count + 1, sizeof *e.state);
+    /* Look on the way too: looking is another function of the object. */
+    e.status = motus_run_step(r, STEPS / 2, &err);
+    if (!e.status)
+        e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
+    if (!e.status)
+        e.status = motus_run_finish(r, &err);
+    if (!e.status)
+        e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
+    e.evaluations = motus_run_evaluations(r);
+    e.iterations = motus_run_iterations(r);
+    motus_run_destroy(r);
+    return e;
+}
+
+static void same_bits(motus_system *s, const char *model, const char *method)
+{
+    end a = run_on(s, "interpreter", method), b = run_on(s, "compiled", method);
+    if (a.status != b.status || memcmp(a.state, b.state, a.count * sizeof(double)))
+        fail_msg("%s by %s: the compiled machine differs", model, method);
+    assert_int_equal(a.evaluations, b.evaluations);
+    assert_int_equal(a.iterations, b.iterations);
+    free(a.state);
+    free(b.state);
+}
+
+static bool chosen(const char *name)
+{
+    static const char *const rows[] = {"verlet", "blanes-moan6", "boris", "rk4", "newmark", "gauss4"};
+    if (getenv("MOTUS_ALL_ROWS"))
+        return true;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(rows[i], name))
+            return true;
+    return false;
+}
+
+static void every_model(void **state)
+{
+    (void)state;
+    char path[512];
+    snprintf(path, sizeof path, "%s/models", MOTUS_SOURCE_DIR);
+    DIR *d = opendir(path);
+    assert_non_null(d);
+    int pairs = 0;
+    for (struct dirent *e; (e = readdir(d));) {
+        if (!strstr(e->d_name, ".motus"))
+            continue;
+        motus_system *s = open_text(read_model(e->d_name), NULL);
+        for (size_t k = 0; k < motus_method_count(); k++) {
+            const motus_method *m = motus_method_at(k);
+            if (!chosen(m->name) || motus_method_admits(s, m->name, NULL) != MOTUS_OK)
+                continue;
+            same_bits(s, e->d_name, m->name);
+            pairs++;
+        }
+        motus_system_destroy(s);
+    }
+    closedir(d);
+    print_message("%d pairs of model and method\n", pairs);
+    assert_true(pairs > 40);
+}
+
+/* What the text can contain: sums nested and masked, wrapped indices, driven boundaries, lists, conditions, companions. */
+static void every_construct(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "N = 9\nm = [1, 2, 3]\nw[i] = 1 + i/10 for i = 1..N\n"
+        "u[i]'' = w[i] (u[i+1] - 2 u[i] + u[i-1]) + 0.1 sum(j = 1..N, j != i: (u[j] - u[i])/(1 + |u[j] - u[i]|^3)) for i = 1..N\n"
+        "u[0] = 0.1 sin(t)\nu[N+1] = 0\nu[i](0) = sin(i) for i = 1..N\nu[i]'(0) = 0 for i = 1..N\n"
+        "p[i]'' = p[mod(i, N)+1] - 2 p[i] + p[mod(i-2, N)+1] + if(p[i] > 0.5, -p[i]^2, 0.3) for i = 1..N\n"
+        "p[i](0) = cos(i) for i = 1..N\np[i]'(0) = 0 for i = 1..N\n"
+        "r'' = -m[2] r/|r|^3 + (t, 0, sum(k = 1..3: m[k] sum(j = k..3: exp(-j)))) \nr(0) = (1, 2, 0)\nr'(0) = (0, 0.3, 0)\n"
+        "s' = -s r.x + floor(t) + sum(k = 1..40: 1/k^2)\ns(0) = 1\n"
+        "step 0.05\nuntil 3\n";
+    for (int n = 4; n <= 41; n += 37) {
+        char set[16];
+        snprintf(set, sizeof set, "N=%d", n);
+        motus_system *s = open_text(text, set);
+        static const char *const rows[] = {"rk4", "gauss4", "verlet"};
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+            same_bits(s, "every construct", rows[k]);
+        motus_system_destroy(s);
+    }
+}
+
+static int entries(char *one, size_t size)
+{
+    char path[600];
+    snprintf(path, sizeof path, "%s/motus", cache);
+    DIR *d = opendir(path);
+    int n = 0;
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (strlen(e->d_name) > 3 && !strcmp(e->d_name + strlen(e->d_name) - 3, ".so")) {
+            n++;
+            if (one)
+                snprintf(one, size, "%s/%s", path, e->d_name);
+        }
+    if (d)
+        closedir(d);
+    return n;
+}
+
+/* One text serves every N and every parameter. */
+static void one_object_for_all_sizes(void **state)
+{
+    (void)state;
+    motus_cache_clear();
+    char *text = strdup(read_model("chain.motus"));
+    static const char *const sets[] = {"N=5", "N=200", "beta=0.1"};
+    for (int i = 0; i < 3; i++) {
+        motus_system *s = open_text(text, sets[i]);
+        same_bits(s, "chain", "leapfrog");
+        motus_system_destroy(s);
+    }
+    free(text);
+    assert_int_equal(entries(NULL, 0), 1);
+}
+
+static void compile_again(void)
+{
+    motus_system *s = open_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 1\n", NULL);
+    same_bits(s, "spring", "verlet");
+    motus_system_destroy(s);
+}
+
+static void damaged_entries_are_rebuilt(void **state)
+{
+    (void)state;
+    char path[1024];
+    struct stat before, after;
+    motus_cache_clear();
+    compile_again();
+    assert_int_equal(entries(path, sizeof path), 1);
+    assert_int_equal(stat(path, &before), 0);
+    compile_again();                                  /* served from the cache: the file is the same */
+    assert_int_equal(stat(path, &after), 0);
+    assert_int_equal(before.st_ino, after.st_ino);
+    for (int damage = 0; damage < 4; damage++) {
+        stat(path, &before);
+        if (damage == 0) {                            /* a bit in the middle */
+            int fd = open(path, O_RDWR);
+            char c;
+            assert_int_equal(pread(fd, &c, 1, before.st_size / 2), 1);
+            c ^= 1;
+            assert_int_equal(pwrite(fd, &c, 1, before.st_size / 2), 1);
+            close(fd);
+        } else if (damage == 1) {
+            assert_int_equal(truncate(path, before.st_size / 2), 0);
+        } else if (damage == 2) {                     /* somebody else could have written it */
+            assert_int_equal(chmod(path, 0666), 0);
+        } else {                                      /* a link to a sound object elsewhere */
+            char aside[1100];
+            snprintf(aside, sizeof aside, "%s.aside", path);
+            assert_int_equal(rename(path, aside), 0);
+            assert_int_equal(symlink(aside, path), 0);
+        }
+        compile_again();
+        assert_int_equal(lstat(path, &after), 0);
+        assert_true(S_ISREG(after.st_mode));
+        assert_int_equal(after.st_mode & 077, 0);
+        assert_int_not_equal(before.st_ino, after.st_ino);
+    }
+    assert_true(motus_cache_clear() >= 1);
+}
+
+/* A directory that others may write is not used, and neither is anything in it. */
+static void shared_directory_is_not_trusted(void **state)
+{
+    (void)state;
+    char path[600];
+    snprintf(path, sizeof path, "%s/motus", cache);
+    motus_cache_clear();
+    compile_again();
+    motus_cache_clear();
+    assert_int_equal(chmod(path, 0777), 0);
+    compile_again();
+    assert_int_equal(entries(NULL, 0), 0);
+    assert_int_equal(chmod(path, 0700), 0);
+}
+
+static void without_a_compiler(void **state)
+{
+    (void)state;
+    char *path = strdup(getenv("PATH"));
+    motus_cache_clear();
+    setenv("PATH", "/nowhere", 1);
+    unsetenv("CC");
+    motus_system *s = open_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 1e8\n", NULL);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = "verlet";
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);      /* auto: the interpreter serves, and says why */
+    assert_string_equal(motus_run_machine(r), "interpreter");
+    assert_non_null(strstr(motus_run_note(r), "no C compiler"));
+    motus_run_destroy(r);
+    def.machine = "compiled";
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_TOOL);
+    assert_non_null(strstr(err.message, "no C compiler"));
+    def.machine = "abacus";
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_ARGUMENT);
+    motus_system_destroy(s);
+    setenv("PATH", path, 1);
+    free(path);
+}
+
+/* Names of the model, whatever they are, stay out of the text. */
+static void no_text_of_the_model_is_compiled(void **state)
+{
+    (void)state;
+    motus_system *s = open_text("zebra = 0.25   # a remark\nqqquagga'' = -zebra qqquagga\nqqquagga(0) = 1\nqqquagga'(0) = 0\nstep 0.1\nuntil 1\n", NULL);
+    const char *text = motus_compiled_text(s, "verlet", NULL);
+    assert_non_null(text);
+    assert_null(strstr(text, "zebra"));
+    assert_null(strstr(text, "quagga"));
+    assert_null(strstr(text, "remark"));
+    motus_system_destroy(s);
+}
+
+int main(void)
+{
+    if (!mkdtemp(cache))
+        return 1;
+    setenv("XDG_CACHE_HOME", cache, 1);
+    unsetenv("SUDO_UID");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_model), cmocka_unit_test(every_construct), cmocka_unit_test(one_object_for_all_sizes),
+        cmocka_unit_test(damaged_entries_are_rebuilt), cmocka_unit_test(shared_directory_is_not_trusted), cmocka_unit_test(without_a_compiler),
+        cmocka_unit_test(no_text_of_the_model_is_compiled)};
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    motus_cache_clear();
+    char path[600];
+    snprintf(path, sizeof path, "%s/motus", cache);
+    DIR *d = opendir(path);
+    for (struct dirent *e; d && (e = readdir(d));) {
+        char file[1200];
+        snprintf(file, sizeof file, "%s/%s", path, e->d_name);
+        if (e->d_name[0] != '.')
+            unlink(file);
+    }
+    if (d)
+        closedir(d);
+    rmdir(path);
+    rmdir(cache);
+    return failed;
+}
