@@ -64,6 +64,8 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
 
 /* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
 #define WORTH_COMPILING 4e8
+/* What a compiler takes grows with the text: this much work for each operation that stands in it. */
+#define WORTH_AN_OPERATION 1e6
 
 /* Operations of the graph that the whole run takes. */
 static double operations(const motus_run *r)
@@ -84,7 +86,7 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
         hint(err, "the machines are auto, interpreter and compiled");
         return MOTUS_ARGUMENT;
     }
-    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && operations(r) < WORTH_COMPILING))
+    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && operations(r) < WORTH_COMPILING + WORTH_AN_OPERATION * s->model->graph->count))
         return MOTUS_OK;
     if (!s->compiled) {
         motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);

@@ -15,7 +15,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
+enum {
+    OBJECTS_MAX = 64, NOTE_MAX = 400,
+    OPERATIONS_MAX = 20000           /* in one text: compilers take more than linear time, and minutes beyond this */
+};
 
 #include "step/host.h"
 
@@ -192,9 +195,15 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
     for (int i = 0; i < c->count; i++)
         if (c->objects[i].row == chosen->row)
             return &c->objects[i].body;
-    c->note[0] = 0;
-    if (c->count == OBJECTS_MAX)
+    snprintf(c->note, sizeof c->note, "out of memory");
+    if (c->count == OBJECTS_MAX) {
+        snprintf(c->note, sizeof c->note, "%d methods of this model are compiled already", OBJECTS_MAX);
         return NULL;
+    }
+    if (c->model->graph->count > OPERATIONS_MAX) {
+        snprintf(c->note, sizeof c->note, "its equations are too long for a compiler: %u operations, and %d are the most", c->model->graph->count, OPERATIONS_MAX);
+        return NULL;
+    }
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e))
         return NULL;

@@ -6,7 +6,7 @@ _motus() {
     done
     COMPREPLY=()
     if [[ -z $verb ]]; then
-        mapfile -t COMPREPLY < <(compgen -W 'run compare converge check methods --help --version' -- "$current")
+        mapfile -t COMPREPLY < <(compgen -W 'run compare converge check methods cache --help --version' -- "$current")
         return
     fi
     local methods='motus methods --json 2>/dev/null | grep -o "\"name\": *\"[^\"]*\"" | cut -d\" -f4'
@@ -14,16 +14,17 @@ _motus() {
     --method|--methods)
         mapfile -t COMPREPLY < <(compgen -P "$([[ $current == *,* ]] && echo "${current%,*},")" -W "$(eval "$methods")" -- "${current##*,}")
         return ;;
-    --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter' -- "$current"); return ;;
+    --machine) mapfile -t COMPREPLY < <(compgen -W 'auto interpreter compiled' -- "$current"); return ;;
     -o|--output|--plot|--save-state|--restart) compopt -o default; return ;;
     --step|--until|--set|--evaluations|--columns|--every|--plot-of) return ;;
     esac
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine' ;;
-        compare)  options+=' --methods --step --until --set --evaluations --plot --machine' ;;
-        converge) options+=' --methods --step --until --set --plot --machine' ;;
+        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --emit-c' ;;
+        compare)  options+=' --methods --step --until --set --evaluations --plot' ;;
+        converge) options+=' --methods --step --until --set --plot' ;;
+        cache)    options+=' --clear' ;;
         check)    options+=' --set' ;;
         methods)  options+=' --markdown' ;;
         esac

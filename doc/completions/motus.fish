@@ -2,9 +2,10 @@
 function __motus_methods
     motus methods --json 2>/dev/null | string match -ra '"name": *"[^"]*"' | string replace -r '.*"([^"]*)"$' '$1'
 end
-set -l verbs run compare converge check methods
+set -l verbs run compare converge check methods cache
 complete -c motus -f
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a run -d 'the motion'
+complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a cache -d 'compiled models'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a compare -d 'every method side by side'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a converge -d 'observed order and its certificate'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a check -d 'what the program understood'
@@ -26,7 +27,9 @@ complete -c motus -n "__fish_seen_subcommand_from run compare converge" -l plot 
 complete -c motus -n "__fish_seen_subcommand_from run" -l plot-of -x -d 'column against column'
 complete -c motus -n "__fish_seen_subcommand_from run" -l save-state -r -F -d 'write an exact restart state'
 complete -c motus -n "__fish_seen_subcommand_from run" -l restart -r -F -d 'go on from one'
-complete -c motus -n "__fish_seen_subcommand_from run compare converge" -l machine -x -a 'auto interpreter' -d machine
+complete -c motus -n "__fish_seen_subcommand_from run" -l machine -x -a 'auto interpreter compiled' -d machine
+complete -c motus -n "__fish_seen_subcommand_from run" -l emit-c -d 'print the C text that runs'
+complete -c motus -n "__fish_seen_subcommand_from cache" -l clear -d 'remove compiled models'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -l json -d 'one JSON object'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -s q -l quiet -d 'nothing but errors'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -s h -l help -d help
