@@ -19,7 +19,7 @@ enum {
     MODEL_DEPTH_MAX = 2000           /* brackets and definitions within one another, all counted: what the C stack must bear */
 };
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, all uses of quantities counted */
-#define MODEL_TERMS_MAX 1e12         /* of nested sums and families, per evaluation */
+#define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
 #define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together: they are computed while the model is read */
 
 typedef struct model_cells {         /* the cells of a family that have an equation, in the order of their indices */

@@ -356,6 +356,11 @@ bool symbols_classify(model *m)
             source_hint(&m->source, "parameters and initial values can be set");
             return false;
         }
+        if (d->kind != DEFINED_PARAMETER) {
+            source_complain(&m->source, MOTUS_ARGUMENT, d->statement->value->at, "%s is a parameter: what it is set to cannot depend on a state or on time", d->name);
+            source_hint(&m->source, "a force that moves is written in the model");
+            return false;
+        }
     }
     return true;
 }

@@ -110,6 +110,7 @@ static void answer(text t, const char *what, motus_status expected, const char *
         run.step = 1e-3;
         run.until = settings.from + 1;
         run.method = "rk4";
+        run.machine = "interpreter";
         (void)motus_explain(s);
         (void)motus_equation_text(s, 0);
         status = motus_run_create(s, &run, &r, &err);
@@ -485,6 +486,7 @@ static motus_status life(ledger *l, const char *method, motus_error *err)
     def.set_count = 2;
     def.allocator = (motus_allocator){take_counted, release_counted, l};
     run.method = method;
+    run.machine = "interpreter";
     motus_status status = motus_system_from_text(&def, &s, err);
     if (status != MOTUS_OK)
         assert_null(s);

@@ -134,6 +134,7 @@ that "motus cache --clear" [ "$(XDG_CACHE_HOME=$PWD/cache "$motus" cache --clear
 gives "--emit-c" 0 "$motus" run $osc --emit-c
 that "--emit-c prints the loop" says advance_run
 refuses "motus cache alone" 2 "what is to be done" "$motus" cache
+refuses "--set of a parameter to the time" 2 "cannot depend on a state" "$motus" run $oscillator --set F=t
 refuses "--machine abacus" 2 "there is no such machine" "$motus" run $osc --machine abacus
 for bad in 0 -1 nan inf 1e999 0,1 0x10 1/0 abc '' 1e-2x; do refuses "--step '$bad'" 2 "--step" "$motus" run $osc --step "$bad"; done
 for bad in nan inf abc 1/x pi2 ''; do refuses "--until '$bad'" 2 "--until" "$motus" run $osc --until "$bad"; done

@@ -107,6 +107,7 @@ static void run(motus_system *s, const char *method)
     motus_settings_of(s, &settings);
     def.method = method;
     def.step = 1e-3;
+    def.machine = "interpreter";
     def.until = settings.from + 1;
     motus_status status = motus_run_create(s, &def, &r, &err);
     if (status == MOTUS_OK)
@@ -162,6 +163,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t length)
         for (size_t k = 0; k < 20 && motus_equation_text(s, k); k++)
             check_text(motus_equation_text(s, k), SIZE_MAX / 2);
         look(s, NULL);
+        const char *emitted = motus_compiled_text(s, "rk4", &err);
+        for (const char *p = emitted; p && *p; p++)
+            CHECK(*p == '\n' || ((unsigned char)*p >= 0x20 && *p != 0x7F));
         if (cheap(bytes, length)) {
             const char *explained = motus_explain(s);        /* evaluates the force at some places */
             if (explained)
