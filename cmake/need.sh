@@ -23,7 +23,7 @@ for what; do
     case $what in
     build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
     demo)  tool gnuplot gnuplot-nox ;;
-    test)  tool g++ build-essential; header cmocka.h libcmocka-dev; tool pkg-config pkg-config; tool jq jq
+    test)  tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
            tool clang clang; fuzzer_runs || add clang-runtime ;;
     fuzz)  tool clang clang; fuzzer_runs || add clang-runtime ;;
     tidy)  tool run-clang-tidy clang-tidy ;;
