@@ -88,9 +88,9 @@ static const column_group *group_of(const motus_system *s, size_t k)
 
 /* ---- values ---- */
 
-void system_outside(const motus_system *s, const double *x, const double *v, double *out_x, double *out_v)
+/* Moves every number that is seen outside, in the outside order; outer_x, outer_v may be NULL. */
+static void each_number(const motus_system *s, double *x, double *v, double *outer_x, double *outer_v, void (*move)(double *inner, double *outer))
 {
-    size_t px = 0, pv = 0;
     for (int order = 2; order >= 1; order--)
         for (uint32_t i = 0; i < s->state_count; i++) {
             const model_state *st = &s->states[i];
@@ -99,31 +99,25 @@ void system_outside(const motus_system *s, const double *x, const double *v, dou
             for (size_t c = 0; c < st->cells.count; c++)
                 for (size_t k = 0; k < parts_of(st->components); k++) {
                     size_t at = system_place(st, c, (int)k);
-                    if (order == 2 && out_x)
-                        out_x[px++] = x[at];
-                    if (out_v)
-                        out_v[pv++] = v[at];
+                    if (order == 2 && outer_x)
+                        move(&x[at], outer_x++);
+                    if (outer_v)
+                        move(&v[at], outer_v++);
                 }
         }
 }
 
+static void outward(double *inner, double *outer) { *outer = *inner; }
+static void inward(double *inner, double *outer) { *inner = *outer; }
+
+void system_outside(const motus_system *s, const double *x, const double *v, double *out_x, double *out_v)
+{
+    each_number(s, (double *)x, (double *)v, out_x, out_v, outward);
+}
+
 void system_inside(const motus_system *s, const double *in_x, const double *in_v, double *x, double *v)
 {
-    size_t px = 0, pv = 0;
-    for (int order = 2; order >= 1; order--)
-        for (uint32_t i = 0; i < s->state_count; i++) {
-            const model_state *st = &s->states[i];
-            if (st->order != order)
-                continue;
-            for (size_t c = 0; c < st->cells.count; c++)
-                for (size_t k = 0; k < parts_of(st->components); k++) {
-                    size_t at = system_place(st, c, (int)k);
-                    if (order == 2 && in_x)
-                        x[at] = in_x[px++];
-                    if (in_v)
-                        v[at] = in_v[pv++];
-                }
-        }
+    each_number(s, x, v, (double *)in_x, (double *)in_v, inward);
 }
 
 static motus_status evaluate(motus_system *s, const column_group *g, double t, double *x, double *v, motus_error *err)
