@@ -43,15 +43,12 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
     }
     if (empty)
         return true;
-    bool ok = !outside;
-    while (ok) {
+    while (!outside) {
         size_t offset = 0;
         for (int d = 0; d < s->dims; d++)
             offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
-        if (!s->owner[offset] || (derivative && s->owner[offset] != 1)) {
-            ok = false;
+        if (!s->owner[offset] || (derivative && s->owner[offset] != 1))
             break;
-        }
         int d = s->dims - 1;
         while (d >= 0 && ++at[d] > high[d]) {
             at[d] = low[d];
