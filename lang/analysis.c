@@ -77,12 +77,6 @@ enum { SAMPLES = 16 };
 /* Rounding separates two ways to compute the same number by a few hundred ulps at most; a wrong formula is off in the first digits. */
 #define SAME 1e-8
 
-static node seed_time(graph *g, node leaf, void *unused)
-{
-    (void)unused;
-    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : 0;
-}
-
 static const statement *exact_line(const model *m)
 {
     for (uint32_t i = 0; i < m->statements.count; i++)
@@ -117,7 +111,7 @@ static bool verify_exact(model *m)
     for (size_t i = 0; i < m->exact_count; i++)
         if (m->arrays[m->exact[i].to.array].space == SPACE_V) {
             output o = m->exact[i];
-            o.value = graph_derivative(g, o.value, seed_time, NULL);
+            o.value = graph_derivative(g, o.value, graph_seed_time, NULL);
             o.to.array = (uint16_t)(o.to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
             second[count++] = o;
         }

@@ -116,3 +116,9 @@ node graph_seed_motion(graph *g, node leaf, void *graph_shift_ctx)
 {
     return shifted(g, leaf, graph_shift_ctx, true);
 }
+
+node graph_seed_time(graph *g, node leaf, void *unused)
+{
+    (void)unused;
+    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : 0;
+}

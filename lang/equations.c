@@ -62,13 +62,6 @@ static bool equation(model *m, const statement *s, outputs *into)
     return true;
 }
 
-/* d/dt where only t moves. */
-static node seed_time(graph *g, node leaf, void *unused)
-{
-    (void)unused;
-    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : 0;
-}
-
 /* A motion given as a function of time: its value into x (or v, for a companion), its derivative into v. */
 static bool given_motion(model *m, const statement *s, lower_place place, const char *what, outputs *into, bool *timed)
 {
@@ -92,7 +85,7 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
             return false;
         if (state->order == 1)
             continue;
-        o.value = graph_derivative(m->graph, v.item[k], seed_time, NULL);
+        o.value = graph_derivative(m->graph, v.item[k], graph_seed_time, NULL);
         o.to.array = (uint16_t)(m->block[BLOCK_V] + state->array + k);
         if (!add(m, into, &o))
             return false;

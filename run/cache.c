@@ -214,11 +214,9 @@ static void *build(const compiler *c, const char *text, size_t length, const cha
     return handle;
 }
 
-void *cache_load(const char *text, size_t length, const motus_allocator *allocator, bool *compiled, char *why, size_t size)
+void *cache_load(const char *text, size_t length, char *why, size_t size)
 {
-    (void)allocator;
     compiler c;
-    *compiled = false;
     if (!compiler_find(&c)) {
         snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
         return NULL;
@@ -230,10 +228,8 @@ void *cache_load(const char *text, size_t length, const motus_allocator *allocat
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
-    if (!handle) {
-        *compiled = true;
+    if (!handle)
         handle = build(&c, text, length, fd >= 0 ? path : NULL, why, size);
-    }
     if (fd >= 0)
         close(fd);
     return handle;

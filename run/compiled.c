@@ -76,14 +76,11 @@ void compiled_close(compiled *c)
 
 /* ---- the text ---- */
 
-static bool add_text(emit_text *t, const char *which)
+static void add_text(emit_text *t, const char *which)
 {
     for (const embedded_text *e = texts_table; e->name; e++)
-        if (!strcmp(e->name, which)) {
+        if (!strcmp(e->name, which))
             emit_add(t, "%s\n", e->text);
-            return true;
-        }
-    return false;
 }
 
 /* Scalar models have as many numbers in every run; families do not. */
@@ -207,8 +204,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e))
         return NULL;
-    bool fresh;
-    void *handle = cache_load(e.text.bytes, e.text.length, &c->model->arena->allocator, &fresh, c->note, sizeof c->note);
+    void *handle = cache_load(e.text.bytes, e.text.length, c->note, sizeof c->note);
     if (!handle)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
