@@ -2,9 +2,7 @@
  * test/golden.txt has them. A change of any operation of the language's normal form, of a method's text or of a row shows here;
  * so does a machine that computes other bits.
  *
- * Where a result needs a function of the C library (sin, exp, pow …) its bits are the library's, not ours: such lines are marked
- * `libm`, and are compared only where a probe of these functions gives the hash on record. `golden_test --write` writes the file
- * anew.
+ * `golden_test --write` writes the file anew.
  */
 #include "test/given.h"
 
@@ -19,61 +17,6 @@ static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a *
     return h;
 }
 static const uint64_t START = 14695981039346656037u;
-
-/* The C library's functions at some hundred places; through pointers, so that no compiler puts its own values in. */
-static uint64_t probe(void)
-{
-    static double (*const volatile of_one[])(double) = {sin, cos, tan, exp, log, atan, asin, sinh, cosh, tanh, erf, cbrt};
-    static double (*const volatile of_two[])(double, double) = {pow, atan2, hypot};
-    uint64_t h = START;
-    for (int i = 0; i < 300; i++) {
-        double x = 0.013 + 0.0317 * i;
-        for (size_t k = 0; k < sizeof of_one / sizeof *of_one; k++) {
-            double y = of_one[k](of_one[k] == asin ? x / 10 : x);
-            h = mix(h, &y, sizeof y);
-        }
-        for (size_t k = 0; k < sizeof of_two / sizeof *of_two; k++) {
-            double y = of_two[k](x, 1.7 + 0.01 * i);
-            h = mix(h, &y, sizeof y);
-        }
-    }
-    return h;
-}
-
-/* Whether the text calls a function of the C library, or takes a power that is no chain of multiplications. Comments, invariants
- * and, but for the method exact, exact lines do not enter the motion. Quantities may; so they count. */
-static int calls_libm(const char *p, size_t n)
-{
-    static const char *const theirs[] = {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log",
-        "cbrt", "hypot", "erf"};
-    for (size_t i = 0; i < n; i++) {
-        if (p[i] == '^' && !strchr("0123456789-", p[i + 1]))
-            return 1;
-        for (size_t k = 0; k < sizeof theirs / sizeof *theirs; k++) {
-            size_t m = strlen(theirs[k]);
-            int starts = i == 0 || !((p[i - 1] | 32) >= 'a' && (p[i - 1] | 32) <= 'z');
-            if (starts && i + m < n && !strncmp(p + i, theirs[k], m) && (p[i + m] == '(' || p[i + m] == ' '))
-                return 1;
-        }
-    }
-    return 0;
-}
-
-static int needs_libm(const char *text, int exact)
-{
-    int goes_on = 0, passed_over = 0;            /* a line that ends in an operator goes on in the next */
-    for (const char *p = text; *p; p += strcspn(p, "\n"), p += *p == '\n') {
-        size_t n = strcspn(p, "#\n");
-        if (!goes_on)
-            passed_over = !strncmp(p, "invariant ", 10) || (!exact && !strncmp(p, "exact ", 6));
-        if (!passed_over && calls_libm(p, n))
-            return 1;
-        while (n && p[n - 1] == ' ')
-            n--;
-        goes_on = n && strchr("+-*/,=(", p[n - 1]);
-    }
-    return 0;
-}
 
 /* The models' names, in order. */
 static char models[MODELS_MAX][NAME];
@@ -96,12 +39,12 @@ static void find_models(void)
     qsort(models, model_count, NAME, by_name);
 }
 
-typedef struct line { char model[NAME], method[NAME]; uint64_t hash; int libm; } line;
+typedef struct line { char model[NAME], method[NAME]; uint64_t hash; } line;
 
 /* One line: the hash of x and v after the steps, or of the way in which they failed. */
-static line compute(motus_system *s, const char *text, const char *model, const char *method)
+static line compute(motus_system *s, const char *model, const char *method)
 {
-    line l = {.libm = needs_libm(text, !strcmp(method, "exact"))};
+    line l = {0};
     snprintf(l.model, NAME, "%s", model);
     snprintf(l.method, NAME, "%s", method);
     motus_settings set;
@@ -123,16 +66,12 @@ static line compute(motus_system *s, const char *text, const char *model, const 
 
 static size_t compute_model(const char *model, line *out)
 {
-    char path[1024];
-    given_path(path, sizeof path, "models", model);
-    char *text = given_file(path);
     motus_system *s = given_model(model, NULL, 0);
     size_t n = 0;
     for (size_t k = 0; k < motus_method_count(); k++)
         if (motus_method_admits(s, motus_method_at(k)->name, NULL) == MOTUS_OK)
-            out[n++] = compute(s, text, model, motus_method_at(k)->name);
+            out[n++] = compute(s, model, motus_method_at(k)->name);
     motus_system_destroy(s);
-    free(text);
     return n;
 }
 
@@ -140,13 +79,12 @@ static size_t compute_model(const char *model, line *out)
 
 static line recorded[LINES_MAX];
 static size_t recorded_count;
-static uint64_t recorded_probe;
 
 static void golden_path(char *out, size_t size) { given_path(out, size, "test", "golden.txt"); }
 
 static void read_golden(void)
 {
-    char path[1024], mark[8];
+    char path[1024];
     golden_path(path, sizeof path);
     char *text = given_file(path);
     for (char *p = text; *p; p += strcspn(p, "\n"), p += *p == '\n') {
@@ -154,17 +92,10 @@ static void read_golden(void)
         unsigned long long hash;
         if (*p == '#' || *p == '\n')
             continue;
-        if (sscanf(p, "probe %llx", &hash) == 1) {
-            recorded_probe = hash;
-            continue;
-        }
         assert_true(recorded_count < LINES_MAX);
-        mark[0] = 0;
-        int parts = sscanf(p, "%63s %63s %llx%*[ ]%7[a-z]", l->model, l->method, &hash, mark);
-        if (parts < 3)
+        if (sscanf(p, "%63s %63s %llx", l->model, l->method, &hash) != 3)
             fail_msg("golden.txt: %.60s", p);
         l->hash = hash;
-        l->libm = !strcmp(mark, "libm");
         recorded_count++;
     }
     free(text);
@@ -178,13 +109,12 @@ static int write_golden(void)
     FILE *f = fopen(path, "w");
     if (!f)
         return 1;
-    fprintf(f, "# The state after %d steps: model, method, hash (FNV-1a of the bytes of x and v, little-endian); libm: needs the C\n"
-               "# library's functions, of which `probe` is a hash. Written by golden_test --write; see golden_test.c.\nprobe %016llx\n",
-            STEPS, (unsigned long long)probe());
+    fprintf(f, "# The state after %d steps: model, method, hash (FNV-1a of the bytes of x and v, little-endian).\n"
+               "# Written by golden_test --write; see golden_test.c.\n", STEPS);
     for (size_t i = 0; i < model_count; i++) {
         size_t n = compute_model(models[i], l);
         for (size_t k = 0; k < n; k++)
-            fprintf(f, "%-30s %-24s %016llx%s\n", l[k].model, l[k].method, (unsigned long long)l[k].hash, l[k].libm ? " libm" : "");
+            fprintf(f, "%-30s %-24s %016llx\n", l[k].model, l[k].method, (unsigned long long)l[k].hash);
     }
     return fclose(f) != 0;
 }
@@ -199,13 +129,11 @@ static const line *find(const char *model, const char *method)
 
 /* Tests --------------------------------------------------------------------------------------------------------------------- */
 
-static int libm_is_ours(void) { return probe() == recorded_probe; }
-
 static void a_model(void **state)
 {
     const char *model = *state;
     line l[NAME];
-    size_t n = compute_model(model, l), lines = 0, compared = 0, wrong = 0;
+    size_t n = compute_model(model, l), lines = 0, wrong = 0;
     assert_true(n > 8);
     for (size_t i = 0; i < recorded_count; i++)
         lines += !strcmp(recorded[i].model, model);
@@ -215,27 +143,18 @@ static void a_model(void **state)
         const line *r = find(model, l[k].method);
         if (!r)
             fail_msg("%s by %s is not in golden.txt; golden_test --write writes it anew", model, l[k].method);
-        assert_int_equal(r->libm, l[k].libm);
-        if (r->libm && !libm_is_ours())
-            continue;
-        compared++;
         if (r->hash != l[k].hash && wrong++ < 5)
             print_error("%s by %s: %016llx, recorded %016llx\n", model, l[k].method, (unsigned long long)l[k].hash,
                 (unsigned long long)r->hash);
     }
     if (wrong)
-        fail_msg("%zu of %zu results have other bits", wrong, compared);
-    if (!compared) {
-        print_message("%s: this C library's functions are not those on record\n", model);
-        skip();
-    }
+        fail_msg("%zu of %zu results have other bits", wrong, n);
 }
 
-/* Nothing on record that is no longer computed, and enough that needs no C library to mean something everywhere. */
+/* Nothing on record that is no longer computed. */
 static void the_record_is_whole(void **state)
 {
     (void)state;
-    size_t plain = 0;
     for (size_t i = 0; i < recorded_count; i++) {
         int known = 0;
         for (size_t k = 0; k < model_count; k++)
@@ -243,9 +162,8 @@ static void the_record_is_whole(void **state)
         if (!known)
             fail_msg("%s is on record and not in models/", recorded[i].model);
         assert_ptr_equal(find(recorded[i].model, recorded[i].method), &recorded[i]);
-        plain += !recorded[i].libm;
     }
-    assert_true(plain > 100);
+    assert_true(recorded_count > 100);
 }
 
 int main(int argc, char **argv)
