@@ -39,6 +39,11 @@ void motus_default(motus_def_kind kind, void *def, uint32_t size)
         COPY(motus_study_def);
         break;
     }
+    case MOTUS_DEF_ENSEMBLE: {
+        motus_ensemble_def d = {.step = NAN, .until = NAN, .every = 1};
+        COPY(motus_ensemble_def);
+        break;
+    }
     }
 }
 

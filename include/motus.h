@@ -7,7 +7,8 @@
  *     3. what a system holds    variables, columns, settings, analysis
  *     4. methods                the catalogue, from the rows the code runs
  *     5. runs                   one integration: create, step, look, save, destroy
- *     6. studies                every method side by side; observed order and its certificate
+ *     6. ensembles              one model, many trajectories: parameters or initial values vary, numbers are recorded
+ *     7. studies                every method side by side; observed order and its certificate
  *
  *     motus_text_def def = motus_default_text();
  *     def.text = "x'' = -x   x(0) = 1 ...";
@@ -289,7 +290,57 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
 MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
 
-/* 6. Studies ----------------------------------------------------------------------------------------------------- */
+/* 6. Ensembles --------------------------------------------------------------------------------------------------- */
+
+/* Many trajectories of one model, by one method, from the start to one end, in which some parameters or initial values differ. What is
+ * wanted of each is recorded on the way; trajectories are not kept. Each has the bits that a run of the model with these values has
+ * (`set` in motus_text_def), whatever the machine, the number of lanes or of threads. */
+typedef struct motus_ensemble motus_ensemble;
+
+typedef enum motus_reduction {
+    MOTUS_FINAL,                     /* the value at the end */
+    MOTUS_MIN, MOTUS_MAX, MOTUS_MEAN,   /* over the looks: the start, every `every` steps, and the end */
+    MOTUS_TIME_OF_MIN, MOTUS_TIME_OF_MAX   /* the time of the first look with that value */
+} motus_reduction;
+typedef struct motus_record { motus_reduction how; size_t column; } motus_record;     /* column: from motus_column_find */
+
+typedef struct motus_ensemble_def {
+    uint32_t size;
+    /* What differs: a parameter "F", a component of one "g.x", an initial value "x(0)", "x'(0)", "r.x(0)", "x[3](0)". Values that are computed
+     * from these follow. What decides sizes, the step or the end cannot differ. */
+    const char *const *vary;
+    size_t vary_count;
+    const motus_record *records;
+    size_t record_count;
+    const char *method;              /* NULL: the model's, or "verlet" */
+    double step, until;              /* NaN: the model's */
+    int64_t every;                   /* steps between two looks, for all but MOTUS_FINAL; 1 by default */
+    const char *machine;             /* as in motus_run_def */
+    int threads;                     /* 0: as many as there are processors */
+    int lanes;                       /* trajectories side by side in one thread: 0: as many as suits the model and the processor; 1, 2, 4, … */
+    int fast;                        /* 1: allow the compiler to fuse and reorder; results may differ in their last bits from machine to machine */
+    int (*progress)(void *context, double fraction);     /* of a motus_ensemble_run; as in motus_run_def */
+    void *context;
+} motus_ensemble_def;
+
+MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **, motus_error *);
+/* Computes `count` trajectories. values[k]: `count` values of vary[k]; NULL only where vary_count is 0. results[k]: room for `count` numbers of
+ * records[k]. stopped: NULL or room for `count` numbers: NaN, or the time at which a trajectory left the finite numbers (or its implicit
+ * equation could not be solved); its results are then NaN, and the others are not harmed. */
+MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values, double *const *results, double *stopped,
+                                          motus_error *);
+MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
+
+MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *);       /* of each trajectory */
+MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
+MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
+MOTUS_API const char *motus_ensemble_note(const motus_ensemble *);    /* why it is not the machine one might expect, or "" */
+MOTUS_API int motus_ensemble_lanes(const motus_ensemble *);
+MOTUS_API int motus_ensemble_threads(const motus_ensemble *);
+/* Spent in the integration alone by all runs so far, without reading models or compiling. */
+MOTUS_API double motus_ensemble_seconds(const motus_ensemble *);
+
+/* 7. Studies ----------------------------------------------------------------------------------------------------- */
 
 typedef struct motus_study_def {
     uint32_t size;
@@ -356,7 +407,7 @@ MOTUS_API void motus_convergence_destroy(motus_convergence *);
 
 /* Defaults ------------------------------------------------------------------------------------------------------- */
 
-typedef enum motus_def_kind { MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY } motus_def_kind;
+typedef enum motus_def_kind { MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY, MOTUS_DEF_ENSEMBLE } motus_def_kind;
 /* Fills `size` bytes of a definition; use the functions below. */
 MOTUS_API void motus_default(motus_def_kind, void *def, uint32_t size);
 
@@ -365,7 +416,8 @@ MOTUS_API void motus_default(motus_def_kind, void *def, uint32_t size);
     X(text, TEXT, motus_text_def)               \
     X(callback, CALLBACK, motus_callback_def)   \
     X(run, RUN, motus_run_def)                  \
-    X(study, STUDY, motus_study_def)
+    X(study, STUDY, motus_study_def)            \
+    X(ensemble, ENSEMBLE, motus_ensemble_def)
 #define X(name, KIND, type)                                                      \
     static inline type motus_default_##name(void)                                \
     {                                                                            \
