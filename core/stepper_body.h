@@ -29,6 +29,9 @@ extern const stepper_body stepper_body_base;
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 #endif
 
+/* A workspace without memory: sizes, traits, and what follows from the row, its arguments and the step. */
+work stepper_plan(const problem *, const chosen *, double t0, double h);
+
 /* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */
 struct stepper;
 void stepper_use_body(struct stepper *, const stepper_body *);

@@ -17,6 +17,8 @@
 
 enum {
     OBJECTS_MAX = 64, NOTE_MAX = 400,
+    SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
+    LANES_OF_TIME = 4,
     OPERATIONS_MAX = 20000           /* in one text: compilers take more than linear time, and minutes beyond this */
 };
 
@@ -92,13 +94,31 @@ static bool sizes_are_structure(const model *m)
     return true;
 }
 
-static void add_row(emit_text *t, const row *r)
+/* What the row decides of every workspace, written out: the same that work_plan finds. */
+static void add_plan(emit_text *t, const problem *p, bool structure, const chosen *chosen)
 {
     static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
                                            [EXACT] = "EXACT"};
     static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
-    emit_add(t, "#define THE_ROW {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d}\n\n", families[r->family], r->compensated,
+    const row *r = chosen->row;
+    const work w = stepper_plan(p, chosen, 0, 1);
+    char number[EMIT_NUMBER];
+    emit_add(t, "static const row the_row = {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d};\n", families[r->family], r->compensated,
              r->gyroscopic, recurrences[r->two_step], r->newmark);
+    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n", w.moments, work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL));
+    emit_add(t, "#define KNOWN(w) do { \\\n    (w)->row = &the_row; \\\n");
+    if (structure)
+        emit_add(t, "    (w)->nx = NX, (w)->nv = NV; \\\n");
+    emit_add(t, "    (w)->stages = %d, (w)->known = %d, (w)->moments = %d, (w)->kicks = 0x%x, (w)->drifts = 0x%x, (w)->weights = 0x%x; \\\n", w.stages,
+             w.known, w.moments, w.kicks, w.drifts, w.weights);
+    emit_add(t, "    (w)->merged = %d, (w)->velocity = %d, (w)->linear = %d, (w)->constant = %d; \\\n", w.merged, w.velocity, w.linear, w.constant);
+    for (int i = 0; i < w.stages || i == 0; i++)
+        emit_add(t, "    (w)->moment[%d] = %d, (w)->c[%d] = %s; \\\n", i, w.moment[i], i, emit_number(w.c[i], number));
+    for (int i = 0; i < w.moments; i++)
+        emit_add(t, "    (w)->at[%d] = %s; \\\n", i, emit_number(w.at[i], number));
+    for (int i = 0; i < w.stages && r->family == RUNGE_KUTTA; i++)
+        emit_add(t, "    (w)->terms[%d] = 0x%x; \\\n", i, w.terms[i]);
+    emit_add(t, "} while (0)\n");
 }
 
 /* The family's text, and for the others what lets the loop's text compile without them. */
@@ -120,6 +140,28 @@ static void add_family(emit_text *t, const row *r)
             emit_add(t, "%s", families[i].without);
 }
 
+/* The elementary functions and the operations over doubles, or over vectors of them, which are then called reals. */
+static void add_functions(emit *e, int lanes)
+{
+    static const char *const texts[] = {"step/functions_core.h", "step/functions_plain.h", "step/functions_exponential.h", "step/functions_logarithm.h",
+        "step/functions_power.h", "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
+        "step/functions_error.h", "step/functions_end.h"};
+    emit_text *t = &e->text;
+    if (lanes > 1) {
+        emit_add(t, "#ifdef __AVX512F__\n#include <immintrin.h>\n#endif\n#define LANES %d\n", lanes);
+        add_text(t, "step/functions_lanes.h");
+    }
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        add_text(t, texts[i]);
+    if (lanes > 1)
+        emit_add(t, "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define OF(f) motus_##f##_x%d\n#define FUSE(a, b, c) motus_fused_x%d(a, b, c)\n"
+                    "#define WHEN(condition, a, b) motus_select_x%d(condition, MANY(a), MANY(b))\n", lanes, lanes, lanes, lanes);
+    else
+        emit_add(t, "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
+    emit_operations(e, lanes > 1 ? "reals" : "double", lanes > 1 ? "ops" : "op");
+    emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
+}
+
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
@@ -136,30 +178,30 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
                 "#include <float.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n"
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    add_row(t, chosen->row);
-    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
-    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
-        "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
-        "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
-        "step/functions_error.h", "step/functions_end.h", "step/elementary.h"};
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
-        add_text(t, before[i]);
+    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n#define SMALL %d\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0,
+             structure && m->nv <= SMALL_MAX);
+    add_text(t, "step/row.h");
+    add_plan(t, &c->interpreted, structure, chosen);
+    add_text(t, "step/scalar.h");
+    emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
+    add_text(t, "step/work.h");
+    add_text(t, "step/host.h");
+    add_functions(e, 1);
     emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
-    emit_operations(e);
-    emit_add(t, "\n");
-    emit_program(e, c->force, "compiled_force");
+    add_functions(e, LANES_OF_TIME);
+    emit_add(t, "#define AT(array, element) (array)[element]\n#define EACH_GROUP\n");
+    emit_program(e, c->force, "compiled_force", true);
     if (m->driven)
-        emit_program(e, c->boundary, "compiled_boundary");
+        emit_program(e, c->boundary, "compiled_boundary", false);
+    emit_add(t, "#define TERMS %u\n#define LANES_OF_TIME %d\n", e->terms, LANES_OF_TIME);
+    if (!e->terms)
+        emit_add(t, "#undef accel_in\n#undef accel_now\n#define accel_in(w, i, x, v, a) accel(w, time_in(w, (w)->c[i]), x, v, a)\n"
+                    "#define accel_now(w, x, v, a) accel(w, time_of(w, (w)->n), x, v, a)\n");
     add_text(t, "step/compiled.h");
     add_text(t, "step/newton.h");
     add_family(t, chosen->row);
     add_text(t, "step/advance.h");
-    emit_add(t, "static const row the_row = THE_ROW;\n\n"
-                "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
-                "int motus_run(work *given, whole steps) { WITH_THE_ROW(given, advance_run(w, steps)); }\n"
-                "int motus_sync(work *given, real *x, real *v, real *a) { WITH_THE_ROW(given, advance_sync(w, x, v, a)); }\n"
-                "int motus_check(work *given) { WITH_THE_ROW(given, advance_check(w)); }\n",
-             m->driven ? "    compiled_boundary_bind(pool, q, u);\n" : "");
+    add_text(t, "step/compiled_run.h");
     return !m->arena->failed;
 }
 
@@ -224,6 +266,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
         dlclose(handle);
         return NULL;
     }
+    c->host.run = stepper_body_base.run;
     c->host.factor = stepper_body_base.factor;
     c->host.back = stepper_body_base.back;
     c->host.apply = stepper_body_base.apply;

@@ -15,14 +15,27 @@ static inline int advance_step(work *w)
     }
 }
 
+/* Whether the main line is finite; of a small system in as few operations as may be. */
+static inline bool advance_finite(const work *w)
+{
+    const real *restrict x = w->x, *restrict v = w->row->two_step == VERLET_LITERAL ? w->x : w->v;
+    if (SMALL) {
+        real none = 0;
+        EACH(k) none += x[k] - x[k];
+        EACHV(k) none += v[k] - v[k];
+        return none == 0;
+    }
+    int bad = 0;
+    EACH(k) bad |= !FINITE(x[k]);
+    EACHV(k) bad |= !FINITE(v[k]);
+    return !bad;
+}
+
 /* STEP_DIVERGED where the main line holds an infinity or a NaN; w->which, w->in_v say where. */
 static int advance_check(work *w)
 {
     const real *restrict x = w->x, *restrict v = w->row->two_step == VERLET_LITERAL ? w->x : w->v;
-    int bad = 0;
-    EACH(k) bad |= !FINITE(x[k]);
-    EACHV(k) bad |= !FINITE(v[k]);
-    if (!bad) return STEP_OK;
+    if (advance_finite(w)) return STEP_OK;
     w->in_v = false;
     EACH(k) if (!FINITE(x[k])) {
         w->which = k;
@@ -40,10 +53,12 @@ static int advance_check(work *w)
 static int advance_run(work *w, whole steps)
 {
     for (; steps > 0; steps--) {
+        KNOWN(w);
         int bad = advance_step(w);
+        KNOWN(w);
         if (bad) return bad;
         w->n++;
-        if (w->check && (bad = advance_check(w))) return bad;
+        if (w->check && !advance_finite(w)) return advance_check(w);
     }
     return STEP_OK;
 }

@@ -58,16 +58,16 @@ static int splitting_step(work *w)
     int last = w->merged ? w->stages - 2 : w->stages - 1;
     for (int i = 0; i <= last; i++) {
         int bad = STEP_OK;
-        if (w->kick[i] == 0) {
+        if (!(w->kicks >> i & 1)) {
             DRIFT(w, w->drift[i]);
         } else if (w->row->gyroscopic) {
             bad = splitting_turn(w, w->kick[i], time_in(w, w->c[i]));
             DRIFT(w, w->drift[i]);
         } else {
-            if (i > 0 || !work_reuse(w)) bad = accel(w, time_in(w, w->c[i]), w->x, w->v, w->a);
+            if (i > 0 || !work_reuse(w)) bad = accel_in(w, i, w->x, w->v, w->a);
             if (bad) return bad;
             clock b = i == 0 && w->merged && w->n > 0 ? w->joint : w->kick[i];
-            if (w->drift[i] == 0) KICK(w, b);
+            if (!(w->drifts >> i & 1)) KICK(w, b);
             else KICK_DRIFT(w, b, w->drift[i]);
         }
         if (bad) return bad;
@@ -77,7 +77,7 @@ static int splitting_step(work *w)
 }
 
 /* The acceleration that the next step begins with; known beforehand to work_reuse. */
-static int splitting_look(work *w) { return accel(w, time_of(w, w->n), w->x, w->v, w->a); }
+static int splitting_look(work *w) { return accel_now(w, w->x, w->v, w->a); }
 
 static void splitting_sync(const work *w, real *v)
 {
