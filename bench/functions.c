@@ -15,14 +15,14 @@
 #pragma GCC diagnostic ignored "-Wpsabi"      /* nothing here crosses an object */
 #endif
 
-#include "test/functions_texts.h"
+#include "lang/functions.h"
 #define LANES 4
 #include "step/functions_lanes.h"
-#include "test/functions_texts.h"
+#include "lang/functions.h"
 #ifdef __AVX512F__
 #define LANES 8
 #include "step/functions_lanes.h"
-#include "test/functions_texts.h"
+#include "lang/functions.h"
 #define REGISTER 8
 #else
 #define LANES 8

@@ -6,6 +6,8 @@
 #include "lang/tape.h"
 
 #include <math.h>
+#include <stdint.h>
+#include "lang/functions.h"
 #include "step/elementary.h"
 
 static const operation_row rows[OPERATIONS] = {

@@ -14,6 +14,8 @@
 #include "lang/tape_code.h"
 
 #include <math.h>
+#include <stdint.h>
+#include "lang/functions.h"
 #include "step/elementary.h"
 
 #ifndef ISA

@@ -138,7 +138,10 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
     add_row(t, chosen->row);
     emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
-    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h", "step/elementary.h"};
+    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
+        "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
+        "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
+        "step/functions_error.h", "step/functions_end.h", "step/elementary.h"};
     for (size_t i = 0; i < sizeof before / sizeof *before; i++)
         add_text(t, before[i]);
     emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");

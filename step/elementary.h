@@ -1,31 +1,15 @@
-/* The functions of the language, one definition each; every machine evaluates a model through these.
+/* The functions of the language that are one operation of the machine, or a few; the others are in functions_*.h. Every machine
+ * evaluates a model through both.
  *
  * Invariant: f(NaN) is NaN for all of them but for the cases where C's pow and hypot say otherwise, and no result depends on the
- * sign of a zero that the mathematics does not have. Today they lean on the C library's <math.h>, which the includer supplies;
- * only the bodies below would change for our own.
+ * sign of a zero that the mathematics does not have. What is called here by name is exact or rounded correctly in every C library.
  */
 #ifndef STEP_ELEMENTARY_H
 #define STEP_ELEMENTARY_H
 
-static inline double motus_sin(double x) { return sin(x); }
-static inline double motus_cos(double x) { return cos(x); }
-static inline double motus_tan(double x) { return tan(x); }
-static inline double motus_asin(double x) { return asin(x); }
-static inline double motus_acos(double x) { return acos(x); }
-static inline double motus_atan(double x) { return atan(x); }
-static inline double motus_atan2(double y, double x) { return atan2(y, x); }
-static inline double motus_sinh(double x) { return sinh(x); }
-static inline double motus_cosh(double x) { return cosh(x); }
-static inline double motus_tanh(double x) { return tanh(x); }
-static inline double motus_exp(double x) { return exp(x); }
-static inline double motus_log(double x) { return log(x); }
 static inline double motus_sqrt(double x) { return sqrt(x); }
-static inline double motus_cbrt(double x) { return cbrt(x); }
-static inline double motus_hypot(double x, double y) { return hypot(x, y); }
 static inline double motus_abs(double x) { return fabs(x); }
 static inline double motus_floor(double x) { return floor(x); }
-static inline double motus_erf(double x) { return erf(x); }
-static inline double motus_pow(double x, double y) { return pow(x, y); }
 
 /* min and max pass a NaN on, whichever side it is on (C's fmin hides it, and with it a divergence); -0 counts as below +0, so that
  * the operands may be exchanged without changing a bit. */

@@ -5,6 +5,9 @@
  */
 #include "test/given.h"
 
+#include <stdint.h>
+#include "lang/functions.h"
+
 typedef struct oscillator {
     double F, k, c;
     int64_t calls, derivatives, fail_at, failures;
@@ -27,7 +30,7 @@ static int driven(void *context, double t, const double *x, const double *v, dou
         o->failures++;
         return 1;
     }
-    a[0] = fma(o->F, cos(t), fma(x[0] * x[0], x[0], -x[0]));
+    a[0] = fma(o->F, motus_cos(t), fma(x[0] * x[0], x[0], -x[0]));
     return 0;
 }
 

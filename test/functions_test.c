@@ -20,19 +20,19 @@
 #include <immintrin.h>
 #endif
 
-#include "functions_texts.h"
+#include "lang/functions.h"
 #define LANES 2
 #include "step/functions_lanes.h"
-#include "functions_texts.h"
+#include "lang/functions.h"
 #define LANES 4
 #include "step/functions_lanes.h"
-#include "functions_texts.h"
+#include "lang/functions.h"
 #define LANES 8
 #include "step/functions_lanes.h"
-#include "functions_texts.h"
+#include "lang/functions.h"
 #define LANES 16
 #include "step/functions_lanes.h"
-#include "functions_texts.h"
+#include "lang/functions.h"
 #define LANES 32
 #define LANES_PART 4
 #include "step/functions_wide.h"
