@@ -134,11 +134,10 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (m->arena->failed)
         return false;
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "#include <float.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n"
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
     add_row(t, chosen->row);
     emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
-    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
+    static const char *const before[] = {"step/freestanding.h", "step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
         "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
         "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
         "step/functions_error.h", "step/functions_end.h", "step/elementary.h"};
