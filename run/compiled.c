@@ -1,7 +1,8 @@
 /* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the system's compiler and loaded.
  *
- * Invariant: the object replaces only the stepper's body, so memory, errors, restart and looking are the library's own, and the bits are
- * the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
+ * Invariant: the object replaces only the function that advances, so memory, errors, restart and looking are the library's own, and the bits
+ * are the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache. What is never hot is never
+ * compiled: a compiler's time is what a first run waits for.
  */
 #include "run/compiled.h"
 
@@ -92,24 +93,28 @@ static bool sizes_are_structure(const model *m)
     return true;
 }
 
-static void add_row(emit_text *t, const row *r)
+/* What is known when the text is written, as the constants that ROW and FACT lead to. */
+static void add_facts(emit_text *t, const row *r, const problem *p, bool structure)
 {
     static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
                                            [EXACT] = "EXACT"};
     static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
-    emit_add(t, "#define THE_ROW {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d}\n\n", families[r->family], r->compensated,
-             r->gyroscopic, recurrences[r->two_step], r->newmark);
+    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_family %s\n#define ROW_two_step %s\n#define ROW_compensated %d\n#define ROW_gyroscopic %d\n\n",
+             families[r->family], recurrences[r->two_step], r->compensated, r->gyroscopic);
+    emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n", p->traits.velocity, p->traits.linear_v);
+    if (structure)
+        emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", p->nx, p->nv);
+    else
+        emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
 }
 
 /* The family's text, and for the others what lets the loop's text compile without them. */
 static void add_family(emit_text *t, const row *r)
 {
     static const struct { family family; const char *text, *without; } families[] = {
-        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n#define splitting_look(w) STEP_OK\n#define splitting_sync(w, v) ((void)0)\n"},
+        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n"},
         {RUNGE_KUTTA, "step/runge_kutta.h", "#define runge_kutta_step(w) STEP_OK\n"},
-        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"
-                                      "#define verlet_look(w) STEP_OK\n#define beeman_look(w) STEP_OK\n#define literal_look(w) STEP_OK\n"
-                                      "#define verlet_sync(w, v) ((void)0)\n#define beeman_sync(w, v) ((void)0)\n#define literal_sync(w, v) ((void)0)\n"},
+        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"},
         {IMPLICIT, "step/implicit.h", "#define implicit_step(w) STEP_OK\n"}};
     if (r->family == IMPLICIT)
         add_text(t, "step/runge_kutta.h");             /* its stages are summed the same way */
@@ -135,8 +140,8 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
         return false;
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    add_row(t, chosen->row);
-    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
+    add_facts(t, chosen->row, &c->interpreted, structure);
+    emit_add(t, "#define DRIVEN %d\n\n", m->driven);
     static const char *const before[] = {"step/freestanding.h", "step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
         "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
         "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
@@ -153,11 +158,8 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     add_text(t, "step/newton.h");
     add_family(t, chosen->row);
     add_text(t, "step/advance.h");
-    emit_add(t, "static const row the_row = THE_ROW;\n\n"
-                "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
-                "int motus_run(work *given, whole steps) { WITH_THE_ROW(given, advance_run(w, steps)); }\n"
-                "int motus_sync(work *given, real *x, real *v, real *a) { WITH_THE_ROW(given, advance_sync(w, x, v, a)); }\n"
-                "int motus_check(work *given) { WITH_THE_ROW(given, advance_check(w)); }\n",
+    emit_add(t, "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
+                "int motus_run(work *given, whole steps)\n{\n    work w = *given;\n    int bad = advance_run(&w, steps);\n    *given = w;\n    return bad;\n}\n",
              m->driven ? "    compiled_boundary_bind(pool, q, u);\n" : "");
     return !m->arena->failed;
 }
@@ -184,8 +186,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     for (uint32_t k = 0; k < e->int_count; k++)
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .ctx = c, .exact = c->interpreted.exact ? exact : NULL,
-                              .refresh = c->interpreted.refresh ? refresh : NULL};
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q};
     return true;
 }
 
@@ -211,21 +212,19 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row, .handle = handle, .body = stepper_body_base};
+    *o = (object){.row = chosen->row, .handle = handle, .body = *stepper_best_body()};
     o->body.name = "compiled";
     /* POSIX promises that a function's address survives the way through void *. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
-    *(void **)&o->body.sync = dlsym(handle, "motus_sync");
-    *(void **)&o->body.check = dlsym(handle, "motus_check");
-    if (!bind || !o->body.run || !o->body.sync || !o->body.check || !bind_numbers(c, &e, bind)) {
+    if (!bind || !o->body.run || !bind_numbers(c, &e, bind)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
         dlclose(handle);
         return NULL;
     }
-    c->host.factor = stepper_body_base.factor;
-    c->host.back = stepper_body_base.back;
-    c->host.apply = stepper_body_base.apply;
+    c->host.factor = o->body.factor;
+    c->host.back = o->body.back;
+    c->host.apply = o->body.apply;
     c->count++;
     return &o->body;
 }

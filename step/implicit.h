@@ -76,7 +76,7 @@ static int implicit_step(work *w)
     for (int i = 0; i < s; i++) EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     int bad = implicit_iterate(w);
     if (bad) return bad;
-    if (ex) {
+    if (ROW(w, compensated)) {
         EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, FMA(h, v[k], runge_kutta_sum(w->hhb, A, stride, k, s)));
         EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, A, stride, k, s));
     } else {

@@ -27,7 +27,7 @@ static int runge_kutta_step(work *w)
         if (bad) return bad;
         TRACE(w, i);
     }
-    if (ex) {
+    if (ROW(w, compensated)) {
         EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, runge_kutta_sum(w->hb, V, stride, k, w->stages));
         EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, A, stride, k, w->stages));
     } else {

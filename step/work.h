@@ -6,16 +6,23 @@
  *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of real
  *     EACH(k)     a loop over the positions of `w`                        EACHV(k)  over velocities, then companions
  *     TRACE(w,i)  called after stage i; empty unless somebody looks in
- * and, before advance.h, the functions
+ *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change; not needed where the row is known at run time only, while a
+ *                             compiled model makes them constants, so that what it does not use is never translated
+ * and, before newton.h and the families, the functions
  *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
  *     solve_factor(w, s, ax, av, t, x, v)   factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status
  *     solve_back(w, r)                      r, stage after stage, becomes the solution
  *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
- *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
+ *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells: look.h asks for them
  *
  * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and nowhere else. `a` and
  * `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them takes them by work_reuse, which ends that.
  */
+#ifndef ROW
+#define ROW(w, member) ((w)->row->member)
+#define FACT(w, member) ((w)->member)
+#endif
+
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_MEMORY };
 
 typedef struct work {
