@@ -157,6 +157,7 @@ static void address(writer *w, const reference *r, char *out, size_t size)
             if (s->slot >= 0)
                 k += (size_t)snprintf(base + k, sizeof base - k, "q[%u] + ", slot_integer(w, s->slot));
             snprintf(base + k, sizeof base - k, "%d", s->literal);
+            w->e->wraps = true;
             snprintf(index, sizeof index, "wrapped(%s, q[%u])", base, slot_integer(w, s->modulus));
         } else if (s->level >= 0) {
             snprintf(index, sizeof index, "j%d", s->level);
@@ -229,6 +230,7 @@ static void write_item(writer *w, uint32_t k)
     case OP_SUM: break;              /* its loop has made it */
     default: {
         int arity = operation_at(n->op)->arity;
+        w->e->used |= (uint64_t)1 << n->op;
         operand(w, n->a, a);
         if (arity > 1) operand(w, n->b, b);
         if (arity > 2) operand(w, n->c, c);
@@ -254,6 +256,7 @@ static void write_update(writer *w, const plan_item *update)
     if (sum->b)
         operand(w, sum->b, c);
     char next[128];
+    w->e->used |= (uint64_t)1 << how->op | (sum->b ? OPERATION_BIT(SELECT) : 0);
     if (fused)
         snprintf(next, sizeof next, "op_%d(%s, %s, s%u[k])", how->op, p, q, total);
     else
@@ -392,10 +395,14 @@ bool emit_operations(emit *e)
 {
     emit_text *t = &e->text;
 #define LEAF(...)
-#define UNARY(id, spelling, degree, smooth, value, derivative) emit_add(t, "static inline double op_%d(double a) { return %s; }\n", OP_##id, #value);
-#define BINARY(id, spelling, degree, smooth, value, derivative) emit_add(t, "static inline double op_%d(double a, double b) { return %s; }\n", OP_##id, #value);
+#define USED(id) if (e->used & OPERATION_BIT(id))
+#define UNARY(id, spelling, degree, smooth, value, derivative) USED(id) emit_add(t, "static inline double op_%d(double a) { return %s; }\n", OP_##id, #value);
+#define BINARY(id, spelling, degree, smooth, value, derivative) USED(id) emit_add(t, "static inline double op_%d(double a, double b) { return %s; }\n", OP_##id, #value);
 #define TERNARY(id, spelling, degree, smooth, value, derivative) \
-    emit_add(t, "static inline double op_%d(double a, double b, double c) { return %s; }\n", OP_##id, #value);
+    USED(id) emit_add(t, "static inline double op_%d(double a, double b, double c) { return %s; }\n", OP_##id, #value);
 #include "lang/operations.def"
+#undef USED
+    if (e->wraps)
+        emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
     return !e->text.arena->failed;
 }

@@ -24,12 +24,17 @@ typedef struct emit_int {            /* what q[k] is */
     int slot;                        /* SLOT: an int of the model */
 } emit_int;
 
+#define OPERATION_BIT(id) ((uint64_t)1 << OP_##id)
+_Static_assert(OPERATIONS <= 64, "a set of operations is a word");
+
 typedef struct emit {
     emit_text text;
     emit_int *ints; uint32_t int_count, int_room;
     bool literal;                    /* sizes are structure (no families): places are written as numbers */
     const array *arrays;
     uint32_t fixed;                  /* numbers computed once, when parameters are bound: u[0 … fixed) */
+    uint64_t used;                   /* OPERATION_BIT of every operation that the programs so far call */
+    bool wraps;                      /* they call `wrapped` */
 } emit;
 
 /* Appends
@@ -37,7 +42,7 @@ typedef struct emit {
  *     static inline void NAME(const double *pool, const int64_t *q, const double *u, double t, SPACES…)
  * False: the arena failed. */
 bool emit_program(emit *, const program *, const char *name);
-/* The operations of the graph as functions op_ADD(a, b) …, for real = double. */
+/* The operations in `used` as functions op_7(a, b) …, for real = double, and `wrapped` where it is called. */
 bool emit_operations(emit *);
 /* The value of q[k] for a model's arrays and ints. */
 int64_t emit_int_value(const emit_int *, const array *arrays, const int64_t *ints);

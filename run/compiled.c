@@ -125,10 +125,31 @@ static void add_family(emit_text *t, const row *r)
             emit_add(t, "%s", families[i].without);
 }
 
+/* The texts of the functions, and the operations that need them. */
+static void add_functions(emit *e)
+{
+#define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
+    static const uint64_t hyperbolic = ANY_OF(SINH, SINH, COSH, TANH), circular = ANY_OF(SIN, SIN, COS, TAN),
+                          inverse = ANY_OF(ASIN, ACOS, ATAN, ATAN2), root = ANY_OF(CBRT, CBRT, HYPOT, HYPOT), power = OPERATION_BIT(POW),
+                          error = OPERATION_BIT(ERF), logarithm = OPERATION_BIT(LOG) | power,
+                          exponential = OPERATION_BIT(EXP) | power | hyperbolic | error,
+                          any = exponential | logarithm | circular | inverse | root;
+    const struct { uint64_t needed_by; const char *text; } texts[] = {
+        {any, "step/functions_core.h"}, {exponential, "step/functions_exponential.h"}, {logarithm, "step/functions_logarithm.h"},
+        {power, "step/functions_power.h"}, {hyperbolic, "step/functions_hyperbolic.h"}, {circular, "step/functions_circular.h"},
+        {inverse, "step/functions_inverse.h"}, {root, "step/functions_root.h"}, {error, "step/functions_error.h"}, {any, "step/functions_end.h"},
+        {ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN), "step/elementary.h"}};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (e->used & texts[i].needed_by)
+            add_text(&e->text, texts[i].text);
+#undef ANY_OF
+}
+
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
     emit_text *t = &e->text;
+    const row *r = chosen->row;
     const bool structure = sizes_are_structure(m);
     e->literal = structure;
     e->arrays = m->arrays;
@@ -138,25 +159,27 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
         c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed)
         return false;
-    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    add_facts(t, chosen->row, &c->interpreted, structure);
-    emit_add(t, "#define DRIVEN %d\n\n", m->driven);
-    static const char *const before[] = {"step/freestanding.h", "step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
-        "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
-        "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
-        "step/functions_error.h", "step/functions_end.h", "step/elementary.h"};
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
-        add_text(t, before[i]);
-    emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
-    emit_operations(e);
-    emit_add(t, "\n");
     emit_program(e, c->force, "compiled_force");
     if (m->driven)
         emit_program(e, c->boundary, "compiled_boundary");
+    const emit_text bodies = *t;
+    *t = (emit_text){.arena = bodies.arena};
+    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
+                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
+    add_facts(t, r, &c->interpreted, structure);
+    emit_add(t, "#define DRIVEN %d\n\n", m->driven);
+    static const char *const before[] = {"step/freestanding.h", "step/row.h", "step/scalar.h", "step/work.h", "step/host.h"};
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
+        add_text(t, before[i]);
+    add_functions(e);
+    emit_operations(e);
+    emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
     add_text(t, "step/compiled.h");
-    add_text(t, "step/newton.h");
-    add_family(t, chosen->row);
+    if (r->family == IMPLICIT || r->gyroscopic || (r->family == TWO_STEP && r->two_step != BEEMAN && c->interpreted.traits.velocity))
+        add_text(t, "step/newton.h");
+    else
+        emit_add(t, "#define increment(w, g, s, u, t) STEP_OK\n");
+    add_family(t, r);
     add_text(t, "step/advance.h");
     emit_add(t, "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
                 "int motus_run(work *given, whole steps)\n{\n    work w = *given;\n    int bad = advance_run(&w, steps);\n    *given = w;\n    return bad;\n}\n",
