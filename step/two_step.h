@@ -9,8 +9,7 @@
  * (d + delta/2)/h, delta being the increment of d that it causes. */
 static int verlet_look(work *w)
 {
-    if (w->n == 0) return accel(w, time_of(w, 0), w->x, w->v, w->a);
-    if (!FACT(w, velocity)) return accel(w, time_of(w, w->n), w->x, w->vs, w->a);
+    if (w->n == 0 || !FACT(w, velocity)) return accel(w, time_of(w, w->n), w->x, w->n == 0 ? w->v : w->vs, w->a);
     return increment(w, w->hh, w->per_h, w->v, time_of(w, w->n));
 }
 
