@@ -25,7 +25,7 @@ struct stepper {
     int64_t snapshot_step, snapshot_evaluations, snapshot_iterations;       /* step: -1 where there is none */
 };
 
-static const stepper_body *best_body(void)
+const stepper_body *stepper_best_body(void)
 {
 #if defined __x86_64__
     __builtin_cpu_init();
@@ -165,7 +165,7 @@ motus_status stepper_create(const problem *p, const chosen *method, double t0, d
     s->problem = *p;
     if (allocator) s->allocator = *allocator;
     s->method = *method;
-    s->body = best_body();
+    s->body = stepper_best_body();
     s->work = plan;
     s->machine.problem = &s->problem;
     s->work.user = &s->machine;

@@ -24,6 +24,8 @@ typedef struct stepper_body {
     void (*apply)(work *, clock c, const real *y, real *out);
 } stepper_body;
 
+/* The fastest one here. */
+const stepper_body *stepper_best_body(void);
 extern const stepper_body stepper_body_base;
 #if defined __x86_64__
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;

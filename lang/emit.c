@@ -183,6 +183,7 @@ static void address(writer *w, const reference *r, char *out, size_t size)
             if (s->slot >= 0)
                 k += (size_t)snprintf(base + k, sizeof base - k, "q[%u] + ", slot_integer(w, s->slot));
             snprintf(base + k, sizeof base - k, "%d", s->literal);
+            w->e->wraps = true;
             snprintf(index, sizeof index, "wrapped(%s, q[%u])", base, slot_integer(w, s->modulus));
         } else if (s->level >= 0) {
             snprintf(index, sizeof index, "j%d", s->level);
@@ -284,7 +285,13 @@ static bool wide(const writer *w, node n)
 }
 
 static const char *type_of(const writer *w, node n) { return wide(w, n) ? "reals" : "double"; }
-static const char *operation_of(const writer *w, node n) { return wide(w, n) ? "ops" : "op"; }
+/* The name of an operation's function, which is then used. */
+static const char *operation_of(const writer *w, node n, unsigned op)
+{
+    bool lanes = wide(w, n);
+    *(lanes ? &w->e->used_lanes : &w->e->used) |= (uint64_t)1 << op;
+    return lanes ? "ops" : "op";
+}
 
 /* The name of a value where it is needed, as wide as `user`: what was computed once, when parameters were bound, stands in u. */
 static void operand(writer *w, node n, node user, char out[48])
@@ -343,7 +350,7 @@ static void write_item(writer *w, uint32_t k)
         operand(w, n->a, item->n, a);
         if (arity > 1) operand(w, n->b, item->n, b);
         if (arity > 2) operand(w, n->c, item->n, c);
-        line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, operation_of(w, item->n), n->op, a, arity > 1 ? ", " : "", arity > 1 ? b : "",
+        line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, operation_of(w, item->n, n->op), n->op, a, arity > 1 ? ", " : "", arity > 1 ? b : "",
              arity > 2 ? ", " : "", arity > 2 ? c : "");
     }
     }
@@ -363,7 +370,9 @@ static void write_update(writer *w, const plan_item *update)
     const graph_node *sum = &w->plan.g->nodes[whole], *how = &w->plan.g->nodes[sum->a];
     char p[48], q[48], c[48];
     bool fused = how->op != OP_ADD;
-    const char *operation = operation_of(w, whole);
+    const char *operation = operation_of(w, whole, how->op);
+    if (sum->b)
+        operation_of(w, whole, OP_SELECT);
     operand(w, fused ? how->a : how->b, whole, p);
     if (fused)
         operand(w, how->b, whole, q);
@@ -527,9 +536,9 @@ static void write_functions(writer *w, const char *name, bool terms)
         write_region(w, AT_RUN);
         SAY(w, "}\n\n");
     }
-    SAY(w, "static inline void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double *restrict T, "
+    SAY(w, "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double *restrict T, "
            "real *restrict x, real *restrict v, real *restrict a, real *restrict out)\n{\n%s, (void)w, (void)own, (void)t, (void)T, (void)x, (void)v, (void)a, "
-           "(void)out;\n    EACH_GROUP {\n", name, parameters, silence);
+           "(void)out;\n    EACH_GROUP {\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters, silence);
     w->part = RUNNING;
     w->depth++;
     write_constants(w);
@@ -573,16 +582,18 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
 #define FUSE(a, b, c) FUSE(a, b, c)
 #define WHEN(condition, a, b) WHEN(condition, a, b)
 
-bool emit_operations(emit *e, const char *type, const char *prefix)
+bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix)
 {
     emit_text *t = &e->text;
 #define LEAF(...)
+#define IN_SET(id) if (set & OPERATION_BIT(id))
 #define UNARY(id, spelling, degree, smooth, value, derivative) \
-    emit_add(t, "static inline %s %s_%d(%s a) { return %s; }\n", type, prefix, OP_##id, type, #value);
+    IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a) { return %s; }\n", type, prefix, OP_##id, type, #value);
 #define BINARY(id, spelling, degree, smooth, value, derivative) \
-    emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
+    IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
 #define TERNARY(id, spelling, degree, smooth, value, derivative) \
-    emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, #value);
+    IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, #value);
 #include "lang/operations.def"
+#undef IN_SET
     return !e->text.arena->failed;
 }

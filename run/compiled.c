@@ -1,15 +1,14 @@
 /* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the system's compiler and loaded.
  *
- * Invariant: the object replaces only the stepper's body, so memory, errors, restart and looking are the library's own, and the bits are
- * the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
+ * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart and looking are the library's
+ * own, and the bits are the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
  */
 #include "run/compiled.h"
 
 #include "core/stepper_body.h"
-#include "lang/emit.h"
 #include "run/cache.h"
+#include "run/compose.h"
 #include "run/stepping.h"
-#include "run/texts.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -17,8 +16,6 @@
 
 enum {
     OBJECTS_MAX = 64, NOTE_MAX = 400,
-    SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
-    LANES_OF_TIME = 4,
     OPERATIONS_MAX = 20000           /* in one text: compilers take more than linear time, and minutes beyond this */
 };
 
@@ -35,6 +32,7 @@ struct compiled {
     program *force, *boundary;
     double *u;
     int64_t *q;
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);     /* of any of the objects: they have the same bits */
     char note[NOTE_MAX];
 };
 
@@ -42,7 +40,14 @@ struct compiled {
 
 static const problem *of(void *ctx) { return &((compiled *)ctx)->interpreted; }
 
-static int accel(void *ctx, double t, double *x, double *v, double *a) { return of(ctx)->accel(of(ctx)->ctx, t, x, v, a); }
+static int accel(void *ctx, double t, double *x, double *v, double *a)
+{
+    const compiled *c = ctx;
+    if (!c->accel)
+        return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    c->accel(&c->host, t, x, v, a);
+    return 0;
+}
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
     return of(ctx)->jvp(of(ctx)->ctx, t, x, v, dx, dv, da);
@@ -78,131 +83,18 @@ void compiled_close(compiled *c)
 
 /* ---- the text ---- */
 
-static void add_text(emit_text *t, const char *which)
-{
-    for (const embedded_text *e = texts_table; e->name; e++)
-        if (!strcmp(e->name, which))
-            emit_add(t, "%s\n", e->text);
-}
-
-/* Scalar models have as many numbers in every run; families do not. */
-static bool sizes_are_structure(const model *m)
-{
-    for (uint32_t i = 0; i < m->state_count; i++)
-        if (m->states[i].dims > 0)
-            return false;
-    return true;
-}
-
-/* What the row decides of every workspace, written out: the same that work_plan finds. */
-static void add_plan(emit_text *t, const problem *p, bool structure, const chosen *chosen)
-{
-    static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
-                                           [EXACT] = "EXACT"};
-    static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
-    const row *r = chosen->row;
-    const work w = stepper_plan(p, chosen, 0, 1);
-    char number[EMIT_NUMBER];
-    emit_add(t, "static const row the_row = {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d};\n", families[r->family], r->compensated,
-             r->gyroscopic, recurrences[r->two_step], r->newmark);
-    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n", w.moments, work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL));
-    emit_add(t, "#define KNOWN(w) do { \\\n    (w)->row = &the_row; \\\n");
-    if (structure)
-        emit_add(t, "    (w)->nx = NX, (w)->nv = NV; \\\n");
-    emit_add(t, "    (w)->stages = %d, (w)->known = %d, (w)->moments = %d, (w)->kicks = 0x%x, (w)->drifts = 0x%x, (w)->weights = 0x%x; \\\n", w.stages,
-             w.known, w.moments, w.kicks, w.drifts, w.weights);
-    emit_add(t, "    (w)->merged = %d, (w)->velocity = %d, (w)->linear = %d, (w)->constant = %d; \\\n", w.merged, w.velocity, w.linear, w.constant);
-    for (int i = 0; i < w.stages || i == 0; i++)
-        emit_add(t, "    (w)->moment[%d] = %d, (w)->c[%d] = %s; \\\n", i, w.moment[i], i, emit_number(w.c[i], number));
-    for (int i = 0; i < w.moments; i++)
-        emit_add(t, "    (w)->at[%d] = %s; \\\n", i, emit_number(w.at[i], number));
-    for (int i = 0; i < w.stages && r->family == RUNGE_KUTTA; i++)
-        emit_add(t, "    (w)->terms[%d] = 0x%x; \\\n", i, w.terms[i]);
-    emit_add(t, "} while (0)\n");
-}
-
-/* The family's text, and for the others what lets the loop's text compile without them. */
-static void add_family(emit_text *t, const row *r)
-{
-    static const struct { family family; const char *text, *without; } families[] = {
-        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n#define splitting_look(w) STEP_OK\n#define splitting_sync(w, v) ((void)0)\n"},
-        {RUNGE_KUTTA, "step/runge_kutta.h", "#define runge_kutta_step(w) STEP_OK\n"},
-        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"
-                                      "#define verlet_look(w) STEP_OK\n#define beeman_look(w) STEP_OK\n#define literal_look(w) STEP_OK\n"
-                                      "#define verlet_sync(w, v) ((void)0)\n#define beeman_sync(w, v) ((void)0)\n#define literal_sync(w, v) ((void)0)\n"},
-        {IMPLICIT, "step/implicit.h", "#define implicit_step(w) STEP_OK\n"}};
-    if (r->family == IMPLICIT)
-        add_text(t, "step/runge_kutta.h");             /* its stages are summed the same way */
-    for (size_t i = 0; i < sizeof families / sizeof *families; i++)
-        if (families[i].family == r->family)
-            add_text(t, families[i].text);
-        else if (!(r->family == IMPLICIT && families[i].family == RUNGE_KUTTA))
-            emit_add(t, "%s", families[i].without);
-}
-
-/* The elementary functions and the operations over doubles, or over vectors of them, which are then called reals. */
-static void add_functions(emit *e, int lanes)
-{
-    static const char *const texts[] = {"step/functions_core.h", "step/functions_plain.h", "step/functions_exponential.h", "step/functions_logarithm.h",
-        "step/functions_power.h", "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
-        "step/functions_error.h", "step/functions_end.h"};
-    emit_text *t = &e->text;
-    if (lanes > 1) {
-        emit_add(t, "#ifdef __AVX512F__\n#include <immintrin.h>\n#endif\n#define LANES %d\n", lanes);
-        add_text(t, "step/functions_lanes.h");
-    }
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        add_text(t, texts[i]);
-    if (lanes > 1)
-        emit_add(t, "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define OF(f) motus_##f##_x%d\n#define FUSE(a, b, c) motus_fused_x%d(a, b, c)\n"
-                    "#define WHEN(condition, a, b) motus_select_x%d(condition, MANY(a), MANY(b))\n", lanes, lanes, lanes, lanes);
-    else
-        emit_add(t, "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
-    emit_operations(e, lanes > 1 ? "reals" : "double", lanes > 1 ? "ops" : "op");
-    emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
-}
-
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
-    emit_text *t = &e->text;
-    const bool structure = sizes_are_structure(m);
-    e->literal = structure;
-    e->arrays = m->arrays;
     if (!c->force)
         c->force = program_create(m->graph, m->accel, m->accel_count);
     if (!c->boundary && m->driven)
         c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed)
         return false;
-    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "#include <float.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n"
-                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n#define SMALL %d\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0,
-             structure && m->nv <= SMALL_MAX);
-    add_text(t, "step/row.h");
-    add_plan(t, &c->interpreted, structure, chosen);
-    add_text(t, "step/scalar.h");
-    emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
-    add_text(t, "step/work.h");
-    add_text(t, "step/host.h");
-    add_functions(e, 1);
-    emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
-    add_functions(e, LANES_OF_TIME);
-    emit_add(t, "#define AT(array, element) (array)[element]\n#define EACH_GROUP\n");
-    emit_program(e, c->force, "compiled_force", true);
-    if (m->driven)
-        emit_program(e, c->boundary, "compiled_boundary", false);
-    emit_add(t, "#define TERMS %u\n#define LANES_OF_TIME %d\n", e->terms, LANES_OF_TIME);
-    if (!e->terms)
-        emit_add(t, "#undef accel_in\n#undef accel_now\n#define accel_in(w, i, x, v, a) accel(w, time_in(w, (w)->c[i]), x, v, a)\n"
-                    "#define accel_now(w, x, v, a) accel(w, time_of(w, (w)->n), x, v, a)\n");
-    add_text(t, "step/compiled.h");
-    add_text(t, "step/newton.h");
-    add_family(t, chosen->row);
-    add_text(t, "step/advance.h");
-    add_text(t, "step/compiled_run.h");
-    return !m->arena->failed;
+    const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
+    return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
+                                     .last = "step/compiled_run.h"});
 }
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
@@ -227,8 +119,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     for (uint32_t k = 0; k < e->int_count; k++)
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .ctx = c, .exact = c->interpreted.exact ? exact : NULL,
-                              .refresh = c->interpreted.refresh ? refresh : NULL};
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q};
     return true;
 }
 
@@ -254,22 +145,23 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row, .handle = handle, .body = stepper_body_base};
+    *o = (object){.row = chosen->row, .handle = handle, .body = *stepper_best_body()};
+    const stepper_body *library = stepper_best_body();
     o->body.name = "compiled";
     /* POSIX promises that a function's address survives the way through void *. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
-    *(void **)&o->body.sync = dlsym(handle, "motus_sync");
-    *(void **)&o->body.check = dlsym(handle, "motus_check");
-    if (!bind || !o->body.run || !o->body.sync || !o->body.check || !bind_numbers(c, &e, bind)) {
+    *(void **)&c->accel = dlsym(handle, "motus_accel");
+    if (!bind || !o->body.run || !c->accel || !bind_numbers(c, &e, bind)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
+        c->accel = c->count ? c->accel : NULL;
         dlclose(handle);
         return NULL;
     }
-    c->host.run = stepper_body_base.run;
-    c->host.factor = stepper_body_base.factor;
-    c->host.back = stepper_body_base.back;
-    c->host.apply = stepper_body_base.apply;
+    c->host.run = library->run;
+    c->host.factor = library->factor;
+    c->host.back = library->back;
+    c->host.apply = library->apply;
     c->count++;
     return &o->body;
 }

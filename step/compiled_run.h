@@ -1,6 +1,6 @@
 /* The last text of a compiled model of one trajectory: what the library's stepper calls.
  *
- * Invariant: the library's workspace is copied, run and copied back, with the row and its plan as constants. Where the system is SMALL its
+ * Invariant: the library's workspace is copied, run and copied back. Where the system is SMALL its
  * arrays are copied too, so that the compiler may keep them in registers, and the copy is looked at for infinities once in SPAN steps: what
  * is not finite stays so. Then, or when a step fails, the library's own loop takes these steps again, from the state that it still has.
  */
@@ -32,25 +32,23 @@ static inline int compiled_steps(work *w, whole steps)
 /* Flat: a workspace that no call sees can live in registers, and what the plan says is known everywhere. */
 __attribute__((flatten)) int motus_run(work *given, whole steps)
 {
-    enum { SPAN = 1024 };
+    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 };      /* the stride that the library's solver expects */
     for (whole some; steps > 0; steps -= some) {
         work local = *given, *w = &local;
-        KNOWN(w);
 #if SMALL
         some = steps < SPAN ? steps : SPAN;
-        real room[ARRAYS * NV];
+        real room[ARRAYS * STRIDE];
         w->check = false;
-        w->stride = NV;
+        w->stride = STRIDE;
         w->ex = w->ev = w->old = w->next = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
         work_place(w, room);
-        work_move(w, given, NV);
+        work_move(w, given, NUMBERS);
         if (compiled_steps(w, some) || !advance_finite(w)) return host_of(given)->run(given, some);
-        work_move(given, w, NV);
+        work_move(given, w, NUMBERS);
         given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = w->fresh;
 #else
         some = steps;
         int bad = compiled_steps(w, steps);
-        w->row = given->row;
         *given = local;
         if (bad) return bad;
 #endif
@@ -58,17 +56,10 @@ __attribute__((flatten)) int motus_run(work *given, whole steps)
     return STEP_OK;
 }
 
-int motus_sync(work *given, real *x, real *v, real *a)
+void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a)
 {
-    work local = *given, *w = &local;
-    KNOWN(w);
-    int bad = advance_sync(w, x, v, a);
-    w->row = given->row;
-    *given = local;
-    return bad;
+    compiled_evaluate(host, t, x, v, a);
 }
-
-int motus_check(work *given) { return advance_check(given); }
 
 void motus_bind(const double *pool, const int64_t *q, double *u)
 {

@@ -6,10 +6,7 @@ typedef struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
     real *own, *bound;               /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
-    void *ctx;
     int (*run)(work *, whole steps);                       /* the library's own loop */
-    int (*exact)(void *ctx, double t, double *x, double *v);
-    void (*refresh)(void *ctx, double t, double *x, double *v);
     int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);

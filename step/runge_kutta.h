@@ -22,25 +22,25 @@ static int runge_kutta_step(work *w)
     size_t stride = w->stride;
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
     real *restrict X = w->xs, *restrict V = w->vs, *restrict A = w->ks;
-    for (int i = 0; i < w->stages; i++) {
+    for (int i = 0; i < FACT(w, stages); i++) {
         real *Vi = V + (size_t)i * stride;
         if (i == 0) {
             EACH(k) X[k] = x[k];
             EACHV(k) Vi[k] = v[k];
         } else {
-            EACH(k) X[k] = x[k] + runge_kutta_sum(w->ha[i], w->terms[i], V, stride, k, i);
-            EACHV(k) Vi[k] = v[k] + runge_kutta_sum(w->ha[i], w->terms[i], A, stride, k, i);
+            EACH(k) X[k] = x[k] + runge_kutta_sum(w->ha[i], FACT(w, terms)[i], V, stride, k, i);
+            EACHV(k) Vi[k] = v[k] + runge_kutta_sum(w->ha[i], FACT(w, terms)[i], A, stride, k, i);
         }
         int bad = accel_in(w, i, X, Vi, A + (size_t)i * stride);
         if (bad) return bad;
         TRACE(w, i);
     }
-    if (ex) {
-        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, runge_kutta_sum(w->hb, w->weights, V, stride, k, w->stages));
-        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, w->weights, A, stride, k, w->stages));
+    if (ROW(w, compensated)) {
+        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, runge_kutta_sum(w->hb, FACT(w, weights), V, stride, k, FACT(w, stages)));
+        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, FACT(w, weights), A, stride, k, FACT(w, stages)));
     } else {
-        EACH(k) x[k] += runge_kutta_sum(w->hb, w->weights, V, stride, k, w->stages);
-        EACHV(k) v[k] += runge_kutta_sum(w->hb, w->weights, A, stride, k, w->stages);
+        EACH(k) x[k] += runge_kutta_sum(w->hb, FACT(w, weights), V, stride, k, FACT(w, stages));
+        EACHV(k) v[k] += runge_kutta_sum(w->hb, FACT(w, weights), A, stride, k, FACT(w, stages));
     }
     return STEP_OK;
 }

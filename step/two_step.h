@@ -9,8 +9,7 @@
  * (d + delta/2)/h, delta being the increment of d that it causes. */
 static int verlet_look(work *w)
 {
-    if (w->n == 0) return accel_now(w, w->x, w->v, w->a);
-    if (!w->velocity) return accel_now(w, w->x, w->vs, w->a);
+    if (w->n == 0 || !FACT(w, velocity)) return accel_now(w, w->x, w->n == 0 ? w->v : w->vs, w->a);
     return increment(w, w->hh, w->per_h, w->v, time_of(w, w->n));
 }
 
@@ -24,8 +23,8 @@ static int verlet_step(work *w)
     }
     clock hh = w->hh;
     if (w->n == 0) EACHV(k) d[k] = FMA(w->half_hh, a[k], w->h * d[k]);
-    else if (w->velocity) EACHV(k) d[k] += w->delta[k];
-    else if (w->nv > w->nx) EACHV(k) ADVANCE(d[k], hh, a[k]);
+    else if (FACT(w, velocity)) EACHV(k) d[k] += w->delta[k];
+    else if (FACT(w, nv) > FACT(w, nx)) EACHV(k) ADVANCE(d[k], hh, a[k]);
     else {                                     /* the common case in one pass over memory */
         EACH(k) {
             ADVANCE(d[k], hh, a[k]);
@@ -43,7 +42,7 @@ static void verlet_sync(const work *w, real *v)
 {
     const real *d = w->v;
     if (w->n == 0) EACHV(k) v[k] = d[k];
-    else if (w->velocity) EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
+    else if (FACT(w, velocity)) EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
     else EACHV(k) v[k] = FMA(w->half_hh, w->a[k], d[k]) * w->per_h;
 }
 
@@ -59,10 +58,10 @@ static int literal_look(work *w)
     if (w->n == 0) {
         bad = accel_now(w, w->x, w->v, w->a);
         if (!bad) EACHV(k) next[k] = x[k] + h * w->v[k] + w->half_hh * w->a[k];
-    } else if (!w->velocity) {
+    } else if (!FACT(w, velocity)) {
         bad = accel_now(w, w->x, w->vs, w->a);
         if (!bad) EACHV(k) next[k] = 2 * x[k] - old[k] + hh * w->a[k];
-    } else if (w->linear) {
+    } else if (FACT(w, linear)) {
         EACHV(k) w->vs[k] = (real){0};
         bad = accel_now(w, w->x, w->vs, w->a);
         if (!bad) bad = solve_factor(w, 1, &none, &slope, t, w->x, w->vs);

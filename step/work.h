@@ -6,18 +6,25 @@
  *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of real
  *     EACH(k)     a loop over the positions of `w`                        EACHV(k)  over velocities, then companions
  *     TRACE(w,i)  called after stage i; empty unless somebody looks in
- * and, before advance.h, the functions
+ *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change; not needed where the row is known at run time only, while a
+ *                             compiled model makes them constants, so that what it does not use is never translated
+ * and, before newton.h and the families, the functions
  *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
  *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)     the same at the time of stage i, and of the present step. Macros of this file, unless
  *                                           the includer has its own (and defines both): it may know beforehand what depends on time alone
  *     solve_factor(w, s, ax, av, t, x, v)   factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status
  *     solve_back(w, r)                      r, stage after stage, becomes the solution
  *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
- *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
+ *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells: look.h asks for them
  *
  * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and nowhere else. `a` and
  * `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them takes them by work_reuse, which ends that.
  */
+#ifndef ROW
+#define ROW(w, member) ((w)->row->member)
+#define FACT(w, member) ((w)->member)
+#endif
+
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_MEMORY };
 
 typedef struct work {
@@ -70,14 +77,8 @@ static inline clock time_in(const work *w, clock c) { return TIME_IN(w, (clock)w
 #define SMALL 0
 #endif
 
-/* Says again what is known of the row when the text is compiled: called before every step, so that the compiler need not wonder whether a call
- * has changed it. */
-#ifndef KNOWN
-#define KNOWN(w) ((void)(w))
-#endif
-
 #ifndef accel_in
-#define accel_in(w, i, x, v, a) accel(w, time_in(w, (w)->c[i]), x, v, a)
+#define accel_in(w, i, x, v, a) accel(w, time_in(w, FACT(w, c)[i]), x, v, a)
 #define accel_now(w, x, v, a) accel(w, time_of(w, (w)->n), x, v, a)
 #endif
 
@@ -213,19 +214,18 @@ static inline void work_plan(work *w, const double argument[2])
 static inline size_t work_place(work *w, real *memory)
 {
     size_t used = 0;
-    const row *m = w->row;
-    bool solve = m->gyroscopic || (m->family == TWO_STEP && m->two_step != BEEMAN && w->velocity);
+    bool solve = ROW(w, gyroscopic) || (ROW(w, family) == TWO_STEP && ROW(w, two_step) != BEEMAN && FACT(w, velocity));
 #define PLACE(name, count) (w->name = memory ? memory + used * w->stride : memory, used += (size_t)(count))
     PLACE(x, 1);
     PLACE(v, 1);
     PLACE(a, 1);
-    if (m->compensated) PLACE(ex, 1), PLACE(ev, 1);
-    if (m->family == TWO_STEP) PLACE(old, 1), PLACE(vs, 1);
-    if (m->family == TWO_STEP && m->two_step == VERLET_LITERAL) PLACE(next, 1);
-    if (m->gyroscopic) PLACE(vs, 1);
+    if (ROW(w, compensated)) PLACE(ex, 1), PLACE(ev, 1);
+    if (ROW(w, family) == TWO_STEP) PLACE(old, 1), PLACE(vs, 1);
+    if (ROW(w, family) == TWO_STEP && ROW(w, two_step) == VERLET_LITERAL) PLACE(next, 1);
+    if (ROW(w, gyroscopic)) PLACE(vs, 1);
     if (solve) PLACE(delta, 1), PLACE(r, 1);
-    if (m->family == RUNGE_KUTTA) PLACE(xs, 1), PLACE(vs, w->stages), PLACE(ks, w->stages);
-    if (m->family == IMPLICIT) PLACE(xs, 1), PLACE(vs, 1), PLACE(ks, w->stages), PLACE(r, w->stages);
+    if (ROW(w, family) == RUNGE_KUTTA) PLACE(xs, 1), PLACE(vs, FACT(w, stages)), PLACE(ks, FACT(w, stages));
+    if (ROW(w, family) == IMPLICIT) PLACE(xs, 1), PLACE(vs, 1), PLACE(ks, FACT(w, stages)), PLACE(r, FACT(w, stages));
 #undef PLACE
     return used;
 }
@@ -242,7 +242,7 @@ static inline void work_move(work *to, const work *from, size_t count)
     MOVE(old);
     MOVE(next);
     MOVE(delta);
-    if (to->row->family == TWO_STEP) MOVE(vs);
+    if (ROW(to, family) == TWO_STEP) MOVE(vs);
 #undef MOVE
 }
 
@@ -251,13 +251,12 @@ enum { CARRY_MAX = 4 };
 static inline int work_carry(const work *w, real *list[CARRY_MAX])
 {
     int count = 0;
-    const row *m = w->row;
-    if (m->family == EXACT) return 0;
-    bool literal = m->family == TWO_STEP && m->two_step == VERLET_LITERAL;
+    if (ROW(w, family) == EXACT) return 0;
+    bool literal = ROW(w, family) == TWO_STEP && ROW(w, two_step) == VERLET_LITERAL;
     list[count++] = w->x;
     list[count++] = literal && w->n > 0 ? w->old : w->v;
-    if (m->compensated) list[count++] = w->ex, list[count++] = w->ev;
-    if (m->family == TWO_STEP && m->two_step == BEEMAN) list[count++] = w->old;
-    if (m->newmark) list[count++] = w->a;
+    if (ROW(w, compensated)) list[count++] = w->ex, list[count++] = w->ev;
+    if (ROW(w, family) == TWO_STEP && ROW(w, two_step) == BEEMAN) list[count++] = w->old;
+    if (ROW(w, newmark)) list[count++] = w->a;
     return count;
 }
