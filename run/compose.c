@@ -13,6 +13,7 @@
 
 enum {
     SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
+    WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
     FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
 };
 
@@ -73,6 +74,8 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", w.moments,
              work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), structure && w.nv <= SMALL_MAX,
              structure ? w.nv * (size_t)each : 0);
+    if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+        emit_add(t, "#define EACH_STAGE(i, count) _Pragma(\"GCC unroll 20\") for (int i = 0; i < (count); i++)\n");
 }
 
 /* ---- the family ---- */

@@ -50,15 +50,21 @@ static inline int accel_tabled(work *w, clock t, int moment, real *x, real *v, r
     return STEP_OK;
 }
 
+/* Lanes always have a table. */
+#ifdef GROUPS
+#define TABLED(w) true
+#else
+#define TABLED(w) ((w)->table != NULL)
+#endif
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
 {
-    if (!w->table) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
+    if (!TABLED(w)) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
     return accel_tabled(w, time_in(w, FACT(w, c)[i]), FACT(w, moment)[i], x, v, a);
 }
 
 static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
 {
-    if (!w->table || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
+    if (!TABLED(w) || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
     return accel_tabled(w, time_of(w, w->n), 0, x, v, a);
 }
 

@@ -55,8 +55,7 @@ static int splitting_turn(work *w, clock b, clock t)
 
 static int splitting_step(work *w)
 {
-    int last = FACT(w, merged) ? FACT(w, stages) - 2 : FACT(w, stages) - 1;
-    for (int i = 0; i <= last; i++) {
+    EACH_STAGE(i, FACT(w, merged) ? FACT(w, stages) - 1 : FACT(w, stages)) {
         int bad = STEP_OK;
         if (!(FACT(w, kicks) >> i & 1)) {
             DRIFT(w, w->drift[i]);

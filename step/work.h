@@ -77,6 +77,11 @@ static inline clock time_in(const work *w, clock c) { return TIME_IN(w, (clock)w
 #define SMALL 0
 #endif
 
+/* A loop over stages; a compiled model may ask for it to be written out, so that every coefficient and every time is a constant. */
+#ifndef EACH_STAGE
+#define EACH_STAGE(i, count) for (int i = 0; i < (count); i++)
+#endif
+
 #ifndef accel_in
 #define accel_in(w, i, x, v, a) accel(w, time_in(w, FACT(w, c)[i]), x, v, a)
 #define accel_now(w, x, v, a) accel(w, time_of(w, (w)->n), x, v, a)
