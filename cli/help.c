@@ -73,7 +73,8 @@ void help_program(FILE *out)
           "  step   0.001\n"
           "  until  100\n\n"
           "Data goes to standard output, messages to standard error. Exit status: 0 done, 1 the computation failed,\n"
-          "2 the request was wrong; after Ctrl-C the program dies of the signal, and no file is left half written.\n",
+          "2 the request was wrong. After Ctrl-C the program dies of the signal; no file is left half written, but for the whole\n"
+          "rows of a sweep, with which --resume goes on.\n",
           out);
 }
 
