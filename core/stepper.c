@@ -25,7 +25,7 @@ struct stepper {
     int64_t snapshot_step, snapshot_evaluations, snapshot_iterations;       /* step: -1 where there is none */
 };
 
-static const stepper_body *best_body(void)
+const stepper_body *stepper_best_body(void)
 {
 #if defined __x86_64__
     __builtin_cpu_init();
@@ -134,19 +134,25 @@ static motus_status prepare_solver(stepper *s, motus_error *err)
                          &s->allocator, &s->machine.solver, err);
 }
 
+work stepper_plan(const problem *p, const chosen *method, double t0, double h)
+{
+    work plan = {.row = method->row, .nx = p->nx, .nv = p->nv, .t0 = t0, .h = h};
+    plan.velocity = p->traits.velocity;
+    plan.linear = p->traits.linear_v;
+    plan.constant = p->traits.constant;
+    plan.stride = (p->nv + 7) & ~(size_t)7;
+    if (plan.stride == 0) plan.stride = 8;
+    work_plan(&plan, method->argument);
+    return plan;
+}
+
 motus_status stepper_create(const problem *p, const chosen *method, double t0, double h, const double *x, const double *v,
                             const motus_allocator *allocator, stepper **out, motus_error *err)
 {
     motus_status status = row_admits(method, &p->traits, err);
     if (status) return status;
-    work plan = {.row = method->row, .nx = p->nx, .nv = p->nv, .t0 = t0, .h = h};
-    plan.velocity = p->traits.velocity;
-    plan.linear = p->traits.linear_v;
-    plan.constant = p->traits.constant;
+    work plan = stepper_plan(p, method, t0, h);
     plan.check = p->nx + p->nv <= CHECK_ALWAYS;
-    plan.stride = (p->nv + 7) & ~(size_t)7;
-    if (plan.stride == 0) plan.stride = 8;
-    work_plan(&plan, method->argument);
     double *list[CARRY_MAX];
     const size_t arrays = work_place(&plan, NULL), carried = (size_t)work_carry(&plan, list) * p->nv;
     const size_t head = (sizeof(stepper) + LINE - 1) / LINE * LINE;
@@ -159,7 +165,7 @@ motus_status stepper_create(const problem *p, const chosen *method, double t0, d
     s->problem = *p;
     if (allocator) s->allocator = *allocator;
     s->method = *method;
-    s->body = best_body();
+    s->body = stepper_best_body();
     s->work = plan;
     s->machine.problem = &s->problem;
     s->work.user = &s->machine;

@@ -24,10 +24,15 @@ typedef struct stepper_body {
     void (*apply)(work *, clock c, const real *y, real *out);
 } stepper_body;
 
+/* The fastest one here. */
+const stepper_body *stepper_best_body(void);
 extern const stepper_body stepper_body_base;
 #if defined __x86_64__
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 #endif
+
+/* A workspace without memory: sizes, traits, and what follows from the row, its arguments and the step. */
+work stepper_plan(const problem *, const chosen *, double t0, double h);
 
 /* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */
 struct stepper;

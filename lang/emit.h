@@ -24,21 +24,35 @@ typedef struct emit_int {            /* what q[k] is */
     int slot;                        /* SLOT: an int of the model */
 } emit_int;
 
+#define OPERATION_BIT(id) ((uint64_t)1 << OP_##id)
+_Static_assert(OPERATIONS <= 64, "a set of operations is a word");
+
 typedef struct emit {
     emit_text text;
     emit_int *ints; uint32_t int_count, int_room;
     bool literal;                    /* sizes are structure (no families): places are written as numbers */
     const array *arrays;
-    uint32_t fixed;                  /* numbers computed once, when parameters are bound: u[0 … fixed) */
+    bool lanes;                      /* `real` is one number for each of several trajectories; an element of x, v … is GROUPS of them */
+    const uint8_t *varied;           /* by place of the pool: lanes have their own, in `own`; NULL: none */
+    uint32_t fixed, fixed_lanes;     /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
+    uint64_t used, used_lanes;       /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
+    bool wraps;                      /* they call `wrapped` */
+    bool separate;                   /* the next program is compiled once, and called */
+    uint32_t terms;                  /* values of time alone: T[0 … terms) */
 } emit;
 
 /* Appends
- *     static void NAME_bind(const double *pool, const int64_t *q, double *u)
- *     static inline void NAME(const double *pool, const int64_t *q, const double *u, double t, SPACES…)
- * False: the arena failed. */
-bool emit_program(emit *, const program *, const char *name);
-/* The operations of the graph as functions op_ADD(a, b) …, for real = double. */
-bool emit_operations(emit *);
+ *     NAME_bind(pool, q, u)                             u: what depends on parameters alone
+ *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are lanes
+ *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with `terms`, and where e->terms > 0
+ *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states
+ * The text around it defines real, reals, MANY(a double) → reals, AT(array, element) and EACH_GROUP. False: the arena failed. */
+bool emit_program(emit *, const program *, const char *name, bool terms);
+enum { EMIT_NUMBER = 40 };
+/* A double as C text that reads back to the same bits; returns out. */
+const char *emit_number(double, char out[EMIT_NUMBER]);
+/* A set of operations as functions PREFIX_7(a, b) … over a type. */
+bool emit_operations(emit *, uint64_t set, const char *type, const char *prefix);
 /* The value of q[k] for a model's arrays and ints. */
 int64_t emit_int_value(const emit_int *, const array *arrays, const int64_t *ints);
 

@@ -1,5 +1,6 @@
 /* The texts of the elementary functions in their order, for one vocabulary (step/functions_core.h); included once for each. */
 #include "step/functions_core.h"
+#include "step/functions_plain.h"
 #include "step/functions_exponential.h"
 #include "step/functions_logarithm.h"
 #include "step/functions_power.h"

@@ -82,7 +82,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
     }
     node n = lower_scalar(l, number, "the number of a component");
     double k;
-    if (failed(l) || !resolve_number(l->model, n, number->at, &k))
+    if (failed(l) || !resolve_number(l->model, n, number->at, NULL, &k))
         return v;
     if (k != floor(k) || k < 1 || k > v.count) {
         COMPLAIN(l, number->at, "this vector has the components 1 to %d, not %g", v.count, k);
@@ -351,7 +351,7 @@ value lower_initial(lowering *l, const tree *t)
         return wrong(l);
     }
     double at;
-    if (!resolve_start_time(l->model) || !resolve_number(l->model, n, bracket->at, &at))
+    if (!resolve_start_time(l->model) || !resolve_number(l->model, n, bracket->at, "the start", &at))
         return wrong(l);
     if (at != l->model->start) {
         COMPLAIN(l, t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);

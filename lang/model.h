@@ -44,9 +44,18 @@ typedef struct model_state {
     uint32_t line, last_line;        /* 1 + number of the first and last statement about it */
     uint8_t progress;
     bool shaped, start_done;         /* components are known; every initial value is */
+    uint16_t log_array[2];           /* vary.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
     uint8_t *start_map[2];           /* per hull cell: has x(0), x'(0) a value, and from what kind of line */
     uint32_t *start_own[2];          /* per hull cell: 1 + number of the line about it alone, 0 none; NULL until asked for */
 } model_state;
+
+/* What was computed from parameters while the model was read: see vary.h. */
+typedef struct vary_entry vary_entry;
+typedef struct vary_log {
+    vary_entry *entries; uint32_t count, room;
+    struct vary_frozen { node n; const char *what; } *frozen; uint32_t frozen_count, frozen_room;
+    uint16_t scalars;                /* 1 + the array over all scalar slots, 0 none */
+} vary_log;
 
 typedef enum definition_kind { DEFINED_UNKNOWN, DEFINED_PARAMETER, DEFINED_QUANTITY, DEFINED_INVARIANT } definition_kind;
 
@@ -59,6 +68,7 @@ typedef struct model_definition {
     bool list;                       /* list or family: an array over indices */
     int dims;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
+    uint16_t log_array;              /* vary.h: 1 + its array over the pool, 0 none */
     uint32_t slot;                   /* parameter without indices: its first pool slot */
     uint16_t array;                  /* list: POOL array of component 0; quantity or invariant: OUT array */
     struct value **known;            /* quantity without indices: its nodes, by place and level where it is used */
@@ -76,6 +86,7 @@ typedef struct model {
     double *pool; size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors, whatever N is */
 
+    vary_log log;
     double constant_terms;           /* of sums in constants so far */
     int depth;                       /* expressions within expressions, at present */
     int start_depth;                 /* initial values that use one another */
@@ -122,10 +133,13 @@ bool resolve_definition(model *, model_definition *);
 bool resolve_indices_wrong(model *, const model_state *, span at);
 bool resolve_hull(model *, model_state *);       /* where its indices range, and which cells have equations */
 bool resolve_start_time(model *);
-bool resolve_number(model *, node, span at, double *value);
+/* what: "step", "the start" …, or NULL: a size or an index; must outlive the model */
+bool resolve_number(model *, node, span at, const char *what, double *value);
 int resolve_int(model *, node, span at, int64_t *value);        /* the int slot, or -1 */
 /* Room for arrays, zeroed; their numbers begin at *first. */
 bool resolve_arrays(model *, int count, uint16_t *first);
+/* x0 and v0 from the initial values, wherever those changed. */
+void resolve_start_state(model *);
 bool resolve_run(model *, const output *, size_t count, double t, double *const base[SPACES]);
 
 /* start.c: initial values */

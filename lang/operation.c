@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdint.h>
 #include "lang/functions.h"
-#include "step/elementary.h"
 
 static const operation_row rows[OPERATIONS] = {
 #define OP(id, arity, spelling, degree, smooth, value, derivative) [OP_##id] = { spelling, arity, DEGREE_##degree, smooth },

@@ -3,6 +3,7 @@
  * has the value that a machine would compute. */
 #include "lang/lower.h"
 #include "lang/tape.h"
+#include "lang/vary.h"
 #include "lang/words.h"
 
 #include <math.h>
@@ -120,11 +121,12 @@ static bool compute(model *m, const node *nodes, int count, double *out)
     return ok;
 }
 
-bool resolve_number(model *m, node n, span at, double *value)
+bool resolve_number(model *m, node n, span at, const char *what, double *value)
 {
     if (failed(m) || !constant_node(m, n, at) || !compute(m, &n, 1, value))
         return false;
-    return true;
+    vary_freeze(m, n, what);
+    return !failed(m);
 }
 
 int resolve_int(model *m, node n, span at, int64_t *value)
@@ -135,7 +137,7 @@ int resolve_int(model *m, node n, span at, int64_t *value)
             return (int)i;
         }
     double v;
-    if (!resolve_number(m, n, at, &v))
+    if (!resolve_number(m, n, at, NULL, &v))
         return -1;
     if (fabs(v) > 1e9) {
         source_complain(&m->source, MOTUS_LIMIT, at, "a bound of an index is at most 1e9, and this is %g", v);
@@ -199,6 +201,9 @@ static bool resolve_plain(model *m, model_definition *d)
     if (!out || !compute(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n))
         return false;
     memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
+    for (int k = 0; k < n; k++)
+        if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k))
+            return false;
     m->scalar_used += (uint32_t)n;
     return true;
 }
@@ -244,6 +249,11 @@ static bool resolve_list(model *m, model_definition *d)
         if (!out || !compute(m, column, n, out) || !finite_values(m, d, out, (size_t)n))
             return false;
         memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);
+    }
+    for (int i = 0; i < n; i++) {
+        const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
+        if (!vary_record(m, &place, item[i].item, parts, base, 1, d->first, d->last, (size_t)n, NULL, 0, &d->log_array))
+            return false;
     }
     return true;
 }
@@ -317,7 +327,8 @@ static bool resolve_family(model *m, model_definition *d)
     d->array = at;
     for (int k = 0; k < parts; k++)
         resolve_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
-    return resolve_into_pool(m, &o, v, base, d->first, d->last, hull) && finite_values(m, d, m->pool + base, hull * (size_t)parts);
+    return resolve_into_pool(m, &o, v, base, d->first, d->last, hull) && finite_values(m, d, m->pool + base, hull * (size_t)parts) &&
+           vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, NULL, 0, &d->log_array);
 }
 
 bool resolve_definition(model *m, model_definition *d)
@@ -348,7 +359,7 @@ static bool constant_value(model *m, const tree *t, const char *what, double *ou
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, what);
     node n = lower_scalar(&l, t, what);
-    if (failed(m) || !resolve_number(m, n, t->at, out))
+    if (failed(m) || !resolve_number(m, n, t->at, what, out))
         return false;
     if (!isfinite(*out)) {
         source_complain(&m->source, MOTUS_ARGUMENT, t->at, "%s is not a finite number", what);
@@ -575,6 +586,12 @@ static bool lay_out(model *m)
         return false;
     memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);
     memset(m->v0, 0, (m->nv + 1) * sizeof *m->v0);
+    resolve_start_state(m);
+    return true;
+}
+
+void resolve_start_state(model *m)
+{
     for (uint32_t i = 0; i < m->state_count; i++) {
         const model_state *s = &m->states[i];
         size_t n = s->hull * (size_t)(s->components ? s->components : 1);
@@ -586,7 +603,6 @@ static bool lay_out(model *m)
             memcpy(m->v0 + s->base, first, n * sizeof *first);
         }
     }
-    return true;
 }
 
 static bool resolve_settings(model *m)

@@ -4,6 +4,7 @@
  * computed first: a family's, then a cell's own, then one of --set.
  */
 #include "lang/lower.h"
+#include "lang/vary.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -137,6 +138,9 @@ static bool start_line(model *m, model_state *s, statement *one)
         return false;
     }
     if (!run_start(m, s, one, &o, v, rank))
+        return false;
+    if (!vary_record(m, &o, v.item, v.count ? v.count : 1, m->arrays[s->start_array[one->primes]].base, s->dims, s->first, s->last, s->hull, map, rank,
+                     &s->log_array[one->primes]))
         return false;
     if (s->dims > 0)
         return resolve_mark(m, s, one, first, last, map, rank, false);

@@ -16,7 +16,6 @@
 #include <math.h>
 #include <stdint.h>
 #include "lang/functions.h"
-#include "step/elementary.h"
 
 #ifndef ISA
 #define ISA base

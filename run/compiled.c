@@ -1,15 +1,14 @@
 /* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the system's compiler and loaded.
  *
- * Invariant: the object replaces only the stepper's body, so memory, errors, restart and looking are the library's own, and the bits are
- * the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
+ * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart and looking are the library's
+ * own, and the bits are the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
  */
 #include "run/compiled.h"
 
 #include "core/stepper_body.h"
-#include "lang/emit.h"
 #include "run/cache.h"
+#include "run/compose.h"
 #include "run/stepping.h"
-#include "run/texts.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -33,6 +32,7 @@ struct compiled {
     program *force, *boundary;
     double *u;
     int64_t *q;
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);     /* of any of the objects: they have the same bits */
     char note[NOTE_MAX];
 };
 
@@ -40,7 +40,14 @@ struct compiled {
 
 static const problem *of(void *ctx) { return &((compiled *)ctx)->interpreted; }
 
-static int accel(void *ctx, double t, double *x, double *v, double *a) { return of(ctx)->accel(of(ctx)->ctx, t, x, v, a); }
+static int accel(void *ctx, double t, double *x, double *v, double *a)
+{
+    const compiled *c = ctx;
+    if (!c->accel)
+        return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    c->accel(&c->host, t, x, v, a);
+    return 0;
+}
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
     return of(ctx)->jvp(of(ctx)->ctx, t, x, v, dx, dv, da);
@@ -76,91 +83,18 @@ void compiled_close(compiled *c)
 
 /* ---- the text ---- */
 
-static void add_text(emit_text *t, const char *which)
-{
-    for (const embedded_text *e = texts_table; e->name; e++)
-        if (!strcmp(e->name, which))
-            emit_add(t, "%s\n", e->text);
-}
-
-/* Scalar models have as many numbers in every run; families do not. */
-static bool sizes_are_structure(const model *m)
-{
-    for (uint32_t i = 0; i < m->state_count; i++)
-        if (m->states[i].dims > 0)
-            return false;
-    return true;
-}
-
-static void add_row(emit_text *t, const row *r)
-{
-    static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
-                                           [EXACT] = "EXACT"};
-    static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
-    emit_add(t, "#define THE_ROW {.family = %s, .compensated = %d, .gyroscopic = %d, .two_step = %s, .newmark = %d}\n\n", families[r->family], r->compensated,
-             r->gyroscopic, recurrences[r->two_step], r->newmark);
-}
-
-/* The family's text, and for the others what lets the loop's text compile without them. */
-static void add_family(emit_text *t, const row *r)
-{
-    static const struct { family family; const char *text, *without; } families[] = {
-        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n#define splitting_look(w) STEP_OK\n#define splitting_sync(w, v) ((void)0)\n"},
-        {RUNGE_KUTTA, "step/runge_kutta.h", "#define runge_kutta_step(w) STEP_OK\n"},
-        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"
-                                      "#define verlet_look(w) STEP_OK\n#define beeman_look(w) STEP_OK\n#define literal_look(w) STEP_OK\n"
-                                      "#define verlet_sync(w, v) ((void)0)\n#define beeman_sync(w, v) ((void)0)\n#define literal_sync(w, v) ((void)0)\n"},
-        {IMPLICIT, "step/implicit.h", "#define implicit_step(w) STEP_OK\n"}};
-    if (r->family == IMPLICIT)
-        add_text(t, "step/runge_kutta.h");             /* its stages are summed the same way */
-    for (size_t i = 0; i < sizeof families / sizeof *families; i++)
-        if (families[i].family == r->family)
-            add_text(t, families[i].text);
-        else if (!(r->family == IMPLICIT && families[i].family == RUNGE_KUTTA))
-            emit_add(t, "%s", families[i].without);
-}
-
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
-    emit_text *t = &e->text;
-    const bool structure = sizes_are_structure(m);
-    e->literal = structure;
-    e->arrays = m->arrays;
     if (!c->force)
         c->force = program_create(m->graph, m->accel, m->accel_count);
     if (!c->boundary && m->driven)
         c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed)
         return false;
-    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "#include <float.h>\n#include <math.h>\n#include <stdbool.h>\n#include <stddef.h>\n#include <stdint.h>\n\n"
-                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    add_row(t, chosen->row);
-    emit_add(t, "#define DRIVEN %d\n#define NX %zu\n#define NV %zu\n\n", m->driven, structure ? m->nx : 0, structure ? m->nv : 0);
-    static const char *const before[] = {"step/row.h", "step/scalar.h", "step/work.h", "step/host.h",
-        "step/functions_core.h", "step/functions_exponential.h", "step/functions_logarithm.h", "step/functions_power.h",
-        "step/functions_hyperbolic.h", "step/functions_circular.h", "step/functions_inverse.h", "step/functions_root.h",
-        "step/functions_error.h", "step/functions_end.h", "step/elementary.h"};
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++)
-        add_text(t, before[i]);
-    emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
-    emit_operations(e);
-    emit_add(t, "\n");
-    emit_program(e, c->force, "compiled_force");
-    if (m->driven)
-        emit_program(e, c->boundary, "compiled_boundary");
-    add_text(t, "step/compiled.h");
-    add_text(t, "step/newton.h");
-    add_family(t, chosen->row);
-    add_text(t, "step/advance.h");
-    emit_add(t, "static const row the_row = THE_ROW;\n\n"
-                "void motus_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s}\n\n"
-                "int motus_run(work *given, whole steps) { WITH_THE_ROW(given, advance_run(w, steps)); }\n"
-                "int motus_sync(work *given, real *x, real *v, real *a) { WITH_THE_ROW(given, advance_sync(w, x, v, a)); }\n"
-                "int motus_check(work *given) { WITH_THE_ROW(given, advance_check(w)); }\n",
-             m->driven ? "    compiled_boundary_bind(pool, q, u);\n" : "");
-    return !m->arena->failed;
+    const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
+    return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
+                                     .last = "step/compiled_run.h"});
 }
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
@@ -185,8 +119,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     for (uint32_t k = 0; k < e->int_count; k++)
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .ctx = c, .exact = c->interpreted.exact ? exact : NULL,
-                              .refresh = c->interpreted.refresh ? refresh : NULL};
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q};
     return true;
 }
 
@@ -212,21 +145,23 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row, .handle = handle, .body = stepper_body_base};
+    *o = (object){.row = chosen->row, .handle = handle, .body = *stepper_best_body()};
+    const stepper_body *library = stepper_best_body();
     o->body.name = "compiled";
     /* POSIX promises that a function's address survives the way through void *. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
-    *(void **)&o->body.sync = dlsym(handle, "motus_sync");
-    *(void **)&o->body.check = dlsym(handle, "motus_check");
-    if (!bind || !o->body.run || !o->body.sync || !o->body.check || !bind_numbers(c, &e, bind)) {
+    *(void **)&c->accel = dlsym(handle, "motus_accel");
+    if (!bind || !o->body.run || !c->accel || !bind_numbers(c, &e, bind)) {
         snprintf(c->note, sizeof c->note, "the compiled object is not what was compiled");
+        c->accel = c->count ? c->accel : NULL;
         dlclose(handle);
         return NULL;
     }
-    c->host.factor = stepper_body_base.factor;
-    c->host.back = stepper_body_base.back;
-    c->host.apply = stepper_body_base.apply;
+    c->host.run = library->run;
+    c->host.factor = library->factor;
+    c->host.back = library->back;
+    c->host.apply = library->apply;
     c->count++;
     return &o->body;
 }

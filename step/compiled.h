@@ -1,40 +1,84 @@
-/* The last text of a compiled model: what joins the generated acceleration and the texts above it to the library's stepper.
+/* The text of a compiled model that joins the generated acceleration to the texts of step/; compiled_run.h or lanes.h comes last.
  *
- * Before it stand row.h, scalar.h, work.h, host.h, elementary.h, the operations of the graph, `compiled_force` (and `compiled_boundary` where the
- * boundary is driven, DRIVEN 1), NX and NV (0: known at run time only), and THE_ROW, an initialiser of the row's family and flags.
+ * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), row.h, work.h, host.h with their
+ * vocabulary, the functions and operations that the model uses, `compiled_force`, and `compiled_boundary` where the boundary is driven.
+ *
+ * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in w->table. They are the
+ * values that one evaluation would compute.
  */
 static inline const compiled_host *host_of(const work *w) { return **(const compiled_host *const *const *)w->user; }
 
+#define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
+#define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
+
+static inline void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
+{
+    const clock *T = NULL;
+#if DRIVEN
+    BOUNDARY(host, t, x, v, a);
+#endif
+#if TERMS
+    clock now[TERMS];
+    reals many[TERMS];
+    compiled_force_terms(host->pool, host->q, host->u, MANY(t), many);
+    for (int k = 0; k < TERMS; k++) now[k] = LANE_OF(many[k], 0);
+    T = now;
+#endif
+    FORCE(host, t, T, x, v, a);
+}
+
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
+{
+    w->evaluations++;
+    compiled_evaluate(host_of(w), t, x, v, a);
+    return STEP_OK;
+}
+
+#if TERMS
+static inline int accel_tabled(work *w, clock t, int moment, real *x, real *v, real *a)
 {
     const compiled_host *host = host_of(w);
     w->evaluations++;
 #if DRIVEN
-    compiled_boundary(host->pool, host->q, host->u, t, x, v, a);
+    BOUNDARY(host, t, x, v, a);
 #endif
-    compiled_force(host->pool, host->q, host->u, t, x, v, a);
+    FORCE(host, t, w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS, x, v, a);
     return STEP_OK;
 }
 
+static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
+{
+    if (!w->table) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
+    return accel_tabled(w, time_in(w, FACT(w, c)[i]), FACT(w, moment)[i], x, v, a);
+}
+
+static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
+{
+    if (!w->table || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
+    return accel_tabled(w, time_of(w, w->n), 0, x, v, a);
+}
+
+/* The table of LANES_OF_TIME steps, from number `n` on. */
+static inline void compiled_fill(const work *w, const compiled_host *host, clock *restrict table, whole n)
+{
+    reals step;
+    for (int l = 0; l < LANES_OF_TIME; l++) LANE_OF(step, l) = l;
+    step += (clock)n;
+    for (int m = 0; m < MOMENTS; m++) {
+        reals many[TERMS];
+        compiled_force_terms(host->pool, host->q, host->u, TIME_IN(w, step, FACT(w, at)[m]), many);
+        for (int k = 0; k < TERMS; k++)
+            for (int l = 0; l < LANES_OF_TIME; l++) table[(l * MOMENTS + m) * TERMS + k] = LANE_OF(many[k], l);
+    }
+}
+#endif
+
+/* Lanes have no way back: what needs one is run one trajectory at a time. */
+#ifndef GROUPS
 static inline int solve_factor(work *w, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     return host_of(w)->factor(w, s, ax, av, t, x, v);
 }
 static inline void solve_back(work *w, real *r) { host_of(w)->back(w, r); }
 static inline void solve_apply(work *w, clock c, const real *y, real *out) { host_of(w)->apply(w, c, y, out); }
-static inline int exact_at(work *w, clock t, real *x, real *v) { return host_of(w)->exact(host_of(w)->ctx, t, x, v) ? STEP_CALLBACK : STEP_OK; }
-static inline void refresh_at(work *w, clock t, real *x, real *v)
-{
-    if (host_of(w)->refresh) host_of(w)->refresh(host_of(w)->ctx, t, x, v);
-}
-
-/* The workspace in locals and the row a constant: what the row does not use is folded away. */
-#define WITH_THE_ROW(work_, call)        \
-    work local = *(work_), *w = &local;  \
-    w->row = &the_row;                   \
-    if (NX) w->nx = NX;                  \
-    if (NV) w->nv = NV;                  \
-    int bad = (call);                    \
-    w->row = (work_)->row;               \
-    *(work_) = local;                    \
-    return bad
+#endif

@@ -4,7 +4,7 @@
  * names. An includer includes <math.h> and <stdint.h>, then functions_lanes.h or a vocabulary of its own or, for plain doubles, none;
  * then this file, the texts it wants, in this order, and functions_end.h, after which another vocabulary may follow:
  *
- *     functions_core.h  functions_exponential.h  functions_logarithm.h  functions_power.h  functions_hyperbolic.h
+ *     functions_core.h  functions_plain.h  functions_exponential.h  functions_logarithm.h  functions_power.h  functions_hyperbolic.h
  *     functions_circular.h  functions_inverse.h  functions_root.h  functions_error.h  functions_end.h
  *
  *     reals, bits         doubles and unsigned 64-bit integers, one of each per lane

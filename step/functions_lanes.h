@@ -1,5 +1,5 @@
 /* The vocabulary of functions_core.h for vectors of LANES doubles, as GCC and clang have them; the names end in _x and the width:
- * motus_sin_x4. Include <immintrin.h> before it where there is one.
+ * motus_sin_x4. For AVX-512 include <immintrin.h> before it.
  *
  * Invariant: an operation on a wide vector is the same operation on each lane. Where LANES is a register of the machine, each is
  * one instruction; wider vectors are made of such registers, and without them the loops below serve.
@@ -31,29 +31,27 @@ typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 /* Of LANES_PART doubles each: the registers that a vector of LANES is made of. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && LANES % 8 == 0
 #define LANES_PART 8
-#define LANES_REGISTER __m512d
 #define LANES_FUSED _mm512_fmadd_pd
 #define LANES_SQRT _mm512_sqrt_pd
 #define LANES_SELECT(m, a, b) _mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)(m)), b, a)
 #define LANES_ANY(m) (_mm512_movepi64_mask((__m512i)(m)) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 4 == 0
 #define LANES_PART 4
-#define LANES_REGISTER __m256d
-#define LANES_FUSED _mm256_fmadd_pd
-#define LANES_SQRT _mm256_sqrt_pd
-#define LANES_SELECT(m, a, b) _mm256_blendv_pd(b, a, m)
-#define LANES_ANY(m) (_mm256_movemask_pd(m) != 0)
+#define LANES_FUSED __builtin_ia32_vfmaddpd256
+#define LANES_SQRT __builtin_ia32_sqrtpd256
+#define LANES_SELECT(m, a, b) __builtin_ia32_blendvpd256(b, a, m)
+#define LANES_ANY(m) (__builtin_ia32_movmskpd256(m) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 2 == 0
 #define LANES_PART 2
-#define LANES_REGISTER __m128d
-#define LANES_FUSED _mm_fmadd_pd
-#define LANES_SQRT _mm_sqrt_pd
-#define LANES_SELECT(m, a, b) _mm_blendv_pd(b, a, m)
-#define LANES_ANY(m) (_mm_movemask_pd(m) != 0)
+#define LANES_FUSED __builtin_ia32_vfmaddpd
+#define LANES_SQRT __builtin_ia32_sqrtpd
+#define LANES_SELECT(m, a, b) __builtin_ia32_blendvpd(b, a, m)
+#define LANES_ANY(m) (__builtin_ia32_movmskpd(m) != 0)
 #endif
 
 #ifdef LANES_PART
-typedef union NAME(parts) { reals whole; LANES_REGISTER part[LANES / LANES_PART]; } NAME(parts);
+typedef double NAME(part) __attribute__((vector_size(8 * LANES_PART)));
+typedef union NAME(parts) { reals whole; NAME(part) part[LANES / LANES_PART]; } NAME(parts);
 #define EACH_PART for (int i = 0; i < LANES / LANES_PART; i++)
 
 INLINE reals NAME(fused)(reals a, reals b, reals c)
@@ -114,7 +112,6 @@ INLINE int NAME(any)(mask m)
 
 #undef EACH_PART
 #undef LANES_PART
-#undef LANES_REGISTER
 #undef LANES_FUSED
 #undef LANES_SQRT
 #undef LANES_SELECT

@@ -1,13 +1,12 @@
 /* What a compiled model is given by the library; run/compiled.c fills it, and the workspace's `user` leads to it.
  *
- * pool, q, u: parameters; sizes, strides and bounds; numbers that depend on parameters alone. The rest are ways back.
+ * pool, q, u: parameters; sizes, strides and bounds; numbers that depend on parameters alone.
  */
 typedef struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
-    void *ctx;
-    int (*exact)(void *ctx, double t, double *x, double *v);
-    void (*refresh)(void *ctx, double t, double *x, double *v);
+    real *own, *bound;               /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
+    int (*run)(work *, whole steps);                       /* the library's own loop */
     int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);

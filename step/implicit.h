@@ -9,14 +9,14 @@ static void implicit_stage(work *w, int i)
     real *restrict X = w->xs, *restrict V = w->vs;
     const real *restrict x = w->x, *restrict v = w->v, *restrict A = w->ks;
     clock ch = w->c[i] * w->h;
-    EACH(k) X[k] = x[k] + FMA(ch, v[k], runge_kutta_sum(w->hha[i], A, w->stride, k, w->stages));
-    EACHV(k) V[k] = v[k] + runge_kutta_sum(w->ha[i], A, w->stride, k, w->stages);
+    EACH(k) X[k] = x[k] + FMA(ch, v[k], runge_kutta_sum(w->hha[i], ALL_TERMS, A, w->stride, k, FACT(w, stages)));
+    EACHV(k) V[k] = v[k] + runge_kutta_sum(w->ha[i], ALL_TERMS, A, w->stride, k, FACT(w, stages));
 }
 
 /* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first iteration. */
 static int implicit_matrix(work *w)
 {
-    int first = w->known, s = w->stages - first;
+    int first = FACT(w, known), s = FACT(w, stages) - first;
     clock ax[STAGES_MAX * STAGES_MAX], av[STAGES_MAX * STAGES_MAX], c = 0;
     for (int i = 0; i < s; i++) {
         c += w->c[first + i] / s;
@@ -35,7 +35,7 @@ static int implicit_matrix(work *w)
 static int implicit_iterate(work *w)
 {
     enum { PATIENCE = 8, RENEWALS = 6 };
-    int first = w->known, s = w->stages - first, renewed = 0, bad = implicit_matrix(w);
+    int first = FACT(w, known), s = FACT(w, stages) - first, renewed = 0, bad = implicit_matrix(w);
     size_t stride = w->stride;
     real *K = w->ks + (size_t)first * stride;
     clock before = -1;
@@ -43,7 +43,7 @@ static int implicit_iterate(work *w)
         for (int i = 0; i < s; i++) {
             real *r = w->r + (size_t)i * stride;
             implicit_stage(w, first + i);
-            bad = accel(w, time_in(w, w->c[first + i]), w->xs, w->vs, r);
+            bad = accel_in(w, first + i, w->xs, w->vs, r);
             if (bad) return bad;
             EACHV(k) r[k] -= K[(size_t)i * stride + k];
         }
@@ -66,24 +66,24 @@ static int implicit_step(work *w)
     const real *restrict A = w->ks;
     size_t stride = w->stride;
     clock h = w->h;
-    int s = w->stages;
-    if (!w->known || w->n == 0) {              /* newmark's last stage is the next step's first */
+    int s = FACT(w, stages);
+    if (!FACT(w, known) || w->n == 0) {              /* newmark's last stage is the next step's first */
         EACH(k) w->xs[k] = x[k];
         EACHV(k) w->vs[k] = v[k];
-        int bad = accel(w, time_of(w, w->n), w->xs, w->vs, w->a);
+        int bad = accel_now(w, w->xs, w->vs, w->a);
         if (bad) return bad;
     }
     for (int i = 0; i < s; i++) EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     int bad = implicit_iterate(w);
     if (bad) return bad;
-    if (ex) {
-        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, FMA(h, v[k], runge_kutta_sum(w->hhb, A, stride, k, s)));
-        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, A, stride, k, s));
+    if (ROW(w, compensated)) {
+        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, FMA(h, v[k], runge_kutta_sum(w->hhb, ALL_TERMS, A, stride, k, s)));
+        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s));
     } else {
-        EACH(k) x[k] += FMA(h, v[k], runge_kutta_sum(w->hhb, A, stride, k, s));
-        EACHV(k) v[k] += runge_kutta_sum(w->hb, A, stride, k, s);
+        EACH(k) x[k] += FMA(h, v[k], runge_kutta_sum(w->hhb, ALL_TERMS, A, stride, k, s));
+        EACHV(k) v[k] += runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s);
     }
-    if (w->known) EACHV(k) w->a[k] = A[(size_t)(s - 1) * stride + k];
+    if (FACT(w, known)) EACHV(k) w->a[k] = A[(size_t)(s - 1) * stride + k];
     TRACE(w, 0);
     return STEP_OK;
 }

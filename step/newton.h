@@ -55,7 +55,7 @@ static int increment(work *w, clock g, clock s, const real *u, clock t)
         if (bad) return bad;
         solve_back(w, r);
         EACHV(k) delta[k] += r[k];
-        if (w->linear) return STEP_OK;
+        if (FACT(w, linear)) return STEP_OK;
         w->iterations++;
         switch (newton_judge(w, r, delta, 1, u, 1, &before)) {
         case NEWTON_DONE: return STEP_OK;

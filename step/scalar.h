@@ -8,6 +8,6 @@ typedef int64_t whole;
 #define FINITE(x) ((x) - (x) == 0)    /* an infinity or a NaN minus itself is a NaN; unlike isfinite, this becomes vector code */
 #define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26
-#define EACH(k) for (size_t k = 0; k < w->nx; k++)
-#define EACHV(k) for (size_t k = 0; k < w->nv; k++)
+#define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)
+#define EACHV(k) for (size_t k = 0; k < FACT(w, nv); k++)
 #define TRACE(w, i) ((void)(w), (void)(i))

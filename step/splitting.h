@@ -14,7 +14,7 @@ static inline void splitting_kick(work *w, clock b)
 {
     real *restrict v = w->v, *restrict ev = w->ev;
     const real *restrict a = w->a;
-    if (ev) EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], b, a[k]);
+    if (ROW(w, compensated)) EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], b, a[k]);
     else EACHV(k) ADVANCE(v[k], b, a[k]);
 }
 
@@ -22,7 +22,7 @@ static inline void splitting_drift(work *w, clock c)
 {
     real *restrict x = w->x, *restrict ex = w->ex;
     const real *restrict v = w->v;
-    if (ex) EACH(k) ADVANCE_EXACTLY(x[k], ex[k], c, v[k]);
+    if (ROW(w, compensated)) EACH(k) ADVANCE_EXACTLY(x[k], ex[k], c, v[k]);
     else EACH(k) ADVANCE(x[k], c, v[k]);
 }
 
@@ -31,7 +31,7 @@ static inline void splitting_kick_drift(work *w, clock b, clock c)
 {
     real *restrict x = w->x, *restrict v = w->v;
     const real *restrict a = w->a;
-    if (w->ex || w->nv > w->nx) {
+    if (ROW(w, compensated) || FACT(w, nv) > FACT(w, nx)) {
         splitting_kick(w, b);
         splitting_drift(w, c);
         return;
@@ -55,19 +55,19 @@ static int splitting_turn(work *w, clock b, clock t)
 
 static int splitting_step(work *w)
 {
-    int last = w->merged ? w->stages - 2 : w->stages - 1;
+    int last = FACT(w, merged) ? FACT(w, stages) - 2 : FACT(w, stages) - 1;
     for (int i = 0; i <= last; i++) {
         int bad = STEP_OK;
-        if (w->kick[i] == 0) {
+        if (!(FACT(w, kicks) >> i & 1)) {
             DRIFT(w, w->drift[i]);
-        } else if (w->row->gyroscopic) {
-            bad = splitting_turn(w, w->kick[i], time_in(w, w->c[i]));
+        } else if (ROW(w, gyroscopic)) {
+            bad = splitting_turn(w, w->kick[i], time_in(w, FACT(w, c)[i]));
             DRIFT(w, w->drift[i]);
         } else {
-            if (i > 0 || !work_reuse(w)) bad = accel(w, time_in(w, w->c[i]), w->x, w->v, w->a);
+            if (i > 0 || !work_reuse(w)) bad = accel_in(w, i, w->x, w->v, w->a);
             if (bad) return bad;
-            clock b = i == 0 && w->merged && w->n > 0 ? w->joint : w->kick[i];
-            if (w->drift[i] == 0) KICK(w, b);
+            clock b = i == 0 && FACT(w, merged) && w->n > 0 ? w->joint : w->kick[i];
+            if (!(FACT(w, drifts) >> i & 1)) KICK(w, b);
             else KICK_DRIFT(w, b, w->drift[i]);
         }
         if (bad) return bad;
@@ -77,12 +77,12 @@ static int splitting_step(work *w)
 }
 
 /* The acceleration that the next step begins with; known beforehand to work_reuse. */
-static int splitting_look(work *w) { return accel(w, time_of(w, w->n), w->x, w->v, w->a); }
+static int splitting_look(work *w) { return accel_now(w, w->x, w->v, w->a); }
 
 static void splitting_sync(const work *w, real *v)
 {
-    bool waiting = w->merged && w->n > 0;
-    if (waiting && w->ev) EACHV(k) v[k] = w->v[k] + FMA(w->closing, w->a[k], w->ev[k]);
+    bool waiting = FACT(w, merged) && w->n > 0;
+    if (waiting && ROW(w, compensated)) EACHV(k) v[k] = w->v[k] + FMA(w->closing, w->a[k], w->ev[k]);
     else if (waiting) EACHV(k) v[k] = FMA(w->closing, w->a[k], w->v[k]);
     else EACHV(k) v[k] = w->v[k];
 }

@@ -9,8 +9,7 @@
  * (d + delta/2)/h, delta being the increment of d that it causes. */
 static int verlet_look(work *w)
 {
-    if (w->n == 0) return accel(w, time_of(w, 0), w->x, w->v, w->a);
-    if (!w->velocity) return accel(w, time_of(w, w->n), w->x, w->vs, w->a);
+    if (w->n == 0 || !FACT(w, velocity)) return accel_now(w, w->x, w->n == 0 ? w->v : w->vs, w->a);
     return increment(w, w->hh, w->per_h, w->v, time_of(w, w->n));
 }
 
@@ -24,8 +23,8 @@ static int verlet_step(work *w)
     }
     clock hh = w->hh;
     if (w->n == 0) EACHV(k) d[k] = FMA(w->half_hh, a[k], w->h * d[k]);
-    else if (w->velocity) EACHV(k) d[k] += w->delta[k];
-    else if (w->nv > w->nx) EACHV(k) ADVANCE(d[k], hh, a[k]);
+    else if (FACT(w, velocity)) EACHV(k) d[k] += w->delta[k];
+    else if (FACT(w, nv) > FACT(w, nx)) EACHV(k) ADVANCE(d[k], hh, a[k]);
     else {                                     /* the common case in one pass over memory */
         EACH(k) {
             ADVANCE(d[k], hh, a[k]);
@@ -43,7 +42,7 @@ static void verlet_sync(const work *w, real *v)
 {
     const real *d = w->v;
     if (w->n == 0) EACHV(k) v[k] = d[k];
-    else if (w->velocity) EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
+    else if (FACT(w, velocity)) EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
     else EACHV(k) v[k] = FMA(w->half_hh, w->a[k], d[k]) * w->per_h;
 }
 
@@ -57,14 +56,14 @@ static int literal_look(work *w)
     const clock none = 0, slope = h / 2;
     int bad = STEP_OK;
     if (w->n == 0) {
-        bad = accel(w, t, w->x, w->v, w->a);
+        bad = accel_now(w, w->x, w->v, w->a);
         if (!bad) EACHV(k) next[k] = x[k] + h * w->v[k] + w->half_hh * w->a[k];
-    } else if (!w->velocity) {
-        bad = accel(w, t, w->x, w->vs, w->a);
+    } else if (!FACT(w, velocity)) {
+        bad = accel_now(w, w->x, w->vs, w->a);
         if (!bad) EACHV(k) next[k] = 2 * x[k] - old[k] + hh * w->a[k];
-    } else if (w->linear) {
-        EACHV(k) w->vs[k] = 0;
-        bad = accel(w, t, w->x, w->vs, w->a);
+    } else if (FACT(w, linear)) {
+        EACHV(k) w->vs[k] = (real){0};
+        bad = accel_now(w, w->x, w->vs, w->a);
         if (!bad) bad = solve_factor(w, 1, &none, &slope, t, w->x, w->vs);
         if (bad) return bad;
         solve_apply(w, slope, old, w->r);
@@ -84,10 +83,15 @@ static int literal_step(work *w)
         int bad = literal_look(w);
         if (bad) return bad;
     }
-    real *gone = w->old;
-    w->old = w->x;
-    w->x = w->next;
-    w->next = gone;
+    if (SMALL) {
+        EACHV(k) w->old[k] = w->x[k];
+        EACHV(k) w->x[k] = w->next[k];
+    } else {
+        real *gone = w->old;
+        w->old = w->x;
+        w->x = w->next;
+        w->next = gone;
+    }
     TRACE(w, 0);
     return STEP_OK;
 }
@@ -100,7 +104,7 @@ static void literal_sync(const work *w, real *v)
 
 /* Beeman: x[n+1] = x + h v + h²/6 (4 a[n] - a[n-1]), v[n+1] = v + h/6 (2 a[n+1] + 5 a[n] - a[n-1]), a[-1] = a[0] [Beeman76]. `v` waits for
  * the term h/3 a[n+1] until that acceleration is needed for the positions. */
-static int beeman_look(work *w) { return accel(w, time_of(w, w->n), w->x, w->vs, w->a); }
+static int beeman_look(work *w) { return accel_now(w, w->x, w->vs, w->a); }
 
 static int beeman_step(work *w)
 {
@@ -114,8 +118,12 @@ static int beeman_step(work *w)
     else EACHV(k) ADVANCE(v[k], third, a[k]);
     EACH(k) x[k] += FMA(h, v[k], hh_sixth * FMA((clock)4, a[k], -old[k]));
     EACHV(k) ADVANCE(v[k], sixth, FMA((clock)5, a[k], -old[k]));
-    w->a = old;
-    w->old = a;
+    if (SMALL) {
+        EACHV(k) old[k] = a[k];
+    } else {
+        w->a = old;
+        w->old = a;
+    }
     TRACE(w, 0);
     return STEP_OK;
 }

@@ -1,0 +1,25 @@
+/* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for lanes, are made here. */
+#ifndef RUN_COMPOSE_H
+#define RUN_COMPOSE_H
+
+#include "lang/emit.h"
+#include "lang/model.h"
+#include "core/methods.h"
+
+typedef struct composed_program { const program *program; const char *name; bool terms; } composed_program;
+
+typedef struct composition {
+    const model *model;
+    const problem *problem;
+    const chosen *chosen;
+    const composed_program *programs;    /* "compiled_force" first */
+    size_t program_count;
+    int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
+    const char *last;                    /* the text that stands last: "step/compiled_run.h" */
+    bool fast;
+} composition;
+
+/* Writes into e->text; e->lanes and e->varied must be set. False: the arena failed. */
+bool compose(emit *e, const composition *);
+
+#endif
