@@ -157,8 +157,10 @@ that "resumed after a cut at every byte of the last two rows" everywhere $(seq $
 that "... at every byte of the head and the first row" everywhere $(seq 0 $((head + 20)))
 head -c $((size - 30)) whole.csv >cut.csv && head -c 4000 /dev/zero >>cut.csv
 that "... after a power cut that left zeros" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
-head -c $((head + 60)) whole.csv >cut.csv && tail -n 3 whole.csv >>cut.csv
+head -n 6 whole.csv >cut.csv && tail -n 3 whole.csv >>cut.csv
 that "... with rows that do not follow" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
+head -n 8 whole.csv >cut.csv && echo 5,0.1 >>cut.csv
+that "... with half a row" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
 cp whole.csv longer.csv && echo 14,1,2,3,4, >>longer.csv
 that "... with rows that do not belong" eval "sweep \"\${ask[@]}\" -o longer.csv --resume -q && cmp whole.csv longer.csv"
 gives "--resume of nothing begins" 0 "$motus" sweep "${ask[@]}" -o fresh.csv --resume
@@ -242,11 +244,12 @@ for signal in KILL INT TERM HUP; do
     that "... right ones" cmp <(rows stopped.csv | head -n "$count" | cut -d, -f 1-4) <(rows | cut -d, -f 1-4)
 done
 cp stopped.csv twice.csv
-sweep "${slow[@]}" -o twice.csv --resume >"$out" 2>"$err" &
+(exec "$motus" sweep "${slow[@]}" -o twice.csv --resume >/dev/null 2>&1) &
 child=$!
 for _ in $(seq 500); do [ "$(wc -l 2>/dev/null <twice.csv)" -gt $((count + 5)) ] && break; sleep 0.02; done
 refuses "two at one file" 1 "is being written by another program" "$motus" sweep "${slow[@]}" -o twice.csv --resume
-kill $child && wait $child 2>/dev/null
+kill $child
+wait $child 2>/dev/null
 sweep "${long[@]}" -q 2>"$err" | head -n 3 >"$out"
 that "a reader that goes away" eval "[ \$(wc -l <'$out') = 3 ] && empty '$err'"
 
