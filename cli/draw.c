@@ -54,8 +54,12 @@ double draw_uniform(uint64_t seed, uint32_t stream, uint64_t index)
 static bool survives(source *s, double p)
 {
     bool even = true;
-    for (double last = p, u; (u = uniform(s)) < last; last = u)
+    double last = p, u = uniform(s);
+    while (u < last) {
         even = !even;
+        last = u;
+        u = uniform(s);
+    }
     return even;
 }
 

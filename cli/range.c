@@ -80,7 +80,7 @@ static range_pair decimal(double value)
             count++;
         places += point && *s != '.';
     }
-    int power_of_ten = (*s == 'e' ? atoi(s + 1) : 0) - places;
+    int power_of_ten = (*s == 'e' ? (int)strtol(s + 1, NULL, 10) : 0) - places;
     for (s = text; *s && *s != 'e'; s++)
         if (*s != '.') {
             double *part = &digits[count-- > 8];

@@ -239,15 +239,15 @@ static void csv_row(sweep_file *f, size_t i, double *const *values, double *cons
 static void npy_row(sweep_file *f, size_t i, double *const *values, double *const *results, double stopped)
 {
     const sweep *s = f->sweep;
-    double number = (double)f->rows;
+    double number = (double)f->rows, none = NAN;
     char *out = f->buffer + f->used;
-    size_t one = sizeof number;
+    const size_t one = sizeof number;
     memcpy(out, &number, one);
     for (size_t k = 0; k < s->grid.count; k++)
-        memcpy(out += one, &values[k][i], one);
+        memcpy(out + (1 + k) * one, &values[k][i], one);
     for (size_t k = 0; k < s->records.count; k++)
-        memcpy(out += one, isnan(stopped) ? &results[k][i] : &(double){NAN}, one);
-    memcpy(out += one, &stopped, one);
+        memcpy(out + (1 + s->grid.count + k) * one, isnan(stopped) ? &results[k][i] : &none, one);
+    memcpy(out + (s->columns - 1) * one, &stopped, one);
     f->used += s->columns * one;
 }
 
