@@ -115,7 +115,10 @@ static motus_status read_vary(const reading *r, char *text, axis *a)
         if (colon)
             *colon = 0;
         a->kind = AXIS_LIST;
-        return axis_file(trim(text + 1), colon ? trim(colon + 1) : NULL, &a->list, &a->count, r->err);
+        a->path = strdup(trim(text + 1));
+        if (!a->path)
+            return complain_memory(r->err);
+        return axis_file(a->path, colon ? trim(colon + 1) : NULL, &a->list, &a->count, r->err);
     }
     char *parts[PARTS] = {NULL};
     char *copy = strdup(text);
@@ -187,5 +190,6 @@ motus_status axis_read(axis *a, const char *option, const char *spec, motus_erro
 void axis_free(axis *a)
 {
     free(a->name);
+    free(a->path);
     free(a->list);
 }

@@ -10,6 +10,7 @@ typedef enum axis_kind { AXIS_RANGE, AXIS_LIST, AXIS_UNIFORM, AXIS_NORMAL } axis
 typedef struct axis {
     const char *spec;            /* "F=0:1:11", as given */
     char *name;                  /* "F" */
+    char *path;                  /* of the file the list came from, or NULL */
     axis_kind kind;
     range range;                 /* AXIS_UNIFORM: its ends; AXIS_NORMAL: mean and deviation */
     double *list;

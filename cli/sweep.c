@@ -96,7 +96,8 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.context = progress;
     motus_status status = motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
     if (!status && motus_ensemble_note(s->ensemble)[0] && !o->quiet)
-        complain_note("%s", motus_ensemble_note(s->ensemble));
+        complain_note("the %s runs this: %s", strcmp(motus_ensemble_machine(s->ensemble), "interpreter") == 0 ? "interpreter" : "compiled machine",
+                      motus_ensemble_note(s->ensemble));
     return status;
 }
 
@@ -115,6 +116,9 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
         status = load_model(&s->model, o, err);
     if (!status)
         status = grid_read(&s->grid, o, err);
+    for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
+        if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
+            status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     if (!status)
         status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (status)

@@ -348,6 +348,7 @@ refuses "--resume of standard output" 2 "--resume needs a file" "$motus" sweep o
 gives "--json and rows on standard output" 2 "$motus" sweep osc.motus --vary F=1,2 --json
 that "... is an error object" holds '.error.kind == "argument"'
 refuses "the model as output" 2 "would be overwritten" "$motus" sweep osc.motus --vary F=1,2 -o osc.motus --force
+refuses "the values as output" 2 "values.csv is read and would be overwritten" "$motus" sweep osc.motus --vary F=@values.csv:n -o values.csv --force
 refuses "a folder as output" 1 "is a folder" "$motus" sweep osc.motus --vary F=1,2 -o small
 refuses "a folder that is not there" 1 "cannot write" "$motus" sweep osc.motus --vary F=1,2 -o nowhere/x.csv
 refuses "a .npy that is a device" 2 "no regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
