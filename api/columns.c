@@ -120,6 +120,31 @@ void system_inside(const motus_system *s, const double *in_x, const double *in_v
     each_number(s, x, v, (double *)in_x, (double *)in_v, inward);
 }
 
+const model_definition *system_definition(const motus_system *s, size_t column, size_t *number)
+{
+    const column_group *g = group_of(s, column);
+    *number = column - g->first;
+    return definition(s, g);
+}
+
+size_t system_number(const motus_system *s, size_t outer, bool of_v)
+{
+    if (of_v)
+        outer -= s->positions;
+    size_t seen = 0;
+    for (int order = 2; order >= (of_v ? 1 : 2); order--)
+        for (uint32_t i = 0; i < s->state_count; i++) {
+            const model_state *st = &s->states[i];
+            size_t parts = parts_of(st->components), numbers = st->cells.count * parts;
+            if (st->order != order)
+                continue;
+            if (outer < seen + numbers)
+                return system_place(st, (outer - seen) / parts, (int)((outer - seen) % parts));
+            seen += numbers;
+        }
+    return 0;
+}
+
 static motus_status evaluate(motus_system *s, const column_group *g, double t, double *x, double *v, motus_error *err)
 {
     switch (g->kind) {

@@ -12,14 +12,12 @@
 
 /* ---- creation ---- */
 
-static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *err)
+motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r, motus_error *err)
 {
-    const motus_system *s = r->system;
     motus_settings set;
     motus_settings_of(s, &set);
-    double h = isnan(def->step) ? set.step : def->step;
-    r->until = isnan(def->until) ? set.until : def->until;
-    r->t0 = isnan(def->start) ? s->start : def->start;
+    double h = isnan(step) ? set.step : step;
+    *r = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
         hint(err, "write `step 0.01` in the model, or --step 0.01");
@@ -52,12 +50,25 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
         r->total = r->whole + 1;
         r->last = r->until - (r->t0 + (double)r->whole * r->h);
     }
-    if (r->last != 0 && row_uniform(&r->chosen)) {
-        fail(err, MOTUS_METHOD, "%s takes equal steps only, and the last one would be %g", r->chosen.name, fabs(r->last));
+    if (r->last != 0 && row_uniform(chosen)) {
+        fail(err, MOTUS_METHOD, "%s takes equal steps only, and the last one would be %g", chosen->name, fabs(r->last));
         hint(err, "choose a step that divides %g, or method verlet", fabs(r->until - r->t0));
         return MOTUS_METHOD;
     }
     return MOTUS_OK;
+}
+
+static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *err)
+{
+    timing t;
+    motus_status status = run_timing(r->system, &r->chosen, def->step, def->until, def->start, &t, err);
+    r->t0 = t.t0;
+    r->h = t.h;
+    r->until = t.until;
+    r->whole = t.whole;
+    r->total = t.total;
+    r->last = t.last;
+    return status;
 }
 
 /* ---- which machine ---- */

@@ -33,6 +33,9 @@ struct motus_run {
     char *saved; size_t saved_room;
 };
 
+/* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
+typedef struct timing { double t0, h, until, last; int64_t whole, total; } timing;
+motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *, motus_error *);
 double run_time(const motus_run *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
 

@@ -47,6 +47,10 @@ void system_inside(const motus_system *, const double *in_x, const double *in_v,
 /* Values of columns at a state (inside order; boundary cells may be refreshed). */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *);
 bool system_number_columns(motus_system *);
+/* The place in x, or in v, of column 1 + outer. */
+size_t system_number(const motus_system *, size_t outer, bool of_v);
+/* The quantity or invariant of a column, and which of its numbers that is. */
+const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
 
 /* Rounding to nearest, no flushing of subnormals, from enter to leave. */

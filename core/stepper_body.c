@@ -52,6 +52,7 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 #include "step/two_step.h"
 #include "step/implicit.h"
 #include "step/advance.h"
+#include "step/loop.h"
 #include "step/look.h"
 
 #define PASTE(a, b) a##b

@@ -33,6 +33,7 @@ struct compiled {
     double *u;
     int64_t *q;
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);     /* of any of the objects: they have the same bits */
+    void (*bind)(const double *, const int64_t *, double *);       /* of the last object: what it computes is the same for every row */
     char note[NOTE_MAX];
 };
 
@@ -77,8 +78,11 @@ void compiled_close(compiled *c)
 {
     for (int i = 0; c && i < c->count; i++)
         dlclose(c->objects[i].handle);
-    if (c)
+    if (c) {
         c->count = 0;
+        c->accel = NULL;
+        c->bind = NULL;
+    }
 }
 
 /* ---- the text ---- */
@@ -93,8 +97,9 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (m->arena->failed)
         return false;
     const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
+    static const char *const last[] = {"step/loop.h", "step/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
-                                     .last = "step/compiled_run.h"});
+                                     .last = last});
 }
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
@@ -118,6 +123,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
         return false;
     for (uint32_t k = 0; k < e->int_count; k++)
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
+    c->bind = bind;
     bind(m->pool, c->q, c->u);
     c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q};
     return true;
@@ -164,6 +170,12 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
     c->host.apply = library->apply;
     c->count++;
     return &o->body;
+}
+
+void compiled_rebind(compiled *c)
+{
+    if (c && c->bind)
+        c->bind(c->model->pool, c->q, c->u);
 }
 
 const char *compiled_prepare(compiled *c, const chosen *chosen) { return body_of(c, chosen) ? NULL : c->note; }

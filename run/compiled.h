@@ -9,6 +9,8 @@ extern const machine machine_compiled;
 typedef struct compiled compiled;
 /* Nothing is compiled yet: that happens when a run opens an engine. The interpreter's problem must outlive it. */
 motus_status compiled_create(model *, const problem *interpreted, compiled **, problem *, motus_error *);
+/* After the model's numbers have changed. */
+void compiled_rebind(compiled *);
 /* Closes what was loaded; the memory is the model's. */
 void compiled_close(compiled *);
 /* The C text that runs a row of this model, in the model's arena; NULL: no memory. */

@@ -55,7 +55,7 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_family %s\n#define ROW_two_step %s\n#define ROW_compensated %d\n#define ROW_gyroscopic %d\n"
                 "#define ROW_newmark %d\n",
              families[r->family], recurrences[r->two_step], r->compensated, r->gyroscopic, r->newmark);
-    emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n", w.velocity, w.linear);
+    emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define FACT_constant %d\n", w.velocity, w.linear, w.constant);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx * (size_t)each, w.nv * (size_t)each);
     else
@@ -128,21 +128,22 @@ static void add_functions(emit_text *t, uint64_t used)
 static void add_operations(emit *e, int width)
 {
     emit_text *t = &e->text;
-    add_functions(t, e->used);
+    add_functions(t, e->used | (width == 1 ? e->used_lanes : 0));
     emit_add(t, "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
     emit_operations(e, e->used, "double", "op");
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
     if (width == 1)
-        emit_add(t, "typedef double reals;\n#define MANY(x) (x)\n#define LANE_OF(x, l) (x)\n#define MANY_FUSED(a, b, c) fma(a, b, c)\n"
+        emit_add(t, "typedef double reals;\n#define MANY(x) (x)\n#define LANE_OF(x, l) (x)\n#define OF_LANES(f) motus_##f\n#define CHOOSE(m, a, b) ((m) ? (a) : (b))\n#define MANY_FUSED(a, b, c) fma(a, b, c)\n"
                     "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
     if (width > 1) {
         emit_add(t, "#define LANES %d\n", width);
         add_text(t, "step/functions_lanes.h");
         add_functions(t, e->used_lanes);
         emit_add(t, "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
+                    "#define OF_LANES(f) motus_##f##_x%d\n#define CHOOSE(m, a, b) motus_select_x%d(m, MANY(a), MANY(b))\n"
                     "#define MANY_FUSED(a, b, c) motus_fused_x%d(MANY(a), MANY(b), MANY(c))\n#define OF(f) motus_##f##_x%d\n"
                     "#define FUSE(a, b, c) motus_fused_x%d(a, b, c)\n#define WHEN(condition, a, b) motus_select_x%d(condition, MANY(a), MANY(b))\n",
-                 width, width, width, width, width);
+                 width, width, width, width, width, width, width);
     }
     if (width)
         emit_operations(e, e->used_lanes, "reals", "ops");
@@ -161,6 +162,8 @@ bool compose(emit *e, const composition *c)
         e->separate = !i && c->model->graph->count > FORCE_INLINE_MAX;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
+    if (lanes)
+        e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX);          /* what is recorded wants them */
     const emit_text bodies = *t;
     const int of_time = e->terms ? 4 : 0, width = lanes ? c->width : of_time;
     *t = (emit_text){.arena = bodies.arena};
@@ -171,8 +174,8 @@ bool compose(emit *e, const composition *c)
     add_facts(t, c, structure);
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define BOUND %u\n", c->model->driven, e->terms, width, e->fixed_lanes);
     if (lanes)
-        emit_add(t, "#define GROUPS %d\n#define WIDTH %d\n#define AT(array, element) (array)[(element) * GROUPS + group]\n"
-                    "#define EACH_GROUP for (int group = 0; group < GROUPS; group++)\n", c->groups, c->width);
+        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define AT(array, element) (array)[(element) * GROUPS + group]\n"
+                    "#define EACH_GROUP for (int group = 0; group < GROUPS; group++)\n", c->model->boundary_count > 0, c->groups, c->width);
     else
         emit_add(t, "#define AT(array, element) (array)[element]\n#define EACH_GROUP\n");
     if (e->terms)
@@ -188,8 +191,13 @@ bool compose(emit *e, const composition *c)
         emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
     emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
     add_text(t, "step/compiled.h");
+    if (lanes) {
+        add_text(t, "step/lanes_job.h");
+        emit_add(t, "%s", c->glue);
+    }
     add_family(t, c);
     add_text(t, "step/advance.h");
-    add_text(t, c->last);
+    for (const char *const *last = c->last; *last; last++)
+        add_text(t, *last);
     return !t->arena->failed;
 }

@@ -15,7 +15,8 @@ typedef struct composition {
     const composed_program *programs;    /* "compiled_force" first */
     size_t program_count;
     int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
-    const char *last;                    /* the text that stands last: "step/compiled_run.h" */
+    const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
+    const char *const *last;             /* the texts that stand last, up to a NULL */
     bool fast;
 } composition;
 

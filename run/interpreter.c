@@ -204,4 +204,21 @@ bool interpreter_look(interpreter *in, model_definition *d, double t, double *x,
     return true;
 }
 
+bool interpreter_rebind(interpreter *in)
+{
+    model *m = in->model;
+    binding b = {m->arrays, m->ints, m->pool};
+    tape *const tapes[] = {in->accel, in->boundary, in->exact, in->jvp[0], in->jvp[1], in->jvp[2], in->jvp[3]};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k] && !tape_bind(tapes[k], &b))
+            return false;
+    for (uint32_t k = 0; k < m->definition_count; k++)
+        if (in->looks[k] && !tape_bind(in->looks[k], &b))
+            return false;
+    double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
+    if (in->boundary)
+        tape_run(in->boundary, m->start, base);
+    return true;
+}
+
 const machine machine_interpreter = {.name = "interpreter", STEPPING};

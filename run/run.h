@@ -33,6 +33,9 @@ motus_status interpreter_create(model *, interpreter **, problem *, motus_error 
 /* The numbers of a quantity or invariant at a state, into out (definition->numbers of them). False: no memory. */
 bool interpreter_look(interpreter *, model_definition *, double t, double *x, double *v, double *out);
 
+/* After the model's numbers have changed: everything that was computed from them, and the boundary's places at the start. False: no memory. */
+bool interpreter_rebind(interpreter *);
+
 /* A problem from a callback definition; both must outlive it. `zeros`, as many as there are velocities and companions, stand in for a direction
  * that is not given; needed where the definition has a derivative. */
 typedef struct calling { const motus_callback_def *def; const double *zeros; } calling;

@@ -1,7 +1,4 @@
-/* THE LOOP: steps by family, time, and the finite numbers.
- *
- * Invariant: the loop owns time, t0 + n h, never summed.
- */
+/* A STEP, by family. What it evaluates at the time of n is the caller's to count on: the loop owns n, and time is t0 + n h, never summed. */
 static inline int advance_step(work *w)
 {
     switch (ROW(w, family)) {
@@ -12,50 +9,4 @@ static inline int advance_step(work *w)
     case IMPLICIT: return implicit_step(w);
     default: return STEP_OK;                   /* EXACT: nothing is carried from step to step */
     }
-}
-
-/* Whether the main line is finite; of a small system in as few operations as may be. */
-static inline bool advance_finite(const work *w)
-{
-    const real *restrict x = w->x, *restrict v = ROW(w, two_step) == VERLET_LITERAL ? w->x : w->v;
-    if (SMALL) {
-        real none = 0;
-        EACH(k) none += x[k] - x[k];
-        EACHV(k) none += v[k] - v[k];
-        return none == 0;
-    }
-    int bad = 0;
-    EACH(k) bad |= !FINITE(x[k]);
-    EACHV(k) bad |= !FINITE(v[k]);
-    return !bad;
-}
-
-/* STEP_DIVERGED where the main line holds an infinity or a NaN; w->which, w->in_v say where. */
-static int advance_check(work *w)
-{
-    const real *restrict x = w->x, *restrict v = ROW(w, two_step) == VERLET_LITERAL ? w->x : w->v;
-    if (advance_finite(w)) return STEP_OK;
-    w->in_v = false;
-    EACH(k) if (!FINITE(x[k])) {
-        w->which = k;
-        return STEP_DIVERGED;
-    }
-    w->in_v = true;
-    EACHV(k) if (!FINITE(v[k])) {
-        w->which = k;
-        break;
-    }
-    return STEP_DIVERGED;
-}
-
-/* `steps` more; stops in the middle of a step that fails. n counts the steps that were finished. */
-static int advance_run(work *w, whole steps)
-{
-    for (; steps > 0; steps--) {
-        int bad = advance_step(w);
-        if (bad) return bad;
-        w->n++;
-        if (w->check && !advance_finite(w)) return advance_check(w);
-    }
-    return STEP_OK;
 }

@@ -6,7 +6,11 @@
  * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in w->table. They are the
  * values that one evaluation would compute.
  */
+#ifdef GROUPS
+static inline const compiled_host *host_of(const work *w) { return w->user; }
+#else
 static inline const compiled_host *host_of(const work *w) { return **(const compiled_host *const *const *)w->user; }
+#endif
 
 #define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
 #define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)

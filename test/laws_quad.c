@@ -109,6 +109,7 @@ static void refresh_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (v
 #include "step/two_step.h"
 #include "step/implicit.h"
 #include "step/advance.h"
+#include "step/loop.h"
 #include "step/look.h"
 
 traits quad_traits(const quad_problem *p)

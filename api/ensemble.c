@@ -1,0 +1,236 @@
+/* Ensembles. See ensemble.h. */
+#include "api/ensemble.h"
+
+#include "run/parallel.h"
+#include "run/reduction.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+_Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_TIME_OF_MAX, "the reductions are the same list");
+
+enum { THREADS_MAX = 1024, ENSEMBLE_LANES_MAX = 64 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
+{
+    if (d->vary_count && !d->vary)
+        return fail(err, MOTUS_ARGUMENT, "vary is NULL");
+    if (!d->record_count || !d->records)
+        return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
+    for (size_t r = 0; r < d->record_count; r++)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_TIME_OF_MAX)
+            return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r, d->records[r].column, s->column_count);
+    if (d->every < 1)
+        return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
+    if (d->threads < 0 || d->threads > THREADS_MAX)
+        return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d", THREADS_MAX, d->threads);
+    if (d->lanes < 0 || d->lanes > ENSEMBLE_LANES_MAX || (d->lanes & (d->lanes - 1)))
+        return fail(err, MOTUS_ARGUMENT, "lanes are 0 (as many as suits) or a power of two up to %d, not %d", ENSEMBLE_LANES_MAX, d->lanes);
+    if (d->machine && strcmp(d->machine, "auto") && strcmp(d->machine, "compiled") && strcmp(d->machine, "interpreter")) {
+        fail(err, MOTUS_ARGUMENT, "there is no machine %s", d->machine);
+        hint(err, "the machines are auto, interpreter and compiled");
+        return MOTUS_ARGUMENT;
+    }
+    return MOTUS_OK;
+}
+
+static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+{
+    for (size_t k = 0; k < e->vary_count; k++) {
+        motus_status status = ensemble_place(e->system, d->vary[k], &e->places[k], err);
+        for (size_t i = 0; i < k && status == MOTUS_OK; i++)
+            if (e->places[i] == e->places[k])
+                status = fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
+        if (status != MOTUS_OK)
+            return status;
+    }
+    return MOTUS_OK;
+}
+
+/* A recorded column as lanes see it; false: they cannot. */
+static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
+{
+    motus_column c;
+    if (motus_column_at(s, r->column, &c) != MOTUS_OK)
+        return false;
+    *out = (lanes_source){.how = (int)r->how};
+    switch (c.kind) {
+    case MOTUS_TIME: out->kind = SOURCE_TIME; return true;
+    case MOTUS_POSITION:
+        out->kind = SOURCE_X;
+        out->place = system_number(s, r->column - 1, false);
+        return true;
+    case MOTUS_VELOCITY:
+    case MOTUS_COMPANION:
+        out->kind = SOURCE_V;
+        out->place = system_number(s, r->column - 1, true);
+        return true;
+    case MOTUS_QUANTITY:
+    case MOTUS_INVARIANT:
+        out->kind = SOURCE_DEFINITION;
+        out->definition = system_definition(s, r->column, &out->place);
+        return true;
+    default: return false;
+    }
+}
+
+/* In lanes, where that can be done; else e->lanes stays NULL and e->note says why. */
+static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+{
+    motus_system *s = e->system;
+    lanes_source *sources = arena_grow(&s->arena, NULL, 0, e->record_count * sizeof *sources);
+    if (!sources)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    for (size_t r = 0; r < e->record_count; r++)
+        if (!source_of(s, &e->records[r], &sources[r])) {
+            snprintf(e->note, sizeof e->note, "the exact motion is recorded, one trajectory at a time");
+            return MOTUS_OK;
+        }
+    const lanes_def def = {.model = s->model, .problem = &s->problem, .chosen = &e->chosen, .vary = e->vary, .places = e->places, .place_count = e->vary_count,
+                           .sources = sources, .source_count = e->record_count, .t0 = e->timing.t0, .h = e->timing.h, .last = e->timing.last,
+                           .until = e->timing.until, .whole = e->timing.whole, .every = e->every, .lanes = d->lanes, .threads = e->threads,
+                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress, .context = e->context};
+    const char *why = lanes_refuse(&def);
+    if (why) {
+        snprintf(e->note, sizeof e->note, "%s", why);
+        return MOTUS_OK;
+    }
+    motus_status status = lanes_create(&def, &e->lanes, e->note, sizeof e->note, err);
+    return status == MOTUS_TOOL ? MOTUS_OK : status;
+}
+
+/* One trajectory at a time, compiled where that is wanted and possible. */
+static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_error *err)
+{
+    motus_system *s = e->system;
+    e->machine = s->machine;
+    e->problem = &s->problem;
+    e->threads = 1;
+    if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
+        return MOTUS_OK;
+    if (!s->compiled) {
+        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
+        if (status != MOTUS_OK)
+            return status;
+    }
+    s->compiled_problem.traits = s->problem.traits;
+    const char *why = compiled_prepare(s->compiled, &e->chosen);
+    if (!why) {
+        e->machine = &machine_compiled;
+        e->problem = &s->compiled_problem;
+        return MOTUS_OK;
+    }
+    if (wanted && !strcmp(wanted, "compiled")) {
+        fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
+        hint(err, "--machine interpreter needs no compiler");
+        return MOTUS_TOOL;
+    }
+    snprintf(e->note, sizeof e->note, "%s", why);
+    return MOTUS_OK;
+}
+
+static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
+{
+    motus_system *s = e->system;
+    const motus_method *card;
+    motus_settings set;
+    motus_settings_of(s, &set);
+    motus_status status = row_choose(d->method ? d->method : set.method ? set.method : "verlet", &e->chosen, &card, err);
+    if (status == MOTUS_OK && (card->forces != MOTUS_FORCES_XVT || !strcmp(card->name, "boris")) && !system_sample_gyroscopic(s))
+        status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+    if (status == MOTUS_OK)
+        status = row_admits(&e->chosen, &s->problem.traits, err);
+    if (status == MOTUS_OK)
+        status = run_timing(s, &e->chosen, d->step, d->until, NAN, &e->timing, err);
+    if (status == MOTUS_OK)
+        status = find_places(e, d, err);
+    if (status == MOTUS_OK && s->model)
+        status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
+    if (status == MOTUS_OK && s->model && !(d->machine && !strcmp(d->machine, "interpreter")))
+        status = try_lanes(e, d, err);
+    if (status == MOTUS_OK && !e->lanes)
+        status = choose_single(e, d->machine, err);
+    return status;
+}
+
+motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out, motus_error *err)
+{
+    if (!out)
+        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a place for the ensemble");
+    *out = NULL;
+    if (!s || !given)
+        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
+    motus_ensemble_def d = motus_default_ensemble();
+    memcpy(&d, given, given->size < sizeof d ? given->size : sizeof d);
+    motus_status status = check(s, &d, err);
+    if (status != MOTUS_OK)
+        return status;
+    motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
+    if (!e)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
+                          .threads = d.threads ? d.threads : parallel_processors(), .progress = d.progress, .context = d.context};
+    e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
+    e->records = take(&s->allocator, d.record_count, sizeof *e->records);
+    modes m = modes_enter();
+    if (!e->places || !e->records) {
+        status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    } else {
+        memcpy(e->records, d.records, d.record_count * sizeof *e->records);
+        status = make(e, &d, err);
+    }
+    modes_leave(m);
+    if (status != MOTUS_OK) {
+        motus_ensemble_destroy(e);
+        return status;
+    }
+    *out = e;
+    return MOTUS_OK;
+}
+
+motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
+{
+    if (!e || !results || (e->vary_count && !values))
+        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
+    for (size_t k = 0; k < e->vary_count; k++)
+        if (!values[k])
+            return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
+    for (size_t r = 0; r < e->record_count; r++)
+        if (!results[r])
+            return fail(err, MOTUS_ARGUMENT, "the place for record %zu is NULL", r);
+    if (!count)
+        return MOTUS_OK;
+    modes m = modes_enter();
+    double began = now();
+    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : ensemble_singly(e, count, values, results, stopped, err);
+    e->seconds += now() - began;
+    modes_leave(m);
+    return status;
+}
+
+void motus_ensemble_destroy(motus_ensemble *e)
+{
+    if (!e)
+        return;
+    motus_allocator a = e->allocator;
+    lanes_destroy(e->lanes);
+    give(&a, e->places);
+    give(&a, e->records);
+    give(&a, e);
+}
+
+int64_t motus_ensemble_steps(const motus_ensemble *e) { return e ? e->timing.total : 0; }
+const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
+const char *motus_ensemble_machine(const motus_ensemble *e) { return !e ? "" : e->lanes ? "compiled" : e->machine->name; }
+const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
+int motus_ensemble_lanes(const motus_ensemble *e) { return e && e->lanes ? lanes_in_block(e->lanes) : 1; }
+int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }
+double motus_ensemble_seconds(const motus_ensemble *e) { return e ? e->seconds : 0; }

@@ -1,0 +1,33 @@
+/* An ensemble: what varies, what is recorded, and one of two ways to compute it: in lanes, or one trajectory after the other. */
+#ifndef API_ENSEMBLE_H
+#define API_ENSEMBLE_H
+
+#include "api/run.h"
+#include "run/lanes.h"
+
+struct motus_ensemble {
+    motus_system *system;
+    motus_allocator allocator;
+    chosen chosen;
+    timing timing;
+    int64_t every;
+    size_t vary_count, record_count;
+    size_t *places;                  /* of the pool; of a callback: of x, then v */
+    motus_record *records;
+    vary *vary;
+    lanes *lanes;                    /* NULL: one trajectory after the other */
+    const machine *machine;          /* then */
+    const problem *problem;
+    int threads;
+    double seconds;
+    int (*progress)(void *context, double fraction);
+    void *context;
+    char note[MOTUS_TEXT_MAX];
+};
+
+/* What varies: its place in the pool of a model, or in x and then v of a callback. */
+motus_status ensemble_place(const motus_system *, const char *name, size_t *place, motus_error *);
+/* One trajectory after the other. */
+motus_status ensemble_singly(motus_ensemble *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
+
+#endif

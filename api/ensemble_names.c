@@ -1,0 +1,103 @@
+/* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
+#include "api/ensemble.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static motus_status unknown(const char *name, motus_error *err)
+{
+    fail(err, MOTUS_NAME, "%s is neither a parameter nor an initial value of this model", name);
+    hint(err, "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0)");
+    return MOTUS_NAME;
+}
+
+/* "x'(0)" → "x'"; false where there is no such bracket. *start: what stands in it. */
+static bool take_bracket(const char *name, char *bare, size_t size, double *start)
+{
+    const char *open = strrchr(name, '(');
+    size_t n = strlen(name);
+    char *end;
+    if (!open || name[n - 1] != ')' || (size_t)(open - name) >= size)
+        return false;
+    snprintf(bare, size, "%.*s", (int)(open - name), name);
+    *start = strtod(open + 1, &end);
+    return end == name + n - 1 && end != open + 1;
+}
+
+static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
+{
+    size_t first, count;
+    motus_column c;
+    if (motus_column_find(s, bare, &first, &count, NULL) != MOTUS_OK || motus_column_at(s, first, &c) != MOTUS_OK ||
+        (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
+        return unknown(name, err);
+    if (count > 1) {
+        fail(err, MOTUS_SHAPE, "%s is %zu numbers, and one is varied at a time", name, count);
+        hint(err, "name one of them: %s(%g)", c.name, s->start);
+        return MOTUS_SHAPE;
+    }
+    const bool velocity = c.kind == MOTUS_VELOCITY;
+    size_t at = first - 1, inner;
+    inner = system_number(s, at, velocity || c.kind == MOTUS_COMPANION);
+    if (!s->model) {
+        *place = velocity || c.kind == MOTUS_COMPANION ? s->problem.nx + inner : inner;
+        return MOTUS_OK;
+    }
+    for (uint32_t i = 0; i < s->state_count; i++) {
+        const model_state *st = &s->states[i];
+        const size_t numbers = st->hull * (size_t)(st->components ? st->components : 1);
+        const bool of_v = velocity || c.kind == MOTUS_COMPANION;
+        if (inner < st->base || inner >= st->base + numbers || (st->order == 1) != (c.kind == MOTUS_COMPANION))
+            continue;
+        *place = s->model->arrays[st->start_array[of_v && st->order == 2]].base + (inner - st->base);
+        return MOTUS_OK;
+    }
+    return unknown(name, err);
+}
+
+/* "g", "g.x", "g[2]" */
+static motus_status parameter(const motus_system *s, const char *name, size_t *place, motus_error *err)
+{
+    const size_t length = strcspn(name, ".[(");
+    for (uint32_t i = 0; s->model && i < s->model->definition_count; i++) {
+        const model_definition *d = &s->model->definitions[i];
+        if (strlen(d->name) != length || strncmp(d->name, name, length) || d->kind != DEFINED_PARAMETER)
+            continue;
+        const char *rest = name + length;
+        long k = 0;
+        char *end = NULL;
+        if (*rest == '.' && rest[1] && !rest[2])
+            k = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
+        else if (*rest == '[')
+            k = strtol(rest + 1, &end, 10);
+        if ((end && strcmp(end, "]")) || (*rest && k < 1))
+            return unknown(name, err);
+        if (d->list && d->dims == 1 && !d->components && k >= d->first[0] && k <= d->last[0]) {
+            *place = s->model->arrays[d->array].base + (size_t)(k - d->first[0]);
+            return MOTUS_OK;
+        }
+        if (d->list || (d->components ? k < 1 || k > d->components : k != 0)) {
+            fail(err, MOTUS_SHAPE, "%s is not one number", name);
+            hint(err, d->list ? "name one of them: %s[1]" : d->components ? "name a component: %s.x" : "%s has no components", d->name);
+            return MOTUS_SHAPE;
+        }
+        *place = d->slot + (size_t)(k ? k - 1 : 0);
+        return MOTUS_OK;
+    }
+    return unknown(name, err);
+}
+
+motus_status ensemble_place(const motus_system *s, const char *name, size_t *place, motus_error *err)
+{
+    char bare[2 * MOTUS_NAME_MAX];
+    double start;
+    if (!name)
+        return fail(err, MOTUS_ARGUMENT, "what varies has no name");
+    if (!take_bracket(name, bare, sizeof bare, &start))
+        return parameter(s, name, place, err);
+    if (start != s->start)
+        return fail(err, MOTUS_NAME, "%s is not an initial value: the start is %g", name, s->start);
+    return initial_value(s, name, bare, place, err);
+}
