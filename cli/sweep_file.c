@@ -76,30 +76,41 @@ static motus_status cannot_write(const sweep_file *f, int code, motus_error *err
     return complain(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-static int write_all(int descriptor, const char *bytes, size_t count)
+/* 0 or what went wrong; *written: how many bytes went out before. */
+static int write_all(int descriptor, const char *bytes, size_t count, size_t *written)
 {
-    while (count > 0) {
-        ssize_t written = write(descriptor, bytes, count);
-        if (written < 0 && errno != EINTR)
+    for (*written = 0; *written < count;) {
+        ssize_t more = write(descriptor, bytes + *written, count - *written);
+        if (more < 0 && errno != EINTR)
             return errno;
-        if (written > 0) {
-            bytes += written;
-            count -= (size_t)written;
-        }
+        if (more > 0)
+            *written += (size_t)more;
     }
     return 0;
 }
 
-/* Whole rows, or none of them. */
-static motus_status put(sweep_file *f, const char *bytes, size_t count, motus_error *err)
+/* Rows that begin in `bytes` and are whole within `count` of them; *end: where the last ends. */
+static uint64_t whole_rows(const sweep_file *f, const char *bytes, size_t count, size_t *end)
 {
-    int code = write_all(f->descriptor, bytes, count);
-    if (code && f->regular && ftruncate(f->descriptor, (off_t)f->bytes) == 0)
-        lseek(f->descriptor, (off_t)f->bytes, SEEK_SET);
-    if (code)
-        return cannot_write(f, code, err);
-    f->bytes += count;
-    return MOTUS_OK;
+    uint64_t rows = 0;
+    size_t width = f->sweep->columns * sizeof(double);
+    *end = f->npy ? count / width * width : 0;
+    for (size_t i = 0; !f->npy && i < count; i++)
+        if (bytes[i] == '\n') {
+            rows++;
+            *end = i + 1;
+        }
+    return f->npy ? count / width : rows;
+}
+
+static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t count, motus_error *err)
+{
+    size_t written;
+    int code = write_all(f->descriptor, bytes, count, &written);
+    if (code && f->regular && ftruncate(f->descriptor, 0) != 0)
+        code = errno;
+    f->bytes = code ? 0 : count;
+    return code ? cannot_write(f, code, err) : MOTUS_OK;
 }
 
 void sweep_npy_head(const sweep *s, uint64_t rows, char out[SWEEP_NPY_HEAD])
@@ -151,7 +162,7 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
         return cannot_write(f, errno, err);
     if (!f->npy)
-        return put(f, f->sweep->head, f->sweep->head_length, err);
+        return put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
     motus_status status = put_beside(f, err);
     if (!status)
         status = put_npy_head(f, err);
@@ -208,11 +219,22 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
-static motus_status flush(sweep_file *f, motus_error *err)
+/* The rows in the buffer; of those that do not all find room, the whole ones stay. *rows: that are in the file. */
+static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
 {
-    motus_status status = put(f, f->buffer, f->used, err);
+    size_t written, end;
+    int code = write_all(f->descriptor, f->buffer, f->used, &written);
     f->used = 0;
-    return status;
+    if (!code) {
+        *rows = f->rows;
+        f->bytes += written;
+        return MOTUS_OK;
+    }
+    *rows += whole_rows(f, f->buffer, written, &end);
+    f->bytes += end;
+    if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0)
+        code = errno;
+    return cannot_write(f, code, err);
 }
 
 static void csv_row(sweep_file *f, size_t i, double *const *values, double *const *results, double stopped)
@@ -254,22 +276,19 @@ static void npy_row(sweep_file *f, size_t i, double *const *values, double *cons
 motus_status sweep_file_rows(sweep_file *f, size_t count, double *const *values, double *const *results, const double *stopped, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    uint64_t rows = f->rows, lost = f->stopped;      /* that are in the file */
+    uint64_t rows = f->rows;                         /* that are in the file */
     for (size_t i = 0; !status && i < count; i++) {
         (f->npy ? npy_row : csv_row)(f, i, values, results, stopped[i]);
         f->rows++;
         f->stopped += !isnan(stopped[i]);
-        if (f->used < BUFFER && i + 1 < count)
-            continue;
-        status = flush(f, err);
-        if (!status) {
-            rows = f->rows;
-            lost = f->stopped;
-        }
+        if (f->used >= BUFFER || i + 1 == count)
+            status = flush(f, &rows, err);
     }
     f->rows = rows;
-    f->stopped = lost;
-    return status || !f->npy ? status : put_npy_head(f, err);
+    if (!f->npy)
+        return status;
+    motus_status head = put_npy_head(f, status ? NULL : err);
+    return status ? status : head;
 }
 
 motus_status sweep_file_finish(sweep_file *f, motus_error *err)

@@ -219,6 +219,10 @@ if mount -t tmpfs -o size=64k none small 2>/dev/null; then
     sweep "${long[@]}" -o small/full.csv >"$out" 2>"$err"
     that "a full file system" eval "[ $? = 1 ] && says 'No space left' '$err' && [ \$(rows small/full.csv | wc -l) -gt 100 ]"
     cp small/full.csv full.csv
+    that "... all of them right" cmp -n "$(stat -c %s full.csv)" full.csv long.csv
+    rm small/full.csv
+    sweep "${long[@]}" -o small/full.npy >"$out" 2>"$err"
+    that "... a .npy too" eval "[ \$(((\$(stat -c %s small/full.npy) - 128) % 48)) = 0 ] && head -c 128 small/full.npy | grep -aqF \"(\$(((\$(stat -c %s small/full.npy) - 128) / 48)), 6)\""
     umount small
     that "... finished elsewhere" resume_long full.csv
 fi
