@@ -550,9 +550,9 @@ if command -v script >/dev/null; then
     that "none with NO_COLOR" eval "! grep -q $'\033' '$out'"
     TERM=dumb terminal "$motus" run "$osc"
     that "none on a dumb terminal" eval "! grep -q $'\033' '$out'"
-    terminal "$motus" run "$osc" --until 400000
+    terminal "$motus" run "$osc" --until 400000 --machine interpreter
     that "long work shows its progress" grep -q 'run  *[0-9]* %' "$out"
-    terminal "$motus" run "$osc" --until 400000 --quiet
+    terminal "$motus" run "$osc" --until 400000 --machine interpreter --quiet
     that "... not with --quiet" eval "! grep -q 'run  *[0-9]* %' '$out'"
     terminal "$motus" run "$osc"
     that "... nor when it is short" eval "! grep -q 'run  *[0-9]* %' '$out'"
