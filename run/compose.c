@@ -75,7 +75,8 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
              work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), structure && w.nv <= SMALL_MAX,
              structure ? w.nv * (size_t)each : 0);
     if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
-        emit_add(t, "#define EACH_STAGE(i, count) _Pragma(\"GCC unroll 20\") for (int i = 0; i < (count); i++)\n");
+        emit_add(t, "#ifdef __clang__\n#define WRITTEN_OUT _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT _Pragma(\"GCC unroll 20\")\n#endif\n"
+                    "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
 }
 
 /* ---- the family ---- */
