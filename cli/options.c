@@ -42,6 +42,7 @@ static const option table[] = {
     {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
     {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
     {"--machine",     NULL, "NAME",    WORD,     AT(machine),     VERB_RUN,      "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--threads",     NULL, "N",       COUNT,    AT(threads),     VERB_RUN,      "threads for a large system (else 1); the bits are the same"},
     {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
     {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
     {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
@@ -290,6 +291,11 @@ static motus_status check(const options *o, motus_error *err)
     if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 && strcmp(machine, "compiled") != 0) {
         complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
         complain_hint(err, "auto, interpreter or compiled");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->threads > MOTUS_THREADS_MAX) {
+        complain(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
+        complain_hint(err, "more threads than the computer has cores bring nothing");
         return MOTUS_ARGUMENT;
     }
     if (o->plot_of && !o->plot) {

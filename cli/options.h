@@ -19,7 +19,7 @@ typedef struct options {
     double step, until;                  /* NaN: the model's */
     double every_time;                   /* 0: not given */
     int64_t every_steps;                 /* 0: not given */
-    int64_t evaluations;                 /* 0: not given */
+    int64_t evaluations, threads;        /* 0: not given */
     options_list set, methods;
     char *methods_text;                  /* what the items of `methods` point into */
     bool json, quiet, help, markdown, emit_c, clear;

@@ -28,6 +28,7 @@ complete -c motus -n "__fish_seen_subcommand_from run" -l plot-of -x -d 'column 
 complete -c motus -n "__fish_seen_subcommand_from run" -l save-state -r -F -d 'write an exact restart state'
 complete -c motus -n "__fish_seen_subcommand_from run" -l restart -r -F -d 'go on from one'
 complete -c motus -n "__fish_seen_subcommand_from run" -l machine -x -a 'auto interpreter compiled' -d machine
+complete -c motus -n "__fish_seen_subcommand_from run" -l threads -x -d 'threads for a large system'
 complete -c motus -n "__fish_seen_subcommand_from run" -l emit-c -d 'print the C text that runs'
 complete -c motus -n "__fish_seen_subcommand_from cache" -l clear -d 'remove compiled models'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -l json -d 'one JSON object'
