@@ -42,6 +42,7 @@ static const option table[] = {
     {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
     {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
     {"--machine",     NULL, "NAME",    WORD,     AT(machine),     ONE,           "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--threads",     NULL, "N",       COUNT,    AT(threads),     ONE,           "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
     {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
     {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
     {"--vary",        NULL, "P=RANGE", NAMED,    AT(vary),        VERB_SWEEP,    "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
@@ -52,7 +53,6 @@ static const option table[] = {
     {"--record",      NULL, "LIST",    WORD,     AT(record),      VERB_SWEEP,    "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
     {"--resume",      NULL, NULL,      FLAG,     AT(resume),      VERB_SWEEP,    "go on with FILE where an interrupted sweep left off, to the same bytes"},
     {"--force",       NULL, NULL,      FLAG,     AT(force),       VERB_SWEEP,    "replace FILE if it is there"},
-    {"--threads",     NULL, "N",       COUNT,    AT(threads),     VERB_SWEEP,    "threads (else one for each processor); the bits are the same"},
     {"--lanes",       NULL, "N",       COUNT,    AT(lanes),       VERB_SWEEP,    "trajectories side by side: 1, 2, 4, ... (for tests and the curious); the bits are the same"},
     {"--fast",        NULL, NULL,      FLAG,     AT(fast),        VERB_SWEEP,    "let the compiler reorder: last bits may differ from machine to machine"},
     {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
@@ -244,6 +244,11 @@ static motus_status check(const options *o, motus_error *err)
     if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 && strcmp(machine, "compiled") != 0) {
         complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
         complain_hint(err, "auto, interpreter or compiled");
+        return MOTUS_ARGUMENT;
+    }
+    if (o->threads > MOTUS_THREADS_MAX) {
+        complain(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
+        complain_hint(err, "more threads than the computer has cores bring nothing");
         return MOTUS_ARGUMENT;
     }
     if (o->plot_of && !o->plot) {

@@ -19,11 +19,11 @@ typedef struct options {
     double step, until;                  /* NaN: the model's */
     double every_time;                   /* 0: not given */
     int64_t every_steps;                 /* 0: not given */
-    int64_t evaluations;                 /* 0: not given */
+    int64_t evaluations, threads;        /* 0: not given */
     options_list set, methods;
     options_list vary, random;           /* "P=…" as given */
     const char *record;
-    int64_t count, threads, lanes;       /* 0: not given */
+    int64_t count, lanes;                /* 0: not given */
     uint64_t seed;
     bool seeded;                         /* a seed was given */
     bool zip, fast, resume, force;

@@ -21,7 +21,7 @@ _motus() {
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --emit-c' ;;
+        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c' ;;
         compare)  options+=' --methods --step --until --set --evaluations --plot' ;;
         converge) options+=' --methods --step --until --set --plot' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --step --until --every --set --output --resume --force'

@@ -38,7 +38,7 @@ complete -c motus -n "__fish_seen_subcommand_from sweep" -l zip -d 'values side 
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l record -x -d 'what is kept'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l resume -d 'go on with the file'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l force -d 'replace the file'
-complete -c motus -n "__fish_seen_subcommand_from sweep" -l threads -x -d threads
+complete -c motus -n "__fish_seen_subcommand_from run sweep" -l threads -x -d threads
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l lanes -x -d 'trajectories side by side'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l fast -d 'let the compiler reorder'
 complete -c motus -n "__fish_seen_subcommand_from cache" -l clear -d 'remove compiled models'
