@@ -29,7 +29,7 @@ WIDTH, LEFT, RIGHT, ROW, HEAD = 720, 200, 70, 20, 30
 
 
 def read(file):
-    """{section: {line: other/ours}} and the line about the machine."""
+    """{section: {line: how many times as long as motus}}, and the line about the machine."""
     sections, current, machine = {}, None, ""
     with open(file, encoding="utf-8") as lines:
         for number, line in enumerate(lines):
@@ -37,12 +37,13 @@ def read(file):
             if number == 0:
                 machine = line
             elif line and not line.startswith(" "):
-                if not re.search(r"  ours  ", line):
+                if "  ours  " not in line:
                     current = sections.setdefault(line, {})
             else:
-                found = re.match(r"  (\S.*?) {2,}([\d.]+) (ns|ms) +([\d.]+) \3 ", line + " ")
-                if found and current is not None:
-                    current[found[1]] = float(found[4]) / float(found[2]) if float(found[2]) else math.inf
+                # name, ours, other, ratio, limit: a ratio that must be large is other/ours, any other is ours/other
+                found = re.match(r"  (\S.*?) {2,}[\d.]+ (?:ns|ms) +[\d.]+ (?:ns|ms) +([\d.]+)( +>=)?", line)
+                if found and current is not None and float(found[2]):
+                    current[found[1]] = float(found[2]) if found[3] else 1 / float(found[2])
     return sections, machine
 
 

@@ -4,6 +4,7 @@
 #include "motus.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -54,13 +55,15 @@ void machine_describe(void)
     value_of("/proc/cpuinfo", "cache size", cache, sizeof cache);
     uname(&u);
     report_text("motus %s on %s, %d cores, second cache %s, %s\n", motus_version(), cpu, machine_cores(), cache, hand_lanes());
-    report_text("%s, %s %s, compiled by "
+    double load[1] = { 0 };
+    (void)!getloadavg(load, 1);
+    report_text("%s, %s %s, load %.1f before the start, compiled by "
 #ifdef __clang__
                 "clang "
 #else
                 "gcc "
 #endif
-                __VERSION__ "\n", os, u.sysname, u.release);
+                __VERSION__ "\n", os, u.sysname, u.release, load[0]);
 }
 
 void machine_slug(char *out, size_t size)

@@ -58,7 +58,7 @@ static void line(const char *name, double ours, double other, double value, cons
 {
     char a[32], b[32], r[32];
     if (isnan(value)) snprintf(r, sizeof r, "-");
-    else snprintf(r, sizeof r, "%.*f", value < 10 ? 2 : value < 100 ? 1 : 0, value);
+    else snprintf(r, sizeof r, "%.*f", value < 0.1 ? 4 : value < 10 ? 2 : value < 100 ? 1 : 0, value);
     const char *word = verdict < 0 ? "" : isnan(value) ? "not measured" : verdict ? "ok" : "short";
     if (verdict >= 0) *(isnan(value) ? &unmeasured : verdict ? &good : &missed) += 1;
     report_text("  %-56s  %9s  %9s  %7s  %8s%s%s\n", name, figure(ours, unit, a, sizeof a), figure(other, unit, b, sizeof b), r, limit, *word ? "  " : "", word);
