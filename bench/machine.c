@@ -57,13 +57,13 @@ void machine_describe(void)
     report_text("motus %s on %s, %d cores, second cache %s, %s\n", motus_version(), cpu, machine_cores(), cache, hand_lanes());
     double load[1] = { 0 };
     (void)!getloadavg(load, 1);
-    report_text("%s, %s %s, load %.1f before the start, compiled by "
+    report_text("%s, %s %.*s, load %.1f before the start, compiled by "
 #ifdef __clang__
                 "clang "
 #else
                 "gcc "
 #endif
-                __VERSION__ "\n", os, u.sysname, u.release, load[0]);
+                __VERSION__ "\n", os, u.sysname, (int)strcspn(u.release, "-+"), u.release, load[0]);
 }
 
 void machine_slug(char *out, size_t size)
