@@ -6,13 +6,20 @@
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.c bench/hand/*.c bench/peers/*.c)
 list(REMOVE_ITEM bench_sources ${PROJECT_SOURCE_DIR}/bench/functions.c)
 file(GLOB bench_hand bench/hand/*.c)
-set_source_files_properties(${bench_hand} PROPERTIES COMPILE_OPTIONS "${hot};-march=native;-fopenmp")
+set_source_files_properties(${bench_hand} PROPERTIES COMPILE_OPTIONS "${hot};-march=native")
 
 add_executable(motus_bench EXCLUDE_FROM_ALL ${bench_sources})
 set_target_properties(motus_bench PROPERTIES OUTPUT_NAME bench RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
 target_include_directories(motus_bench PRIVATE ${PROJECT_SOURCE_DIR})
 target_compile_definitions(motus_bench PRIVATE _GNU_SOURCE)
-target_link_libraries(motus_bench PRIVATE motus_flags motus_static -fopenmp)
+target_link_libraries(motus_bench PRIVATE motus_flags motus_static)
+
+find_package(OpenMP COMPONENTS C)        # without it the chain by hand runs on one thread
+if(OpenMP_C_FOUND)
+  target_link_libraries(motus_bench PRIVATE OpenMP::OpenMP_C)
+else()
+  target_compile_options(motus_bench PRIVATE -Wno-unknown-pragmas)
+endif()
 
 # name, header, libraries: the macro BENCH_name where all of them are there
 function(bench_peer name header)
