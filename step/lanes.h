@@ -11,8 +11,7 @@ void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_b
 void motus_lanes_table(const lanes_job *job, clock *table, whole count)
 {
 #if TERMS
-    for (whole n = 0; n < count; n += LANES_OF_TIME)
-        compiled_fill(job->plan, &job->host, table + n * MOMENTS * TERMS, job->plan->n + n);
+    compiled_fill(&job->host, job->plan->t0, job->plan->h, table, job->plan->n, count);
 #else
     (void)job, (void)table, (void)count;
 #endif
