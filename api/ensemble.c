@@ -12,11 +12,21 @@ _Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX ==
 
 enum { THREADS_MAX = 1024, ENSEMBLE_LANES_MAX = 64 };
 
-static double now(void)
+double ensemble_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int ensemble_watched(void *context, double fraction)
+{
+    motus_ensemble *e = context;
+    const double t = e->progress ? ensemble_now() : 0;
+    if (!e->progress || t - e->told < 0.01)
+        return 0;
+    e->told = t;
+    return e->progress(e->context, fraction);
 }
 
 static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
@@ -97,7 +107,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
     const lanes_def def = {.model = s->model, .problem = &s->problem, .chosen = &e->chosen, .vary = e->vary, .places = e->places, .place_count = e->vary_count,
                            .sources = sources, .source_count = e->record_count, .t0 = e->timing.t0, .h = e->timing.h, .last = e->timing.last,
                            .until = e->timing.until, .whole = e->timing.whole, .every = e->every, .lanes = d->lanes, .threads = e->threads,
-                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress, .context = e->context};
+                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress ? ensemble_watched : NULL, .context = e};
     const char *why = lanes_refuse(&def);
     if (why) {
         snprintf(e->note, sizeof e->note, "%s", why);
@@ -209,9 +219,9 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (!count)
         return MOTUS_OK;
     modes m = modes_enter();
-    double began = now();
+    double began = ensemble_now();
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : ensemble_singly(e, count, values, results, stopped, err);
-    e->seconds += now() - began;
+    e->seconds += ensemble_now() - began;
     modes_leave(m);
     return status;
 }

@@ -22,9 +22,13 @@ struct motus_ensemble {
     double seconds;
     int (*progress)(void *context, double fraction);
     void *context;
+    double told;                     /* when `progress` was last called */
     char note[MOTUS_TEXT_MAX];
 };
 
+double ensemble_now(void);               /* seconds */
+/* Tells the one who watches, not more often than every 10 ms; other than 0: cancel. The context is the ensemble. */
+int ensemble_watched(void *context, double fraction);
 /* What varies: its place in the pool of a model, or in x and then v of a callback. */
 motus_status ensemble_place(const motus_system *, const char *name, size_t *place, motus_error *);
 /* One trajectory after the other. */

@@ -49,7 +49,7 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);
-/* The quantity or invariant of a column, and which of its numbers that is. */
+/* The quantity or invariant of a column, and which of its numbers, in the inside order, that is. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
 

@@ -74,6 +74,10 @@ static inline real lanes_number(const lanes_job *job, const lanes_record *r, clo
 static inline void lanes_look(work *w, const lanes_job *job, clock t, bool first)
 {
     advance_sync(w, job->x, job->v, job->a);
+    if (t != time_of(w, w->n)) {     /* the end is `until`, whatever t0 + n h comes to */
+        refresh_at(w, t, job->x, job->v);
+        if (job->a) accel(w, t, job->x, job->v, job->a);
+    }
     lanes_looks(host_of(w), t, job->x, job->v, job->a, job->out);
     for (int i = 0; i < job->record_count; i++)
         for (int g = 0; g < GROUPS; g++) {
@@ -88,7 +92,7 @@ static inline void lanes_look(work *w, const lanes_job *job, clock t, bool first
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = job->plan, *w = &local;
-#if NUMBERS
+#if SMALL
     real room[ARRAYS * NUMBERS];
     w->stride = NUMBERS;
     lanes_place(w, job, room);
