@@ -24,6 +24,12 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
             return MOTUS_NAME;
         }
     }
+    for (uint32_t i = 0; i < s->state_count; i++)
+        if (!strcmp(s->states[i].name, base) && !strchr(name, '(')) {
+            char at[DECIMAL_MAX];
+            hint(err, "an initial value is varied: %s(%s)", name, decimal(s->start, at));
+            return MOTUS_NAME;
+        }
     hint(err, "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0)");
     return MOTUS_NAME;
 }
