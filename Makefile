@@ -1,20 +1,22 @@
 # make              the program, build/motus, and the library
 # make demo         runs and compares the founding models; tables here, plots in out/
 # make test         every test; ends with "N passed, N failed"
+# make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
 # make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
 # make clean
 #
-# demo, test, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
+# demo, test, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
 # Building is CMake's work: CMakeLists.txt, CMakePresets.json.
 
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
+RESULTS ?= build/bench
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo test install clean fuzz tidy manual need-demo
+.PHONY: all demo test bench install clean fuzz tidy manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -32,6 +34,15 @@ demo: need-demo all
 test:
 	@cmake/need.sh build demo test
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary
+
+# Nothing here fails for want of a peer, or of speed.
+bench:
+	@cmake/need.sh build
+	@cmake/need.sh bench || echo "motus: what is missing is left out of the comparison" >&2
+	@mkdir -p build
+	@$(CMAKE) --preset release -DMOTUS_BENCH=ON >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@$(CMAKE) --build build --target motus_program motus_bench
+	@build/bench/bench --save $(RESULTS)
 
 install: all
 	@$(CMAKE) --preset release -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) >build/configure.log

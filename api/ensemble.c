@@ -10,7 +10,7 @@
 
 _Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_TIME_OF_MAX, "the reductions are the same list");
 
-enum { THREADS_MAX = 1024, ENSEMBLE_LANES_MAX = 64 };
+enum { ENSEMBLE_LANES_MAX = 64 };
 
 double ensemble_now(void)
 {
@@ -40,8 +40,8 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r, d->records[r].column, s->column_count);
     if (d->every < 1)
         return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
-    if (d->threads < 0 || d->threads > THREADS_MAX)
-        return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d", THREADS_MAX, d->threads);
+    if (d->threads < 0 || d->threads > MOTUS_THREADS_MAX)
+        return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d", MOTUS_THREADS_MAX, d->threads);
     if (d->lanes < 0 || d->lanes > ENSEMBLE_LANES_MAX || (d->lanes & (d->lanes - 1)))
         return fail(err, MOTUS_ARGUMENT, "lanes are 0 (as many as suits) or a power of two up to %d, not %d", ENSEMBLE_LANES_MAX, d->lanes);
     if (d->machine && strcmp(d->machine, "auto") && strcmp(d->machine, "compiled") && strcmp(d->machine, "interpreter")) {

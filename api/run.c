@@ -203,6 +203,9 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
         status = row_admits(&r->chosen, &s->problem.traits, err);
     if (status == MOTUS_OK)
         status = plan(r, &def, err);
+    if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
+        status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
+    r->chosen.threads = def.threads;
     if (status == MOTUS_OK)
         status = choose_machine(r, def.machine, err);
     if (status == MOTUS_OK)
@@ -298,7 +301,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* n whole steps; where somebody watches, in pieces of about ten milliseconds, however the caller cuts the way into calls. */
+/* n whole steps; where somebody watches, in pieces of some ten milliseconds, however the caller cuts the way into calls. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     const machine *m = r->machine;
@@ -313,9 +316,9 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
         if (!r->progress)
             continue;
         double t = now(), took = t - began;
-        if (took < 0.005 && piece == r->piece && piece < INT64_MAX / 4)
+        if (took < 0.05 && piece == r->piece && piece < INT64_MAX / 4)
             r->piece *= 2;
-        else if (took > 0.02 && r->piece > 1)
+        else if (took > 0.2 && r->piece > 1)
             r->piece /= 2;
         if (t - r->told < 0.01)
             continue;

@@ -8,9 +8,6 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <time.h>
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"      /* nothing here crosses an object */
 #endif

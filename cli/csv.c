@@ -58,7 +58,7 @@ void csv_free(csv *c)
 }
 
 /* A word of the command as a shell would need it, control characters as \xNN. */
-static motus_status put_word(file_out *f, const char *word, motus_error *err)
+motus_status csv_word(file_out *f, const char *word, motus_error *err)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
     bool quote = !*word || word[strspn(word, plain)];
@@ -86,23 +86,23 @@ static motus_status put_head(csv *c, const options *o, const motus_run *run, mot
     char line[256], step[TEXT_NUMBER];
     motus_status status = file_text(c->file, "# motus", err);
     for (int i = 1; !status && i < o->argc; i++)
-        status = put_word(c->file, o->argv[i], err);
+        status = csv_word(c->file, o->argv[i], err);
     text_number(motus_run_step_size(run), step);
     snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(), motus_run_method(run), step,
              motus_run_machine(run));
     return status ? status : file_text(c->file, line, err);
 }
 
-static motus_status put_name(csv *c, const char *name, motus_error *err)
+motus_status csv_name(file_out *f, const char *name, motus_error *err)
 {
-    char safe[sizeof((motus_column *)0)->name];
+    char safe[sizeof((motus_column *)0)->name + 32];
     text_safe(name, safe, sizeof safe);
     if (!strpbrk(safe, ",\""))
-        return file_text(c->file, safe, err);
-    motus_status status = file_text(c->file, "\"", err);
+        return file_text(f, safe, err);
+    motus_status status = file_text(f, "\"", err);
     for (const char *s = safe; !status && *s; s++)
-        status = file_write(c->file, *s == '"' ? "\"\"" : s, *s == '"' ? 2 : 1, err);
-    return status ? status : file_text(c->file, "\"", err);
+        status = file_write(f, *s == '"' ? "\"\"" : s, *s == '"' ? 2 : 1, err);
+    return status ? status : file_text(f, "\"", err);
 }
 
 motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
@@ -120,7 +120,7 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
         if (k > 0)
             status = file_text(c->file, ",", err);
         if (!status)
-            status = put_name(c, column.name, err);
+            status = csv_name(c->file, column.name, err);
     }
     return status ? status : file_text(c->file, "\n", err);
 }

@@ -21,4 +21,9 @@ motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, mo
 motus_status csv_row(void *context, const double *values, motus_error *);
 void csv_free(csv *);
 
+/* A blank and a word of a command, as a shell would need it, control characters as \xNN. */
+motus_status csv_word(file_out *, const char *word, motus_error *);
+/* The name of a column, quoted where it holds a comma or a quote. */
+motus_status csv_name(file_out *, const char *name, motus_error *);
+
 #endif

@@ -29,6 +29,15 @@ static const page pages[] = {
      "  motus converge models/pendulum.motus\n"
      "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
      "  motus converge models/charged-particle.motus --json\n"},
+    {VERB_SWEEP, "motus sweep MODEL --vary P=RANGE ... [options]",
+     "Integrates a model many times, with other parameters or initial values each time, on all processors, and writes a row\n"
+     "of what was recorded for each. --vary twice is every value of the one with every value of the other. What was\n"
+     "interrupted, even by kill -9, goes on with --resume.",
+     "  motus sweep models/driven-oscillator.motus --vary F=0:0.2:11\n"
+     "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:181\" --record \"max(theta),final\" --until 10 -o swings.csv\n"
+     "  motus sweep models/driven-oscillator.motus --vary F=log:0.001:0.1:3 --vary \"x(0)=0,0.1,0.2\" --record \"x,max(x)\"\n"
+     "  motus sweep models/kepler.motus --random \"r'.y(0)=normal:2:0.01\" --count 1000 --seed 7 --until 20 -o cloud.npy\n"
+     "  motus sweep models/pendulum.motus --vary \"theta(0)=@swings.csv:theta(0)\" --until 1 --record energy\n"},
     {VERB_CHECK, "motus check MODEL [options]",
      "Says what was understood of a model: its equations in normal form, what the acceleration depends on, and for every\n"
      "method whether the model admits it, and why not.",
@@ -51,6 +60,7 @@ void help_program(FILE *out)
           "  motus run      MODEL     integrate: the state at the end, files, plots\n"
           "  motus compare  MODEL     every method side by side\n"
           "  motus converge MODEL     error against step, the observed order, a certificate\n"
+          "  motus sweep    MODEL     many trajectories: parameters and initial values vary\n"
           "  motus check    MODEL     what the program understood, which methods it admits\n"
           "  motus methods [METHOD]   the catalogue, or the card of one method\n"
           "  motus cache    --clear   forget the compiled models\n\n"
@@ -63,7 +73,8 @@ void help_program(FILE *out)
           "  step   0.001\n"
           "  until  100\n\n"
           "Data goes to standard output, messages to standard error. Exit status: 0 done, 1 the computation failed,\n"
-          "2 the request was wrong; after Ctrl-C the program dies of the signal, and no file is left half written.\n",
+          "2 the request was wrong. After Ctrl-C the program dies of the signal; no file is left half written, but for the whole\n"
+          "rows of a sweep, with which --resume goes on.\n",
           out);
 }
 

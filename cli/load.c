@@ -15,11 +15,7 @@
 
 static motus_status no_model(const options *o, motus_error *err)
 {
-    static const char *const verbs[] = {"run", "compare", "converge", "check"};
-    const char *verb = "run";
-    for (size_t i = 0; i < sizeof verbs / sizeof *verbs; i++)
-        if (o->verb == 1u << i)
-            verb = verbs[i];
+    const char *verb = options_verb(o->verb);
     complain(err, MOTUS_ARGUMENT, "motus %s needs a model", verb);
     complain_hint(err, "motus %s model.motus, or - for standard input", verb);
     return MOTUS_ARGUMENT;

@@ -23,10 +23,10 @@ static const verb verbs[] = {
     {"run", VERB_RUN, run_verb},
     {"compare", VERB_COMPARE, compare_verb},
     {"converge", VERB_CONVERGE, converge_verb},
+    {"sweep", VERB_SWEEP, sweep_verb},
     {"check", VERB_CHECK, check_verb},
     {"methods", VERB_METHODS, methods_verb},
     {"cache", VERB_CACHE, cache_verb},
-    {"sweep", 0, NULL},
     {"lab", 0, NULL},
     {"bench", 0, NULL},
 };

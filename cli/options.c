@@ -7,16 +7,16 @@
 
 #include "cli/complain.h"
 #include "cli/text.h"
+#include "cli/typed.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK, STUDY = VERB_COMPARE | VERB_CONVERGE,
-       MOTION = VERB_RUN | STUDY, ANY = MODEL | VERB_METHODS | VERB_CACHE };
+enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP, STUDY = VERB_COMPARE | VERB_CONVERGE,
+       MOTION = VERB_RUN | STUDY | VERB_SWEEP, DRAWN = VERB_RUN | STUDY, ONE = VERB_RUN | VERB_SWEEP, ANY = MODEL | VERB_METHODS | VERB_CACHE };
 
-typedef enum kind { FLAG, WORD, POSITIVE, REAL, COUNT, EVERY, METHOD_LIST, SET } kind;
+typedef enum kind { FLAG, WORD, POSITIVE, REAL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
 
 typedef struct option {
     const char *name, *brief, *argument;
@@ -28,22 +28,33 @@ typedef struct option {
 
 #define AT(member) offsetof(options, member)
 static const option table[] = {
-    {"--method",      NULL, "M",       WORD,     AT(method),      VERB_RUN,      "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
+    {"--method",      NULL, "M",       WORD,     AT(method),      ONE,           "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
     {"--methods",     NULL, "A,B,C",   METHOD_LIST, AT(methods),  STUDY,         "these methods (else every one the model admits)"},
     {"--step",        NULL, "H",       POSITIVE, AT(step),        MOTION,        "time step: 0.01, 1/64, pi/100"},
     {"--until",       NULL, "T",       REAL,     AT(until),       MOTION,        "end time; before the start: backward"},
-    {"--set",         NULL, "P=EXPR",  SET,      AT(set),         MODEL,         "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
+    {"--set",         NULL, "P=EXPR",  NAMED,    AT(set),         MODEL,         "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
     {"--evaluations", NULL, "N",       COUNT,    AT(evaluations), VERB_COMPARE,  "equal work: each method's step is chosen to spend N evaluations"},
-    {"--output",      "-o", "FILE",    WORD,     AT(output),      VERB_RUN,      "write the trajectory as CSV; - is standard output"},
+    {"--output",      "-o", "FILE",    WORD,     AT(output),      ONE,           "write the CSV (sweep: .npy as well) to FILE; - is standard output"},
     {"--columns",     NULL, "A,B,C",   WORD,     AT(columns),     VERB_RUN,      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
-    {"--every",       NULL, "T",       EVERY,    AT(every_time),  VERB_RUN,      "a row of the CSV every time T, or every \"10 steps\""},
-    {"--plot",        NULL, "FIG",     WORD,     AT(plot),        MOTION,        "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
+    {"--every",       NULL, "T",       EVERY,    AT(every_time),  ONE,           "a row (sweep: a look for max and the like) every time T, or every \"10 steps\""},
+    {"--plot",        NULL, "FIG",     WORD,     AT(plot),        DRAWN,         "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
     {"--plot-of",     NULL, "X,Y",     WORD,     AT(plot_of),     VERB_RUN,      "draw column Y against column X: \"x,x'\""},
     {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
     {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
-    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     VERB_RUN,      "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     ONE,           "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--threads",     NULL, "N",       COUNT,    AT(threads),     ONE,           "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
     {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
     {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
+    {"--vary",        NULL, "P=RANGE", NAMED,    AT(vary),        VERB_SWEEP,    "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
+    {"--random",      NULL, "P=DIST",  NAMED,    AT(random),      VERB_SWEEP,    "\"x(0)=-1:1\", evenly; m=normal:MEAN:DEVIATION; repeatable"},
+    {"--count",       NULL, "N",       COUNT,    AT(count),       VERB_SWEEP,    "draw N times (for each value of --vary, if there is one)"},
+    {"--seed",        NULL, "S",       SEED,     AT(seed),        VERB_SWEEP,    "of --random: a whole number (else 0); the same seed, the same numbers"},
+    {"--zip",         NULL, NULL,      FLAG,     AT(zip),         VERB_SWEEP,    "--vary side by side, not every one with every other"},
+    {"--record",      NULL, "LIST",    WORD,     AT(record),      VERB_SWEEP,    "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
+    {"--resume",      NULL, NULL,      FLAG,     AT(resume),      VERB_SWEEP,    "go on with FILE where an interrupted sweep left off, to the same bytes"},
+    {"--force",       NULL, NULL,      FLAG,     AT(force),       VERB_SWEEP,    "replace FILE if it is there"},
+    {"--lanes",       NULL, "N",       COUNT,    AT(lanes),       VERB_SWEEP,    "trajectories side by side: 1, 2, 4, ... (for tests and the curious); the bits are the same"},
+    {"--fast",        NULL, NULL,      FLAG,     AT(fast),        VERB_SWEEP,    "let the compiler reorder: last bits may differ from machine to machine"},
     {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
     {"--json",        NULL, NULL,      FLAG,     AT(json),        ANY,           "one JSON object on standard output"},
     {"--quiet",       "-q", NULL,      FLAG,     AT(quiet),       ANY,           "print nothing but errors and --json"},
@@ -51,9 +62,9 @@ static const option table[] = {
 };
 enum { OPTIONS = sizeof table / sizeof *table };
 
-static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods", "cache"};
+static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods", "cache", "sweep"};
 
-static const char *verb_name(unsigned verb)
+const char *options_verb(unsigned verb)
 {
     for (size_t i = 0; i < sizeof verb_names / sizeof *verb_names; i++)
         if (verb == 1u << i)
@@ -87,10 +98,10 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
     }
     if (elsewhere) {
         char verbs[64] = "";
-        for (unsigned bit = 1; bit <= VERB_METHODS; bit <<= 1)
+        for (unsigned bit = 1; bit <= VERB_SWEEP; bit <<= 1)
             if (elsewhere->verbs & bit)
-                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "", verb_name(bit));
-        complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", verb_name(verb), elsewhere->name);
+                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "", options_verb(bit));
+        complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
         complain_hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
     }
@@ -102,48 +113,8 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
     else if (near)
         complain_hint(err, "did you mean %s?", near->name);
     else
-        complain_hint(err, "motus %s --help lists the options", verb_name(verb));
+        complain_hint(err, "motus %s --help lists the options", options_verb(verb));
     return MOTUS_ARGUMENT;
-}
-
-/* [number] [*] [pi] [/ number]: what a person types for a step or an end. */
-static bool read_number(const char *s, double *value)
-{
-    char *end;
-    double result = 1;
-    bool negative = *s == '-', some = false;
-    s += negative || *s == '+';
-    if ((*s >= '0' && *s <= '9') || *s == '.') {
-        if (s[0] == '0' && (s[1] == 'x' || s[1] == 'X'))
-            return false;
-        result = strtod(s, &end);
-        some = end != s;
-        s = end;
-    }
-    while (*s == ' ')
-        s++;
-    if (some && *s == '*')
-        s++;
-    while (*s == ' ')
-        s++;
-    if (s[0] == 'p' && s[1] == 'i') {
-        result *= 3.14159265358979323846;
-        some = true;
-        s += 2;
-    }
-    while (*s == ' ')
-        s++;
-    if (*s == '/') {
-        s++;
-        while (*s == ' ')
-            s++;
-        if (!(*s >= '0' && *s <= '9') || (s[0] == '0' && (s[1] == 'x' || s[1] == 'X')))
-            return false;
-        result /= strtod(s, &end);
-        s = end;
-    }
-    *value = negative ? -result : result;
-    return some && *s == 0 && isfinite(*value);
 }
 
 static motus_status bad_value(const option *o, const char *value, const char *wanted, motus_error *err)
@@ -154,31 +125,11 @@ static motus_status bad_value(const option *o, const char *value, const char *wa
     return MOTUS_ARGUMENT;
 }
 
-/* A whole number from 1 to what an int64_t holds, and what follows it. */
-static bool read_count(const char *s, int64_t *count, const char **rest)
-{
-    if (!(*s >= '0' && *s <= '9'))
-        return false;
-    char *end;
-    errno = 0;
-    long long n = strtoll(s, &end, 10);
-    /* 1e6 is how people write a million */
-    if (*end == 'e' || *end == 'E' || *end == '.') {
-        double d = strtod(s, &end);
-        if (!(d >= 1 && d < 9e18) || d != trunc(d))
-            return false;
-        n = (long long)d;
-    }
-    *count = n;
-    *rest = end;
-    return errno == 0 && n >= 1;
-}
-
 static motus_status read_every(options *o, const option *row, const char *value, motus_error *err)
 {
     const char *rest;
     int64_t n;
-    if (read_count(value, &n, &rest)) {
+    if (typed_count(value, &n, &rest)) {
         while (*rest == ' ')
             rest++;
         if (strcmp(rest, "steps") == 0 || strcmp(rest, "step") == 0) {
@@ -188,7 +139,7 @@ static motus_status read_every(options *o, const option *row, const char *value,
         }
     }
     double t;
-    if (!read_number(value, &t) || !(t > 0))
+    if (!typed_number(value, &t) || !(t > 0))
         return bad_value(row, value, "a time above 0, or a count as \"10 steps\"", err);
     o->every_time = t;
     o->every_steps = 0;
@@ -234,18 +185,18 @@ motus_status options_split(const char *text, const char *option_name, char **cop
     return MOTUS_OK;
 }
 
-static motus_status add_set(options *o, const char *value, motus_error *err)
+static motus_status add_named(options_list *list, const option *row, const char *value, motus_error *err)
 {
     if (!strchr(value, '=') || value[0] == '=') {
-        complain(err, MOTUS_ARGUMENT, "--set %s: a name and its value are missing", value);
-        complain_hint(err, "write --set F=0.2 or --set \"x(0)=1\"");
+        complain(err, MOTUS_ARGUMENT, "%s %s: a name and what stands for it are missing", row->name, value);
+        complain_hint(err, "%s %s: %s", row->name, row->argument, row->help);
         return MOTUS_ARGUMENT;
     }
-    const char **items = realloc(o->set.items, (o->set.count + 1) * sizeof *items);
+    const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
     if (!items)
         return complain_memory(err);
-    o->set.items = items;
-    o->set.items[o->set.count++] = value;
+    list->items = items;
+    list->items[list->count++] = value;
     return MOTUS_OK;
 }
 
@@ -263,13 +214,13 @@ static motus_status store(options *o, const option *row, const char *value, motu
         *(const char **)place = value;
         return MOTUS_OK;
     case POSITIVE:
-        if (!read_number(value, place) || !(*(double *)place > 0))
+        if (!typed_number(value, place) || !(*(double *)place > 0))
             return bad_value(row, value, "a number above 0", err);
         return MOTUS_OK;
     case REAL:
-        return read_number(value, place) ? MOTUS_OK : bad_value(row, value, "a number", err);
+        return typed_number(value, place) ? MOTUS_OK : bad_value(row, value, "a number", err);
     case COUNT:
-        return read_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "a whole number above 0", err);
+        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "a whole number above 0", err);
     case EVERY:
         return read_every(o, row, value, err);
     case METHOD_LIST:
@@ -278,8 +229,11 @@ static motus_status store(options *o, const option *row, const char *value, motu
         o->methods_text = NULL;
         o->methods = (options_list){0};
         return options_split(value, row->name, &o->methods_text, &o->methods, err);
-    case SET:
-        return add_set(o, value, err);
+    case SEED:
+        o->seeded = true;
+        return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "a whole number", err);
+    case NAMED:
+        return add_named(place, row, value, err);
     }
     return MOTUS_OK;
 }
@@ -292,12 +246,17 @@ static motus_status check(const options *o, motus_error *err)
         complain_hint(err, "auto, interpreter or compiled");
         return MOTUS_ARGUMENT;
     }
+    if (o->threads > MOTUS_THREADS_MAX) {
+        complain(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
+        complain_hint(err, "more threads than the computer has cores bring nothing");
+        return MOTUS_ARGUMENT;
+    }
     if (o->plot_of && !o->plot) {
         complain(err, MOTUS_ARGUMENT, "--plot-of says what to draw, and --plot is missing");
         complain_hint(err, "add --plot fig.svg");
         return MOTUS_ARGUMENT;
     }
-    if ((o->columns || o->every_time > 0 || o->every_steps > 0) && !o->output) {
+    if (o->verb == VERB_RUN && (o->columns || o->every_time > 0 || o->every_steps > 0) && !o->output) {
         complain(err, MOTUS_ARGUMENT, "%s is about the CSV, and -o is missing", o->columns ? "--columns" : "--every");
         complain_hint(err, "add -o traj.csv");
         return MOTUS_ARGUMENT;
@@ -360,6 +319,8 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
 void options_free(options *o)
 {
     free(o->set.items);
+    free(o->vary.items);
+    free(o->random.items);
     free(o->methods.items);
     free(o->methods_text);
 }

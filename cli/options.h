@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 /* Verbs, as bits, so that an option can say where it belongs. */
-enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32 };
+enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32, VERB_SWEEP = 64 };
 
 typedef struct options_list { const char **items; size_t count; } options_list;
 
@@ -19,8 +19,14 @@ typedef struct options {
     double step, until;                  /* NaN: the model's */
     double every_time;                   /* 0: not given */
     int64_t every_steps;                 /* 0: not given */
-    int64_t evaluations;                 /* 0: not given */
+    int64_t evaluations, threads;        /* 0: not given */
     options_list set, methods;
+    options_list vary, random;           /* "P=…" as given */
+    const char *record;
+    int64_t count, lanes;                /* 0: not given */
+    uint64_t seed;
+    bool seeded;                         /* a seed was given */
+    bool zip, fast, resume, force;
     char *methods_text;                  /* what the items of `methods` point into */
     bool json, quiet, help, markdown, emit_c, clear;
     int argc;
@@ -30,6 +36,7 @@ typedef struct options {
 /* argv from the program's name on; `first` is where the verb's own arguments begin. */
 motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
 void options_free(options *);
+const char *options_verb(unsigned verb);
 /* The lines of --help for the options of a verb. */
 void options_help(FILE *, unsigned verb);
 /* "x,r.x,u[1,2]" into its parts: commas inside brackets do not count. The items point into *copy, which the caller frees. */

@@ -89,6 +89,7 @@ static motus_status begin(job *j, motus_error *err)
     def.step = o->step;
     def.until = o->until;
     def.machine = o->machine;
+    def.threads = (int)o->threads;
     def.progress = stop_progress_hook;
     def.context = &j->progress;
     status = motus_run_create(j->model.system, &def, &j->run, err);

@@ -64,7 +64,21 @@ double stop_clock(void)
 
 stop_progress stop_progress_begin(const char *what, bool quiet)
 {
-    return (stop_progress){what, stop_clock(), 0, !quiet && isatty(STDERR_FILENO)};
+    return (stop_progress){.what = what, .began = stop_clock(), .terminal = !quiet && isatty(STDERR_FILENO)};
+}
+
+static void show(const stop_progress *p, double fraction, double spent)
+{
+    enum { BAR = 20 };
+    double gone = fraction - p->before;
+    fprintf(stderr, "\r\033[K%s %3.0f %%", p->what, 100 * fraction);
+    if (p->unit) {
+        int full = (int)(BAR * fraction);
+        fprintf(stderr, " [%.*s%.*s] %.3g %s/s", full, "####################", BAR - full, "....................", p->amount * gone / spent, p->unit);
+    }
+    if (gone > 0.02 * (1 - p->before) && fraction < 1)
+        fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / gone);
+    fflush(stderr);
 }
 
 int stop_progress_hook(void *context, double fraction)
@@ -74,10 +88,7 @@ int stop_progress_hook(void *context, double fraction)
     if (p->terminal) {
         double now = stop_clock(), spent = now - p->began;
         if (spent * 1000 > PATIENCE_MS && (now - p->shown) * 1000 > REFRESH_MS) {
-            fprintf(stderr, "\r\033[K%s %3.0f %%", p->what, 100 * fraction);
-            if (fraction > 0.02 && fraction < 1)
-                fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / fraction);
-            fflush(stderr);
+            show(p, p->span > 0 ? p->from + p->span * fraction : fraction, spent);
             p->shown = now;
         }
     }

@@ -17,6 +17,10 @@ typedef struct stop_progress {
     const char *what;
     double began, shown;          /* seconds; shown 0: not yet */
     bool terminal;
+    /* Work in parts: the hook's fraction is of a part that begins at `from` and has the length `span` of the whole, of which `before` was done
+     * when this began. span 0: one part. With a unit, a bar and the rate are shown: `amount` of it is the whole. */
+    double from, span, before, amount;
+    const char *unit;
 } stop_progress;
 stop_progress stop_progress_begin(const char *what, bool quiet);
 /* The library's hook: context is a stop_progress; other than 0 when a signal asks to stop. */

@@ -144,20 +144,7 @@ void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
 
 void text_number(double value, char out[TEXT_NUMBER])
 {
-    if (!isfinite(value)) {
-        strcpy(out, isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
-        return;
-    }
-    if (value == trunc(value) && fabs(value) < 1e15) {
-        snprintf(out, TEXT_NUMBER, "%.0f", value);
-        return;
-    }
-    /* 17 digits always suffice, 15 always survive; what a computation leaves rarely fits into fewer than 16 */
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(out, TEXT_NUMBER, "%.*g", digits, value);
-        if (digits == 17 || strtod(out, NULL) == value)
-            return;
-    }
+    digits_print(value, out);
 }
 
 void text_brief(double value, int digits, char out[TEXT_NUMBER])

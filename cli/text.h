@@ -2,12 +2,14 @@
 #ifndef CLI_TEXT_H
 #define CLI_TEXT_H
 
+#include "cli/digits.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-enum { TEXT_NUMBER = 32 };                 /* room for any number */
+enum { TEXT_NUMBER = DIGITS_ROOM };          /* room for any number */
 
 /* The character at s and the bytes it takes; bytes that are not UTF-8 read as U+FFFD, one at a time. */
 size_t text_decode(const char *s, uint32_t *character);

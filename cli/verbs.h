@@ -9,6 +9,7 @@ motus_status compare_verb(const options *, motus_error *);
 motus_status converge_verb(const options *, motus_error *);
 motus_status check_verb(const options *, motus_error *);
 motus_status methods_verb(const options *, motus_error *);
+motus_status sweep_verb(const options *, motus_error *);
 motus_status cache_verb(const options *, motus_error *);
 
 #endif

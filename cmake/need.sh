@@ -2,7 +2,7 @@
 # What a target needs from outside: looks whether it is there; what is missing is installed by apt-get where this user may
 # install (root, or sudo without a password), and otherwise the line to run is printed and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|fuzz|tidy ...        --check: only look, and say
+#   cmake/need.sh [--check] build|demo|test|bench|fuzz|tidy ...        --check: only look, and say
 set -eu
 check_only=no
 if [ "${1-}" = --check ]; then check_only=yes; shift; fi
@@ -13,6 +13,8 @@ add() { case " $missing " in *" $1 "*) ;; *) missing="$missing $1" ;; esac; }
 tool() { command -v "$1" >/dev/null 2>&1 || add "$2"; }
 # header, package: asked of the compiler, which knows where it looks
 header() { command -v cc >/dev/null 2>&1 && echo "#include <$1>" | cc -E - >/dev/null 2>&1 || add "$2"; }
+# module, package; Debian's Python may stand behind another one
+module() { for python in python3 /usr/bin/python3; do "$python" -c "import $1" 2>/dev/null && return; done; add "$2"; }
 fuzzer_runs() {
     echo '#include <stddef.h>
     int LLVMFuzzerTestOneInput(const unsigned char *p, size_t n); int LLVMFuzzerTestOneInput(const unsigned char *p, size_t n)
@@ -25,6 +27,9 @@ for what; do
     demo)  tool gnuplot gnuplot-nox ;;
     test)  tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
            tool clang clang; fuzzer_runs || add clang-runtime ;;
+    bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
+           header boost/version.hpp libboost-dev
+           module numpy python3-numpy; module scipy python3-scipy; module numba python3-numba ;;
     fuzz)  tool clang clang; fuzzer_runs || add clang-runtime ;;
     tidy)  tool run-clang-tidy clang-tidy ;;
     *)     echo "need.sh: unknown target $what" >&2; exit 2 ;;

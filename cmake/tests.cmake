@@ -58,6 +58,13 @@ if(MOTUS_TESTS)
   endforeach()
 endif()
 
+# Parts of the program that have tests of their own.
+if(MOTUS_TESTS)
+  target_sources(digits_test PRIVATE cli/digits.c)
+  target_sources(draw_test PRIVATE cli/draw.c)
+  target_sources(range_test PRIVATE cli/range.c cli/digits.c)
+endif()
+
 # MPFR judges the elementary functions. Built twice: with what every machine of this kind has and, vectors in registers, with all that
 # this one has. No vector leaves the object, so how one would be passed is of no interest.
 if(TARGET functions_test)

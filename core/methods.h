@@ -10,6 +10,7 @@ typedef struct row row;       /* the whole row; core/ and the laws test see insi
 typedef struct chosen {
     const row *row;
     double argument[2];
+    int threads;                    /* that a large system may use; it changes no bit */
     char name[MOTUS_NAME_MAX];      /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
 } chosen;
 

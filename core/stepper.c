@@ -4,7 +4,8 @@
  * one that this processor has is chosen when a stepper is made. It cannot change the bits.
  *
  * Invariant: after a failure the stepper stands at the last step whose state was finite. Every SNAPSHOT steps the carried numbers are
- * kept; a failure goes back to them and takes the good steps once more, which is exact, since steps are deterministic.
+ * kept (of large systems, where that costs more beside a step, every SNAPSHOT_LARGE); a failure goes back to them and takes the good steps once more,
+ * which is exact, since steps are deterministic.
  */
 #include "core/stepper.h"
 #include "core/stepper_body.h"
@@ -12,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SNAPSHOT = 16, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a cache line, to which arrays are aligned */
+enum { SNAPSHOT = 16, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a cache line, to which arrays are aligned */
 
 struct stepper {
     problem problem;
@@ -140,6 +141,7 @@ work stepper_plan(const problem *p, const chosen *method, double t0, double h)
     plan.velocity = p->traits.velocity;
     plan.linear = p->traits.linear_v;
     plan.constant = p->traits.constant;
+    plan.threads = method->threads > 1 ? method->threads : 1;
     plan.stride = (p->nv + 7) & ~(size_t)7;
     if (plan.stride == 0) plan.stride = 8;
     work_plan(&plan, method->argument);
@@ -284,14 +286,15 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
 motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
 {
     work *w = &s->work;
+    const int64_t apart = w->check ? SNAPSHOT : SNAPSHOT_LARGE;
     while (steps > 0) {
-        if (s->snapshot_step < 0 || w->n - s->snapshot_step >= SNAPSHOT) {
+        if (s->snapshot_step < 0 || w->n - s->snapshot_step >= apart) {
             stepper_save(s, s->snapshot);
             s->snapshot_step = w->n;
             s->snapshot_evaluations = w->evaluations;
             s->snapshot_iterations = w->iterations;
         }
-        const int64_t room = SNAPSHOT - (w->n - s->snapshot_step), chunk = steps < room ? steps : room;
+        const int64_t room = apart - (w->n - s->snapshot_step), chunk = steps < room ? steps : room;
         int bad = s->body->run(w, chunk);
         if (!bad && !w->check) bad = s->body->check(w);
         if (bad) return recover(s, bad, err);

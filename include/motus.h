@@ -249,7 +249,11 @@ typedef struct motus_run_def {
     /* "interpreter"; "compiled": the equations and the method as machine code, made by the system's C compiler and kept in
      * $XDG_CACHE_HOME/motus; NULL or "auto": compiled where the run is long enough to repay it and a compiler is there. The bits are the same. */
     const char *machine;
+    /* How many threads the compiled machine may use for one large system, 1 … MOTUS_THREADS_MAX; 0: one. Small systems run on one whatever is
+     * said here, and so does a library built without OpenMP. The bits are the same. */
+    int threads;
 } motus_run_def;
+#define MOTUS_THREADS_MAX 1024
 
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);

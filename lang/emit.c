@@ -22,6 +22,7 @@ typedef struct writer {
     uint32_t *fixed;                 /* by item of region AT_BIND: its place in u, or in w where it is wide */
     uint8_t *nature;                 /* by node: NATURE_ */
     uint32_t *term;                  /* by node: its place in T, or NONE */
+    bool apart;                      /* what a condition selects is left to a loop of its own */
 } writer;
 
 enum { WIDE = 1,                     /* differs from lane to lane */
@@ -155,19 +156,11 @@ static bool varies(const writer *w, const array *a)
     return false;
 }
 
-/* "AT(x, q[3] + j0 + j1 * q[4])". The last dimension has stride 1, which the compiler is told by leaving it out. */
-static void address(writer *w, const reference *r, char *out, size_t size)
+/* "q[3] + j0 * q[4] + j1". The last dimension has stride 1, which the compiler is told by leaving it out. */
+static void element(writer *w, const reference *r, char *out, size_t size)
 {
-    const array *a = &w->plan.g->arrays[r->array];
     const emit_int offset = {.kind = EMIT_OFFSET, .ref = *r};
-    const char *close = ")";
-    size_t n;
-    if (a->space == SPACE_POOL && !varies(w, a)) {
-        n = (size_t)snprintf(out, size, "pool[");
-        close = "]";
-    } else {
-        n = (size_t)snprintf(out, size, "AT(%s, ", space_name(a->space));
-    }
+    size_t n = 0;
     if (w->e->literal && r->dims == 0)
         n += (size_t)snprintf(out + n, size - n, "%lld", (long long)emit_int_value(&offset, w->e->arrays, NULL));
     else
@@ -195,8 +188,17 @@ static void address(writer *w, const reference *r, char *out, size_t size)
         else
             n += (size_t)snprintf(out + n, size - n, " + %s * q[%u]", index, integer(w, &(emit_int){.kind = EMIT_STRIDE, .array = r->array, .dim = d}));
     }
-    if (n < size)
-        snprintf(out + n, size - n, "%s", close);
+}
+
+static void address(writer *w, const reference *r, char *out, size_t size)
+{
+    const array *a = &w->plan.g->arrays[r->array];
+    char place[240];
+    element(w, r, place, sizeof place);
+    if (a->space == SPACE_POOL && !varies(w, a))
+        snprintf(out, size, "pool[%s]", place);
+    else
+        snprintf(out, size, "AT(%s, %s)", space_name(a->space), place);
 }
 
 static void bound(writer *w, const subscript *s, char *out, size_t size)
@@ -309,12 +311,28 @@ static void operand(writer *w, node n, node user, char out[48])
         snprintf(out, 48, "%su[%u]%s", open, w->fixed[item], close);
 }
 
+/* What becomes of an acceleration is the window's affair; one cell that has an equation of its own may lie outside of it. */
+static void write_put(writer *w, const output *o, const char *value)
+{
+    char guard[200] = "", index[80], place[240];
+    if (o->loops == 0) {
+        bound(w, &o->to.at[0], index, sizeof index);
+        snprintf(guard, sizeof guard, "if (%s >= from && %s < to) ", index, index);
+    }
+    element(w, &o->to, place, sizeof place);
+    line(w, "%sPUT(%s, %s);", guard, place, value);
+}
+
 static void write_outputs(writer *w, uint32_t first)
 {
     char value[48], where[256];
     for (uint32_t k = first; k != NONE && w->part == RUNNING; k = w->plan.next_output[k]) {
         const output *o = &w->plan.program->outputs[k];
         operand(w, o->value, o->value, value);
+        if (w->e->windowed) {
+            write_put(w, o, value);
+            continue;
+        }
         address(w, &o->to, where, sizeof where);
         line(w, w->e->lanes && !wide(w, o->value) ? "%s = MANY(%s);" : "%s = %s;", where, value);
     }
@@ -339,7 +357,10 @@ static void write_item(writer *w, uint32_t k)
         break;
     case OP_TIME: line(w, "const %s r%u = t;", type, k); break;
     case OP_PARAM: line(w, wide(w, item->n) ? "const reals r%u = AT(own, %u);" : "const double r%u = pool[%u];", k, n->a); break;
-    case OP_INDEX: line(w, "const double r%u = (double)j%d;", k, n->level); break;
+    case OP_INDEX:
+        w->e->indices = true;
+        line(w, "const double r%u = index_number(j%d);", k, n->level);
+        break;
     case OP_LOAD:
         address(w, &w->plan.g->references[n->a], text, sizeof text);
         line(w, "const %s r%u = %s;", type, k, text);
@@ -383,7 +404,9 @@ static void write_update(writer *w, const plan_item *update)
         snprintf(next, sizeof next, "%s_%d(%s, %s, s%u[k])", operation, how->op, p, q, total);
     else
         snprintf(next, sizeof next, "%s_%d(s%u[k], %s)", operation, how->op, total, p);
-    if (sum->b)
+    if (sum->b && w->apart)
+        line(w, "t%u[k] = %s, c%u[k] = %s;", total, next, total, c);
+    else if (sum->b)
         line(w, "s%u[k] = %s_%d(%s, %s, s%u[k]);", total, operation, OP_SELECT, c, next, total);
     else
         line(w, "s%u[k] = %s;", total, next);
@@ -391,7 +414,38 @@ static void write_update(writer *w, const plan_item *update)
 
 static void write_region(writer *, uint32_t);
 
-/* Terms in turn to eight partials, or all to the first: the inner loop over k is what the compiler turns into lanes. */
+/* Eight terms, one to each partial: what the compiler turns into lanes. It would make a branch of a condition, so that is met afterwards. */
+static void write_eight(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const graph_node *nodes = w->plan.g->nodes;
+    const bool lanes = w->e->lanes;
+    line(w, "for (; m%d + 8 <= n%d; m%d += 8) {", r->level, r->level, r->level);
+    w->depth++;
+    for (uint32_t k = r->sums; k != NONE && !lanes; k = w->plan.items.at[k].next_sum)
+        if (nodes[w->plan.items.at[k].n].b)
+            line(w, "double t%u[8], c%u[8];", k, k);
+    if (!lanes)
+        line(w, "#pragma GCC unroll 1");
+    line(w, "for (int k = 0; k < 8; k++) {");
+    w->depth++;
+    line(w, "const int64_t j%d = f%d + m%d + k;", r->level, r->level, r->level);
+    w->apart = !lanes;
+    write_region(w, region);
+    w->apart = false;
+    w->depth--;
+    line(w, "}");
+    for (uint32_t k = r->sums; k != NONE && !lanes; k = w->plan.items.at[k].next_sum)
+        if (nodes[w->plan.items.at[k].n].b) {
+            line(w, "#pragma GCC unroll 1");
+            line(w, "for (int k = 0; k < 8; k++)");
+            line(w, "    s%u[k] = op_%d(c%u[k], t%u[k], s%u[k]);", k, OP_SELECT, k, k, k);
+        }
+    w->depth--;
+    line(w, "}");
+}
+
+/* Terms in turn to eight partials, or all to the first. */
 static void write_sum(writer *w, uint32_t region)
 {
     plan_region *r = &w->plan.regions.at[region];
@@ -410,15 +464,9 @@ static void write_sum(writer *w, uint32_t region)
     if (!r->holds_sums) {            /* a body without sums of its own is cheap to write twice */
         line(w, "int64_t m%d = 0;", level);
         line(w, "if (n%d > 16)", level);
-        line(w, "    for (; m%d + 8 <= n%d; m%d += 8)", level, level, level);
-        w->depth += 2;
-        line(w, "for (int k = 0; k < 8; k++) {");
         w->depth++;
-        line(w, "const int64_t j%d = f%d + m%d + k;", level, level, level);
-        write_region(w, region);
+        write_eight(w, region);
         w->depth--;
-        line(w, "}");
-        w->depth -= 2;
         line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     } else {
         line(w, "for (int64_t m%d = 0; m%d < n%d; m%d++) {", level, level, level, level);
@@ -449,7 +497,10 @@ static void write_loop(writer *w, uint32_t region)
     uint32_t around = w->region;
     if (r->innermost)
         line(w, "#pragma GCC ivdep");
-    line(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d++) {", r->level, first, r->level, last, r->level, r->level, r->level);
+    if (r->level == 0 && w->e->windowed)
+        line(w, "for (int64_t j0 = window_later(%s, from), e0 = window_sooner(%s, to - 1); j0 <= e0; j0++) {", first, last);
+    else
+        line(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d++) {", r->level, first, r->level, last, r->level, r->level, r->level);
     w->depth++;
     write_region(w, region);
     w->depth--;
@@ -537,8 +588,9 @@ static void write_functions(writer *w, const char *name, bool terms)
         SAY(w, "}\n\n");
     }
     SAY(w, "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double *restrict T, "
-           "real *restrict x, real *restrict v, real *restrict a, real *restrict out)\n{\n%s, (void)w, (void)own, (void)t, (void)T, (void)x, (void)v, (void)a, "
-           "(void)out;\n    EACH_GROUP {\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters, silence);
+           "real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, (void)w, (void)own, (void)t, (void)T, (void)x, (void)v, (void)a, "
+           "(void)out;\n    EACH_GROUP {\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
+        w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
     w->part = RUNNING;
     w->depth++;
     write_constants(w);

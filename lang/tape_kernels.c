@@ -9,11 +9,9 @@
 
 /* The elementary functions in registers, where the instruction set has more than one lane for them. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-#include <immintrin.h>
 #define WIDTH 8
 #define LANES 8
 #elif defined(__AVX2__) && defined(__FMA__)
-#include <immintrin.h>
 #define WIDTH 4
 #define LANES 4
 #endif

@@ -8,7 +8,9 @@
 #include "core/stepper_body.h"
 #include "run/cache.h"
 #include "run/compose.h"
+#include "run/parallel.h"
 #include "run/stepping.h"
+#include "run/tiles.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -27,6 +29,8 @@ struct compiled {
     object objects[OBJECTS_MAX];
     int count;
     program *force, *boundary;
+    locality locality;
+    const tiling *tiling;            /* where the force is divisible */
     double *u;
     int64_t *q;
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);     /* of any of the objects: they have the same bits */
@@ -87,16 +91,21 @@ void compiled_close(compiled *c)
 static bool write_text(compiled *c, const chosen *chosen, emit *e)
 {
     model *m = c->model;
-    if (!c->force)
+    if (!c->force) {
         c->force = program_create(m->graph, m->accel, m->accel_count);
+        if (c->force)
+            c->locality = emit_local(c->force);
+        if (c->locality.divisible)
+            c->tiling = tiles_create(m, &c->locality);
+    }
     if (!c->boundary && m->driven)
         c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed)
         return false;
     const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
-    static const char *const last[] = {"step/loop.h", "step/compiled_run.h", NULL};
+    static const char *const last[] = {"step/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
-                                     .last = last});
+                                     .locality = &c->locality, .last = last});
 }
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
@@ -122,7 +131,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     c->bind = bind;
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q};
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .parallel = parallel_for};
     return true;
 }
 

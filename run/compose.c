@@ -13,6 +13,7 @@
 
 enum {
     SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
+    WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
     FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
 };
 
@@ -73,6 +74,9 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", w.moments,
              work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), structure && w.nv <= SMALL_MAX,
              structure ? w.nv * (size_t)each : 0);
+    if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+        emit_add(t, "#ifdef __clang__\n#define WRITTEN_OUT _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT _Pragma(\"GCC unroll 20\")\n#endif\n"
+                    "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
 }
 
 /* ---- the family ---- */
@@ -150,16 +154,26 @@ static void add_operations(emit *e, int width)
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
 }
 
+/* ---- windows ---- */
+
+/* Whether every text of the row moves numbers one by one, so that a window of them can go ahead of the others. */
+static bool by_number(const row *r, const traits *t)
+{
+    return (r->family == SPLITTING && !r->gyroscopic) || r->family == RUNGE_KUTTA || (r->family == TWO_STEP && !t->velocity);
+}
+
 /* ---- the whole ---- */
 
 bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
-    const bool structure = sizes_are_structure(c->model), lanes = c->width > 0;
+    const bool structure = sizes_are_structure(c->model), lanes = c->width > 0, windowed = c->locality && c->locality->divisible;
+    const bool local = windowed && c->locality->local && !c->model->driven && by_number(c->chosen->row, &c->problem->traits);
     e->literal = structure;
     e->arrays = c->model->arrays;
     for (size_t i = 0; i < c->program_count; i++) {
         e->separate = !i && c->model->graph->count > FORCE_INLINE_MAX;
+        e->windowed = !i && windowed;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
     if (lanes)
@@ -178,6 +192,8 @@ bool compose(emit *e, const composition *c)
                     "#define EACH_GROUP for (int group = 0; group < GROUPS; group++)\n", c->model->boundary_count > 0, c->groups, c->width);
     else
         emit_add(t, "#define AT(array, element) (array)[element]\n#define EACH_GROUP\n");
+    if (windowed)
+        emit_add(t, "#define WINDOWED 1\n#define LOCAL %d\n#define COMPANIONS %d\n", local, c->problem->traits.companions);
     if (e->terms)
         emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
     if (!lanes)
@@ -189,14 +205,28 @@ bool compose(emit *e, const composition *c)
     add_text(t, "step/host.h");
     if (e->wraps)
         emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
+    if (windowed) {
+        add_text(t, "step/tiling.h");
+        add_text(t, "step/window.h");
+    }
+    if (e->indices)
+        emit_add(t, "/* (double)j for |j| < 2^51, which processors without an instruction for that can do in lanes. */\n"
+                    "static inline double index_number(int64_t j)\n{\n    union { int64_t i; double v; } x = {j + 0x4338000000000000};\n"
+                    "    return x.v - 0x1.8p52;\n}\n");
     emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
     add_text(t, "step/compiled.h");
     if (lanes) {
         add_text(t, "step/lanes_job.h");
         emit_add(t, "%s", c->glue);
     }
+    if (windowed)
+        add_text(t, "step/pass.h");
     add_family(t, c);
     add_text(t, "step/advance.h");
+    if (!lanes)
+        add_text(t, "step/loop.h");
+    if (local)
+        add_text(t, "step/tiled.h");
     for (const char *const *last = c->last; *last; last++)
         add_text(t, *last);
     return !t->arena->failed;

@@ -3,6 +3,7 @@
 #define RUN_COMPOSE_H
 
 #include "lang/emit.h"
+#include "lang/emit_local.h"
 #include "lang/model.h"
 #include "core/methods.h"
 
@@ -16,6 +17,7 @@ typedef struct composition {
     const chosen *chosen;
     const composed_program *programs;    /* "compiled_force" first */
     size_t program_count;
+    const locality *locality;            /* of the first program, where it may be taken window by window; NULL */
     int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
     const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
     const char *const *last;             /* the texts that stand last, up to a NULL */

@@ -437,7 +437,6 @@ static void look_at_block(void *ctx, size_t block, int thread)
 {
     const batch *b = ctx;
     lanes_job j = job_of(b, block, thread);
-    j.table = NULL;
     b->l->run(&j, 0, 1);
     stop_looked(b->l, &j, stopped_of(b, block));
 }
@@ -447,7 +446,6 @@ static void turn_block(void *ctx, size_t block, int thread)
 {
     const batch *b = ctx;
     lanes_job j = job_of(b, block, thread);
-    j.table = NULL;
     j.record_count = 0;
     b->l->run(&j, 0, 1);
     b->l->set(&j);
@@ -471,6 +469,14 @@ static void end_block(const batch *b, size_t block)
 }
 
 /* ---- all of them ---- */
+
+/* What depends on time alone, from the present step on. */
+static void fill_table(batch *b, int64_t steps)
+{
+    const lanes_job j = job_of(b, 0, 0);
+    b->first_row = b->plan.n;
+    b->l->table(&j, b->table, steps + 1);
+}
 
 static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->l->def.threads, b->blocks, body, b); }
 
@@ -510,14 +516,13 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
     b->ends = false;
     each_block(b, begin_block);
     if (b->looking && (d->whole > 0 || d->last != 0)) {
+        fill_table(b, 0);
         each_block(b, look_at_block);
         b->looks++;
     }
     while (b->plan.n < d->whole) {
         next_chunk(b);
-        b->first_row = b->plan.n;
-        const lanes_job j = job_of(b, 0, 0);
-        l->table(&j, b->table, b->steps + 1);
+        fill_table(b, b->steps);
         each_block(b, run_block);
         b->plan.n += b->steps;
         b->looks += b->every ? b->steps / b->every : 0;
@@ -525,20 +530,20 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
             return fail(err, MOTUS_CANCELLED, "cancelled");
     }
     if (d->last != 0) {
+        fill_table(b, 0);
         each_block(b, turn_block);
         const size_t nx = b->plan.nx, nv = b->plan.nv;
         b->plan = stepper_plan(d->problem, d->chosen, time_of(&b->plan, b->plan.n), d->last);
         b->plan.nx = nx;
         b->plan.nv = b->plan.stride = nv;
-        b->first_row = 0;
         b->steps = 1;
         b->every = 0;
-        const lanes_job j = job_of(b, 0, 0);
-        l->table(&j, b->table, 2);
+        fill_table(b, 1);
         each_block(b, run_block);
         b->plan.n = 1;
     }
     b->ends = true;
+    fill_table(b, 0);
     each_block(b, look_at_block);
     b->looks++;
     for (size_t k = 0; k < b->blocks; k++)

@@ -1,12 +1,17 @@
-/* The same work on many items, by several threads. */
+/* Work in independent pieces, by several threads: the one way in which this library uses more than one core.
+ *
+ * Invariant: a piece is done once, by one thread, in the caller's floating-point modes; which thread does it, and when, is left to chance. So
+ * whoever writes only to what belongs to a piece, or to a thread, gets the same bits from any number of threads.
+ */
 #ifndef RUN_PARALLEL_H
 #define RUN_PARALLEL_H
 
 #include <stddef.h>
 
-/* body(ctx, item, thread) for every item, in any order, thread < threads. */
+/* body(ctx, item, thread) for item = 0 … items - 1; the next free thread takes the next item. `thread` is 0 … threads - 1, and 0 is the caller's own:
+ * two pieces that see the same number are never at work at once. Comes back when all is done. Threads that cannot be had are done without. */
 void parallel_for(int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);
-/* Processors that may be used. */
+/* Processors that may be used; 1 where the library knows no threads. */
 int parallel_processors(void);
 
 #endif

@@ -12,54 +12,74 @@ static inline const compiled_host *host_of(const work *w) { return w->user; }
 static inline const compiled_host *host_of(const work *w) { return **(const compiled_host *const *const *)w->user; }
 #endif
 
-#define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
 #define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
+#if WINDOWED                         /* pass.h: of all outer indices, and of those that are the workspace's turn */
+static inline void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
+static inline void pass_force(work *, clock t, const clock *T, real *x, real *v, real *a);
+#define FORCE(host, t, T, x, v, a) pass_all(host, t, T, x, v, a)
+#define FORCE_OF(w, t, T, x, v, a) pass_force(w, t, T, x, v, a)
+#else
+#define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
+#define FORCE_OF(w, t, T, x, v, a) FORCE(host_of(w), t, T, x, v, a)
+#endif
+
+/* The values of time alone, now; T is room for them. */
+static inline const clock *compiled_terms(const compiled_host *host, clock t, clock *T)
+{
+#if TERMS
+    reals many[TERMS];
+    compiled_force_terms(host->pool, host->q, host->u, MANY(t), many);
+    for (int k = 0; k < TERMS; k++) T[k] = LANE_OF(many[k], 0);
+#else
+    (void)host, (void)t;
+#endif
+    return T;
+}
 
 static inline void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
 {
-    const clock *T = NULL;
+    clock T[TERMS + 1];
 #if DRIVEN
     BOUNDARY(host, t, x, v, a);
 #endif
-#if TERMS
-    clock now[TERMS];
-    reals many[TERMS];
-    compiled_force_terms(host->pool, host->q, host->u, MANY(t), many);
-    for (int k = 0; k < TERMS; k++) now[k] = LANE_OF(many[k], 0);
-    T = now;
+    FORCE(host, t, compiled_terms(host, t, T), x, v, a);
+}
+
+static inline int accel_with(work *w, clock t, const clock *T, real *x, real *v, real *a)
+{
+    w->evaluations++;
+#if DRIVEN
+    BOUNDARY(host_of(w), t, x, v, a);
 #endif
-    FORCE(host, t, T, x, v, a);
+    FORCE_OF(w, t, T, x, v, a);
+    return STEP_OK;
 }
 
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
-    w->evaluations++;
-    compiled_evaluate(host_of(w), t, x, v, a);
-    return STEP_OK;
+    clock T[TERMS + 1];
+    return accel_with(w, t, compiled_terms(host_of(w), t, T), x, v, a);
 }
 
 #if TERMS
-static inline int accel_tabled(work *w, clock t, int moment, real *x, real *v, real *a)
-{
-    const compiled_host *host = host_of(w);
-    w->evaluations++;
-#if DRIVEN
-    BOUNDARY(host, t, x, v, a);
-#endif
-    FORCE(host, t, w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS, x, v, a);
-    return STEP_OK;
-}
+static inline const clock *compiled_table(const work *w, int moment) { return w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS; }
 
+/* Lanes always have a table. */
+#ifdef GROUPS
+#define TABLED(w) true
+#else
+#define TABLED(w) ((w)->table != NULL)
+#endif
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
 {
-    if (!w->table) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
-    return accel_tabled(w, time_in(w, FACT(w, c)[i]), FACT(w, moment)[i], x, v, a);
+    if (!TABLED(w)) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
+    return accel_with(w, time_in(w, FACT(w, c)[i]), compiled_table(w, FACT(w, moment)[i]), x, v, a);
 }
 
 static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
 {
-    if (!w->table || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
-    return accel_tabled(w, time_of(w, w->n), 0, x, v, a);
+    if (!TABLED(w) || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
+    return accel_with(w, time_of(w, w->n), compiled_table(w, 0), x, v, a);
 }
 
 /* The table of LANES_OF_TIME steps, from number `n` on. */

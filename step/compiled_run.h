@@ -48,7 +48,13 @@ __attribute__((flatten)) int motus_run(work *given, whole steps)
         given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = w->fresh;
 #else
         some = steps;
-        int bad = compiled_steps(w, steps);
+        int bad = STEP_OK;
+#if LOCAL
+        window_open(w);
+        if (!w->check) tiled_run(w, steps);
+        else
+#endif
+        bad = compiled_steps(w, steps);
         *given = local;
         if (bad) return bad;
 #endif

@@ -1,5 +1,5 @@
 /* The vocabulary of functions_core.h for vectors of LANES doubles, as GCC and clang have them; the names end in _x and the width:
- * motus_sin_x4. For AVX-512 include <immintrin.h> before it.
+ * motus_sin_x4. It needs no header of the compiler's: reading <immintrin.h> takes longer than compiling a model.
  *
  * Invariant: an operation on a wide vector is the same operation on each lane. Where LANES is a register of the machine, each is
  * one instruction; wider vectors are made of such registers, and without them the loops below serve.
@@ -31,10 +31,14 @@ typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 /* Of LANES_PART doubles each: the registers that a vector of LANES is made of. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && LANES % 8 == 0
 #define LANES_PART 8
-#define LANES_FUSED _mm512_fmadd_pd
-#define LANES_SQRT _mm512_sqrt_pd
-#define LANES_SELECT(m, a, b) _mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)(m)), b, a)
-#define LANES_ANY(m) (_mm512_movepi64_mask((__m512i)(m)) != 0)
+#define LANES_FUSED(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, (unsigned char)-1, 4)          /* 4: the present rounding */
+#ifdef __clang__
+#define LANES_SQRT(a) __builtin_ia32_sqrtpd512(a, 4)
+#else
+#define LANES_SQRT(a) __builtin_ia32_sqrtpd512_mask(a, a, (unsigned char)-1, 4)
+#endif
+#define LANES_SELECT(m, a, b) ((NAME(part))(((NAME(word))(a) & (NAME(word))(m)) | ((NAME(word))(b) & ~(NAME(word))(m))))
+#define LANES_ANY(m) (__builtin_ia32_cvtq2mask512((NAME(word))(m)) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 4 == 0
 #define LANES_PART 4
 #define LANES_FUSED __builtin_ia32_vfmaddpd256
@@ -51,6 +55,7 @@ typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 
 #ifdef LANES_PART
 typedef double NAME(part) __attribute__((vector_size(8 * LANES_PART)));
+typedef long long NAME(word) __attribute__((vector_size(8 * LANES_PART)));
 typedef union NAME(parts) { reals whole; NAME(part) part[LANES / LANES_PART]; } NAME(parts);
 #define EACH_PART for (int i = 0; i < LANES / LANES_PART; i++)
 

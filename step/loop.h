@@ -31,7 +31,7 @@ static int advance_check(work *w)
     w->in_v = true;
     EACHV(k) if (!FINITE(v[k])) {
         w->which = k;
-        break;
+        return STEP_DIVERGED;
     }
     return STEP_DIVERGED;
 }

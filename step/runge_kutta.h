@@ -7,7 +7,7 @@ static inline real runge_kutta_sum(const clock *c, unsigned terms, const real *r
 {
     real sum = {0};
     bool first = true;
-    for (int j = 0; j < count; j++) {
+    EACH_STAGE(j, count) {
         if (!(terms >> j & 1)) continue;
         real term = y[(size_t)j * stride + k];
         if (first) sum = c[j] * term;
@@ -22,7 +22,7 @@ static int runge_kutta_step(work *w)
     size_t stride = w->stride;
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
     real *restrict X = w->xs, *restrict V = w->vs, *restrict A = w->ks;
-    for (int i = 0; i < FACT(w, stages); i++) {
+    EACH_STAGE(i, FACT(w, stages)) {
         real *Vi = V + (size_t)i * stride;
         if (i == 0) {
             EACH(k) X[k] = x[k];

@@ -55,8 +55,7 @@ static int splitting_turn(work *w, clock b, clock t)
 
 static int splitting_step(work *w)
 {
-    int last = FACT(w, merged) ? FACT(w, stages) - 2 : FACT(w, stages) - 1;
-    for (int i = 0; i <= last; i++) {
+    EACH_STAGE(i, FACT(w, merged) ? FACT(w, stages) - 1 : FACT(w, stages)) {
         int bad = STEP_OK;
         if (!(FACT(w, kicks) >> i & 1)) {
             DRIFT(w, w->drift[i]);
@@ -64,9 +63,17 @@ static int splitting_step(work *w)
             bad = splitting_turn(w, w->kick[i], time_in(w, FACT(w, c)[i]));
             DRIFT(w, w->drift[i]);
         } else {
-            if (i > 0 || !work_reuse(w)) bad = accel_in(w, i, w->x, w->v, w->a);
-            if (bad) return bad;
+            bool known = i == 0 && work_reuse(w);
             clock b = i == 0 && FACT(w, merged) && w->n > 0 ? w->joint : w->kick[i];
+#ifdef PASS                                     /* the machine's own: acceleration, kick and drift in one pass over memory */
+            if (!known && (FACT(w, drifts) >> i & 1)) {
+                PASS(w, i, b, w->drift[i]);
+                TRACE(w, i);
+                continue;
+            }
+#endif
+            if (!known) bad = accel_in(w, i, w->x, w->v, w->a);
+            if (bad) return bad;
             if (!(FACT(w, drifts) >> i & 1)) KICK(w, b);
             else KICK_DRIFT(w, b, w->drift[i]);
         }

@@ -27,6 +27,13 @@
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_MEMORY };
 
+/* The outer indices that a tile is at, from … to-1, and how they move: tiled.h. Only machines that tile look at it. */
+typedef struct window {
+    whole from, to;
+    whole strip[2], block[2];      /* their intersection is from … to; a strip moves down with every pass, a block's ends by `slope` */
+    int slope[2];
+} window;
+
 typedef struct work {
     const row *row;
     size_t nx, nv, stride;         /* stride: distance of two arrays below; at least nv */
@@ -63,6 +70,8 @@ typedef struct work {
     size_t which;                  /* what went wrong: entry of v, or of x where !in_v */
     bool in_v;
     void *user;                    /* the includer's */
+    int threads;                   /* how many may share one evaluation, or the tiles of one sweep */
+    window window;
 } work;
 
 /* Time of the part c of step n, a clock or a vector of them: the ends are the loop's own times, so that a force evaluated there is the
@@ -75,6 +84,11 @@ static inline clock time_in(const work *w, clock c) { return TIME_IN(w, (clock)w
 /* 1: the arrays are so short that to copy them is nothing, and that they may then live in registers; known when the text is compiled. */
 #ifndef SMALL
 #define SMALL 0
+#endif
+
+/* A loop over stages; a compiled model may ask for it to be written out, so that every coefficient and every time is a constant. */
+#ifndef EACH_STAGE
+#define EACH_STAGE(i, count) for (int i = 0; i < (count); i++)
 #endif
 
 #ifndef accel_in

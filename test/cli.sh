@@ -2,66 +2,8 @@
 # The program, as people use it: every verb, option and error, what it writes and what it leaves behind.
 #
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
-set -u
 cd "$(dirname "$0")/.." || exit 1
-motus=${MOTUS:-$PWD/build/motus}
-root=$PWD
-passed=0 failed=0
-place=$(mktemp -d)
-out=$place/out err=$place/err
-trap 'umount "$place/small" 2>/dev/null; rm -rf "$place"' EXIT
-unset NO_COLOR
-export LC_ALL=C.UTF-8 TERM=xterm
-
-ok() { passed=$((passed + 1)); echo "ok - $1"; }
-not_ok() {
-    failed=$((failed + 1))
-    echo "not ok - $1"
-    shift
-    for line in "$@"; do printf '    %s\n' "$line"; done | head -n 12 | cut -c 1-400 | tr -c '[:print:]\n' '?'
-}
-# name, condition ...: the condition is a command
-that() {
-    local name=$1
-    shift
-    if "$@" >"$place/said" 2>&1; then ok "$name"; else not_ok "$name" "$*" "$(cat "$place/said")"; fi
-}
-# name, exit status, command ...: leaves its output in $out and $err
-gives() {
-    local name=$1 want=$2 got
-    shift 2
-    "$@" >"$out" 2>"$err" </dev/null
-    got=$?
-    if [ $got = "$want" ]; then ok "$name"; else not_ok "$name" "exit status $got, not $want: $*" "$(head -c 600 "$out")" "$(cat "$err")"; fi
-}
-# name, exit status, words of the message, command ...: one message, nothing on standard output, and the same as JSON
-refuses() {
-    local name=$1 want=$2 words=$3 got
-    shift 3
-    "$@" >"$out" 2>"$err" </dev/null
-    got=$?
-    if [ $got != "$want" ]; then not_ok "$name" "exit status $got, not $want" "$(cat "$err")"; return; fi
-    if [ -s "$out" ]; then not_ok "$name" "something is on standard output: $(head -c 300 "$out")"; return; fi
-    if ! grep -qF -- "$words" "$err"; then not_ok "$name" "the message does not say '$words'" "$(cat "$err")"; return; fi
-    if grep -qvE '^(motus: |[^ ].*:[0-9]+:[0-9]+: |    |  hint: )' "$err"; then not_ok "$name" "the message is out of shape" "$(cat "$err")"; return; fi
-    ok "$name"
-}
-says() { grep -qF -- "$1" "${2:-$out}"; }
-lacks() { ! grep -qF -- "$1" "${2:-$out}"; }
-empty() { [ ! -s "$1" ]; }
-absent() { [ ! -e "$1" ]; }
-nothing_left() { [ -z "$(find "$1" -name '.motus-*')" ]; }
-
-checker=$PWD/build/test/tool/json_check
-if [ ! -x "$checker" ]; then
-    checker=$place/json_check
-    "${CC:-cc}" -std=c17 -O1 -o "$checker" test/cli/json_check.c || { echo "not ok - json_check is built"; echo "0 passed, 1 failed"; exit 1; }
-fi
-# Whether a file is one good JSON value on one line.
-json() { "$checker" "$1" && [ "$(wc -l <"$1")" = 1 ]; }
-# jq's answer about $out is true
-holds() { [ -s "${2:-$out}" ] && jq -e "$1" "${2:-$out}"; }
-near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a ~ /[0-9]/ && d <= e) }'; }
+. test/cli/cases.sh
 
 oscillator=models/driven-oscillator.motus
 cat >"$place/osc.motus" <<'M'
@@ -94,8 +36,8 @@ gives "--version --json" 0 "$motus" --version --json
 that "... is JSON" json "$out"
 gives "--help" 0 "$motus" --help
 that "--help shows the verbs that work" says "motus converge MODEL"
-that "--help shows no verb that does not" lacks sweep
-for verb in run compare converge check methods; do
+that "--help shows no verb that does not" lacks "motus lab"
+for verb in run compare converge sweep check methods; do
     gives "$verb --help" 0 "$motus" $verb --help
     that "$verb --help lists --json" says "--json"
     that "$verb --help has examples" says "examples:"
@@ -105,7 +47,7 @@ for verb in run compare converge check methods; do
 done
 # The examples are commands that work; the slow ones have tests of their own below.
 mkdir "$place/examples" && ln -s "$root/models" "$place/examples/models"
-for verb in run check methods; do
+for verb in run sweep check methods; do
     sed -n '/^examples:/,$p' "$place/help-$verb" | sed 1d | while read -r line; do
         (cd "$place/examples" && PATH=$(dirname "$motus"):$PATH bash -c "set -o pipefail; $line" >/dev/null 2>"$err") &&
             echo "ok $line" || echo "not $line: $(cat "$err")"
@@ -117,8 +59,8 @@ refuses "no verb" 2 "a verb is missing" "$motus"
 refuses "an unknown verb" 2 "unknown verb frobnicate" "$motus" frobnicate
 refuses "a verb with a slip" 2 "did you mean motus compare?" "$motus" comapre x.motus
 refuses "a model where the verb should be" 2 "motus run x.motus" "$motus" x.motus
-for verb in sweep lab bench; do refuses "$verb is not available yet" 2 "not available in this version" "$motus" $verb $oscillator; done
-for verb in run compare converge check; do refuses "$verb without a model" 2 "motus $verb needs a model" "$motus" $verb; done
+for verb in lab bench; do refuses "$verb is not available yet" 2 "not available in this version" "$motus" $verb $oscillator; done
+for verb in run compare converge sweep check; do refuses "$verb without a model" 2 "motus $verb needs a model" "$motus" $verb; done
 refuses "two models" 2 "one model at a time" "$motus" run $oscillator $osc
 refuses "an unknown option" 2 "unknown option --frobnicate" "$motus" run $osc --frobnicate
 refuses "an option with a slip" 2 "did you mean --step?" "$motus" run $osc --stpe 0.1
@@ -608,9 +550,9 @@ if command -v script >/dev/null; then
     that "none with NO_COLOR" eval "! grep -q $'\033' '$out'"
     TERM=dumb terminal "$motus" run "$osc"
     that "none on a dumb terminal" eval "! grep -q $'\033' '$out'"
-    terminal "$motus" run "$osc" --until 400000
+    terminal "$motus" run "$osc" --until 400000 --machine interpreter
     that "long work shows its progress" grep -q 'run  *[0-9]* %' "$out"
-    terminal "$motus" run "$osc" --until 400000 --quiet
+    terminal "$motus" run "$osc" --until 400000 --machine interpreter --quiet
     that "... not with --quiet" eval "! grep -q 'run  *[0-9]* %' '$out'"
     terminal "$motus" run "$osc"
     that "... nor when it is short" eval "! grep -q 'run  *[0-9]* %' '$out'"

@@ -16,9 +16,6 @@
 #include <string.h>
 #include <cmocka.h>
 #include <mpfr.h>
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 #include "lang/functions.h"
 #define LANES 2

@@ -1,0 +1,71 @@
+/* Constant expressions on the command line.
+ *
+ * Invariant: what is more than a number is read by the language itself, as the initial value of a model of one companion, so it means what it
+ * means in a model.
+ */
+#include "cli/constant.h"
+
+#include "cli/complain.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* digits[.digits][e[+-]digits] with a sign: most of what is asked, and worth no model. */
+static bool plain(const char *s, double *value)
+{
+    const char *digits = s + (*s == '-' || *s == '+');
+    size_t length = strlen(digits);
+    if (!(*digits >= '0' && *digits <= '9') || strspn(digits, "0123456789.eE+-") != length)
+        return false;
+    char *end;
+    *value = strtod(s, &end);
+    return *end == 0;
+}
+
+motus_status constant_read(const char *expression, const char *where, double *value, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    motus_error inner = motus_default_error();
+    if (!plain(expression, value)) {
+        static const char name[] = "x(0)=";
+        size_t length = strlen(expression);
+        char *set = malloc(sizeof name + length);
+        if (!set)
+            return complain_memory(err);
+        memcpy(set, name, sizeof name - 1);
+        memcpy(set + sizeof name - 1, expression, length + 1);
+        const char *items[] = {set};
+        motus_text_def text = motus_default_text();
+        text.text = "x' = 0\nx(0) = 0\nstep 1\nuntil 1";
+        text.set = items;
+        text.set_count = 1;
+        motus_system *system = NULL;
+        motus_run *run = NULL;
+        status = motus_system_from_text(&text, &system, &inner);
+        if (!status && motus_velocities(system) != 1) {
+            complain(&inner, MOTUS_SHAPE, "%s is no single number", expression);
+            status = MOTUS_SHAPE;
+        }
+        if (!status)
+            status = motus_run_create(system, NULL, &run, &inner);
+        if (!status)
+            status = motus_run_state(run, NULL, value, &inner);
+        motus_run_destroy(run);
+        motus_system_destroy(system);
+        free(set);
+        if (status == MOTUS_MEMORY)
+            return complain_memory(err);
+    }
+    if (!status && isfinite(*value))
+        return MOTUS_OK;
+    complain(err, MOTUS_ARGUMENT, "%s: %s is not a constant", where, *expression ? expression : "nothing");
+    if (strchr(expression, ','))
+        complain_hint(err, "numbers are written with a point: 0.5");
+    else if (status && inner.message[0])
+        complain_hint(err, "%s", inner.message);
+    else if (!status)
+        complain_hint(err, "its value is not finite");
+    return MOTUS_ARGUMENT;
+}

@@ -1,0 +1,283 @@
+/* motus sweep: one model, many trajectories.
+ *
+ * Invariant: what is in memory is one batch, whatever the number of trajectories; the rows of a batch are written before the next begins; no
+ * file is touched before everything that was asked for is known to be right.
+ */
+#include "cli/sweep.h"
+
+#include "cli/complain.h"
+#include "cli/file.h"
+#include "cli/json.h"
+#include "cli/stop.h"
+#include "cli/text.h"
+#include "cli/verbs.h"
+#include "cli/walk.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A batch: as large as these allow, and so long that a kill costs little. */
+enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
+
+typedef struct batch {
+    size_t most, count, lanes;   /* lanes: of all threads together */
+    double **values, **results, *stopped, *room;
+} batch;
+
+static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
+{
+    size_t columns = s->grid.count + s->records.count + 1;
+    int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
+    b->lanes = (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
+    b->most = BATCH_BYTES / sizeof(double) / columns;
+    if (b->most > BATCH_MOST)
+        b->most = BATCH_MOST;
+    b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
+    b->count = 4 * b->lanes < b->most ? 4 * b->lanes : b->most;
+    b->values = calloc(columns, sizeof *b->values);
+    b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
+    if (!b->values || !b->room)
+        return complain_memory(err);
+    for (size_t k = 0; k < columns; k++)
+        b->values[k] = b->room + k * b->most;
+    b->results = b->values + s->grid.count;
+    b->stopped = b->room + (columns - 1) * b->most;
+    return MOTUS_OK;
+}
+
+static void batch_free(batch *b)
+{
+    free(b->values);
+    free(b->room);
+}
+
+/* Larger or smaller, in whole lanes, towards the time that a batch should take. */
+static void batch_adapt(batch *b, double seconds)
+{
+    double wanted = (double)b->count * fmin(8, BATCH_MS * 1e-3 / fmax(seconds, 1e-6));
+    size_t blocks = (size_t)fmax(1, wanted / (double)b->lanes);
+    b->count = blocks * b->lanes < b->most ? blocks * b->lanes : b->most;
+}
+
+static motus_status look_every(sweep *s, motus_error *err)
+{
+    const options *o = s->options;
+    s->every = o->every_steps > 0 ? o->every_steps : 1;
+    if (o->every_time > 0) {
+        s->every = walk_steps_of(o->every_time, s->step);
+        if (s->every <= 0) {
+            complain(err, MOTUS_ARGUMENT, "--every %g: this is no whole number of steps of %g", o->every_time, s->step);
+            complain_hint(err, "a sweep looks at steps: --every \"10 steps\"");
+            return MOTUS_ARGUMENT;
+        }
+    }
+    return MOTUS_OK;
+}
+
+static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
+{
+    const options *o = s->options;
+    motus_ensemble_def def = motus_default_ensemble();
+    def.vary = s->grid.names;
+    def.vary_count = s->grid.count;
+    def.records = s->records.items;
+    def.record_count = s->records.count;
+    def.method = o->method;
+    def.step = s->step;
+    def.until = s->until;
+    def.every = s->every;
+    def.machine = o->machine;
+    def.threads = (int)o->threads;
+    def.lanes = (int)o->lanes;
+    def.fast = o->fast;
+    def.progress = stop_progress_hook;
+    def.context = progress;
+    motus_status status = motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
+    if (!status && motus_ensemble_note(s->ensemble)[0] && !o->quiet)
+        complain_note("the %s runs this: %s", strcmp(motus_ensemble_machine(s->ensemble), "interpreter") == 0 ? "interpreter" : "compiled machine",
+                      motus_ensemble_note(s->ensemble));
+    return status;
+}
+
+static motus_status check_options(const options *o, motus_error *err)
+{
+    if (o->threads > INT_MAX || o->lanes > INT_MAX)
+        return complain(err, MOTUS_ARGUMENT, "%s is too large", o->threads > INT_MAX ? "--threads" : "--lanes");
+    return sweep_file_check(o, err);
+}
+
+static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
+{
+    const options *o = s->options;
+    motus_status status = check_options(o, err);
+    if (!status)
+        status = load_model(&s->model, o, err);
+    if (!status)
+        status = grid_read(&s->grid, o, err);
+    for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
+        if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
+            status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
+    if (!status)
+        status = sweep_records_read(&s->records, &s->model, o->record, err);
+    if (status)
+        return status;
+    motus_settings settings;
+    motus_settings_of(s->model.system, &settings);
+    s->step = isnan(o->step) ? settings.step : o->step;
+    s->until = load_until(&s->model, o);
+    s->columns = 2 + s->grid.count + s->records.count;
+    status = look_every(s, err);
+    if (!status)
+        status = create(s, progress, err);
+    if (status)
+        return status;
+    s->method = motus_ensemble_method(s->ensemble);
+    size_t length = o->output ? strlen(o->output) : 0;
+    return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
+}
+
+static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *err)
+{
+    batch b = {0};
+    motus_status status = batch_begin(&b, s, err);
+    double total = (double)s->grid.total;
+    p->before = (double)f->rows / total;
+    p->amount = total;
+    p->unit = "trajectories";
+    while (!status && f->rows < s->grid.total) {
+        uint64_t left = s->grid.total - f->rows;
+        size_t count = left < b.count ? (size_t)left : b.count;
+        double began = stop_clock();
+        p->from = (double)f->rows / total;
+        p->span = (double)count / total;
+        grid_values(&s->grid, f->rows, count, b.values);
+        status = motus_ensemble_run(s->ensemble, count, (const double *const *)b.values, b.results, b.stopped, err);
+        if (!status)
+            status = sweep_file_rows(f, count, b.values, b.results, b.stopped, err);
+        if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
+            status = complain(err, MOTUS_CANCELLED, "cancelled");
+        batch_adapt(&b, stop_clock() - began);
+    }
+    batch_free(&b);
+    return status;
+}
+
+static void report_json(const sweep *s, const sweep_file *f, double wall)
+{
+    const motus_ensemble *e = s->ensemble;
+    json j = json_begin(stdout);
+    json_open(&j, '{');
+    json_key(&j, "model");
+    json_string(&j, s->options->operand);
+    json_key(&j, "method");
+    json_string(&j, s->method);
+    json_key(&j, "step");
+    json_number(&j, s->step);
+    json_key(&j, "trajectories");
+    json_integer(&j, (int64_t)s->grid.total);
+    json_key(&j, "resumed");
+    json_integer(&j, (int64_t)f->found);
+    json_key(&j, "steps");
+    json_integer(&j, motus_ensemble_steps(e));
+    json_key(&j, "machine");
+    json_string(&j, motus_ensemble_machine(e));
+    json_key(&j, "lanes");
+    json_integer(&j, motus_ensemble_lanes(e));
+    json_key(&j, "threads");
+    json_integer(&j, motus_ensemble_threads(e));
+    json_key(&j, "fast");
+    json_bool(&j, s->options->fast);
+    json_key(&j, "seconds");
+    json_number(&j, motus_ensemble_seconds(e));
+    json_key(&j, "wall");
+    json_number(&j, wall);
+    json_key(&j, "stopped");
+    json_integer(&j, (int64_t)f->stopped);
+    json_key(&j, "output");
+    json_string(&j, f->path);
+    json_close(&j, '}');
+    json_end(&j);
+}
+
+static void report(const sweep *s, const sweep_file *f, double wall)
+{
+    const motus_ensemble *e = s->ensemble;
+    bool output = strcmp(f->path, "-") == 0;         /* then this is a message */
+    FILE *out = output ? stderr : stdout;
+    char step[TEXT_NUMBER], until[TEXT_NUMBER], inside[TEXT_NUMBER], all[TEXT_NUMBER];
+    double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
+    text_number(s->step, step);
+    text_number(s->until, until);
+    text_seconds(seconds, inside);
+    text_seconds(wall, all);
+    fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method, step,
+            (long long)motus_ensemble_steps(e), until, motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
+            motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e), motus_ensemble_threads(e) == 1 ? "" : "s");
+    fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);
+    if (f->found > 0)
+        fprintf(out, ", %llu of them were there", (unsigned long long)f->found);
+    fprintf(out, ": %s, integration %s", all, inside);
+    if (work > 0 && seconds > 0)
+        fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
+    putc('\n', out);
+    if (!output) {
+        text_put(out, f->path);
+        fprintf(out, ": %zu columns\n", s->columns);
+    }
+}
+
+/* What to say of rows that are there when the rest could not be made. */
+static void say_unfinished(const sweep *s, const sweep_file *f)
+{
+    if (f->regular && f->rows < s->grid.total)
+        complain_note("%llu of %llu trajectories are in %s; the same command with --resume goes on", (unsigned long long)f->rows,
+                      (unsigned long long)s->grid.total, f->path);
+}
+
+static motus_status finish(const sweep *s, sweep_file *f, double began, motus_error *err)
+{
+    const options *o = s->options;
+    motus_status status = sweep_file_finish(f, err);
+    double wall = stop_clock() - began;
+    if (status)
+        return status;
+    if (o->json)
+        report_json(s, f, wall);
+    else if (!o->quiet)
+        report(s, f, wall);
+    status = file_flush_output(err);
+    if (!status && f->stopped > 0 && !o->quiet)
+        complain_note("%llu of %llu trajectories left the finite numbers: their column `stopped` says when", (unsigned long long)f->stopped,
+                      (unsigned long long)s->grid.total);
+    return status;
+}
+
+motus_status sweep_verb(const options *o, motus_error *err)
+{
+    sweep s = {.options = o};
+    sweep_file f = {.descriptor = -1};
+    stop_progress progress = stop_progress_begin("sweep", o->quiet);
+    double began = stop_clock();
+    motus_status status = begin(&s, &progress, err);
+    if (!status) {
+        status = sweep_file_open(&f, &s, err);
+        bool open = !status;
+        progress.began = stop_clock();
+        if (!status)
+            status = go(&s, &f, &progress, err);
+        stop_progress_end(&progress);
+        if (!status)
+            status = finish(&s, &f, began, err);
+        else if (open)
+            say_unfinished(&s, &f);
+    }
+    sweep_file_close(&f);
+    free(s.head);
+    motus_ensemble_destroy(s.ensemble);
+    free(s.records.items);
+    grid_free(&s.grid);
+    load_free(&s.model);
+    return status;
+}

@@ -1,0 +1,194 @@
+/* What stands above the rows of a sweep: what was asked for, in one line; its fingerprint; the names of the columns.
+ *
+ * Invariant: every byte follows from what decides the numbers; not from the machine, the threads, the name of the file or how often the work was
+ * interrupted. So two files of the same sweep are equal, and a fingerprint that differs says that the numbers would.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/complain.h"
+#include "cli/csv.h"
+#include "cli/json.h"
+#include "cli/sweep.h"
+#include "cli/text.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* FNV-1a, 64 bits: against mistakes, not against malice. */
+static void mix(uint64_t *hash, const void *bytes, size_t count)
+{
+    const unsigned char *s = bytes;
+    for (size_t i = 0; i < count; i++)
+        *hash = (*hash ^ s[i]) * 0x100000001B3;
+}
+
+static void mix_number(uint64_t *hash, double value) { mix(hash, &value, sizeof value); }
+static void mix_count(uint64_t *hash, uint64_t value) { mix(hash, &value, sizeof value); }
+static void mix_text(uint64_t *hash, const char *text) { mix(hash, text, strlen(text) + 1); }
+
+static void mix_axis(uint64_t *hash, const axis *a)
+{
+    mix_text(hash, a->name);
+    mix_count(hash, a->kind);
+    mix_count(hash, a->count);
+    if (a->kind == AXIS_LIST) {
+        mix(hash, a->list, a->count * sizeof *a->list);
+        return;
+    }
+    mix_number(hash, a->range.from);
+    mix_number(hash, a->range.to);
+    mix_count(hash, a->range.logarithmic);
+}
+
+static void fingerprint(sweep *s)
+{
+    uint64_t hash = 0xCBF29CE484222325;
+    const options *o = s->options;
+    mix_text(&hash, motus_version());
+    mix_text(&hash, s->model.text);
+    for (size_t i = 0; i < o->set.count; i++)
+        mix_text(&hash, o->set.items[i]);
+    mix_text(&hash, s->method);
+    mix_number(&hash, s->step);
+    mix_number(&hash, s->until);
+    mix_count(&hash, (uint64_t)s->every);
+    mix_count(&hash, o->fast);
+    for (size_t k = 0; k < s->grid.count; k++)
+        mix_axis(&hash, &s->grid.axes[k]);
+    mix_count(&hash, s->grid.zip);
+    mix_count(&hash, s->grid.draws);
+    mix_count(&hash, s->grid.seed);
+    for (size_t k = 0; k < s->records.count; k++) {
+        char name[SWEEP_NAME];
+        sweep_record_name(&s->model, &s->records.items[k], name);
+        mix_text(&hash, name);
+    }
+    snprintf(s->fingerprint, sizeof s->fingerprint, "%016" PRIx64, hash);
+}
+
+static motus_status option(file_out *f, const char *name, const char *value, motus_error *err)
+{
+    motus_status status = csv_word(f, name, err);
+    return status || !value ? status : csv_word(f, value, err);
+}
+
+static motus_status option_number(file_out *f, const char *name, double value, motus_error *err)
+{
+    char text[TEXT_NUMBER];
+    text_number(value, text);
+    return option(f, name, text, err);
+}
+
+/* A command that makes these rows, with nothing left to the model or to defaults. */
+static motus_status command(const sweep *s, file_out *f, motus_error *err)
+{
+    const options *o = s->options;
+    motus_status status = file_text(f, "motus sweep", err);
+    if (!status)
+        status = csv_word(f, o->operand, err);
+    for (size_t k = 0; !status && k < s->grid.count; k++)
+        status = option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
+    if (!status && s->grid.zip)
+        status = option(f, "--zip", NULL, err);
+    if (!status && o->random.count > 0) {
+        char number[TEXT_NUMBER];
+        digits_integer(s->grid.draws, number);
+        status = option(f, "--count", number, err);
+        digits_integer(s->grid.seed, number);
+        if (!status)
+            status = option(f, "--seed", number, err);
+    }
+    for (size_t i = 0; !status && i < o->set.count; i++)
+        status = option(f, "--set", o->set.items[i], err);
+    if (!status)
+        status = option(f, "--record", o->record ? o->record : "final", err);
+    if (!status)
+        status = option(f, "--method", s->method, err);
+    if (!status)
+        status = option_number(f, "--step", s->step, err);
+    if (!status)
+        status = option_number(f, "--until", s->until, err);
+    if (!status && s->every > 1) {
+        char text[TEXT_NUMBER + 8];
+        snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
+        status = option(f, "--every", text, err);
+    }
+    return status || !o->fast ? status : option(f, "--fast", NULL, err);
+}
+
+/* The name of column k of a row. */
+static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
+{
+    if (k == 0)
+        return "index";
+    if (k <= s->grid.count)
+        return s->grid.names[k - 1];
+    if (k == s->columns - 1)
+        return "stopped";
+    sweep_record_name(&s->model, &s->records.items[k - 1 - s->grid.count], out);
+    return out;
+}
+
+static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
+{
+    char line[160], name[SWEEP_NAME];
+    motus_status status = file_text(f, "# ", err);
+    if (!status)
+        status = command(s, f, err);
+    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(), s->grid.total, s->fingerprint);
+    if (!status)
+        status = file_text(f, line, err);
+    for (size_t k = 0; !status && k < s->columns; k++) {
+        if (k > 0)
+            status = file_text(f, ",", err);
+        if (!status)
+            status = csv_name(f, name_of(s, k, name), err);
+    }
+    return status ? status : file_text(f, "\n", err);
+}
+
+static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
+{
+    char *text = NULL, name[SWEEP_NAME], memory[] = "memory";
+    size_t length = 0;
+    file_out line = {.stream = open_memstream(&text, &length), .path = memory};
+    motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
+    if (line.stream && fclose(line.stream) != 0 && !status)
+        status = complain_memory(err);
+    if (!status) {
+        json j = json_begin(f->stream);
+        json_open(&j, '{');
+        json_key(&j, "motus");
+        json_string(&j, motus_version());
+        json_key(&j, "command");
+        json_string(&j, text);
+        json_key(&j, "trajectories");
+        json_integer(&j, (int64_t)s->grid.total);
+        json_key(&j, "fingerprint");
+        json_string(&j, s->fingerprint);
+        json_key(&j, "columns");
+        json_open(&j, '[');
+        for (size_t k = 0; k < s->columns; k++)
+            json_string(&j, name_of(s, k, name));
+        json_close(&j, ']');
+        json_close(&j, '}');
+        json_end(&j);
+    }
+    free(text);
+    return status;
+}
+
+motus_status sweep_head_make(sweep *s, bool npy, motus_error *err)
+{
+    fingerprint(s);
+    char memory[] = "memory";
+    file_out f = {.stream = open_memstream(&s->head, &s->head_length), .path = memory};
+    if (!f.stream)
+        return complain_memory(err);
+    motus_status status = npy ? npy_head(s, &f, err) : csv_head(s, &f, err);
+    bool failed = ferror(f.stream) != 0;
+    if ((fclose(f.stream) != 0 || failed) && !status)
+        status = complain_memory(err);
+    return status;
+}

@@ -1,0 +1,224 @@
+/* What an interrupted sweep left: its whole rows, counted from the beginning to the first that is not one.
+ *
+ * Invariant: a file with another fingerprint, or that is no sweep, is refused and not touched.
+ */
+#define _XOPEN_SOURCE 700
+#include "cli/complain.h"
+#include "cli/digits.h"
+#include "cli/file.h"
+#include "cli/sweep.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { CHUNK = 1 << 20 };
+
+/* Up to `count` bytes from `place`; fewer at the end of the file; -1: cannot be read. */
+static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t place, motus_error *err)
+{
+    size_t done = 0;
+    while (done < count) {
+        ssize_t got = pread(f->descriptor, out + done, count - done, (off_t)(place + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            complain(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
+            return -1;
+        }
+        if (got == 0)
+            break;
+        done += (size_t)got;
+    }
+    return (ssize_t)done;
+}
+
+static motus_status another(const sweep_file *f, const char *said, motus_error *err)
+{
+    complain(err, MOTUS_STATE, said ? "%s was made by another sweep" : "%s is not the beginning of a sweep", f->path);
+    if (said)
+        complain_hint(err, "it says: %.300s", said);
+    else
+        complain_hint(err, "--force replaces it");
+    return MOTUS_STATE;
+}
+
+/* ---- CSV ---- */
+
+/* The length of the head, or 0 where the file ends within it. Another way to the same model (the first line) is no other sweep. */
+static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, motus_error *err)
+{
+    const sweep *s = f->sweep;
+    size_t room = s->head_length + 65536;            /* a longer way to the model than ours */
+    char *text = malloc(room + 1);
+    if (!text)
+        return complain_memory(err);
+    ssize_t got = read_at(f, text, room, 0, err);
+    motus_status status = got < 0 ? MOTUS_FILE : MOTUS_OK;
+    *length = 0;
+    if (!status && (size_t)got >= s->head_length && memcmp(text, s->head, s->head_length) == 0)
+        *length = s->head_length;
+    else if (!status && (uint64_t)got == end && (size_t)got < s->head_length && memcmp(text, s->head, (size_t)got) == 0)
+        *length = 0;
+    else if (!status) {
+        text[got] = 0;
+        /* "# command \n# motus … \nnames\n" */
+        char *second = strchr(text, '\n'), *names = second ? strchr(second + 1, '\n') : NULL, *last = names ? strchr(names + 1, '\n') : NULL;
+        char *mark = last ? strstr(second, s->fingerprint) : NULL;
+        if (strncmp(text, "# motus sweep ", 14) != 0 || !last)
+            status = another(f, NULL, err);
+        else if (!mark || mark > names) {
+            *second = 0;
+            status = another(f, text + 2, err);
+        } else {
+            *length = (size_t)(last + 1 - text);
+        }
+    }
+    free(text);
+    return status;
+}
+
+/* One row as far as it is read. */
+typedef struct scan {
+    char number[DIGITS_ROOM];    /* the number it should begin with */
+    size_t at, commas;
+    bool good, stopped;
+} scan;
+
+static void scan_row(scan *r, uint64_t number)
+{
+    *r = (scan){.good = true};
+    digits_integer(number, r->number);
+}
+
+static const bool in_numbers[256] = {
+    ['0'] = true, ['1'] = true, ['2'] = true, ['3'] = true, ['4'] = true, ['5'] = true, ['6'] = true, ['7'] = true, ['8'] = true, ['9'] = true,
+    ['+'] = true, ['-'] = true, ['.'] = true, ['e'] = true, [','] = true, ['n'] = true, ['a'] = true, ['i'] = true, ['f'] = true,
+};
+
+static void scan_byte(scan *r, char c)
+{
+    if (r->commas == 0)
+        r->good = r->good && c == (r->number[r->at] ? r->number[r->at] : ',');
+    else
+        r->good = r->good && in_numbers[(unsigned char)c];
+    r->at++;
+    r->commas += c == ',';
+    r->stopped = c != ',';
+}
+
+static motus_status csv_rows(sweep_file *f, motus_error *err)
+{
+    char *chunk = malloc(CHUNK);
+    if (!chunk)
+        return complain_memory(err);
+    motus_status status = MOTUS_OK;
+    uint64_t place = f->bytes;
+    scan row;
+    scan_row(&row, 0);
+    for (ssize_t got = 1; !status && got > 0 && row.good && f->rows < f->sweep->grid.total;) {
+        got = read_at(f, chunk, CHUNK, place, err);
+        status = got < 0 ? MOTUS_FILE : MOTUS_OK;
+        for (ssize_t i = 0; i < got && row.good && f->rows < f->sweep->grid.total; i++) {
+            place++;
+            if (chunk[i] != '\n') {
+                scan_byte(&row, chunk[i]);
+                continue;
+            }
+            row.good = row.good && row.commas == f->sweep->columns - 1;
+            if (!row.good)
+                break;
+            f->stopped += row.stopped;
+            f->bytes = place;
+            scan_row(&row, ++f->rows);
+        }
+    }
+    free(chunk);
+    return status;
+}
+
+/* ---- .npy ---- */
+
+/* The text beside it has to be ours, or at least its fingerprint. */
+static motus_status npy_beside(const sweep_file *f, motus_error *err)
+{
+    char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[64];
+    if (!path)
+        return complain_memory(err);
+    sprintf(path, "%s.json", f->path);
+    size_t length;
+    motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
+    if (status)
+        complain_hint(err, "it says which sweep %s belongs to; --force begins anew", f->path);
+    free(path);
+    snprintf(key, sizeof key, "\"fingerprint\": \"%s\"", f->sweep->fingerprint);
+    if (!status && !strstr(text, key)) {
+        char *command = strstr(text, "\"command\": \""), *end = command ? strstr(command, "\", \"trajectories\"") : NULL;
+        if (end)
+            *end = 0;
+        status = another(f, end ? command + 12 : NULL, err);
+    }
+    free(text);
+    return status;
+}
+
+/* The last number of a row says whether it stopped. */
+static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, motus_error *err)
+{
+    size_t at_once = width < CHUNK ? CHUNK / width : 1;
+    char *chunk = malloc(at_once * width);
+    if (!chunk)
+        return complain_memory(err);
+    motus_status status = MOTUS_OK;
+    while (!status && f->rows < rows) {
+        size_t count = rows - f->rows < at_once ? (size_t)(rows - f->rows) : at_once;
+        if (read_at(f, chunk, count * width, SWEEP_NPY_HEAD + f->rows * width, err) != (ssize_t)(count * width))
+            status = MOTUS_FILE;
+        for (size_t i = 0; !status && i < count; i++) {
+            double stopped;
+            memcpy(&stopped, chunk + (i + 1) * width - sizeof stopped, sizeof stopped);
+            f->stopped += !isnan(stopped);
+        }
+        f->rows += count;
+    }
+    free(chunk);
+    return status;
+}
+
+static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
+{
+    char head[SWEEP_NPY_HEAD + 1] = "", ours[SWEEP_NPY_HEAD];
+    motus_status status = npy_beside(f, err);
+    if (status)
+        return status;
+    if (end < SWEEP_NPY_HEAD)
+        return MOTUS_OK;
+    if (read_at(f, head, SWEEP_NPY_HEAD, 0, err) < 0)
+        return MOTUS_FILE;
+    sweep_npy_head(f->sweep, 0, ours);
+    const char *shape = memchr(ours, '(', sizeof ours);
+    uint64_t rows = strtoull(head + (shape + 1 - ours), NULL, 10);     /* ends at the comma */
+    sweep_npy_head(f->sweep, rows, ours);
+    if (memcmp(head, ours, sizeof ours) != 0)
+        return another(f, NULL, err);
+    uint64_t width = f->sweep->columns * sizeof(double), there = (end - SWEEP_NPY_HEAD) / width;
+    if (rows > there)
+        rows = there;
+    if (rows > f->sweep->grid.total)
+        rows = f->sweep->grid.total;
+    f->bytes = SWEEP_NPY_HEAD + rows * width;
+    return npy_stopped(f, rows, width, err);
+}
+
+motus_status sweep_resume(sweep_file *f, uint64_t end, motus_error *err)
+{
+    f->rows = f->bytes = f->stopped = 0;
+    if (f->npy)
+        return npy_rows(f, end, err);
+    size_t length = 0;
+    motus_status status = csv_head(f, end, &length, err);
+    f->bytes = length;
+    return status || length == 0 ? status : csv_rows(f, err);
+}

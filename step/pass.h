@@ -1,0 +1,98 @@
+/* The acceleration of a model whose outer indices can be taken apart: of a window, or of all of them by several threads; and the pass of a model of
+ * neighbours, which makes acceleration, kick and drift one sweep over memory.
+ *
+ * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that differs.
+ */
+static inline void pass_window(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at, const window_put *how)
+{
+    compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, how);
+}
+
+/* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as well. */
+static inline void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
+{
+    const tiling *in = host->tiling;
+    for (size_t i = 0; i < in->stills; i++)
+        for (size_t k = in->still[2 * i]; k < in->still[2 * i + 1]; k++) a[k] = 0;
+    pass_window(host, t, T, x, v, a, &(window){.from = -WINDOW_ALL, .to = WINDOW_ALL}, &(window_put){.pass = false});
+}
+
+#if LOCAL
+/* The numbers in the window that no equation moves: their acceleration is 0. */
+static inline void pass_still(const work *w, const real *x, real *v, real *a, const window_put *move)
+{
+    const tiling *in = host_of(w)->tiling;
+    for (int p = 0; p < in->parts; p++) {
+        const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
+        size_t low = 0, high = in->stills;                        /* the first stretch that ends behind `begin` */
+        while (low < high) {
+            const size_t middle = (low + high) / 2;
+            if (in->still[2 * middle + 1] <= begin) low = middle + 1;
+            else high = middle;
+        }
+        for (; low < in->stills && in->still[2 * low] < end; low++)
+            for (size_t k = in->still[2 * low]; k < in->still[2 * low + 1]; k++)
+                if (k >= begin && k < end) PUT(k, 0);
+    }
+}
+
+static inline void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+{
+    const window_put keep = {.pass = false};
+    window_move(w, host_of(w)->tiling->around);
+    pass_still(w, x, v, a, &keep);
+    pass_window(host_of(w), t, T, x, v, a, &w->window, &keep);
+    window_move(w, host_of(w)->tiling->around);
+}
+
+#if !COMPANIONS
+/* Stage i: v += b a, x += c v. */
+#define PASS(w, i, b, c) pass_run(w, i, b, c)
+static inline void pass_run(work *w, int i, clock b, clock c)
+{
+    const window_put move = {true, b, c, w->ex, w->ev};
+    const clock t = time_in(w, FACT(w, c)[i]);
+    real *x = w->x, *next = w->a;
+    clock room[TERMS + 1];
+#if TERMS
+    const clock *T = w->table ? compiled_table(w, FACT(w, moment)[i]) : compiled_terms(host_of(w), t, room);
+#else
+    const clock *T = room;
+#endif
+    w->evaluations++;
+    window_move(w, host_of(w)->tiling->pass);
+    pass_still(w, x, w->v, next, &move);
+    pass_window(host_of(w), t, T, x, w->v, next, &w->window, &move);
+    w->x = next;
+    w->a = x;
+}
+#endif
+
+#else
+
+typedef struct pass_job { const compiled_host *host; clock t; const clock *T; real *x, *v, *a; size_t tasks; } pass_job;
+
+static void pass_task(void *ctx, size_t k, int thread)
+{
+    (void)thread;
+    const pass_job *job = ctx;
+    const tiling *in = job->host->tiling;
+    const whole cells = in->last - in->first + 1, tasks = (whole)job->tasks, i = (whole)k;
+    window part = {.from = i == 0 ? -WINDOW_ALL : in->first + cells * i / tasks, .to = i == tasks - 1 ? WINDOW_ALL : in->first + cells * (i + 1) / tasks};
+    pass_window(job->host, job->t, job->T, job->x, job->v, job->a, &part, &(window_put){.pass = false});
+}
+
+enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to even out; and cells that are worth a task */
+
+static inline void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+{
+    const compiled_host *host = host_of(w);
+    const whole most = (host->tiling->last - host->tiling->first + 1) / PASS_CELLS_MIN;
+    if (w->threads == 1 || most < 2) {
+        pass_all(host, t, T, x, v, a);
+        return;
+    }
+    pass_job job = {host, t, T, x, v, a, (size_t)window_sooner(w->threads * PASS_TASKS, most)};
+    host->parallel(w->threads, job.tasks, pass_task, &job);
+}
+#endif

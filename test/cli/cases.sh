@@ -1,0 +1,63 @@
+#!/bin/bash
+# What the tests of the program share: a place for files, and the ways to state a case. To be sourced from the root of the source.
+#
+# Each case is one line `ok` or `not ok`. MOTUS is the program (build/motus).
+set -u
+motus=${MOTUS:-$PWD/build/motus}
+root=$PWD
+passed=0 failed=0
+place=$(mktemp -d)
+out=$place/out err=$place/err
+trap 'umount "$place/small" 2>/dev/null; rm -rf "$place"' EXIT
+unset NO_COLOR
+export LC_ALL=C.UTF-8 TERM=xterm
+
+ok() { passed=$((passed + 1)); echo "ok - $1"; }
+not_ok() {
+    failed=$((failed + 1))
+    echo "not ok - $1"
+    shift
+    for line in "$@"; do printf '    %s\n' "$line"; done | head -n 12 | cut -c 1-400 | tr -c '[:print:]\n' '?'
+}
+# name, condition ...: the condition is a command
+that() {
+    local name=$1
+    shift
+    if "$@" >"$place/said" 2>&1; then ok "$name"; else not_ok "$name" "$*" "$(cat "$place/said")"; fi
+}
+# name, exit status, command ...: leaves its output in $out and $err
+gives() {
+    local name=$1 want=$2 got
+    shift 2
+    "$@" >"$out" 2>"$err" </dev/null
+    got=$?
+    if [ $got = "$want" ]; then ok "$name"; else not_ok "$name" "exit status $got, not $want: $*" "$(head -c 600 "$out")" "$(cat "$err")"; fi
+}
+# name, exit status, words of the message, command ...: one message, nothing on standard output, and the same as JSON
+refuses() {
+    local name=$1 want=$2 words=$3 got
+    shift 3
+    "$@" >"$out" 2>"$err" </dev/null
+    got=$?
+    if [ $got != "$want" ]; then not_ok "$name" "exit status $got, not $want" "$(cat "$err")"; return; fi
+    if [ -s "$out" ]; then not_ok "$name" "something is on standard output: $(head -c 300 "$out")"; return; fi
+    if ! grep -qF -- "$words" "$err"; then not_ok "$name" "the message does not say '$words'" "$(cat "$err")"; return; fi
+    if grep -qvE '^(motus: |[^ ].*:[0-9]+:[0-9]+: |    |  hint: )' "$err"; then not_ok "$name" "the message is out of shape" "$(cat "$err")"; return; fi
+    ok "$name"
+}
+says() { grep -qF -- "$1" "${2:-$out}"; }
+lacks() { ! grep -qF -- "$1" "${2:-$out}"; }
+empty() { [ ! -s "$1" ]; }
+absent() { [ ! -e "$1" ]; }
+nothing_left() { [ -z "$(find "$1" -name '.motus-*')" ]; }
+
+checker=$PWD/build/test/tool/json_check
+if [ ! -x "$checker" ]; then
+    checker=$place/json_check
+    "${CC:-cc}" -std=c17 -O1 -o "$checker" test/cli/json_check.c || { echo "not ok - json_check is built"; echo "0 passed, 1 failed"; exit 1; }
+fi
+# Whether a file is one good JSON value on one line.
+json() { "$checker" "$1" && [ "$(wc -l <"$1")" = 1 ]; }
+# jq's answer about $out is true
+holds() { [ -s "${2:-$out}" ] && jq -e "$1" "${2:-$out}"; }
+near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a ~ /[0-9]/ && d <= e) }'; }

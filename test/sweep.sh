@@ -1,0 +1,374 @@
+#!/bin/bash
+# motus sweep: the values and their order, the same bits as single runs, files that survive whatever happens and are finished to the same bytes.
+#
+# Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
+cd "$(dirname "$0")/.." || exit 1
+. test/cli/cases.sh
+cd "$place" || exit 1
+
+cat >osc.motus <<'M'
+F = 0.1
+w = 1
+x'' = -x + x^3 + F cos(w t)
+x(0) = 0
+x'(0) = 0
+energy = x'^2/2 + x^2/2
+method velocity-verlet
+step 0.01
+until 2
+M
+cat >line.motus <<'M'
+a = 1
+x'' = a
+x(0) = 0
+x'(0) = 0
+method verlet
+step 1
+until 2
+M
+cat >blow.motus <<'M'
+k = 1
+x'' = k x^3
+x(0) = 1
+x'(0) = 0
+method rk4
+step 0.01
+until 4
+M
+rows() { grep -v '^#' "${1:-$out}" | sed 1d; }
+names() { grep -v '^#' "${1:-$out}" | head -n 1; }
+column() { rows "${2:-$out}" | cut -d, -f"$1" | tr '\n' ' '; }
+is() { [ "$1" = "$2" ] || { printf '%s\nis not\n%s\n' "$1" "$2"; return 1; }; }
+sweep() { "$motus" sweep "$@"; }
+
+# --- values ---------------------------------------------------------------------------------------------------------------------
+values() {                   # name, option, argument, the values
+    sweep line.motus "$2" "$3" --record x -q >"$out" 2>"$err" </dev/null
+    that "$1" is "$(column 2)$(cat "$err")" "$4 "
+}
+values "a range" --vary a=0:1:11 "0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1"
+values "a range that goes down through 0" --vary a=0.3:-0.1:5 "0.3 0.2 0.1 0 -0.1"
+values "a range of one" --vary a=2:2:1 "2"
+values "a range of constant expressions" --vary "a = 0 : 2*pi : 3" "0 3.141592653589793 6.283185307179586"
+values "... with functions and brackets" --vary "a=sqrt(4):max(3, 4):3" "2 3 4"
+values "equal ratios" --vary a=log:0.001:1000:7 "0.001 0.01 0.1 1 10 100 1000"
+values "equal ratios going down, below 0" --vary a=log:-8:-1:4 "-8 -4 -2 -1"
+values "a list" --vary "a=3, 1e-3, -2 pi, 1/3" "3 0.001 -6.283185307179586 0.3333333333333333"
+values "a list of one" --vary a=7 "7"
+printf 'n,"the a, quoted",b\r\n# a remark\n1,0.5,x\n\n2, 1.5 ,y\n3,"-2.5e-3",z\n' >values.csv
+values "a column of a file, by name" --vary "a=@values.csv:the a, quoted" "0.5 1.5 -0.0025"
+values "... by number" --vary a=@values.csv:2 "0.5 1.5 -0.0025"
+printf '1\n2\n4' >plain.csv
+values "a file of one column without a head" --vary a=@plain.csv "1 2 4"
+sweep line.motus --vary a=1:2:3 --record "x,x'" -o first.csv -q
+values "the file of another sweep" --vary "a=@first.csv:x'" "2 3 4"
+
+sweep osc.motus --vary F=1,2 --vary w=3,4,5 --record x -q >"$out"
+that "two --vary: every one with every other, the last fastest" is "$(rows | cut -d, -f1-3 | tr '\n' ' ')" "0,1,3 1,1,4 2,1,5 3,2,3 4,2,4 5,2,5 "
+that "the names of the columns" is "$(names)" "index,F,w,x,stopped"
+sweep osc.motus --vary F=1,2,3 --vary w=4:6:3 --zip --record x -q >"$out"
+that "--zip: side by side" is "$(rows | cut -d, -f1-3 | tr '\n' ' ')" "0,1,4 1,2,5 2,3,6 "
+sweep osc.motus --vary F=1,2 --random w=0:1 --count 3 --record x -q >"$out"
+that "--vary and --random: so many draws for each value" is "$(column 2)" "1 1 1 2 2 2 "
+that "... all of them different" eval "[ \$(column 3 | tr ' ' '\n' | sort -u | grep -c .) = 6 ]"
+
+# --- random -----------------------------------------------------------------------------------------------------------------------
+sweep line.motus --random a=0:1 --count 1000 --record x -q >thousand
+# 53 bits of the words 6627e8d5 e169c58d, the published answer of Philox4x32-10 to 0
+that "the first number of seed 0 is the published one" is "$(column 2 thousand | cut -d' ' -f1)" "$(printf '%.16g' 0x.e169c58d6627e8p0)"
+sweep line.motus --random a=0:1 --count 10 --record x -q >ten
+that "a trajectory has its numbers whatever the count" cmp <(rows ten) <(rows thousand | head -n 10)
+sweep line.motus --random a=0:1 --count 1000 --seed 0 --record x -q --threads 1 --lanes 1 >again
+that "... whatever threads and lanes, and 0 is the seed" cmp thousand again
+sweep line.motus --random a=0:1 --count 1000 --seed 18446744073709551615 --record x -q >other
+that "another seed, other numbers" eval "[ \"\$(comm -12 <(column 2 thousand | tr ' ' '\n' | sort) <(column 2 other | tr ' ' '\n' | sort) | grep -c .)\" = 0 ]"
+sweep line.motus --random a=-3:5 --count 1000 --record x -q >"$out"
+that "evenly between the ends" eval "rows | awk -F, '{ s += \$2; bad += \$2 < -3 || \$2 > 5 } END { m = s/NR - 1; exit !(!bad && m*m < 16*64/12/NR) }'"
+sweep line.motus --random a=normal:3:0.5 --count 1000 --record x -q >"$out"
+that "normal: mean and deviation" eval "rows | awk -F, '{ s += \$2; q += (\$2-3)^2 } END { m = s/NR - 3; v = q/NR/0.25 - 1; exit !(m*m < 16*0.25/NR && v*v < 16*2/NR) }'"
+sweep osc.motus --random F=0:1 --random w=0:1 --count 50 --record x -q >"$out"
+that "two draws are two numbers" eval "rows | awk -F, '\$2 == \$3 { bad = 1 } END { exit bad }'"
+
+# --- the same bits as single runs -------------------------------------------------------------------------------------------------------
+run_of() { "$motus" run osc.motus "$@" --json | jq -r '[.state.x, .state["x\u0027"], .quantities.energy] | map(tostring) | join(",")'; }
+for how in "" "--method rk4" "--method verlet --step 1/64" "--until 1.005" "--until -1" "--method gauss4" "--machine interpreter"; do
+    # shellcheck disable=SC2086
+    sweep osc.motus $how --vary F=-0.2:0.7:4 --vary "x(0)=0,0.25" --record "final,energy" -q >"$out" 2>"$err"
+    # shellcheck disable=SC2086
+    that "the bits of single runs: ${how:-as the model says}" is "$(rows | cut -d, -f4-6)" "$(for F in -0.2 0.1 0.4 0.7; do for x in 0 0.25; do run_of $how --set F=$F --set "x(0)=$x"; done; done)"
+done
+"$motus" run osc.motus --set F=0.3 -o traj.csv --columns "t,x,energy" -q
+sweep osc.motus --vary F=0.3 --record "min(x),max(x),time_of_min(x),time_of_max(x),mean(energy),max( energy )" -q >"$out"
+that "min, max and their times are those of the rows of a run" is "$(rows | cut -d, -f3-6,8)" "$(rows traj.csv | awk -F, '
+    NR == 1 || $2 + 0 < least + 0 { least = $2; tl = $1 } NR == 1 || $2 + 0 > most + 0 { most = $2; tm = $1 } NR == 1 || $3 + 0 > e + 0 { e = $3 }
+    END { print least "," most "," tl "," tm "," e }')"
+that "mean" near "$(column 7)" "$(rows traj.csv | awk -F, '{ s += $3 } END { printf "%.17g", s/NR }')" 1e-15
+that "their names" is "$(names)" "index,F,min(x),max(x),time_of_min(x),time_of_max(x),mean(energy),max(energy),stopped"
+"$motus" run osc.motus --set F=0.3 -o traj.csv --columns "t,x" --every "70 steps" -q
+sweep osc.motus --vary F=0.3 --record "max(x),mean(x)" --every "70 steps" -q >"$out"
+that "--every: looks that far apart, and at the end" is "$(column 3)" "$(rows traj.csv | awk -F, 'NR == 1 || $2 > m { m = $2 } END { print m }' OFMT=%.17g CONVFMT=%.17g) "
+cp "$out" steps
+sweep osc.motus --vary F=0.3 --record "max(x),mean(x)" --every 0.7 -q >"$out"
+that "--every as a time" cmp steps "$out"
+sweep "$root/models/three-body-figure-eight.motus" --vary "r[1].x(0)=0.97" --until 0.01 -q >"$out" 2>"$err"
+sweep "$root/models/projectile.motus" --vary g.y=-9.81,-1.62 --record "r,max(r'.y)" -q >"$out" 2>"$err"
+that "a name stands for all its numbers; a component varies" is "$(names)" "index,g.y,r.x,r.y,max(r'.y),stopped"
+
+# --- a motion that leaves the finite numbers ---------------------------------------------------------------------------------------------
+gives "some that blow up" 0 "$motus" sweep blow.motus --vary k=-1,3,1,100,0 --record "x,max(x)"
+that "... are said" eval "says '3 of 5 trajectories left the finite numbers' '$err'"
+that "... their cells are empty, and the time is there" eval "rows | awk -F, '\$2 > 0 { bad += !(\$3 == \"\" && \$4 == \"\" && \$5 > 0 && \$5 < 4) } \$2 <= 0 { bad += !(\$3 != \"\" && \$4 != \"\" && \$5 == \"\") } END { exit bad || NR != 5 }'"
+for k in 3 100; do
+    "$motus" run blow.motus --set k=$k --json >run.json 2>/dev/null
+    that "... the time is that of the single run, k = $k" eval "[ -n '$k' ] && jq -r .error.message run.json | grep -qF \"t = \$(rows | awk -F, '\$2 == $k { print \$5 }')\""
+done
+sweep blow.motus --vary k=-1 --record "x,max(x)" -q >alone
+that "... the others are as ever" is "$(rows | head -n 1)" "$(rows alone)"
+
+# --- files -----------------------------------------------------------------------------------------------------------------------
+ask=(osc.motus --vary F=0:0.5:7 --vary w=1,2 --record "x,max(energy)")
+gives "-o" 0 "$motus" sweep "${ask[@]}" -o whole.csv
+sweep "${ask[@]}" -q >"$out"
+that "-o holds what standard output shows" cmp whole.csv "$out"
+that "the first line is the request, with nothing left out" is "$(head -n 1 whole.csv)" \
+    "# motus sweep osc.motus --vary F=0:0.5:7 --vary w=1,2 --record 'x,max(energy)' --method velocity-verlet --step 0.01 --until 2"
+for how in "--threads 1" "--threads 2" "--lanes 1" "--lanes 4" "--machine interpreter" "--method velocity-verlet --step 1/100" "--until 2"; do
+    # shellcheck disable=SC2086
+    sweep "${ask[@]}" $how -o same.csv --force -q 2>"$err"
+    that "the same bytes with $how" cmp whole.csv same.csv
+done
+sh -c "$(head -n 1 whole.csv | sed "s|^# motus|'$motus'|") -q" >"$out"
+that "the first line is a command that makes the file" cmp whole.csv "$out"
+refuses "a file that is there" 2 "whole.csv is there already" "$motus" sweep "${ask[@]}" -o whole.csv
+that "... the remedies" eval "says --resume '$err' && says --force '$err'"
+refuses "... with another request as well" 2 "is there already" "$motus" sweep line.motus --vary a=1 -o whole.csv
+cp whole.csv copy.csv
+gives "--resume of a whole file" 0 "$motus" sweep "${ask[@]}" -o copy.csv --resume --json
+that "... does nothing" eval "cmp whole.csv copy.csv && holds '.resumed == 14 and .seconds == 0'"
+: >none.csv
+gives "an empty file is no loss" 0 "$motus" sweep "${ask[@]}" -o none.csv
+that "... and is filled" cmp whole.csv none.csv
+
+# Cut anywhere: in the last two rows, at their ends, in the head, at nothing.
+size=$(stat -c %s whole.csv) tail=$(tail -n 2 whole.csv | wc -c) head=$(grep -E '^(#|index)' whole.csv | wc -c)
+resumed() { head -c "$1" whole.csv >cut.csv && sweep "${ask[@]}" -o cut.csv --resume -q && cmp whole.csv cut.csv; }
+everywhere() { local n; for n in "$@"; do resumed "$n" || { echo "cut at $n"; return 1; }; done; }
+that "resumed after a cut at every byte of the last two rows" everywhere $(seq $((size - tail)) "$size")
+that "... at every byte of the head and the first row" everywhere $(seq 0 $((head + 20)))
+head -c $((size - 30)) whole.csv >cut.csv && head -c 4000 /dev/zero >>cut.csv
+that "... after a power cut that left zeros" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
+head -n 6 whole.csv >cut.csv && tail -n 3 whole.csv >>cut.csv
+that "... with rows that do not follow" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
+head -n 8 whole.csv >cut.csv && echo 5,0.1 >>cut.csv
+that "... with half a row" eval "sweep \"\${ask[@]}\" -o cut.csv --resume -q && cmp whole.csv cut.csv"
+cp whole.csv longer.csv && echo 14,1,2,3,4, >>longer.csv
+that "... with rows that do not belong" eval "sweep \"\${ask[@]}\" -o longer.csv --resume -q && cmp whole.csv longer.csv"
+gives "--resume of nothing begins" 0 "$motus" sweep "${ask[@]}" -o fresh.csv --resume
+that "... and is the same" cmp whole.csv fresh.csv
+head -c $((size - 30)) whole.csv >cut.csv
+gives "another way to the same model" 0 "$motus" sweep "$PWD/osc.motus" "${ask[@]:1}" -o cut.csv --resume -q
+that "... is the same sweep" cmp whole.csv cut.csv
+
+head -c $((size - 30)) whole.csv >part.csv
+cp part.csv kept.csv
+sed 's/x^3/x^5/' osc.motus >osc5.motus
+other() {                    # name, the command's changes
+    local name=$1
+    shift
+    refuses "--resume with another $name" 2 "part.csv was made by another sweep" "$motus" sweep "$@" -o part.csv --resume
+    that "... the file stays" cmp part.csv kept.csv
+}
+other model osc5.motus "${ask[@]:1}"
+other method "${ask[@]}" --method rk4
+other step "${ask[@]}" --step 0.02
+other end "${ask[@]}" --until 3
+other range osc.motus --vary F=0:0.5:8 --vary w=1,2 --record "x,max(energy)"
+other list osc.motus --vary F=0:0.5:7 --vary w=1,3 --record "x,max(energy)"
+other order osc.motus --vary w=1,2 --vary F=0:0.5:7 --record "x,max(energy)"
+other record osc.motus --vary F=0:0.5:7 --vary w=1,2 --record "x,min(energy)"
+other look "${ask[@]}" --every "2 steps"
+other parameter "${ask[@]}" --set "x(0)=0.1"
+other freedom "${ask[@]}" --fast
+other draw osc.motus --random F=0:0.5 --count 14 --record "x,max(energy)"
+that "... which it is, is said" says "it says: motus sweep osc.motus --vary F=0:0.5:7" "$err"
+sweep line.motus --random a=0:1 --count 9 --seed 1 -o seeded.csv -q
+refuses "--resume with another seed" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 9 --seed 2 -o seeded.csv --resume
+refuses "--resume with another count" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 10 --seed 1 -o seeded.csv --resume
+refuses "--resume of something else" 2 "is not the beginning of a sweep" "$motus" sweep "${ask[@]}" -o values.csv --resume
+gives "--force" 0 "$motus" sweep line.motus --vary a=1 -o part.csv --force
+that "... replaces" eval "[ \$(rows part.csv | wc -l) = 1 ]"
+
+# Interrupted: by a limit on the size of files, which kills in the middle of a write; by a full disk; by signals.
+long=(osc.motus --vary F=0:0.5:3000 --record "final,energy" --until 0.05)
+sweep "${long[@]}" -o long.csv -q
+resume_long() { sweep "${long[@]}" -o "$1" --resume -q && cmp long.csv "$1"; }
+(ulimit -c 0 -f 100; sweep "${long[@]}" -o killed.csv -q) >"$out" 2>&1
+that "killed in a write" eval "[ \$(stat -c %s killed.csv) = 102400 ] && cmp -n 102400 long.csv killed.csv"
+that "... finished to the same bytes" resume_long killed.csv
+(trap '' XFSZ; ulimit -f 100; sweep "${long[@]}" -o full.csv) >"$out" 2>"$err"
+that "a file that cannot grow: exit status 1, and why" eval "[ $? = 1 ] && says 'cannot write full.csv: File too large' '$err'"
+that "... what is there, and how to go on" eval "says 'of 3000 trajectories are in full.csv' '$err' && says --resume '$err'"
+that "... whole rows, as many as it says" eval "[ -z \"\$(tail -c 1 full.csv | tr -d '\n')\" ] && [ \$(rows full.csv | wc -l) = \$(grep -o '^motus: [0-9]* of' '$err' | tr -dc 0-9) ]"
+that "... all of them right" cmp -n "$(stat -c %s full.csv)" full.csv long.csv
+that "... finished to the same bytes" resume_long full.csv
+refuses "a full disk" 1 "cannot write /dev/full: No space left" "$motus" sweep line.motus --vary a=1 -o /dev/full
+sweep line.motus --vary a=1 >/dev/full 2>"$err"
+that "a full standard output" eval "[ $? = 1 ] && says 'standard output' '$err'"
+mkdir small
+if mount -t tmpfs -o size=64k none small 2>/dev/null; then
+    sweep "${long[@]}" -o small/full.csv >"$out" 2>"$err"
+    that "a full file system" eval "[ $? = 1 ] && says 'No space left' '$err' && [ \$(rows small/full.csv | wc -l) -gt 100 ]"
+    cp small/full.csv full.csv
+    that "... all of them right" cmp -n "$(stat -c %s full.csv)" full.csv long.csv
+    rm small/full.csv
+    sweep "${long[@]}" -o small/full.npy >"$out" 2>"$err"
+    that "... a .npy too" eval "[ \$(((\$(stat -c %s small/full.npy) - 128) % 48)) = 0 ] && head -c 128 small/full.npy | grep -aqF \"(\$(((\$(stat -c %s small/full.npy) - 128) / 48)), 6)\""
+    umount small
+    that "... finished elsewhere" resume_long full.csv
+fi
+# Long enough on any machine: many steps, by the interpreter, one at a time.
+slow=(osc.motus --vary F=0:0.2:20000 --until 20 --machine interpreter --threads 1 --lanes 1)
+for signal in KILL INT TERM HUP; do
+    [ -n "$(trap -p "$signal")" ] && continue           # ignored by whoever started this, and then by the program too
+    rm -f stopped.csv
+    (trap - INT; exec "$motus" sweep "${slow[@]}" -o stopped.csv >"$out" 2>"$err") &
+    child=$!
+    for _ in $(seq 500); do [ "$(wc -l 2>/dev/null <stopped.csv)" -gt 5 ] 2>/dev/null && break; sleep 0.02; done
+    kill -$signal $child
+    wait $child 2>/dev/null
+    status=$?
+    that "SIG$signal: the program dies of it" test $status = $((128 + $(kill -l $signal)))
+    count=$(rows stopped.csv | wc -l)
+    that "... and leaves rows ($count)" test "$count" -gt 0 -a "$count" -lt 20000
+    if [ $signal != KILL ]; then
+        that "... whole ones" eval "[ -z \"\$(tail -c 1 stopped.csv | tr -d '\n')\" ]"
+        that "... and says how to go on" eval "says '$count of 20000 trajectories are in stopped.csv; the same command with --resume goes on' '$err'"
+    fi
+    sweep osc.motus --vary "F=@stopped.csv:F" --until 20 --record final -q >"$out"
+    that "... right ones" cmp <(rows stopped.csv | head -n "$count" | cut -d, -f 1-4) <(rows | cut -d, -f 1-4)
+done
+cp stopped.csv twice.csv
+(exec "$motus" sweep "${slow[@]}" -o twice.csv --resume >/dev/null 2>&1) &
+child=$!
+for _ in $(seq 500); do [ "$(wc -l 2>/dev/null <twice.csv)" -gt $((count + 5)) ] && break; sleep 0.02; done
+refuses "two at one file" 1 "is being written by another program" "$motus" sweep "${slow[@]}" -o twice.csv --resume
+kill $child
+wait $child 2>/dev/null
+sweep "${long[@]}" -q 2>"$err" | head -n 3 >"$out"
+that "a reader that goes away" eval "[ \$(wc -l <'$out') = 3 ] && empty '$err'"
+
+# --- .npy ------------------------------------------------------------------------------------------------------------------------
+gives ".npy" 0 "$motus" sweep "${ask[@]}" -o whole.npy --json
+that "... is float64 in rows" eval "head -c 10 whole.npy | od -An -tx1 | tr -d ' ' | grep -qx 934e554d505901007600 && head -c 128 whole.npy | grep -aqF \"{'descr': '<f8', 'fortran_order': False, 'shape': (14, 6), }\""
+that "... and nothing else" eval "[ \$(stat -c %s whole.npy) = \$((128 + 14*6*8)) ]"
+number() { od -An -v -t f8 -w8 -j "$((128 + 8*($1*6 + $2)))" -N 8 whole.npy | tr -d ' '; }
+that "... its numbers are those of the CSV" eval "[ \$(number 9 0) = 9 ] && rows whole.csv | sed -n 10p | tr ',' '\n' | head -n 5 >a && for k in 0 1 2 3 4; do number 9 \$k; done >b && paste a b | awk '{ d = \$1 - \$2; bad += d*d > 1e-28 } END { exit bad || NR != 5 }'"
+that "... what did not stop says nan" eval "number 9 5 | grep -qi nan"
+that "... the names stand beside it" eval "json whole.npy.json && jq -e '.columns == [\"index\",\"F\",\"w\",\"x\",\"max(energy)\",\"stopped\"] and .trajectories == 14' whole.npy.json"
+size=$(stat -c %s whole.npy)
+npy_resumed() {              # bytes that are left
+    head -c "$1" whole.npy >cut.npy && cp whole.npy.json cut.npy.json && sweep "${ask[@]}" -o cut.npy --resume -q && cmp whole.npy cut.npy
+}
+npy_everywhere() { local n; for n in "$@"; do npy_resumed "$n" || { echo "cut at $n"; return 1; }; done; }
+that ".npy resumed after a cut at every byte of the last two rows" npy_everywhere $(seq $((size - 96)) "$size")
+that "... in the head" npy_everywhere 0 1 64 127 128 129
+(ulimit -c 0 -f 100; sweep "${long[@]}" -o killed.npy -q) >"$out" 2>&1
+that ".npy killed in a write: its head tells how many rows are there" eval "n=\$(head -c 128 killed.npy | grep -aoE '\(([0-9]+), 6\)' | tr -dc '0-9,' | cut -d, -f1); [ \$n -gt 0 ] && [ \$((128 + n*48)) -le \$(stat -c %s killed.npy) ]"
+sweep "${long[@]}" -o long.npy -q
+that "... finished to the same bytes" eval "sweep \"\${long[@]}\" -o killed.npy --resume -q && cmp long.npy killed.npy && cmp long.npy.json killed.npy.json"
+refuses "--resume of another .npy" 2 "was made by another sweep" "$motus" sweep "${ask[@]}" --step 0.02 -o whole.npy --resume
+rm cut.npy.json
+refuses "--resume of a .npy whose text is gone" 1 "cannot read cut.npy.json" "$motus" sweep "${ask[@]}" -o cut.npy --resume
+refuses "a .npy that is there" 2 "whole.npy is there already" "$motus" sweep "${ask[@]}" -o whole.npy
+
+# --- JSON, and for people ------------------------------------------------------------------------------------------------------------
+gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
+that "... is JSON" json "$out"
+for key in model method step trajectories resumed steps machine lanes threads fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
+that "sweep: what it says of itself" holds '.trajectories == 2 and .steps == 400 and .stopped == 1 and .output == "blow.csv" and .lanes >= 1 and .threads >= 1 and .seconds > 0 and .wall >= .seconds and .resumed == 0 and .fast == false and .method == "rk4" and .step == 0.01'
+gives "for people" 0 "$motus" sweep line.motus --vary a=1:2:5 -o line.csv
+that "... how many, how long" eval "says '5 trajectories' && says 'line.csv: 5 columns'"
+gives "--quiet" 0 "$motus" sweep blow.motus --vary k=3 -o quiet.csv --quiet
+that "... is quiet" eval "empty '$out' && empty '$err'"
+gives "--threads and --lanes" 0 "$motus" sweep line.motus --vary a=1:2:64 -o t.csv --threads 1 --lanes 1 --json
+that "... are taken" holds '.threads == 1 and .lanes == 1'
+if command -v script >/dev/null; then
+    script -qec "timeout 2 '$motus' sweep osc.motus --vary F=0:0.2:2000000 --until 20 --machine interpreter --threads 1 --lanes 1 -o bar.csv" /dev/null </dev/null >"$out" 2>&1
+    that "a bar and a rate on a terminal" grep -qE 'sweep +[0-9]+ % \[[#.]{20}\] [0-9.e+]+ trajectories/s' "$out"
+fi
+
+# --- memory -------------------------------------------------------------------------------------------------------------------------
+# Three million trajectories of twelve columns would be 288 MB.
+gives "memory does not grow with the number of trajectories" 0 bash -c \
+    "ulimit -v 200000; '$motus' sweep line.motus --vary a=0:1:3000000 --record \"x,x',max(x),min(x),mean(x),time_of_max(x),max(x'),min(x'),mean(x')\" --machine interpreter --threads 1 -q >/dev/null"
+
+# --- bad requests -----------------------------------------------------------------------------------------------------------------
+bad() {                      # name, words, arguments
+    local name=$1 words=$2
+    shift 2
+    refuses "$name" 2 "$words" "$motus" sweep "$@" -o nothing.csv
+    [ -e nothing.csv ] && { not_ok "... leaves no file"; rm nothing.csv; }
+}
+bad "nothing varies" "--vary or --random is missing" osc.motus
+bad "--vary without a name" "a name and what stands for it are missing" osc.motus --vary 0:1:3
+bad "an empty name" "missing" osc.motus --vary "=0:1:3"
+bad "a blank name" "the name is missing" osc.motus --vary " =0:1:3"
+bad "an unknown name" "G" osc.motus --vary G=0:1:3
+bad "a quantity" "energy" osc.motus --vary energy=0:1:3
+bad "a range without a count" "the count is missing" osc.motus --vary F=0:1
+bad "too many colons" "this is no range" osc.motus --vary F=0:1:2:3
+bad "log at the end" "log stands first" osc.motus --vary F=1:10:5:log
+for count in 0 -1 1.5 x '' 99999999999999999999; do bad "a count of '$count'" "--vary F=0:1:$count" osc.motus --vary "F=0:1:$count"; done
+bad "one value at two ends" "one value cannot be at both ends" osc.motus --vary F=0:1:1
+for ends in 0:1 -1:1 1:0; do bad "equal ratios from $ends" "equal ratios need two ends of the same sign" osc.motus --vary "F=log:$ends:3"; done
+bad "300 decades" "300 decades" osc.motus --vary F=log:1e-200:1e200:3
+for number in x nan inf 1e999 0,1:2 1/0 '' 'sqrt(-1)' '(1' 'a b' 't' "1; x''=2" '(1, 2)'; do bad "a number '$number'" "--vary F=$number" osc.motus --vary "F=$number:1:3"; done
+bad "a line break in a number" "" osc.motus --vary $'F=1\nx(0)=2:1:3'
+that "... why is said" says "hint:" "$err"
+bad "a hole in a list" "nothing is not a constant" osc.motus --vary F=1,,2
+bad "varied twice" "F is varied twice" osc.motus --vary F=1,2 --vary F=3,4
+bad "set and varied" "F is both set and varied" osc.motus --vary F=1,2 --set F=3
+bad "--zip of different lengths" "F has 2 values, w has 3" osc.motus --vary F=1,2 --vary w=1,2,3 --zip
+bad "--zip of one" "--zip needs two" osc.motus --vary F=1,2 --zip
+bad "too many" "trajectories" osc.motus --vary F=0:1:1e9 --vary w=0:1:1e9
+bad "--random without --count" "how many trajectories" osc.motus --random F=0:1
+bad "--count without --random" "--count is about --random" osc.motus --vary F=1,2 --count 3
+bad "--seed without --random" "--seed is about --random" osc.motus --vary F=1,2 --seed 3
+for seed in -1 x 1.5 18446744073709551616 ''; do bad "--seed '$seed'" "--seed" osc.motus --random F=0:1 --count 2 --seed "$seed"; done
+bad "a distribution that is none" "this is no distribution" osc.motus --random F=gamma:1:2 --count 2
+bad "a negative deviation" "not negative" osc.motus --random F=normal:1:-2 --count 2
+bad "a draw of a list" "this is no distribution" osc.motus --random F=1,2 --count 2
+bad "an unknown record" "did you mean max(...)?" osc.motus --vary F=1,2 --record "mx(x)"
+bad "a record of nothing known" "xx" osc.motus --vary F=1,2 --record "max(xx)"
+bad "a record of an unknown name" "energi" osc.motus --vary F=1,2 --record energi
+bad "a hole in --record" "a name is missing" osc.motus --vary F=1,2 --record x,,energy
+bad "--every between steps" "no whole number of steps" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
+for threads in 0 -1 x 99999999999; do bad "--threads $threads" "--threads" osc.motus --vary F=1,2 --threads "$threads"; done
+bad "--machine abacus" "there is no such machine" osc.motus --vary F=1,2 --machine abacus
+bad "a method that does not fit" "forest-ruth" "$root/models/damped-cubic.motus" --vary "x(0)=1,2" --method forest-ruth
+bad "--columns" "motus sweep takes no --columns" osc.motus --vary F=1,2 --columns x
+bad "--force and --resume" "exclude each other" osc.motus --vary F=1,2 --force --resume
+refuses "--resume of standard output" 2 "--resume needs a file" "$motus" sweep osc.motus --vary F=1,2 --resume
+gives "--json and rows on standard output" 2 "$motus" sweep osc.motus --vary F=1,2 --json
+that "... is an error object" holds '.error.kind == "argument"'
+refuses "the model as output" 2 "would be overwritten" "$motus" sweep osc.motus --vary F=1,2 -o osc.motus --force
+refuses "the values as output" 2 "values.csv is read and would be overwritten" "$motus" sweep osc.motus --vary F=@values.csv:n -o values.csv --force
+refuses "a folder as output" 1 "is a folder" "$motus" sweep osc.motus --vary F=1,2 -o small
+refuses "a folder that is not there" 1 "cannot write" "$motus" sweep osc.motus --vary F=1,2 -o nowhere/x.csv
+refuses "a .npy that is a device" 2 "no regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
+refuses "values from nowhere" 1 "cannot read nowhere.csv" "$motus" sweep osc.motus --vary F=@nowhere.csv:1 -o nothing.csv
+refuses "values from a folder" 1 "cannot read small" "$motus" sweep osc.motus --vary F=@small:1 -o nothing.csv
+bad "values without a column" "values.csv has several columns" osc.motus --vary F=@values.csv
+bad "an unknown column" "values.csv has no column c" osc.motus --vary F=@values.csv:c
+bad "a column too far" "the line has not so many columns" osc.motus --vary F=@values.csv:7
+bad "a column of words" "values.csv:3: x is not a finite number" osc.motus --vary F=@values.csv:3
+printf 'F\n1\nnan\n' >nan.csv
+bad "a value that is none" "nan.csv:3: nan is not a finite number" osc.motus --vary F=@nan.csv:F
+: >void.csv
+bad "no values" "void.csv holds no values" osc.motus --vary F=@void.csv:1
+head -c 5000 /dev/urandom >noise.csv
+bad "a file of noise" "noise.csv" osc.motus --vary F=@noise.csv:1
+that "nothing was left behind" eval "absent nothing.csv && nothing_left ."
+
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
