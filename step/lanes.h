@@ -73,11 +73,9 @@ static inline real lanes_number(const lanes_job *job, const lanes_record *r, clo
 
 static inline void lanes_look(work *w, const lanes_job *job, clock t, bool first)
 {
-    advance_sync(w, job->x, job->v, job->a);
-    if (t != time_of(w, w->n)) {     /* the end is `until`, whatever t0 + n h comes to */
-        refresh_at(w, t, job->x, job->v);
-        if (job->a) accel(w, t, job->x, job->v, job->a);
-    }
+    advance_sync(w, job->x, job->v, (real *)0);
+    if (t != time_of(w, w->n)) refresh_at(w, t, job->x, job->v);         /* the end is `until`, whatever t0 + n h comes to */
+    if (job->a) accel(w, t, job->x, job->v, job->a);
     lanes_looks(host_of(w), t, job->x, job->v, job->a, job->out);
     for (int i = 0; i < job->record_count; i++)
         for (int g = 0; g < GROUPS; g++) {
