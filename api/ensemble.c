@@ -122,8 +122,10 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 {
     motus_system *s = e->system;
     e->machine = s->machine;
-    e->problem = &s->problem;
-    e->threads = 1;
+    if (s->allocator.allocate)
+        e->threads = 1;              /* its hooks are called by one thread at a time */
+    if (!s->model && s->callback.block)
+        e->block = ensemble_block_size(s, &e->chosen);
     if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
         return MOTUS_OK;
     if (!s->compiled) {
@@ -135,9 +137,10 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
     const char *why = compiled_prepare(s->compiled, &e->chosen);
     if (!why) {
         e->machine = &machine_compiled;
-        e->problem = &s->compiled_problem;
         return MOTUS_OK;
     }
+    if (s->arena.failed)
+        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
     if (wanted && !strcmp(wanted, "compiled")) {
         fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
         hint(err, "--machine interpreter needs no compiler");
@@ -187,7 +190,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     if (!e)
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
-                          .threads = d.threads ? d.threads : parallel_processors(), .progress = d.progress, .context = d.context};
+                          .threads = d.threads ? d.threads : s->model ? parallel_processors() : 1, .progress = d.progress, .context = d.context};
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     modes m = modes_enter();
@@ -220,7 +223,12 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
         return MOTUS_OK;
     modes m = modes_enter();
     double began = ensemble_now();
-    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : ensemble_singly(e, count, values, results, stopped, err);
+    places p = {values, results, stopped, false};
+    for (size_t r = 0; r < e->record_count; r++)
+        p.looks |= e->records[r].how != MOTUS_FINAL;
+    e->count = count;
+    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
+                          : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += ensemble_now() - began;
     modes_leave(m);
     return status;
@@ -232,6 +240,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
         return;
     motus_allocator a = e->allocator;
     lanes_destroy(e->lanes);
+    ensemble_dismiss(e);
     give(&a, e->places);
     give(&a, e->records);
     give(&a, e);

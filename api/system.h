@@ -20,6 +20,7 @@ struct motus_system {
     arena arena;
     model *model;                    /* NULL: a callback */
     interpreter *interpreter;
+    motus_text_def text;             /* what it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
     problem problem;
@@ -38,6 +39,8 @@ struct motus_system {
     char *equation;
 };
 
+/* The same system once more, for another thread; what was found out by sampling is known to it too. */
+motus_status system_again(const motus_system *, motus_system **, motus_error *);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);
