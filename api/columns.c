@@ -123,7 +123,8 @@ void system_inside(const motus_system *s, const double *in_x, const double *in_v
 const model_definition *system_definition(const motus_system *s, size_t column, size_t *number)
 {
     const column_group *g = group_of(s, column);
-    *number = column - g->first;
+    const size_t k = column - g->first, parts = parts_of(definition(s, g)->components);
+    *number = k % parts * (g->count / parts) + k / parts;
     return definition(s, g);
 }
 
@@ -170,6 +171,8 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *err)
 {
     const column_group *done = NULL;
+    if (s->problem.refresh)          /* the end of a run is `until`, not t0 + n h: for all columns alike */
+        s->problem.refresh(s->problem.ctx, t, x, v);
     for (size_t i = 0; i < count; i++) {
         if (columns[i] >= s->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu; the system has %zu", columns[i], s->column_count);

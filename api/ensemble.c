@@ -12,11 +12,21 @@ _Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX ==
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
-static double now(void)
+double ensemble_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int ensemble_watched(void *context, double fraction)
+{
+    motus_ensemble *e = context;
+    const double t = e->progress ? ensemble_now() : 0;
+    if (!e->progress || t - e->told < 0.01)
+        return 0;
+    e->told = t;
+    return e->progress(e->context, fraction);
 }
 
 static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
@@ -97,7 +107,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
     const lanes_def def = {.model = s->model, .problem = &s->problem, .chosen = &e->chosen, .vary = e->vary, .places = e->places, .place_count = e->vary_count,
                            .sources = sources, .source_count = e->record_count, .t0 = e->timing.t0, .h = e->timing.h, .last = e->timing.last,
                            .until = e->timing.until, .whole = e->timing.whole, .every = e->every, .lanes = d->lanes, .threads = e->threads,
-                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress, .context = e->context};
+                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress ? ensemble_watched : NULL, .context = e};
     const char *why = lanes_refuse(&def);
     if (why) {
         snprintf(e->note, sizeof e->note, "%s", why);
@@ -112,8 +122,10 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 {
     motus_system *s = e->system;
     e->machine = s->machine;
-    e->problem = &s->problem;
-    e->threads = 1;
+    if (s->allocator.allocate)
+        e->threads = 1;              /* its hooks are called by one thread at a time */
+    if (!s->model && s->callback.block)
+        e->block = ensemble_block_size(s, &e->chosen);
     if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
         return MOTUS_OK;
     if (!s->compiled) {
@@ -125,9 +137,10 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
     const char *why = compiled_prepare(s->compiled, &e->chosen);
     if (!why) {
         e->machine = &machine_compiled;
-        e->problem = &s->compiled_problem;
         return MOTUS_OK;
     }
+    if (s->arena.failed)
+        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
     if (wanted && !strcmp(wanted, "compiled")) {
         fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
         hint(err, "--machine interpreter needs no compiler");
@@ -177,7 +190,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     if (!e)
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
-                          .threads = d.threads ? d.threads : parallel_processors(), .progress = d.progress, .context = d.context};
+                          .threads = d.threads ? d.threads : s->model ? parallel_processors() : 1, .progress = d.progress, .context = d.context};
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     modes m = modes_enter();
@@ -209,9 +222,14 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (!count)
         return MOTUS_OK;
     modes m = modes_enter();
-    double began = now();
-    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : ensemble_singly(e, count, values, results, stopped, err);
-    e->seconds += now() - began;
+    double began = ensemble_now();
+    places p = {values, results, stopped, false};
+    for (size_t r = 0; r < e->record_count; r++)
+        p.looks |= e->records[r].how != MOTUS_FINAL;
+    e->count = count;
+    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
+                          : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    e->seconds += ensemble_now() - began;
     modes_leave(m);
     return status;
 }
@@ -222,6 +240,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
         return;
     motus_allocator a = e->allocator;
     lanes_destroy(e->lanes);
+    ensemble_dismiss(e);
     give(&a, e->places);
     give(&a, e->records);
     give(&a, e);

@@ -1,9 +1,28 @@
-/* An ensemble: what varies, what is recorded, and one of two ways to compute it: in lanes, or one trajectory after the other. */
+/* An ensemble: what varies, what is recorded, and one of three ways to compute it: in lanes; blocks of a callback; one trajectory at a time.
+ *
+ * Invariant: whoever computes a trajectory, on whichever thread, gives it the bits of a run with its values.
+ */
 #ifndef API_ENSEMBLE_H
 #define API_ENSEMBLE_H
 
 #include "api/run.h"
 #include "run/lanes.h"
+
+#include <stdatomic.h>
+
+/* What a thread has of its own. The first one's system is the ensemble's, the others' are read again: a model's numbers change from trajectory
+ * to trajectory, and to look at a state takes scratch memory. */
+typedef struct worker {
+    motus_ensemble *e;
+    motus_system *system;
+    vary *vary;
+    const problem *problem;
+    int number;
+    int64_t piece;                   /* steps between two looks at the clock */
+    size_t failed_at;                /* item, where status is not OK */
+    motus_status status;
+    motus_error why;
+} worker;
 
 struct motus_ensemble {
     motus_system *system;
@@ -17,17 +36,37 @@ struct motus_ensemble {
     vary *vary;
     lanes *lanes;                    /* NULL: one trajectory after the other */
     const machine *machine;          /* then */
-    const problem *problem;
+    worker *workers;                 /* `threads` of them, made when they are first needed; those not made yet are zero */
+    size_t count, block;             /* trajectories of this run; of a block: 1 but for callbacks of blocks */
+    atomic_size_t done;
+    atomic_bool stop;                /* somebody failed, or nobody wants the rest */
     int threads;
     double seconds;
     int (*progress)(void *context, double fraction);
     void *context;
+    double told;                     /* when `progress` was last called */
     char note[MOTUS_TEXT_MAX];
 };
 
+double ensemble_now(void);               /* seconds */
+/* Tells the one who watches, not more often than every 10 ms; other than 0: cancel. The context is the ensemble. */
+int ensemble_watched(void *context, double fraction);
 /* What varies: its place in the pool of a model, or in x and then v of a callback. */
 motus_status ensemble_place(const motus_system *, const char *name, size_t *place, motus_error *);
-/* One trajectory after the other. */
-motus_status ensemble_singly(motus_ensemble *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
+
+/* What a run is given: where values come from and results go. */
+typedef struct places { const double *const *values; double *const *results, *stopped; bool looks; } places;
+/* ensemble_single.c: one trajectory after the other. ensemble_block.c: blocks of a callback. */
+motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
+motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
+
+/* How many of a callback's trajectories go side by side by this method. */
+size_t ensemble_block_size(const motus_system *, const chosen *);
+
+/* ensemble_workers.c: one(worker, item, ctx) for every item by the ensemble's threads. The first item that fails decides. */
+motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
+/* `steps` of an engine that has taken n and computes `count` trajectories; where somebody watches, in pieces of some milliseconds. */
+motus_status ensemble_advance(worker *, engine *, int64_t n, int64_t steps, size_t count, motus_error *);
+void ensemble_dismiss(motus_ensemble *);         /* the workers */
 
 #endif

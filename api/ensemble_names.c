@@ -1,14 +1,35 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
 
-#include <math.h>
+#include "lang/number.h"
+#include "lang/words.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static motus_status unknown(const char *name, motus_error *err)
+static motus_status unknown(const motus_system *s, const char *name, motus_error *err)
 {
     fail(err, MOTUS_NAME, "%s is neither a parameter nor an initial value of this model", name);
+    char base[MOTUS_NAME_MAX];
+    snprintf(base, sizeof base, "%.*s", (int)strcspn(name, ".['("), name);
+    for (uint32_t i = 0; s->model && i < s->model->definition_count; i++) {
+        const model_definition *d = &s->model->definitions[i];
+        if (!strcmp(d->name, base) && d->kind != DEFINED_PARAMETER) {
+            hint(err, "%s is computed along the way: vary what it is computed from", base);
+            return MOTUS_NAME;
+        }
+        if (strcmp(d->name, base) && d->kind == DEFINED_PARAMETER && words_near(base, d->name)) {
+            hint(err, "did you mean %s?", d->name);
+            return MOTUS_NAME;
+        }
+    }
+    for (uint32_t i = 0; i < s->state_count; i++)
+        if (!strcmp(s->states[i].name, base) && !strchr(name, '(')) {
+            char at[DECIMAL_MAX];
+            hint(err, "an initial value is varied: %s(%s)", name, decimal(s->start, at));
+            return MOTUS_NAME;
+        }
     hint(err, "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0)");
     return MOTUS_NAME;
 }
@@ -17,13 +38,17 @@ static motus_status unknown(const char *name, motus_error *err)
 static bool take_bracket(const char *name, char *bare, size_t size, double *start)
 {
     const char *open = strrchr(name, '(');
-    size_t n = strlen(name);
-    char *end;
-    if (!open || name[n - 1] != ')' || (size_t)(open - name) >= size)
+    if (!open || (size_t)(open - name) >= size)
         return false;
     snprintf(bare, size, "%.*s", (int)(open - name), name);
-    *start = strtod(open + 1, &end);
-    return end == name + n - 1 && end != open + 1;
+    const bool minus = open[1] == '-';
+    const char *digits = open + 1 + minus;
+    const size_t n = strspn(digits, "0123456789.e+-");
+    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
+        return false;
+    if (minus)
+        *start = -*start;
+    return true;
 }
 
 static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
@@ -32,10 +57,11 @@ static motus_status initial_value(const motus_system *s, const char *name, const
     motus_column c;
     if (motus_column_find(s, bare, &first, &count, NULL) != MOTUS_OK || motus_column_at(s, first, &c) != MOTUS_OK ||
         (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
-        return unknown(name, err);
+        return unknown(s, name, err);
     if (count > 1) {
         fail(err, MOTUS_SHAPE, "%s is %zu numbers, and one is varied at a time", name, count);
-        hint(err, "name one of them: %s(%g)", c.name, s->start);
+        char at[DECIMAL_MAX];
+        hint(err, "name one of them: %s(%s)", c.name, decimal(s->start, at));
         return MOTUS_SHAPE;
     }
     const bool velocity = c.kind == MOTUS_VELOCITY;
@@ -54,7 +80,7 @@ static motus_status initial_value(const motus_system *s, const char *name, const
         *place = s->model->arrays[st->start_array[of_v && st->order == 2]].base + (inner - st->base);
         return MOTUS_OK;
     }
-    return unknown(name, err);
+    return unknown(s, name, err);
 }
 
 /* "g", "g.x", "g[2]" */
@@ -73,7 +99,7 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
         else if (*rest == '[')
             k = strtol(rest + 1, &end, 10);
         if ((end && strcmp(end, "]")) || (*rest && k < 1))
-            return unknown(name, err);
+            return unknown(s, name, err);
         if (d->list && d->dims == 1 && !d->components && k >= d->first[0] && k <= d->last[0]) {
             *place = s->model->arrays[d->array].base + (size_t)(k - d->first[0]);
             return MOTUS_OK;
@@ -86,7 +112,7 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
         *place = d->slot + (size_t)(k ? k - 1 : 0);
         return MOTUS_OK;
     }
-    return unknown(name, err);
+    return unknown(s, name, err);
 }
 
 motus_status ensemble_place(const motus_system *s, const char *name, size_t *place, motus_error *err)
@@ -97,7 +123,9 @@ motus_status ensemble_place(const motus_system *s, const char *name, size_t *pla
         return fail(err, MOTUS_ARGUMENT, "what varies has no name");
     if (!take_bracket(name, bare, sizeof bare, &start))
         return parameter(s, name, place, err);
-    if (start != s->start)
-        return fail(err, MOTUS_NAME, "%s is not an initial value: the start is %g", name, s->start);
+    if (start != s->start) {
+        char at[DECIMAL_MAX];
+        return fail(err, MOTUS_NAME, "%s is not an initial value: the start is %s", name, decimal(s->start, at));
+    }
     return initial_value(s, name, bare, place, err);
 }

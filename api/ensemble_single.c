@@ -1,6 +1,7 @@
 /* One trajectory after the other: what every method and every machine can do. See ensemble.h.
  *
- * Invariant: a trajectory is what motus_run would compute with these values; it is looked at where lanes would look.
+ * Invariant: a trajectory is what motus_run would compute with these values; it is looked at where lanes would look. Afterwards the system is
+ * what it was: its own numbers are back.
  */
 #include "api/ensemble.h"
 
@@ -10,20 +11,19 @@
 #include <string.h>
 
 typedef struct single {
-    motus_ensemble *e;
+    worker *w;
     double *x, *v, *kept, *now;
     size_t *columns;
     int64_t looks;
     engine *engine;
-    double t0, h;
 } single;
 
 static motus_status look(single *s, double t, motus_error *err)
 {
-    motus_ensemble *e = s->e;
+    const motus_ensemble *e = s->w->e;
     motus_status status = e->machine->sync(s->engine, s->x, s->v, NULL, err);
     if (status == MOTUS_OK)
-        status = system_values(e->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
+        status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
         if (s->looks == 0)
             reduce_first(s->kept + r * REDUCE_KEPT, s->now[r], t);
@@ -33,18 +33,46 @@ static motus_status look(single *s, double t, motus_error *err)
     return status;
 }
 
+/* ---- a model's own numbers, which trajectories replace by theirs ---- */
+
+static size_t numbers_kept(const motus_ensemble *e)
+{
+    const model *m = e->system->model;
+    return m && e->vary_count ? m->pool_count + m->nx + m->nv : 0;
+}
+
+static void keep_numbers(const motus_ensemble *e, double *room)
+{
+    const model *m = e->system->model;
+    memcpy(room, m->pool, m->pool_count * sizeof *room);
+    memcpy(room + m->pool_count, m->x0, m->nx * sizeof *room);
+    memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
+}
+
+/* What is bound a second time needs no memory, so this does not fail. */
+static void put_back(motus_ensemble *e, const double *room)
+{
+    model *m = e->system->model;
+    memcpy(m->pool, room, m->pool_count * sizeof *room);
+    interpreter_rebind(e->system->interpreter);
+    compiled_rebind(e->system->compiled);
+    memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
+    memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
+}
+
+/* ---- a trajectory ---- */
+
 /* The values of trajectory k, and the state that follows. */
 static motus_status start(single *s, const double *const *values, size_t k, motus_error *err)
 {
-    motus_ensemble *e = s->e;
-    motus_system *y = e->system;
+    motus_ensemble *e = s->w->e;
+    motus_system *y = s->w->system;
     for (size_t i = 0; i < e->vary_count; i++)
         s->now[i] = values[i][k];
-    if (y->model) {
-        if (e->vary_count && (!vary_apply(e->vary, s->now) || !interpreter_rebind(y->interpreter)))
+    if (y->model && e->vary_count) {
+        if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
-        if (e->vary_count)
-            compiled_rebind(y->compiled);
+        compiled_rebind(y->compiled);
     }
     if (y->problem.nx)
         memcpy(s->x, y->x0, y->problem.nx * sizeof(double));
@@ -53,9 +81,7 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
         *(e->places[i] < y->problem.nx ? &s->x[e->places[i]] : &s->v[e->places[i] - y->problem.nx]) = s->now[i];
     for (size_t i = 0; i < y->problem.nv; i++)
         if (!isfinite(s->v[i]) || (i < y->problem.nx && !isfinite(s->x[i]))) {
-            fail(err, MOTUS_DIVERGED, "the initial state is not finite");
-            if (err)
-                err->time = e->timing.t0;
+            err->time = e->timing.t0;
             return MOTUS_DIVERGED;
         }
     return MOTUS_OK;
@@ -63,20 +89,21 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
 
 static motus_status open(single *s, double t, double h, motus_error *err)
 {
+    motus_ensemble *e = s->w->e;
     if (s->engine)
-        s->e->machine->close(s->engine);
+        e->machine->close(s->engine);
     s->engine = NULL;
-    return s->e->machine->open(s->e->problem, &s->e->chosen, t, h, s->x, s->v, &s->e->allocator, &s->engine, err);
+    return e->machine->open(s->w->problem, &e->chosen, t, h, s->x, s->v, &e->allocator, &s->engine, err);
 }
 
 static motus_status whole_steps(single *s, bool looks, motus_error *err)
 {
-    const motus_ensemble *e = s->e;
+    const motus_ensemble *e = s->w->e;
     const timing *t = &e->timing;
-    motus_status status = looks && t->whole > 0 ? look(s, t->t0, err) : MOTUS_OK;
+    motus_status status = looks && t->total > 0 ? look(s, t->t0, err) : MOTUS_OK;
     for (int64_t n = 0; n < t->whole && status == MOTUS_OK;) {
         int64_t some = looks && e->every < t->whole - n ? e->every : t->whole - n;
-        status = e->machine->advance(s->engine, some, err);
+        status = ensemble_advance(s->w, s->engine, n, some, 1, err);
         n += some;
         if (status == MOTUS_OK && looks && n % e->every == 0 && (n < t->whole || t->last != 0))
             status = look(s, t->t0 + (double)n * t->h, err);
@@ -84,60 +111,67 @@ static motus_status whole_steps(single *s, bool looks, motus_error *err)
     return status;
 }
 
-static motus_status trajectory(single *s, const double *const *values, size_t k, bool looks, motus_error *err)
+static motus_status travel(single *s, const places *p, size_t k, motus_error *err)
 {
-    const timing *t = &s->e->timing;
-    s->looks = 0;
-    motus_status status = start(s, values, k, err);
+    const motus_ensemble *e = s->w->e;
+    const timing *t = &e->timing;
+    motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK)
         status = open(s, t->t0, t->h, err);
     if (status == MOTUS_OK)
-        status = whole_steps(s, looks, err);
+        status = whole_steps(s, p->looks, err);
     if (status == MOTUS_OK && t->last != 0) {
-        status = s->e->machine->sync(s->engine, s->x, s->v, NULL, err);
+        status = e->machine->sync(s->engine, s->x, s->v, NULL, err);
         if (status == MOTUS_OK)
             status = open(s, t->t0 + (double)t->whole * t->h, t->last, err);
         if (status == MOTUS_OK)
-            status = s->e->machine->advance(s->engine, 1, err);
+            status = e->machine->advance(s->engine, 1, err);
     }
     return status == MOTUS_OK ? look(s, t->until, err) : status;
 }
 
-motus_status ensemble_singly(motus_ensemble *e, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
+static motus_status trajectory(worker *w, size_t k, void *ctx)
 {
-    const motus_system *y = e->system;
-    const size_t nx = y->problem.nx + 1, nv = y->problem.nv + 1, records = e->record_count + 1, room = records > e->vary_count ? records : e->vary_count;
+    const motus_ensemble *e = w->e;
+    const places *p = ctx;
+    const size_t nx = w->problem->nx + 1, nv = w->problem->nv + 1, records = e->record_count + 1, room = records > e->vary_count ? records : e->vary_count;
     double *memory = take(&e->allocator, nx + nv + records * REDUCE_KEPT + room + records, sizeof(double));
     if (!memory)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    single s = {.e = e, .x = memory, .v = memory + nx, .kept = memory + nx + nv, .now = memory + nx + nv + records * REDUCE_KEPT};
+        return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
+    single s = {.w = w, .x = memory, .v = memory + nx, .kept = memory + nx + nv, .now = memory + nx + nv + records * REDUCE_KEPT};
     s.columns = (size_t *)(void *)(s.now + room);
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
-    bool looks = false;
-    for (size_t r = 0; r < e->record_count; r++) {
+    for (size_t r = 0; r < e->record_count; r++)
         s.columns[r] = e->records[r].column;
-        looks |= e->records[r].how != MOTUS_FINAL;
-    }
-    motus_status status = MOTUS_OK;
-    motus_error why = motus_default_error();
-    for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
-        motus_status one = trajectory(&s, values, k, looks, &why);
-        const bool lost = one == MOTUS_DIVERGED || one == MOTUS_SOLVE;
-        if (one != MOTUS_OK && !lost) {
-            if (err)
-                *err = why;
-            status = one;
-            break;
-        }
+    motus_status status = travel(&s, p, k, &w->why);
+    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
+    if (lost || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++)
-            results[r][k] = lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);
-        if (stopped)
-            stopped[k] = lost ? why.time : NAN;
-        if (e->progress && e->progress(e->context, (double)(k + 1) / (double)count))
-            status = fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", k + 1, count);
+            p->results[r][k] = lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);
+        if (p->stopped)
+            p->stopped[k] = lost ? w->why.time : NAN;
+        status = MOTUS_OK;
+        atomic_fetch_add(&w->e->done, 1);
+        if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
+            status = MOTUS_CANCELLED;
     }
     if (s.engine)
         e->machine->close(s.engine);
     give(&e->allocator, memory);
+    return status;
+}
+
+motus_status ensemble_singly(motus_ensemble *e, const places *p, motus_error *err)
+{
+    const size_t kept = numbers_kept(e);
+    double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
+    if (kept && !own)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (kept)
+        keep_numbers(e, own);
+    motus_status status = ensemble_each(e, e->count, trajectory, (void *)p, err);
+    if (kept)
+        put_back(e, own);
+    give(&e->allocator, own);
     return status;
 }

@@ -109,6 +109,8 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     if (!why) {
         r->machine = &machine_compiled;
         r->problem = &s->compiled_problem;
+    } else if (s->arena.failed) {
+        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
     } else if (!automatic) {
         fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
         hint(err, "--machine interpreter needs no compiler");

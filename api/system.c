@@ -81,6 +81,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
+        s->text = def;
         s->machine = &machine_interpreter;
         s->start = s->model->start;
         s->x0 = s->model->x0;
@@ -151,6 +152,17 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     }
     *out = s;
     return MOTUS_OK;
+}
+
+motus_status system_again(const motus_system *s, motus_system **out, motus_error *err)
+{
+    motus_callback_def def = s->callback;
+    def.x = s->x0;                   /* what the caller gave was copied, and may be gone */
+    def.v = s->v0;
+    motus_status status = s->model ? motus_system_from_text(&s->text, out, err) : motus_system_from_callback(&def, out, err);
+    if (status == MOTUS_OK)
+        (*out)->problem.traits = s->problem.traits;
+    return status;
 }
 
 size_t motus_positions(const motus_system *s) { return s ? s->positions : 0; }

@@ -20,6 +20,7 @@ struct motus_system {
     arena arena;
     model *model;                    /* NULL: a callback */
     interpreter *interpreter;
+    motus_text_def text;             /* what it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
     problem problem;
@@ -38,6 +39,8 @@ struct motus_system {
     char *equation;
 };
 
+/* The same system once more, for another thread; what was found out by sampling is known to it too. */
+motus_status system_again(const motus_system *, motus_system **, motus_error *);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);
@@ -49,7 +52,7 @@ motus_status system_values(motus_system *, double t, double *x, double *v, const
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);
-/* The quantity or invariant of a column, and which of its numbers that is. */
+/* The quantity or invariant of a column, and which of its numbers, in the inside order, that is. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
 

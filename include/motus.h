@@ -138,6 +138,13 @@ typedef struct motus_callback_def {
     int linear_in_velocity;                     /* 1 lets implicit velocity terms be solved in one step */
     void *context;
     motus_allocator allocator;
+    /* Optional: the acceleration of `count` trajectories of an ensemble at once, the first of which is number `first`: number k of trajectory
+     * first + j is x[k * count + j], and v and a alike. So it may be written as loops over j that a compiler makes vectors of, and trajectories may
+     * differ in numbers of the context's that are found by first + j. An ensemble calls it in place of `acceleration` (which may be NULL then: a run
+     * is trajectory 0 alone) and takes difference quotients in place of `derivative`, which knows of one trajectory only. What it computes for a
+     * trajectory must depend neither on the others nor on `count`: methods that solve an equation, and a trajectory that leaves the finite numbers,
+     * are computed with smaller counts, down to 1. Other than 0: failure of all. */
+    int (*block)(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a);
 } motus_callback_def;
 
 MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
@@ -320,7 +327,9 @@ typedef struct motus_ensemble_def {
     double step, until;              /* NaN: the model's */
     int64_t every;                   /* steps between two looks, for all but MOTUS_FINAL; 1 by default */
     const char *machine;             /* as in motus_run_def */
-    int threads;                     /* 0: as many as there are processors */
+    int threads;                     /* 0: as many as there are processors; of a system from C, 1: with more, its callbacks are called from several
+                                      * threads at once, and must be able to be. Outside lanes, a system with an allocator of its own is served by
+                                      * one thread, which alone calls it. */
     int lanes;                       /* trajectories side by side in one thread: 0: as many as suits the model and the processor; 1, 2, 4, … */
     int fast;                        /* 1: allow the compiler to fuse and reorder; results may differ in their last bits from machine to machine */
     int (*progress)(void *context, double fraction);     /* of a motus_ensemble_run; as in motus_run_def */

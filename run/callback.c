@@ -8,7 +8,10 @@
 
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
-    const motus_callback_def *def = ((const calling *)ctx)->def;
+    const calling *c = ctx;
+    const motus_callback_def *def = c->def;
+    if (c->count || !def->acceleration)
+        return def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a);
     return def->acceleration(def->context, t, x, v, a);
 }
 
@@ -38,7 +41,7 @@ static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 motus_status callback_problem(const calling *c, problem *p, motus_error *err)
 {
     const motus_callback_def *def = c->def;
-    if (!def->acceleration)
+    if (!def->acceleration && !def->block)
         return fail(err, MOTUS_ARGUMENT, "the definition has no acceleration callback");
     if (def->positions + def->companions == 0)
         return fail(err, MOTUS_ARGUMENT, "the definition has neither positions nor companions");
@@ -51,6 +54,16 @@ motus_status callback_problem(const calling *c, problem *p, motus_error *err)
     p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
                          .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};
     return MOTUS_OK;
+}
+
+problem callback_block(const calling *c, const problem *one)
+{
+    problem p = *one;
+    p.ctx = (void *)c;
+    p.nx *= c->count;
+    p.nv *= c->count;
+    p.jvp = NULL;                    /* a derivative that the user wrote knows of one trajectory only */
+    return p;
 }
 
 const machine machine_callback = {.name = "callback", STEPPING};

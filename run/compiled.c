@@ -16,10 +16,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum {
-    OBJECTS_MAX = 64, NOTE_MAX = 400,
-    OPERATIONS_MAX = 20000           /* in one text: compilers take more than linear time, and minutes beyond this */
-};
+enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 
 #include "step/host.h"
 

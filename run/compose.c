@@ -14,6 +14,7 @@
 enum {
     SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
+    LANES_LOCAL_MAX = 1024,          /* vectors in all workspaces of a block, up to which they lie on the stack */
     FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
 };
 
@@ -191,6 +192,9 @@ bool compose(emit *e, const composition *c)
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define BOUND %u\n", c->model->driven, e->terms, width, e->fixed_lanes);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {
+        const work w = stepper_plan(c->problem, c->chosen, 0, 1);
+        const size_t arrays = work_place(&(work){.row = c->chosen->row, .stages = w.stages, .velocity = w.velocity}, NULL);
+        emit_add(t, "#define LANES_LOCAL %d\n", structure && arrays * w.nv * (size_t)c->groups <= LANES_LOCAL_MAX);
         emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)", c->model->boundary_count > 0, c->groups, c->width);
         for (int group = 0; group < c->groups; group++)
             emit_add(t, " DO(%d)", group);

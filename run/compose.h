@@ -7,6 +7,8 @@
 #include "lang/model.h"
 #include "core/methods.h"
 
+enum { OPERATIONS_MAX = 20000 };         /* of a graph, in one text: compilers take more than linear time, and minutes beyond this */
+
 typedef struct composed_program { const program *program; const char *name; bool terms; } composed_program;
 
 typedef struct composition {

@@ -79,6 +79,8 @@ const char *lanes_refuse(const lanes_def *d)
         return "this method solves an equation at every step, one trajectory at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
+    if (d->model->graph->count > OPERATIONS_MAX)
+        return "the equations are too long for a compiler: trajectories are computed one at a time";
     uint32_t count;
     const vary_active *active = vary_entries(d->vary, &count);
     for (uint32_t k = 0; k < count; k++)
@@ -382,18 +384,22 @@ static bool all_finite(const double *numbers, size_t count)
     return !bad;
 }
 
+static bool lane_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
+{
+    double none = 0;
+    for (size_t k = 0; k < elements; k++)
+        none += numbers[at(l, elements, k, lane)] - numbers[at(l, elements, k, lane)];
+    return none == 0;
+}
+
 /* Lanes of an array of `elements` that are not finite stop at t, if they have not stopped before. */
 static void stop_lanes(const lanes *l, const double *numbers, size_t elements, double t, double *stopped)
 {
     if (all_finite(numbers, elements * (size_t)l->block))
         return;
-    for (size_t i = 0; i < (size_t)l->block; i++) {
-        double none = 0;
-        for (size_t k = 0; k < elements; k++)
-            none += numbers[at(l, elements, k, i)] - numbers[at(l, elements, k, i)];
-        if (isnan(stopped[i]) && none != 0)
+    for (size_t i = 0; i < (size_t)l->block; i++)
+        if (isnan(stopped[i]) && !lane_finite(l, numbers, elements, i))
             stopped[i] = t;
-    }
 }
 
 /* The state as one sees it may be infinite a step before the main line is. */
@@ -426,12 +432,15 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
     }
 }
 
-static bool all_stopped(const lanes *l, const double *stopped)
+/* Whether a lane is no longer finite that has not stopped before: those that have are so for good, and cost their neighbours no time. */
+static bool lost_another(const lanes *l, const double *numbers, size_t elements, const double *stopped)
 {
-    bool all = true;
+    if (all_finite(numbers, elements * (size_t)l->block))
+        return false;
+    bool any = false;
     for (size_t i = 0; i < (size_t)l->block; i++)
-        all &= !isnan(stopped[i]);
-    return all;
+        any |= isnan(stopped[i]) && !lane_finite(l, numbers, elements, i);
+    return any;
 }
 
 static void run_block(void *ctx, size_t block, int thread)
@@ -445,7 +454,7 @@ static void run_block(void *ctx, size_t block, int thread)
         l->first(&j);
     else
         l->run(&j, b->steps, b->every);
-    if (!all_finite(j.carry, l->carried * (size_t)l->block) && !all_stopped(l, stopped))
+    if (lost_another(l, j.carry, l->carried, stopped))
         trace(b, j, before, stopped);
 }
 
@@ -528,7 +537,7 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
     b->looks = 0;
     b->ends = false;
     each_block(b, begin_block);
-    if (b->looking && d->whole > 0) {
+    if (b->looking && (d->whole > 0 || d->last != 0)) {
         fill_table(b, 0);
         each_block(b, look_at_block);
         b->looks++;

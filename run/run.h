@@ -38,7 +38,13 @@ bool interpreter_rebind(interpreter *);
 
 /* A problem from a callback definition; both must outlive it. `zeros`, as many as there are velocities and companions, stand in for a direction
  * that is not given; needed where the definition has a derivative. */
-typedef struct calling { const motus_callback_def *def; const double *zeros; } calling;
+typedef struct calling {
+    const motus_callback_def *def;
+    const double *zeros;
+    size_t first, count;             /* by `block`: the trajectories that it is asked about; count 0: one, by `acceleration` if there is one */
+} calling;
 motus_status callback_problem(const calling *, problem *, motus_error *);
+/* The problem of the `count` trajectories that the calling names, side by side. The calling must outlive it. */
+problem callback_block(const calling *, const problem *one);
 
 #endif

@@ -76,7 +76,7 @@ void motus_lanes_set(const lanes_job *job)
 }
 
 /* A workspace of one group in memory, after n steps. */
-#if NUMBERS
+#if LANES_LOCAL
 #define LANES_WORKSPACE(w, host, n_)                                                    \
     work w##_ = *job->plan, *w = &w##_;                                                  \
     real room[ARRAYS * NUMBERS];                                                        \
@@ -110,7 +110,9 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
     LANES_WORKSPACE(w, &host, n);
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
     real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
-    advance_sync(w, x, v, a);
+    advance_sync(w, x, v, (real *)0);
+    if (t != time_of(w, n)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
+    if (a) accel(w, t, x, v, a);
     lanes_looks(&host, t, x, v, a, out);
     for (whole i = 0; i < job->record_count; i++) {
         const lanes_record *r = &job->records[i];
@@ -121,7 +123,7 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
     }
 }
 
-#if NUMBERS
+#if LANES_LOCAL
 #define LANES_ROOM(g) real room_##g[ARRAYS * NUMBERS];
 #else
 #define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
@@ -135,7 +137,7 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
-#if NUMBERS
+#if LANES_LOCAL
     w->stride = NUMBERS;
 #endif
     EVERY_GROUP(LANES_ROOM)

@@ -3,7 +3,9 @@
  *
  * A success in spite of a refusal must be a whole one: the numbers are those of a run that had all the memory it wanted.
  */
-#include "test/given.h"
+#include "test/ensemble_given.h"
+
+#include <stdbool.h>
 
 /* A bank lends blocks and counts them; each is framed, so that a stray write next to it shows when it comes back. */
 typedef struct bank {
@@ -105,6 +107,9 @@ static int energy(void *context, double t, const double *x, const double *v, dou
     return 0;
 }
 
+static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a);
+static bool in_blocks;               /* the callback is one of blocks */
+
 static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
 {
     static const double x[2] = {1, 2}, v[3] = {0, 1, 0};
@@ -116,6 +121,7 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
     def.v = v;
     def.acceleration = pull;
     def.invariant = energy;
+    def.block = in_blocks ? side_by_side : NULL;
     def.allocator = hooks(b);
     return motus_system_from_callback(&def, s, err);
 }
@@ -403,6 +409,88 @@ static void studies(void **state)
     assert_true(refuse_each(texts[3], "", converge, "converge") > 10);
 }
 
+/* Ensembles ------------------------------------------------------------------------------------------------------------------------- */
+
+/* By the method "machine method": reading, computing twice, what is recorded of all. */
+static motus_status flock(motus_system *s, const char *how, uint64_t *result, motus_error *err)
+{
+    enum { COUNT = 5 };
+    motus_ensemble_def def = motus_default_ensemble();
+    motus_ensemble *e = NULL;
+    motus_column c;
+    const size_t columns = motus_column_count(s);
+    motus_record *records = malloc(columns * sizeof *records);
+    double first[COUNT] = {1, 2, 3, INFINITY, 5}, second[COUNT] = {0.1, 0.2, 0.3, 0.4, 0.5}, stopped[COUNT], *room = malloc(columns * COUNT * sizeof *room);
+    double **at = malloc(columns * sizeof *at);
+    const double *values[] = {first, second};
+    const char *names[2], *method = strchr(how, ' ') + 1;
+    char machine[20], name[sizeof c.name + 4];
+    assert_true(records && room && at);
+    snprintf(machine, sizeof machine, "%.*s", (int)(method - how - 1), how);
+    assert_int_equal(motus_column_at(s, 1, &c), MOTUS_OK);
+    snprintf(name, sizeof name, "%s(0)", c.name);
+    names[0] = name;
+    names[1] = motus_invariant_count(s) > 1 ? "g" : "w";
+    for (size_t k = 0; k < columns; k++) {
+        records[def.record_count] = (motus_record){(motus_reduction)(k % 6), k};
+        at[k] = room + k * COUNT;
+        def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_EXACT;
+    }
+    def.vary = names;
+    def.vary_count = strstr(machine, "callback") ? 1 : 2;
+    def.records = records;
+    def.method = method;
+    def.step = 0.05;
+    def.until = 0.205;
+    def.every = 2;
+    def.threads = 2;
+    def.machine = strstr(machine, "callback") ? NULL : machine;
+    uint64_t h = 1;
+    motus_status status = motus_ensemble_create(s, &def, &e, err);
+    if (status != MOTUS_OK)
+        assert_null(e);
+    for (int round = 0; round < 2 && status == MOTUS_OK; round++) {
+        status = motus_ensemble_run(e, COUNT, values, at, stopped, err);
+        for (size_t k = 0; status == MOTUS_OK && k < def.record_count * COUNT; k++)
+            h = isnan(room[k]) ? mix(h, "nan", 3) : mix(h, &room[k], sizeof(double));
+    }
+    *result = h;
+    motus_ensemble_destroy(e);
+    free(records);
+    free(room);
+    free(at);
+    return status;
+}
+
+static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)first;
+    for (size_t j = 0; j < count; j++) {
+        a[j] = -x[j] - v[j] * fabs(v[j]) + cos(t);
+        a[count + j] = -x[count + j] + x[j];
+        a[2 * count + j] = v[j] * v[count + j];
+    }
+    return 0;
+}
+
+static void ensembles(void **state)
+{
+    (void)state;
+    static const char short_wide[] =
+        "N = 12\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
+        "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: x[i]'^2)\n";
+    assert_true(refuse_each(short_wide, "interpreter rk4", flock, "ensemble") > 10);
+    assert_true(refuse_each(rich, "interpreter gauss4", flock, "ensemble") > 10);
+    assert_true(refuse_each(rich, "compiled rk4", flock, "ensemble in lanes") > 10);
+    assert_true(refuse_each(short_wide, "compiled rk4", flock, "ensemble in lanes") > 10);
+    assert_true(refuse_each(rich, "compiled gauss4", flock, "compiled ensemble") > 10);
+    assert_true(refuse_each(NULL, "callback rk4", flock, "ensemble of a callback") > 5);
+    in_blocks = true;
+    assert_true(refuse_each(NULL, "callback rk4", flock, "ensemble of blocks") > 5);
+    in_blocks = false;
+}
+
 /* Without hooks it is malloc; with `allocate` alone nothing is given back, and that is the caller's own affair. */
 static void *from_pool(void *context, size_t bytes)
 {
@@ -440,6 +528,10 @@ int main(void)
         cmocka_unit_test(explanations),
         cmocka_unit_test(studies),
         cmocka_unit_test(a_pool_without_release),
+        cmocka_unit_test(ensembles),
     };
-    return cmocka_run_group_tests_name("memory that runs out", tests, NULL, NULL);
+    open_cache();
+    int failed = cmocka_run_group_tests_name("memory that runs out", tests, NULL, NULL);
+    close_cache();
+    return failed;
 }

@@ -1,0 +1,204 @@
+/* Blocks of a callback: several trajectories side by side, as one problem of the library's stepper. See ensemble.h.
+ *
+ * Invariant: an explicit method does the same to every number, so number k of trajectory j is what it would be alone. A block in which one is lost
+ * is computed again in halves, down to that one.
+ */
+#include "api/ensemble.h"
+
+#include "core/rows.h"
+#include "run/reduction.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };      /* of one array: all arrays of a method should stay in the fastest cache */
+
+size_t ensemble_block_size(const motus_system *s, const chosen *c)
+{
+    const row *r = c->row;
+    /* What solves an equation solves one trajectory's. */
+    if (r->family == IMPLICIT || r->family == EXACT || r->gyroscopic || (r->family == TWO_STEP && s->problem.traits.velocity))
+        return 1;
+    const size_t fits = BLOCK_NUMBERS / s->problem.nv;
+    return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
+}
+
+typedef struct group {
+    worker *w;
+    const places *places;
+    calling calling;
+    problem problem;
+    size_t first, count;
+    double *x, *v, *kept, *one_x, *one_v;      /* the last two: a single trajectory, to look at */
+    int64_t looks;
+    engine *engine;
+} group;
+
+/* ---- looking ---- */
+
+/* A number of every trajectory: a row of the state, or NULL where it must be computed one by one. */
+static const double *row_of(const group *b, size_t column)
+{
+    const motus_system *s = b->w->system;
+    motus_column c;
+    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
+        return NULL;
+    const bool of_v = c.kind != MOTUS_POSITION;
+    return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;
+}
+
+static motus_status computed(group *b, size_t column, size_t j, double t, double *out, motus_error *err)
+{
+    const problem *p = &b->w->system->problem;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (k < p->nx)
+            b->one_x[k] = b->x[k * b->count + j];
+        b->one_v[k] = b->v[k * b->count + j];
+    }
+    return system_values(b->w->system, t, b->one_x, b->one_v, &column, 1, out, err);
+}
+
+static motus_status look(group *b, double t, motus_error *err)
+{
+    const motus_ensemble *e = b->w->e;
+    motus_status status = e->machine->sync(b->engine, b->x, b->v, NULL, err);
+    for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++) {
+        const double *numbers = row_of(b, e->records[r].column);
+        double *kept = b->kept + r * b->count * REDUCE_KEPT;
+        for (size_t j = 0; j < b->count && status == MOTUS_OK; j++, kept += REDUCE_KEPT) {
+            double now = numbers ? numbers[j] : t;
+            if (!numbers && e->records[r].column)
+                status = computed(b, e->records[r].column, j, t, &now, err);
+            if (b->looks == 0)
+                reduce_first(kept, now, t);
+            else
+                reduce_next(kept, (int)e->records[r].how, now, t);
+        }
+    }
+    b->looks++;
+    return status;
+}
+
+/* ---- a block ---- */
+
+static motus_status start(group *b, motus_error *err)
+{
+    const motus_ensemble *e = b->w->e;
+    const motus_system *s = b->w->system;
+    const size_t nx = s->problem.nx, nv = s->problem.nv, n = b->count;
+    for (size_t k = 0; k < nv; k++)
+        for (size_t j = 0; j < n; j++) {
+            if (k < nx)
+                b->x[k * n + j] = s->x0[k];
+            b->v[k * n + j] = s->v0[k];
+        }
+    for (size_t i = 0; i < e->vary_count; i++) {
+        double *numbers = e->places[i] < nx ? b->x + e->places[i] * n : b->v + (e->places[i] - nx) * n;
+        memcpy(numbers, b->places->values[i] + b->first, n * sizeof *numbers);
+    }
+    int bad = 0;
+    for (size_t k = 0; k < nv * n; k++)
+        bad |= !isfinite(b->v[k]) || (k < nx * n && !isfinite(b->x[k]));
+    err->time = e->timing.t0;
+    return bad ? MOTUS_DIVERGED : MOTUS_OK;
+}
+
+static motus_status open(group *b, double t, double h, motus_error *err)
+{
+    const motus_ensemble *e = b->w->e;
+    if (b->engine)
+        e->machine->close(b->engine);
+    b->engine = NULL;
+    return e->machine->open(&b->problem, &e->chosen, t, h, b->x, b->v, &e->allocator, &b->engine, err);
+}
+
+static motus_status whole_steps(group *b, motus_error *err)
+{
+    const motus_ensemble *e = b->w->e;
+    const timing *t = &e->timing;
+    const bool looks = b->places->looks;
+    motus_status status = looks && t->total > 0 ? look(b, t->t0, err) : MOTUS_OK;
+    for (int64_t n = 0; n < t->whole && status == MOTUS_OK;) {
+        int64_t some = looks && e->every < t->whole - n ? e->every : t->whole - n;
+        status = ensemble_advance(b->w, b->engine, n, some, b->count, err);
+        n += some;
+        if (status == MOTUS_OK && looks && n % e->every == 0 && (n < t->whole || t->last != 0))
+            status = look(b, t->t0 + (double)n * t->h, err);
+    }
+    return status;
+}
+
+static motus_status travel(group *b, motus_error *err)
+{
+    const motus_ensemble *e = b->w->e;
+    const timing *t = &e->timing;
+    motus_status status = start(b, err);
+    if (status == MOTUS_OK)
+        status = open(b, t->t0, t->h, err);
+    if (status == MOTUS_OK)
+        status = whole_steps(b, err);
+    if (status == MOTUS_OK && t->last != 0) {
+        status = e->machine->sync(b->engine, b->x, b->v, NULL, err);
+        if (status == MOTUS_OK)
+            status = open(b, t->t0 + (double)t->whole * t->h, t->last, err);
+        if (status == MOTUS_OK)
+            status = e->machine->advance(b->engine, 1, err);
+    }
+    return status == MOTUS_OK ? look(b, t->until, err) : status;
+}
+
+static void write_down(const group *b, bool lost, double when)
+{
+    const motus_ensemble *e = b->w->e;
+    for (size_t r = 0; r < e->record_count; r++)
+        for (size_t j = 0; j < b->count; j++)
+            b->places->results[r][b->first + j] =
+                lost ? NAN : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT, (int)e->records[r].how, (double)b->looks);
+    for (size_t j = 0; b->places->stopped && j < b->count; j++)
+        b->places->stopped[b->first + j] = lost ? when : NAN;
+}
+
+/* `memory` is as large as the whole block wants; a half uses less of it. */
+static motus_status part(worker *w, const places *p, size_t first, size_t count, double *memory)
+{
+    const motus_ensemble *e = w->e;
+    const size_t nx = w->system->problem.nx, nv = w->system->problem.nv;
+    group b = {.w = w, .places = p, .first = first, .count = count, .one_x = memory, .one_v = memory + nx, .x = memory + nx + nv};
+    b.v = b.x + nx * count;
+    b.kept = b.v + nv * count;
+    b.calling = (calling){.def = &w->system->callback, .first = first, .count = count};
+    b.problem = callback_block(&b.calling, &w->system->problem);
+    motus_status status = travel(&b, &w->why);
+    if (b.engine)
+        e->machine->close(b.engine);
+    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
+    if (status != MOTUS_OK && !lost)
+        return status;
+    if (lost && count > 1) {
+        status = part(w, p, first, count / 2, memory);
+        return status == MOTUS_OK ? part(w, p, first + count / 2, count - count / 2, memory) : status;
+    }
+    write_down(&b, lost, w->why.time);
+    atomic_fetch_add(&w->e->done, count);
+    if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
+        return MOTUS_CANCELLED;
+    return MOTUS_OK;
+}
+
+static motus_status one_block(worker *w, size_t item, void *ctx)
+{
+    const motus_ensemble *e = w->e;
+    const size_t first = item * e->block, count = e->count - first < e->block ? e->count - first : e->block;
+    const size_t numbers = w->system->problem.nx + w->system->problem.nv;
+    double *memory = take(&e->allocator, numbers + (numbers + e->record_count * REDUCE_KEPT) * count, sizeof *memory);
+    if (!memory)
+        return fail(&w->why, MOTUS_MEMORY, "no memory for %zu trajectories", count);
+    motus_status status = part(w, ctx, first, count, memory);
+    give(&e->allocator, memory);
+    return status;
+}
+
+motus_status ensemble_blocks(motus_ensemble *e, const places *p, motus_error *err)
+{
+    return ensemble_each(e, (e->count + e->block - 1) / e->block, one_block, (void *)p, err);
+}
