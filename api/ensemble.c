@@ -167,10 +167,14 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
         status = find_places(e, d, err);
     if (status == MOTUS_OK && s->model)
         status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
-    if (status == MOTUS_OK && s->model && !(d->machine && !strcmp(d->machine, "interpreter")))
+    const char *wanted = d->machine;
+    if (status == MOTUS_OK && s->model && d->expected && (!wanted || !strcmp(wanted, "auto")) &&
+        !run_repays_compiling(s, card, (double)d->expected * (double)e->timing.total))
+        wanted = "interpreter";
+    if (status == MOTUS_OK && s->model && !(wanted && !strcmp(wanted, "interpreter")))
         status = try_lanes(e, d, err);
     if (status == MOTUS_OK && !e->lanes)
-        status = choose_single(e, d->machine, err);
+        status = choose_single(e, wanted, err);
     return status;
 }
 

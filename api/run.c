@@ -78,11 +78,11 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
 /* What a compiler takes grows with the text: this much work for each operation that stands in it. */
 #define WORTH_AN_OPERATION 1e6
 
-/* Operations of the graph that the whole run takes. */
-static double operations(const motus_run *r)
+bool run_repays_compiling(const motus_system *s, const motus_method *card, double steps)
 {
-    const motus_system *s = r->system;
-    return (double)r->total * (r->card->evaluations ? r->card->evaluations : 4 * r->card->stages) * ((double)s->model->graph->count + 4 * (double)s->problem.nv);
+    const double nodes = (double)s->model->graph->count;
+    const double operations = steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
+    return operations >= WORTH_COMPILING + WORTH_AN_OPERATION * nodes;
 }
 
 static motus_status choose_machine(motus_run *r, const char *wanted, motus_error *err)
@@ -97,7 +97,7 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
         hint(err, "the machines are auto, interpreter and compiled");
         return MOTUS_ARGUMENT;
     }
-    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && operations(r) < WORTH_COMPILING + WORTH_AN_OPERATION * s->model->graph->count))
+    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && !run_repays_compiling(s, r->card, (double)r->total)))
         return MOTUS_OK;
     if (!s->compiled) {
         motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);

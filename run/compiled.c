@@ -152,7 +152,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e))
         return NULL;
-    void *handle = cache_load(e.text.bytes, e.text.length, c->note, sizeof c->note);
+    void *handle = cache_load(e.text.bytes, e.text.length, false, c->note, sizeof c->note);
     if (!handle)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);

@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600 };      /* vectors in a block; operations in one step of all of them */
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40 };      /* vectors in a block; operations in one step of all of them; in a function */
 enum { CHUNK = 512, LOOKS_MAX = 32, ALIGNMENT = 64, BATCH_BYTES = 1 << 20, BLOCK_BYTES = 4 << 20 };
 
 struct lanes {
@@ -65,8 +65,11 @@ static int best_width(void)
  * itself, and a compiler has enough to do. */
 static int best_groups(const lanes_def *d)
 {
-    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) *
-                        (d->model->graph->count + 4 * d->model->nv);
+    const graph *g = d->model->graph;
+    size_t operations = 4 * d->model->nv;
+    for (uint32_t k = 0; k < g->count; k++)
+        operations += g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
@@ -179,7 +182,7 @@ static bool write_text(lanes *l)
     static const char *const last[] = {"step/lanes_ways.h", "step/look.h", "step/reduce.h", "step/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
-                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last, .fast = d->fast};
+                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
     if (m->arena->failed || !compose(&l->e, &c))
         return false;
     l->text = l->e.text.bytes;
@@ -266,7 +269,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->text, l->e.text.length, note, size);
+    l->handle = cache_load(l->text, l->e.text.length, d->fast, note, size);
     if (!l->handle)
         return MOTUS_TOOL;
     /* POSIX promises that a function's address survives the way through void *. */
