@@ -214,8 +214,9 @@ static void *build(const compiler *c, const char *text, size_t length, bool fast
     return handle;
 }
 
-void *cache_load(const char *text, size_t length, bool fast, char *why, size_t size)
+void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
+    const bool fast = how & CACHE_FAST;
     compiler c;
     if (!compiler_find(&c)) {
         snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
@@ -228,7 +229,9 @@ void *cache_load(const char *text, size_t length, bool fast, char *why, size_t s
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
-    if (!handle)
+    if (!handle && how & CACHE_KEPT)
+        snprintf(why, size, "it has not been compiled before");
+    else if (!handle)
         handle = build(&c, text, length, fast, fd >= 0 ? path : NULL, why, size);
     if (fd >= 0)
         close(fd);

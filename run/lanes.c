@@ -269,7 +269,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->text, l->e.text.length, d->fast, note, size);
+    l->handle = cache_load(l->text, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
     if (!l->handle)
         return MOTUS_TOOL;
     /* POSIX promises that a function's address survives the way through void *. */
