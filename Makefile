@@ -4,6 +4,7 @@
 # make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
 # make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
+# make functions   the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
 # make clean
 #
 # demo, test, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
@@ -16,7 +17,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo test bench install clean fuzz tidy manual need-demo
+.PHONY: all demo test bench install clean fuzz tidy functions manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -57,6 +58,13 @@ tidy:
 	@cmake/need.sh build tidy
 	@$(CMAKE) --preset release >/dev/null
 	@run-clang-tidy -quiet -p build '^$(CURDIR)/(core|lang|run|api|study|cli)/'
+
+functions:
+	@cmake/need.sh build test
+	@mkdir -p build
+	@$(CMAKE) --preset release -DMOTUS_TESTS=ON >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@$(CMAKE) --build build --target functions_native_test
+	@build/test/functions_native_test 10000000
 
 manual: all
 	@cmake/manual.sh

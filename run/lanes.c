@@ -10,8 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40 };      /* vectors in a block; operations in one step of all of them; in a function */
-enum { LOOKS_MAX = 32, BLOCK_BYTES = 4 << 20 };
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, LOOK_WEIGHT = 30 };      /* vectors in a block; operations in one step of all of
+                                                                              * them; in a function; in a quantity */
+enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
@@ -39,6 +40,8 @@ static int best_groups(const lanes_def *d)
     size_t operations = 4 * d->model->nv;
     for (uint32_t k = 0; k < g->count; k++)
         operations += g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    for (size_t k = 0; k < d->source_count; k++)
+        operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
     const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
@@ -87,11 +90,33 @@ static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *out
 
 #define CALL "(host->pool, host->q, host->u, host->bound, host->own, "
 
+/* What is recorded, as a table of the text. */
+static void write_records(emit_text *t, const lanes_def *d, const looked *looks, size_t look_count)
+{
+    bool looking = false, velocity = false;
+    emit_add(t, "static const lanes_record the_records[] = {");
+    for (size_t i = 0; i < d->source_count; i++) {
+        const lanes_source *s = &d->sources[i];
+        size_t first = 0;
+        for (size_t k = 0; k < look_count; k++)
+            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition)
+                first = looks[k].first;
+        static const int from[] = {[SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
+        emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
+        looking |= s->how != REDUCE_FINAL;
+        velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
+    }
+    emit_add(t, "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n%s\n", d->source_count, looking, velocity,
+             d->source_count > RECORDS_WRITTEN_MAX ? "#define WRITTEN_OUT_RECORDS\n"
+                 : "#ifdef __clang__\n#define WRITTEN_OUT_RECORDS _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT_RECORDS _Pragma(\"GCC unroll 16\")\n#endif\n");
+}
+
 /* The functions of the text that call the programs, all of one kind in one. */
 static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t look_count)
 {
     emit_text t = {.arena = l->def.model->arena};
     const bool bounded = l->def.model->boundary_count > 0;
+    write_records(&t, &l->def, looks, look_count);
     emit_add(&t, "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s",
              bounded ? "    compiled_boundary_bind(pool, q, u);\n" : "");
     for (size_t k = 0; k < entries; k++)
@@ -174,7 +199,6 @@ static bool prepare(lanes *l)
     l->places = arena_grow(a, NULL, 0, (d->place_count + 1) * sizeof *l->places);
     l->from_x = arena_grow(a, NULL, 0, (m->nx + 1) * sizeof *l->from_x);
     l->from_v = arena_grow(a, NULL, 0, (m->nv + 1) * sizeof *l->from_v);
-    l->records = arena_grow(a, NULL, 0, (d->source_count + 1) * sizeof *l->records);
     if (a->failed)
         return false;
     for (uint32_t k = 0; k < l->e.int_count; k++)
@@ -192,17 +216,6 @@ static bool prepare(lanes *l)
                 l->from_x[s->base + k] = affected[first] ? (int64_t)first : -1;
             l->from_v[s->base + k] = affected[second] ? (int64_t)second : -1;
         }
-    }
-    looked looks[LOOKS_MAX];
-    size_t outs, count = list_looks(d, looks, &outs);
-    for (size_t i = 0; i < d->source_count; i++) {
-        const lanes_source *s = &d->sources[i];
-        size_t first = 0;
-        for (size_t k = 0; k < count; k++)
-            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition)
-                first = looks[k].first;
-        l->records[i] = (lanes_record){.how = s->how, .element = (int64_t)(first + s->place),
-                                       .from = s->kind == SOURCE_TIME ? LANES_TIME : s->kind == SOURCE_X ? LANES_X : s->kind == SOURCE_V ? LANES_V : LANES_OUT};
     }
     const work plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
     l->moments = (size_t)plan.moments;
@@ -246,8 +259,9 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     *(void **)&l->begin = dlsym(l->handle, "motus_lanes_begin");
     *(void **)&l->set = dlsym(l->handle, "motus_lanes_set");
     *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
+    *(void **)&l->look = dlsym(l->handle, "motus_lanes_look");
     *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
-    if (!l->bind || !l->table || !l->begin || !l->set || !l->first || !l->run) {
+    if (!l->bind || !l->table || !l->begin || !l->set || !l->first || !l->look || !l->run) {
         snprintf(note, size, "the compiled object is not what was compiled");
         lanes_destroy(l);
         return MOTUS_TOOL;

@@ -52,7 +52,7 @@ static lanes_job job_of(const batch *b, size_t block, int thread)
     const size_t n = (size_t)l->block;
     double *p = b->memory + block * b->block_size, *mine = b->threads + (size_t)thread * b->thread_size, *look = mine + l->work_size;
     lanes_job j = {.plan = &b->plan, .table = b->table, .first = b->first_row, .places = l->places, .value_count = (int64_t)l->def.place_count,
-                   .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .records = l->records, .record_count = (int64_t)l->def.source_count, .out_size = l->outs,
+                   .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .record_count = (int64_t)l->def.source_count, .out_size = l->outs,
                    .first_look = b->looks == 0, .ends = b->ends, .until = l->def.until};
     j.own_size = l->own_size ? m->pool_count : 0;
     j.bound_size = l->e.fixed_lanes;
@@ -136,7 +136,7 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
     stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
     for (int64_t n = 0; n < b->steps; n++) {
         if (b->looking && plan.n % l->def.every == 0) {
-            l->run(&j, 0, 1);
+            l->look(&j);
             stop_looked(l, &j, stopped);
         }
         if (plan.n == 0)
@@ -178,7 +178,7 @@ static void look_at_block(void *ctx, size_t block, int thread)
 {
     const batch *b = ctx;
     lanes_job j = job_of(b, block, thread);
-    b->l->run(&j, 0, 1);
+    b->l->look(&j);
     stop_looked(b->l, &j, stopped_of(b, block));
 }
 
@@ -188,7 +188,7 @@ static void turn_block(void *ctx, size_t block, int thread)
     const batch *b = ctx;
     lanes_job j = job_of(b, block, thread);
     j.record_count = 0;
-    b->l->run(&j, 0, 1);
+    b->l->look(&j);
     b->l->set(&j);
 }
 
@@ -201,7 +201,7 @@ static void end_block(const batch *b, size_t block)
         const size_t k = trajectory(b, block, i), all = l->def.source_count * REDUCE_KEPT;
         for (size_t r = 0; r < l->def.source_count; r++) {
             const double kept[REDUCE_KEPT] = {j.kept[at(l, all, r * REDUCE_KEPT, i)], j.kept[at(l, all, r * REDUCE_KEPT + 1, i)]};
-            b->results[r][k] = isnan(stopped[i]) ? reduce_last(kept, l->records[r].how, (double)b->looks) : NAN;
+            b->results[r][k] = isnan(stopped[i]) ? reduce_last(kept, l->def.sources[r].how, (double)b->looks) : NAN;
         }
         if (b->stopped)
             b->stopped[k] = stopped[i];

@@ -20,10 +20,10 @@ struct lanes {
     void (*begin)(const lanes_job *);
     void (*set)(const lanes_job *);
     void (*first)(const lanes_job *);
+    void (*look)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
     double *u;
     int64_t *q, *places, *from_x, *from_v;
-    lanes_record *records;
     size_t outs, moments;            /* numbers of the definitions that are looked at */
     bool wants_a;
     size_t carried;                  /* elements of a group's carry */

@@ -103,24 +103,53 @@ void motus_lanes_first(const lanes_job *job)
     }
 }
 
-/* The look at one group, after n steps. */
-__attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, clock t, bool first, size_t group)
+/* What is recorded of a state: `all` of it, or what has to be seen on the way. */
+static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first, bool all, size_t group)
 {
-    const compiled_host host = lanes_host(job, group);
-    LANES_WORKSPACE(w, &host, n);
-    real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
-    real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
-    advance_sync(w, x, v, (real *)0);
-    if (t != time_of(w, n)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
-    if (a) accel(w, t, x, v, a);
-    lanes_looks(&host, t, x, v, a, out);
-    for (whole i = 0; i < job->record_count; i++) {
-        const lanes_record *r = &job->records[i];
+    WRITTEN_OUT_RECORDS for (size_t i = 0; i < RECORDS; i++) {
+        const lanes_record *r = &the_records[i];
+        if (!all && r->how == REDUCE_FINAL) continue;
         const real value = r->from == LANES_X ? x[r->element] : r->from == LANES_V ? v[r->element] : r->from == LANES_OUT ? out[r->element] : MANY(t);
-        real *kept = job->kept + (group * (size_t)job->record_count + (size_t)i) * REDUCE_KEPT;
+        real *kept = job->kept + (group * RECORDS + i) * REDUCE_KEPT;
         if (first) reduce_first(kept, value, MANY(t));
         else reduce_next(kept, r->how, value, MANY(t));
     }
+}
+
+/* The state of a group as one sees it, and the quantities that are recorded. */
+static inline void lanes_see(const lanes_job *job, work *w, const compiled_host *host, clock t, size_t group)
+{
+    real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
+    real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
+    advance_sync(w, x, v, (real *)0);
+    if (t != time_of(w, w->n)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
+    if (a) accel(w, t, x, v, a);
+    lanes_looks(host, t, x, v, a, out);
+}
+
+/* A look from outside the loop, at the present step of the plan; records nothing where record_count is 0. */
+void motus_lanes_look(const lanes_job *job)
+{
+    const clock t = job->ends ? job->until : time_of(job->plan, job->plan->n);
+    for (size_t group = 0; group < GROUPS; group++) {
+        const compiled_host host = lanes_host(job, group);
+        LANES_WORKSPACE(w, &host, job->plan->n);
+        lanes_see(job, w, &host, t, group);
+        if (job->record_count)
+            lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t, job->first_look, true, group);
+    }
+}
+
+/* A look from within: positions are where they are, all else is worked out. */
+static inline void lanes_look_within(const lanes_job *job, work *w, const compiled_host *host, clock t, size_t group)
+{
+#if SEES_VELOCITY
+    lanes_see(job, w, host, t, group);
+    lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t, false, false, group);
+#else
+    (void)host;
+    lanes_keep(job, w->x, w->v, (real *)0, t, false, false, group);
+#endif
 }
 
 #if LANES_LOCAL
@@ -130,13 +159,15 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
 #endif
 #define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g);
 #define LANES_LOAD(g) lanes_place(w, &host_##g, room_##g); lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_STEP(g) lanes_place(w, &host_##g, room_##g); advance_step(w);
+#define LANES_STEP(g) lanes_place(w, &host_##g, room_##g); w->fresh = fresh; advance_step(w);
+#define LANES_LOOK(g) lanes_place(w, &host_##g, room_##g); w->fresh = false; lanes_look_within(job, w, &host_##g, time_of(w, w->n), g);
 #define LANES_STORE(g) lanes_place(w, &host_##g, room_##g); lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
 
-/* `steps` more, not the first one, and a look after every `every` of them (0: none; the last is a look in any case then). */
+/* `steps` more, not the first one, and a look after every `every` of them; every = 0: none. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
+    bool fresh = false;              /* the accelerations of all groups are known, because somebody looked */
 #if LANES_LOCAL
     w->stride = NUMBERS;
 #endif
@@ -145,18 +176,21 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     EVERY_GROUP(LANES_LOAD)
     w->table = job->table;
     w->first = job->first;
-    w->fresh = false;
-    bool first = job->first_look;
-    do {
-        for (whole some = every && every < steps ? every : steps; some > 0; some--) {
+    while (steps > 0) {
+        const whole some = every && every < steps ? every : steps;
+        for (whole left = some; left > 0; left--) {
             if (w->n < 1) __builtin_unreachable();
             EVERY_GROUP(LANES_STEP)
             w->n++;
-            steps--;
+            fresh = false;
         }
-        EVERY_GROUP(LANES_STORE)
-        for (size_t group = 0; every && group < GROUPS; group++)
-            lanes_look(job, w->n, job->ends && steps <= 0 ? job->until : time_of(w, w->n), first, group);
-        first = false;
-    } while (steps > 0);
+        steps -= some;
+#if LOOKING
+        if (every) {
+            EVERY_GROUP(LANES_LOOK)
+            fresh = SEES_VELOCITY && (ROW(w, family) == TWO_STEP || (ROW(w, family) == SPLITTING && FACT(w, merged)));
+        }
+#endif
+    }
+    EVERY_GROUP(LANES_STORE)
 }

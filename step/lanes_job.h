@@ -22,9 +22,8 @@ typedef struct lanes_job {
     real *x, *v, *a, *out;           /* the state when it was looked at; quantities, out_size of each group */
     size_t out_size;
 
-    const lanes_record *records;
-    whole record_count;
-    bool first_look, ends;           /* the first look of all; the last look of this call is the end, at the time `until` */
+    whole record_count;              /* of the text's records; 0: nothing is recorded in this look */
+    bool first_look, ends;           /* the first look of all; the look at the end, at the time `until` */
     clock until;
     real *kept;
 } lanes_job;
