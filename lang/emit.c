@@ -571,14 +571,12 @@ static void write_functions(writer *w, const char *name, bool terms)
     write_region(w, AT_BIND);
     SAY(w, "}\n\n");
     if (w->e->lanes) {
-        SAY(w, "static inline void %s_bind_lanes(%sconst double *restrict u, const real *restrict own, real *restrict w)\n{\n%s, (void)own, (void)w;\n"
-               "    EACH_GROUP {\n", name, parameters, silence);
+        SAY(w, "static inline void %s_bind_lanes(%sconst double *restrict u, const real *restrict own, real *restrict w)\n{\n%s, (void)own, (void)w;\n",
+            name, parameters, silence);
         w->part = BINDING_LANES;
-        w->depth++;
         write_constants(w);
         write_region(w, AT_BIND);
-        w->depth--;
-        SAY(w, "    }\n}\n\n");
+        SAY(w, "}\n\n");
     }
     if (terms && w->e->terms) {
         SAY(w, "static inline void %s_terms(%sconst double *restrict u, const reals t, reals *restrict T)\n{\n%s, (void)t;\n", name, parameters, silence);
@@ -589,14 +587,12 @@ static void write_functions(writer *w, const char *name, bool terms)
     }
     SAY(w, "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double *restrict T, "
            "real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, (void)w, (void)own, (void)t, (void)T, (void)x, (void)v, (void)a, "
-           "(void)out;\n    EACH_GROUP {\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
+           "(void)out;\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
         w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
     w->part = RUNNING;
-    w->depth++;
     write_constants(w);
     write_region(w, AT_RUN);
-    w->depth--;
-    SAY(w, "    }\n}\n\n");
+    SAY(w, "}\n\n");
 }
 
 bool emit_program(emit *e, const program *p, const char *name, bool terms)

@@ -32,7 +32,7 @@ typedef struct emit {
     emit_int *ints; uint32_t int_count, int_room;
     bool literal;                    /* sizes are structure (no families): places are written as numbers */
     const array *arrays;
-    bool lanes;                      /* `real` is one number for each of several trajectories; an element of x, v … is GROUPS of them */
+    bool lanes;                      /* `real` is one number for each of several trajectories */
     const uint8_t *varied;           /* by place of the pool: lanes have their own, in `own`; NULL: none */
     uint32_t fixed, fixed_lanes;     /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
     uint64_t used, used_lanes;       /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
@@ -47,7 +47,7 @@ typedef struct emit {
  *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are lanes
  *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with `terms`, and where e->terms > 0
  *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of step/window.h
- * The text around it defines real, reals, MANY(a double) → reals, AT(array, element) and EACH_GROUP. False: the arena failed. */
+ * The text around it defines real, reals, MANY(a double) → reals and AT(array, element). False: the arena failed. */
 bool emit_program(emit *, const program *, const char *name, bool terms);
 enum { EMIT_NUMBER = 40 };
 /* A double as C text that reads back to the same bits; returns out. */

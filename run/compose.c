@@ -13,6 +13,7 @@
 
 enum {
     SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
+    LOCAL_MAX = 64,                  /* numbers: whose arrays, of every lane, a thread's stack holds with room to spare */
     WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
     FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
 };
@@ -52,13 +53,13 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
     const row *r = c->chosen->row;
     const work w = stepper_plan(c->problem, c->chosen, 0, 1);
-    const int stages = w.stages ? w.stages : 1, each = c->groups ? c->groups : 1;
+    const int stages = w.stages ? w.stages : 1;
     emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_family %s\n#define ROW_two_step %s\n#define ROW_compensated %d\n#define ROW_gyroscopic %d\n"
                 "#define ROW_newmark %d\n",
              families[r->family], recurrences[r->two_step], r->compensated, r->gyroscopic, r->newmark);
     emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define FACT_constant %d\n", w.velocity, w.linear, w.constant);
     if (structure)
-        emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx * (size_t)each, w.nv * (size_t)each);
+        emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
     emit_add(t, "#define FACT_stages %d\n#define FACT_known %d\n#define FACT_merged %d\n#define FACT_kicks 0x%xu\n#define FACT_drifts 0x%xu\n"
@@ -71,9 +72,11 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     emit_add(t, "};\n");
     add_numbers(t, "fact_c", w.c, stages);
     add_numbers(t, "fact_at", w.at, w.moments ? w.moments : 1);
+    double *list[CARRY_MAX];
+    emit_add(t, "#define CARRIED %d\n", work_carry(&w, list));
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", w.moments,
-             work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), structure && w.nv <= SMALL_MAX,
-             structure ? w.nv * (size_t)each : 0);
+             work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), c->width || (structure && w.nv <= SMALL_MAX),
+             structure && w.nv <= (c->width ? LOCAL_MAX : SMALL_MAX) ? w.nv : 0);
     if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#ifdef __clang__\n#define WRITTEN_OUT _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT _Pragma(\"GCC unroll 20\")\n#endif\n"
                     "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
@@ -187,11 +190,13 @@ bool compose(emit *e, const composition *c)
     add_text(t, "step/row.h");
     add_facts(t, c, structure);
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define BOUND %u\n", c->model->driven, e->terms, width, e->fixed_lanes);
-    if (lanes)
-        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define AT(array, element) (array)[(element) * GROUPS + group]\n"
-                    "#define EACH_GROUP for (int group = 0; group < GROUPS; group++)\n", c->model->boundary_count > 0, c->groups, c->width);
-    else
-        emit_add(t, "#define AT(array, element) (array)[element]\n#define EACH_GROUP\n");
+    emit_add(t, "#define AT(array, element) (array)[element]\n");
+    if (lanes) {
+        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)", c->model->boundary_count > 0, c->groups, c->width);
+        for (int group = 0; group < c->groups; group++)
+            emit_add(t, " DO(%d)", group);
+        emit_add(t, "\n");
+    }
     if (windowed)
         emit_add(t, "#define WINDOWED 1\n#define LOCAL %d\n#define COMPANIONS %d\n", local, c->problem->traits.companions);
     if (e->terms)

@@ -19,7 +19,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHUNK = 512, LANES_MAX = 64, LOOKS_MAX = 32, ALIGNMENT = 64, BATCH_BYTES = 32 << 20, BLOCK_BYTES = 4 << 20 };
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600 };      /* vectors in a block; operations in one step of all of them */
+enum { CHUNK = 512, LOOKS_MAX = 32, ALIGNMENT = 64, BATCH_BYTES = 1 << 20, BLOCK_BYTES = 4 << 20 };
 
 struct lanes {
     lanes_def def;
@@ -31,12 +32,14 @@ struct lanes {
     void (*table)(const lanes_job *, clock *, whole);
     void (*begin)(const lanes_job *);
     void (*set)(const lanes_job *);
+    void (*first)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
     double *u;
     int64_t *q, *places, *from_x, *from_v;
     lanes_record *records;
     size_t outs, moments;            /* numbers of the definitions that are looked at */
     bool wants_a;
+    size_t carried;                  /* elements of a group's carry */
     size_t own_size, bound_size, carry_size, kept_size, work_size, look_size;      /* of one block, in doubles, whole cache lines */
 };
 
@@ -58,14 +61,14 @@ static int best_width(void)
 #endif
 }
 
-/* So many vectors side by side that their chains of operations hide one another's latency, and no more than the registers hold. */
-static int best_groups(const lanes_def *d, int width)
+/* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one is company enough for
+ * itself, and a compiler has enough to do. */
+static int best_groups(const lanes_def *d)
 {
-    int registers = width == 8 ? 32 : 16;
-    size_t state = d->model->nx + d->model->nv + (d->chosen->row->family == RUNGE_KUTTA ? d->model->nv : 0);
-    int groups = (int)((size_t)(registers - 4) / (state ? state : 1));
-    int most = width == 8 ? 4 : 6;
-    return groups < 1 ? 1 : groups > most ? most : groups;
+    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) *
+                        (d->model->graph->count + 4 * d->model->nv);
+    const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
+    return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
 
 const char *lanes_refuse(const lanes_def *d)
@@ -122,9 +125,9 @@ static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t lo
         emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
     for (size_t k = 0; k < look_count; k++)
         emit_add(&t, "    look_%zu_bind(pool, q, u);\n", k);
-    emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host)\n{\n    (void)host;\n");
+    emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host, const real *values)\n{\n    (void)host;\n");
     for (size_t k = 0; k <= entries; k++) {
-        emit_add(&t, "    for (whole k = 0; k < job->value_count; k++) EACH_GROUP AT(host->own, job->places[k]) = AT(job->values, k);\n");
+        emit_add(&t, "    for (whole k = 0; k < job->value_count; k++) host->own[job->places[k]] = values[k];\n");
         if (k < entries)
             emit_add(&t, "    start_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n    start_%zu" CALL
                          "0, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n", k, k);
@@ -137,7 +140,7 @@ static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t lo
     emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, real *out)\n{\n"
                  "    (void)host, (void)t, (void)x, (void)v, (void)a, (void)out;\n");
     for (size_t k = 0; k < look_count; k++)
-        emit_add(&t, "    look_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu * GROUPS);\n", k, looks[k].first);
+        emit_add(&t, "    look_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu);\n", k, looks[k].first);
     emit_add(&t, "}\n\n");
     return l->def.model->arena->failed ? NULL : t.bytes;
 }
@@ -232,9 +235,12 @@ static bool prepare(lanes *l)
     }
     const work plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
     l->moments = (size_t)plan.moments;
+    work probe = plan;
+    double *list[CARRY_MAX];
+    l->carried = (size_t)work_carry(&probe, list) * m->nv;
     l->own_size = lines(l, d->place_count ? m->pool_count : 0);
     l->bound_size = lines(l, l->e.fixed_lanes);
-    l->carry_size = lines(l, (size_t)CARRY_MAX * m->nv);
+    l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
     l->work_size = lines(l, work_place(&(work){.row = d->chosen->row, .stages = plan.stages, .velocity = plan.velocity}, NULL) * m->nv);
     l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
@@ -256,7 +262,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     }
     if (d->lanes && d->lanes < l->width)
         l->width = d->lanes;
-    l->groups = d->lanes ? d->lanes / l->width : best_groups(d, l->width);
+    l->groups = d->lanes ? d->lanes / l->width : best_groups(d);
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
@@ -268,8 +274,9 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     *(void **)&l->table = dlsym(l->handle, "motus_lanes_table");
     *(void **)&l->begin = dlsym(l->handle, "motus_lanes_begin");
     *(void **)&l->set = dlsym(l->handle, "motus_lanes_set");
+    *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
     *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
-    if (!l->bind || !l->table || !l->begin || !l->set || !l->run) {
+    if (!l->bind || !l->table || !l->begin || !l->set || !l->first || !l->run) {
         snprintf(note, size, "the compiled object is not what was compiled");
         lanes_destroy(l);
         return MOTUS_TOOL;
@@ -306,8 +313,12 @@ typedef struct batch {               /* blocks that go through time together */
     bool ends;                       /* the look to come is the last */
 } batch;
 
-/* Element k of lane i of a block. */
-static size_t at(const lanes *l, size_t k, size_t i) { return k * (size_t)l->block + i; }
+/* Element k of lane i of a block, where a group has so many elements. */
+static size_t at(const lanes *l, size_t elements, size_t k, size_t i)
+{
+    const size_t width = (size_t)l->width;
+    return (i / width * elements + k) * width + i % width;
+}
 
 static size_t trajectory(const batch *b, size_t block, size_t lane)
 {
@@ -324,9 +335,11 @@ static lanes_job job_of(const batch *b, size_t block, int thread)
     const model *m = l->def.model;
     const size_t n = (size_t)l->block;
     double *p = b->memory + block * b->block_size, *mine = b->threads + (size_t)thread * b->thread_size, *look = mine + l->work_size;
-    lanes_job j = {.plan = b->plan, .table = b->table, .first = b->first_row, .places = l->places, .value_count = (int64_t)l->def.place_count,
-                   .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .records = l->records, .record_count = (int)l->def.source_count,
+    lanes_job j = {.plan = &b->plan, .table = b->table, .first = b->first_row, .places = l->places, .value_count = (int64_t)l->def.place_count,
+                   .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .records = l->records, .record_count = (int64_t)l->def.source_count, .out_size = l->outs,
                    .first_look = b->looks == 0, .ends = b->ends, .until = l->def.until};
+    j.own_size = l->own_size ? m->pool_count : 0;
+    j.bound_size = l->e.fixed_lanes;
     j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};
     j.carry = p + l->own_size + l->bound_size;
     j.kept = j.carry + l->carry_size;
@@ -347,13 +360,17 @@ static void begin_block(void *ctx, size_t block, int thread)
     const model *m = l->def.model;
     lanes_job j = job_of(b, block, thread);
     double *values = spare_of(b, thread), *stopped = stopped_of(b, block);
-    for (size_t i = 0; i < (size_t)l->block; i++) {
-        for (size_t k = 0; k < l->def.place_count; k++)
-            values[at(l, k, i)] = b->values[k][trajectory(b, block, i)];
+    const size_t width = (size_t)l->width, count = l->def.place_count;
+    for (size_t g = 0; g < (size_t)l->groups; g++) {
+        for (size_t k = 0; k < count; k++)
+            for (size_t i = 0; i < width; i++)
+                values[(g * count + k) * width + i] = b->values[k][trajectory(b, block, g * width + i)];
         for (size_t k = 0; l->own_size && k < m->pool_count; k++)
-            j.host.own[at(l, k, i)] = m->pool[k];
-        stopped[i] = NAN;
+            for (size_t i = 0; i < width; i++)
+                j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
     }
+    for (size_t i = 0; i < (size_t)l->block; i++)
+        stopped[i] = NAN;
     j.values = values;
     l->begin(&j);
     l->set(&j);
@@ -371,7 +388,7 @@ static bool lane_finite(const lanes *l, const double *numbers, size_t elements, 
 {
     double none = 0;
     for (size_t k = 0; k < elements; k++)
-        none += numbers[at(l, k, lane)] - numbers[at(l, k, lane)];
+        none += numbers[at(l, elements, k, lane)] - numbers[at(l, elements, k, lane)];
     return none == 0;
 }
 
@@ -388,25 +405,30 @@ static void stop_lanes(const lanes *l, const double *numbers, size_t elements, d
 /* The state as one sees it may be infinite a step before the main line is. */
 static void stop_looked(const lanes *l, const lanes_job *j, double *stopped)
 {
-    stop_lanes(l, j->x, l->def.model->nx + l->def.model->nv, time_of(&j->plan, j->plan.n), stopped);
+    stop_lanes(l, j->x, l->def.model->nx, time_of(j->plan, j->plan->n), stopped);
+    stop_lanes(l, j->v, l->def.model->nv, time_of(j->plan, j->plan->n), stopped);
 }
 
 /* The chunk once more, step by step: when did which lane stop being finite? */
 static void trace(const batch *b, lanes_job j, double *before, double *stopped)
 {
     const lanes *l = b->l;
-    const size_t elements = 2 * l->def.model->nv;
+    work plan = b->plan;
+    j.plan = &plan;
     j.carry = before;
     j.record_count = 0;
-    stop_lanes(l, before, elements, time_of(&j.plan, j.plan.n), stopped);
+    stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
     for (int64_t n = 0; n < b->steps; n++) {
-        if (b->looking && j.plan.n % l->def.every == 0) {
+        if (b->looking && plan.n % l->def.every == 0) {
             l->run(&j, 0, 1);
             stop_looked(l, &j, stopped);
         }
-        l->run(&j, 1, 0);
-        j.plan.n++;
-        stop_lanes(l, before, elements, time_of(&j.plan, j.plan.n), stopped);
+        if (plan.n == 0)
+            l->first(&j);
+        else
+            l->run(&j, 1, 0);
+        plan.n++;
+        stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
     }
 }
 
@@ -428,8 +450,11 @@ static void run_block(void *ctx, size_t block, int thread)
     lanes_job j = job_of(b, block, thread);
     double *before = spare_of(b, thread), *stopped = stopped_of(b, block);
     memcpy(before, j.carry, l->carry_size * sizeof(double));
-    l->run(&j, b->steps, b->every);
-    if (lost_another(l, j.carry, 2 * l->def.model->nv, stopped))
+    if (b->plan.n == 0)
+        l->first(&j);
+    else
+        l->run(&j, b->steps, b->every);
+    if (lost_another(l, j.carry, l->carried, stopped))
         trace(b, j, before, stopped);
 }
 
@@ -457,10 +482,9 @@ static void end_block(const batch *b, size_t block)
     const lanes_job j = job_of(b, block, 0);
     const double *stopped = stopped_of(b, block);
     for (size_t i = 0; i < (size_t)l->block && block * (size_t)l->block + i < b->count; i++) {
-        const size_t k = trajectory(b, block, i), group = i / (size_t)l->width, lane = i % (size_t)l->width, width = (size_t)l->width;
+        const size_t k = trajectory(b, block, i), all = l->def.source_count * REDUCE_KEPT;
         for (size_t r = 0; r < l->def.source_count; r++) {
-            const double *p = j.kept + (r * (size_t)l->groups + group) * REDUCE_KEPT * width + lane;
-            const double kept[REDUCE_KEPT] = {p[0], p[width]};
+            const double kept[REDUCE_KEPT] = {j.kept[at(l, all, r * REDUCE_KEPT, i)], j.kept[at(l, all, r * REDUCE_KEPT + 1, i)]};
             b->results[r][k] = isnan(stopped[i]) ? reduce_last(kept, l->records[r].how, (double)b->looks) : NAN;
         }
         if (b->stopped)
@@ -480,14 +504,14 @@ static void fill_table(batch *b, int64_t steps)
 
 static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->l->def.threads, b->blocks, body, b); }
 
-/* The next chunk: steps to take, and how often to look on the way. The look at the end is not among them. */
+/* The next chunk: steps to take, and how often to look on the way. The first step is a chunk of its own; the look at the end is not among them. */
 static void next_chunk(batch *b)
 {
     const lanes_def *d = &b->l->def;
     const int64_t left = d->whole - b->plan.n, every = d->every, due = every - b->plan.n % every;
-    b->steps = left < CHUNK ? left : CHUNK;
+    b->steps = b->plan.n == 0 ? 1 : left < CHUNK ? left : CHUNK;
     b->every = 0;
-    if (!b->looking || due > b->steps)
+    if (!b->looking || due > b->steps || b->plan.n == 0)
         return;
     const bool end = d->last == 0 && due == left;
     if (due < every || end) {
@@ -509,8 +533,6 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
     for (size_t r = 0; r < d->source_count; r++)
         b->looking |= d->sources[r].how != REDUCE_FINAL;
     b->plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
-    b->plan.nx *= (size_t)l->block / (size_t)l->width;
-    b->plan.nv *= (size_t)l->block / (size_t)l->width;
     b->plan.stride = b->plan.nv;
     b->looks = 0;
     b->ends = false;
@@ -526,16 +548,19 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
         each_block(b, run_block);
         b->plan.n += b->steps;
         b->looks += b->every ? b->steps / b->every : 0;
+        if (b->plan.n == 1 && b->looking && d->every == 1 && (d->whole > 1 || d->last != 0)) {
+            fill_table(b, 0);
+            each_block(b, look_at_block);
+            b->looks++;
+        }
         if (d->progress && d->progress(d->context, from + share * (double)b->plan.n / (double)(d->whole + 1)))
             return fail(err, MOTUS_CANCELLED, "cancelled");
     }
     if (d->last != 0) {
         fill_table(b, 0);
         each_block(b, turn_block);
-        const size_t nx = b->plan.nx, nv = b->plan.nv;
         b->plan = stepper_plan(d->problem, d->chosen, time_of(&b->plan, b->plan.n), d->last);
-        b->plan.nx = nx;
-        b->plan.nv = b->plan.stride = nv;
+        b->plan.stride = b->plan.nv;
         b->steps = 1;
         b->every = 0;
         fill_table(b, 1);
@@ -562,7 +587,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     size_t most = BATCH_BYTES / sizeof(double) / b.block_size;
     most = most < (size_t)d->threads * 4 ? (size_t)d->threads * 4 : most;
     most = most > all ? all : most;
-    const size_t table = l->moments * l->e.terms * (CHUNK + 1 + 2 * LANES_MAX);
+    const size_t table = l->moments * l->e.terms * (CHUNK + 1 + 8 + 8);
     double *memory = take(d->allocator, most * b.block_size + (size_t)d->threads * b.thread_size + table + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)
         return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories", most * block);
