@@ -134,7 +134,7 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
             return status;
     }
     s->compiled_problem.traits = s->problem.traits;
-    const char *why = compiled_prepare(s->compiled, &e->chosen);
+    const char *why = compiled_prepare(s->compiled, &e->chosen, false);
     if (!why) {
         e->machine = &machine_compiled;
         return MOTUS_OK;
@@ -167,10 +167,14 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
         status = find_places(e, d, err);
     if (status == MOTUS_OK && s->model)
         status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
-    if (status == MOTUS_OK && s->model && !(d->machine && !strcmp(d->machine, "interpreter")))
+    const char *wanted = d->machine;
+    if (status == MOTUS_OK && s->model && d->expected && (!wanted || !strcmp(wanted, "auto")) &&
+        run_worth_compiling(s, card, (double)d->expected * (double)e->timing.total) < 1)
+        wanted = "interpreter";
+    if (status == MOTUS_OK && s->model && !(wanted && !strcmp(wanted, "interpreter")))
         status = try_lanes(e, d, err);
     if (status == MOTUS_OK && !e->lanes)
-        status = choose_single(e, d->machine, err);
+        status = choose_single(e, wanted, err);
     return status;
 }
 

@@ -22,7 +22,7 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
             status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
         if (status == MOTUS_OK && e->machine == &machine_compiled) {
             status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
-            const char *why = status == MOTUS_OK ? compiled_prepare(s->compiled, &e->chosen) : NULL;
+            const char *why = status == MOTUS_OK ? compiled_prepare(s->compiled, &e->chosen, false) : NULL;
             if (why)
                 status = s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the compiled model") : fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
         }

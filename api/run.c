@@ -74,15 +74,17 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
 /* ---- which machine ---- */
 
 /* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
-#define WORTH_COMPILING 4e8
+#define WORTH_COMPILING 1e8
 /* What a compiler takes grows with the text: this much work for each operation that stands in it. */
 #define WORTH_AN_OPERATION 1e6
+/* From this part of that on it is worth a millisecond to see whether the model is compiled already. */
+#define WORTH_LOOKING 0.01
 
-/* Operations of the graph that the whole run takes. */
-static double operations(const motus_run *r)
+double run_worth_compiling(const motus_system *s, const motus_method *card, double steps)
 {
-    const motus_system *s = r->system;
-    return (double)r->total * (r->card->evaluations ? r->card->evaluations : 4 * r->card->stages) * ((double)s->model->graph->count + 4 * (double)s->problem.nv);
+    const double nodes = (double)s->model->graph->count;
+    const double operations = steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
+    return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
 }
 
 static motus_status choose_machine(motus_run *r, const char *wanted, motus_error *err)
@@ -97,7 +99,10 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
         hint(err, "the machines are auto, interpreter and compiled");
         return MOTUS_ARGUMENT;
     }
-    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")) || (automatic && operations(r) < WORTH_COMPILING + WORTH_AN_OPERATION * s->model->graph->count))
+    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")))
+        return MOTUS_OK;
+    const double worth = run_worth_compiling(s, r->card, (double)r->total);
+    if (automatic && worth < WORTH_LOOKING)
         return MOTUS_OK;
     if (!s->compiled) {
         motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
@@ -105,7 +110,8 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
             return status;
     }
     s->compiled_problem.traits = s->problem.traits;
-    const char *why = compiled_prepare(s->compiled, &r->chosen);
+    const bool kept = automatic && worth < 1;
+    const char *why = compiled_prepare(s->compiled, &r->chosen, kept);
     if (!why) {
         r->machine = &machine_compiled;
         r->problem = &s->compiled_problem;
@@ -115,7 +121,7 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
         fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
         hint(err, "--machine interpreter needs no compiler");
         return MOTUS_TOOL;
-    } else {
+    } else if (!kept) {
         r->note = why;
     }
     return MOTUS_OK;

@@ -18,7 +18,6 @@ char *read_text(const char *file)
 
 ours *ours_open(const char *file, const char *const *set, const char *method, double step, int64_t steps, const char *machine, int threads)
 {
-    if (threads > 1) return NULL;        /* the library has no threads for one system yet */
     motus_error error = motus_default_error();
     motus_text_def text = motus_default_text();
     motus_run_def def = motus_default_run();
@@ -35,6 +34,7 @@ ours *ours_open(const char *file, const char *const *set, const char *method, do
     def.step = step;
     def.until = (double)steps * step;
     def.machine = machine;
+    def.threads = threads;
     if (motus_system_from_text(&text, &o->system, &error) || motus_run_create(o->system, &def, &o->run, &error)) {
         report_note("%s", error.message);
         ours_close(o);

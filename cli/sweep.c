@@ -92,6 +92,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.threads = (int)o->threads;
     def.lanes = (int)o->lanes;
     def.fast = o->fast;
+    def.expected = s->grid.total;
     def.progress = stop_progress_hook;
     def.context = progress;
     motus_status status = motus_ensemble_create(s->model.system, &def, &s->ensemble, err);

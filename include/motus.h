@@ -334,6 +334,7 @@ typedef struct motus_ensemble_def {
     int fast;                        /* 1: allow the compiler to fuse and reorder; results may differ in their last bits from machine to machine */
     int (*progress)(void *context, double fraction);     /* of a motus_ensemble_run; as in motus_run_def */
     void *context;
+    uint64_t expected;               /* trajectories to come in all, so that "auto" need not compile for a few; 0: many */
 } motus_ensemble_def;
 
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **, motus_error *);

@@ -180,7 +180,7 @@ static bool put_seal(const char *path)
 }
 
 /* Compiles in a directory of its own, seals, and (where there is a cache) moves the object to its place. */
-static void *build(const compiler *c, const char *text, size_t length, const char *target, char *why, size_t size)
+static void *build(const compiler *c, const char *text, size_t length, bool fast, const char *target, char *why, size_t size)
 {
     char workshop[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96];
     if (target) {
@@ -200,7 +200,7 @@ static void *build(const compiler *c, const char *text, size_t length, const cha
     void *handle = NULL;
     if (!write_source(source, text, length))
         snprintf(why, size, "%s cannot be written: %s", source, strerror(errno));
-    else if (!compiler_run(c, source, object, why, size))
+    else if (!compiler_run(c, source, object, fast, why, size))
         ;
     else if (!put_seal(object))
         snprintf(why, size, "%s cannot be written: %s", object, strerror(errno));
@@ -214,8 +214,9 @@ static void *build(const compiler *c, const char *text, size_t length, const cha
     return handle;
 }
 
-void *cache_load(const char *text, size_t length, char *why, size_t size)
+void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
+    const bool fast = how & CACHE_FAST;
     compiler c;
     if (!compiler_find(&c)) {
         snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
@@ -224,12 +225,14 @@ void *cache_load(const char *text, size_t length, char *why, size_t size)
     char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
     cache_directory(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;
-    hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options()), c.identity));
+    hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(fast)), c.identity));
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
-    if (!handle)
-        handle = build(&c, text, length, fd >= 0 ? path : NULL, why, size);
+    if (!handle && how & CACHE_KEPT)
+        snprintf(why, size, "it has not been compiled before");
+    else if (!handle)
+        handle = build(&c, text, length, fast, fd >= 0 ? path : NULL, why, size);
     if (fd >= 0)
         close(fd);
     return handle;

@@ -135,7 +135,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     return true;
 }
 
-static const stepper_body *body_of(compiled *c, const chosen *chosen)
+static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
     for (int i = 0; i < c->count; i++)
         if (c->objects[i].row == chosen->row)
@@ -152,7 +152,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen)
     emit e = {.text = {.arena = c->model->arena}};
     if (!write_text(c, chosen, &e))
         return NULL;
-    void *handle = cache_load(e.text.bytes, e.text.length, c->note, sizeof c->note);
+    void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
     if (!handle)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
@@ -184,12 +184,12 @@ void compiled_rebind(compiled *c)
         c->bind(c->model->pool, c->q, c->u);
 }
 
-const char *compiled_prepare(compiled *c, const chosen *chosen) { return body_of(c, chosen) ? NULL : c->note; }
+const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept) { return body_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note; }
 
 static motus_status open_engine(const problem *p, const chosen *chosen, double t0, double h, const double *x, const double *v, const motus_allocator *a,
                                 engine **out, motus_error *err)
 {
-    const stepper_body *body = body_of(p->ctx, chosen);
+    const stepper_body *body = body_of(p->ctx, chosen, 0);
     if (!body)
         return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", ((compiled *)p->ctx)->note);
     motus_status status = stepping_open(p, chosen, t0, h, x, v, a, out, err);

@@ -15,7 +15,7 @@ void compiled_rebind(compiled *);
 void compiled_close(compiled *);
 /* The C text that runs a row of this model, in the model's arena; NULL: no memory. */
 const char *compiled_text(compiled *, const chosen *, size_t *length);
-/* Compiles (or finds) what a row needs. NULL, or why that failed. */
-const char *compiled_prepare(compiled *, const chosen *);
+/* Compiles (or finds; with `kept`, only finds) what a row needs. NULL, or why that failed. */
+const char *compiled_prepare(compiled *, const chosen *, bool kept);
 
 #endif

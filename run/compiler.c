@@ -34,7 +34,16 @@ static const char *const libraries[] = {"-lm"};
 #endif
 enum { OPTIONS = sizeof options / sizeof *options, LIBRARIES = sizeof libraries / sizeof *libraries };
 
-const char *compiler_options(void) { return "gnu17 O3 native nocontract nomatherrno noprotector nounroll nostdlib"; }
+/* --fast: products and sums may be fused, quotients become products. Not more: sums in another order would undo error words and the reductions
+ * of the elementary functions, and numbers that are assumed finite could not be seen to diverge. */
+static const char *const fast_options[] = {"-ffp-contract=fast", "-freciprocal-math", "-fno-signed-zeros", "-fno-trapping-math"};
+enum { FAST_OPTIONS = sizeof fast_options / sizeof *fast_options };
+
+const char *compiler_options(bool fast)
+{
+    return fast ? "gnu17 O3 native contract reciprocal nomatherrno noprotector nounroll nostdlib"
+                : "gnu17 O3 native nocontract nomatherrno noprotector nounroll nostdlib";
+}
 
 static bool executable(const char *path, compiler *c)
 {
@@ -126,7 +135,7 @@ static void first_line(int log, char *why, size_t size)
     snprintf(why, size, "%s", buffer[0] ? buffer : "it stopped without a message");
 }
 
-bool compiler_run(const compiler *c, const char *source, const char *object, char *why, size_t size)
+bool compiler_run(const compiler *c, const char *source, const char *object, bool fast, char *why, size_t size)
 {
     char log_name[PATH_MAX];
     snprintf(log_name, sizeof log_name, "%s.log", object);
@@ -136,11 +145,13 @@ bool compiler_run(const compiler *c, const char *source, const char *object, cha
         return false;
     }
     unlink(log_name);
-    char *arguments[OPTIONS + LIBRARIES + 5];
+    char *arguments[OPTIONS + FAST_OPTIONS + LIBRARIES + 5];
     int n = 0;
     arguments[n++] = (char *)c->path;
     for (int i = 0; i < OPTIONS; i++)
         arguments[n++] = (char *)options[i];
+    for (int i = 0; fast && i < FAST_OPTIONS; i++)
+        arguments[n++] = (char *)fast_options[i];
     arguments[n++] = (char *)source;
     arguments[n++] = "-o";
     arguments[n++] = (char *)object;

@@ -14,9 +14,9 @@ typedef struct compiler {
 
 /* CC (a single program name or path), cc, gcc, clang: the first that is there. */
 bool compiler_find(compiler *);
-/* `source` to the shared object `object`. On failure the first line of what the compiler said is in `why`. */
-bool compiler_run(const compiler *, const char *source, const char *object, char *why, size_t size);
+/* `source` to the shared object `object`; fast: with what --fast allows. On failure the first line of what the compiler said is in `why`. */
+bool compiler_run(const compiler *, const char *source, const char *object, bool fast, char *why, size_t size);
 /* The options, as one text: part of a cache key. */
-const char *compiler_options(void);
+const char *compiler_options(bool fast);
 
 #endif

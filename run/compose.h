@@ -21,7 +21,6 @@ typedef struct composition {
     int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
     const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
     const char *const *last;             /* the texts that stand last, up to a NULL */
-    bool fast;
 } composition;
 
 /* Writes into e->text; e->lanes and e->varied must be set. False: the arena failed. */

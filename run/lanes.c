@@ -1,47 +1,17 @@
-/* Lanes: the text, and the blocks it works on. See lanes.h.
+/* Lanes: what they can do, the text, the object. See lanes.h.
  *
- * Invariant: the results of a trajectory depend neither on the block it is in nor on who computes that. Blocks are taken through time in
- * chunks of steps, so that what depends on time alone is computed once for all of them; a block in which a number stopped being finite is
- * taken through its chunk again, step by step, to see when.
+ * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and of threads are not in it.
  */
-#include "run/lanes.h"
+#include "run/lanes_parts.h"
 
 #include "run/cache.h"
-#include "run/compose.h"
-#include "run/parallel.h"
-#include "run/reduction.h"
-
-#include "step/host.h"
-#include "step/lanes_job.h"
 
 #include <dlfcn.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600 };      /* vectors in a block; operations in one step of all of them */
-enum { CHUNK = 512, LOOKS_MAX = 32, ALIGNMENT = 64, BATCH_BYTES = 1 << 20, BLOCK_BYTES = 4 << 20 };
-
-struct lanes {
-    lanes_def def;
-    int width, groups, block;        /* block: trajectories in one */
-    emit e;
-    const char *text;
-    void *handle;
-    void (*bind)(const double *, const int64_t *, double *);
-    void (*table)(const lanes_job *, clock *, whole);
-    void (*begin)(const lanes_job *);
-    void (*set)(const lanes_job *);
-    void (*first)(const lanes_job *);
-    void (*run)(const lanes_job *, whole, whole);
-    double *u;
-    int64_t *q, *places, *from_x, *from_v;
-    lanes_record *records;
-    size_t outs, moments;            /* numbers of the definitions that are looked at */
-    bool wants_a;
-    size_t carried;                  /* elements of a group's carry */
-    size_t own_size, bound_size, carry_size, kept_size, work_size, look_size;      /* of one block, in doubles, whole cache lines */
-};
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40 };      /* vectors in a block; operations in one step of all of them; in a function */
+enum { LOOKS_MAX = 32, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
@@ -65,8 +35,11 @@ static int best_width(void)
  * itself, and a compiler has enough to do. */
 static int best_groups(const lanes_def *d)
 {
-    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) *
-                        (d->model->graph->count + 4 * d->model->nv);
+    const graph *g = d->model->graph;
+    size_t operations = 4 * d->model->nv;
+    for (uint32_t k = 0; k < g->count; k++)
+        operations += g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
@@ -179,7 +152,7 @@ static bool write_text(lanes *l)
     static const char *const last[] = {"step/lanes_ways.h", "step/look.h", "step/reduce.h", "step/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
-                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last, .fast = d->fast};
+                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
     if (m->arena->failed || !compose(&l->e, &c))
         return false;
     l->text = l->e.text.bytes;
@@ -190,8 +163,6 @@ const char *lanes_text(lanes *l) { return l->text; }
 int lanes_in_block(const lanes *l) { return l->block; }
 
 /* ---- memory ---- */
-
-static size_t lines(const lanes *l, size_t elements) { return (elements * (size_t)l->block + 7) / 8 * 8; }
 
 static bool prepare(lanes *l)
 {
@@ -266,7 +237,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->text, l->e.text.length, note, size);
+    l->handle = cache_load(l->text, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
     if (!l->handle)
         return MOTUS_TOOL;
     /* POSIX promises that a function's address survives the way through void *. */
@@ -295,312 +266,4 @@ void lanes_destroy(lanes *l)
         dlclose(l->handle);
     if (l)
         l->handle = NULL;
-}
-
-/* ---- a block ---- */
-
-typedef struct batch {               /* blocks that go through time together */
-    lanes *l;
-    size_t first, count, blocks;     /* trajectories; lanes too many in the last block repeat the last one */
-    const double *const *values;
-    double *const *results, *stopped;
-    double *memory, *threads, *table;        /* of blocks, of threads */
-    size_t block_size, thread_size;
-    work plan;                       /* of the present leg; n: steps taken */
-    int64_t first_row, steps, every; /* the present chunk */
-    int64_t looks;                   /* recorded so far */
-    bool looking;                    /* on the way, not at the end alone */
-    bool ends;                       /* the look to come is the last */
-} batch;
-
-/* Element k of lane i of a block, where a group has so many elements. */
-static size_t at(const lanes *l, size_t elements, size_t k, size_t i)
-{
-    const size_t width = (size_t)l->width;
-    return (i / width * elements + k) * width + i % width;
-}
-
-static size_t trajectory(const batch *b, size_t block, size_t lane)
-{
-    size_t k = block * (size_t)b->l->block + lane;
-    return b->first + (k < b->count ? k : b->count - 1);
-}
-
-/* A block's memory: its own parameters, what follows from them, the state, what is kept, when a lane stopped. */
-static double *stopped_of(const batch *b, size_t block) { return b->memory + (block + 1) * b->block_size - lines(b->l, 1); }
-
-static lanes_job job_of(const batch *b, size_t block, int thread)
-{
-    const lanes *l = b->l;
-    const model *m = l->def.model;
-    const size_t n = (size_t)l->block;
-    double *p = b->memory + block * b->block_size, *mine = b->threads + (size_t)thread * b->thread_size, *look = mine + l->work_size;
-    lanes_job j = {.plan = &b->plan, .table = b->table, .first = b->first_row, .places = l->places, .value_count = (int64_t)l->def.place_count,
-                   .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .records = l->records, .record_count = (int64_t)l->def.source_count, .out_size = l->outs,
-                   .first_look = b->looks == 0, .ends = b->ends, .until = l->def.until};
-    j.own_size = l->own_size ? m->pool_count : 0;
-    j.bound_size = l->e.fixed_lanes;
-    j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};
-    j.carry = p + l->own_size + l->bound_size;
-    j.kept = j.carry + l->carry_size;
-    j.room = mine;
-    j.x = look;
-    j.v = look + m->nx * n;
-    j.a = l->wants_a ? look + (m->nx + m->nv) * n : NULL;
-    j.out = look + (m->nx + 2 * m->nv) * n;
-    return j;
-}
-
-static double *spare_of(const batch *b, int thread) { return b->threads + (size_t)thread * b->thread_size + b->l->work_size + b->l->look_size; }
-
-static void begin_block(void *ctx, size_t block, int thread)
-{
-    const batch *b = ctx;
-    const lanes *l = b->l;
-    const model *m = l->def.model;
-    lanes_job j = job_of(b, block, thread);
-    double *values = spare_of(b, thread), *stopped = stopped_of(b, block);
-    const size_t width = (size_t)l->width, count = l->def.place_count;
-    for (size_t g = 0; g < (size_t)l->groups; g++) {
-        for (size_t k = 0; k < count; k++)
-            for (size_t i = 0; i < width; i++)
-                values[(g * count + k) * width + i] = b->values[k][trajectory(b, block, g * width + i)];
-        for (size_t k = 0; l->own_size && k < m->pool_count; k++)
-            for (size_t i = 0; i < width; i++)
-                j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
-    }
-    for (size_t i = 0; i < (size_t)l->block; i++)
-        stopped[i] = NAN;
-    j.values = values;
-    l->begin(&j);
-    l->set(&j);
-}
-
-static bool all_finite(const double *numbers, size_t count)
-{
-    int bad = 0;
-    for (size_t k = 0; k < count; k++)
-        bad |= !(numbers[k] - numbers[k] == 0);
-    return !bad;
-}
-
-static bool lane_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
-{
-    double none = 0;
-    for (size_t k = 0; k < elements; k++)
-        none += numbers[at(l, elements, k, lane)] - numbers[at(l, elements, k, lane)];
-    return none == 0;
-}
-
-/* Lanes of an array of `elements` that are not finite stop at t, if they have not stopped before. */
-static void stop_lanes(const lanes *l, const double *numbers, size_t elements, double t, double *stopped)
-{
-    if (all_finite(numbers, elements * (size_t)l->block))
-        return;
-    for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(stopped[i]) && !lane_finite(l, numbers, elements, i))
-            stopped[i] = t;
-}
-
-/* The state as one sees it may be infinite a step before the main line is. */
-static void stop_looked(const lanes *l, const lanes_job *j, double *stopped)
-{
-    stop_lanes(l, j->x, l->def.model->nx, time_of(j->plan, j->plan->n), stopped);
-    stop_lanes(l, j->v, l->def.model->nv, time_of(j->plan, j->plan->n), stopped);
-}
-
-/* The chunk once more, step by step: when did which lane stop being finite? */
-static void trace(const batch *b, lanes_job j, double *before, double *stopped)
-{
-    const lanes *l = b->l;
-    work plan = b->plan;
-    j.plan = &plan;
-    j.carry = before;
-    j.record_count = 0;
-    stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
-    for (int64_t n = 0; n < b->steps; n++) {
-        if (b->looking && plan.n % l->def.every == 0) {
-            l->run(&j, 0, 1);
-            stop_looked(l, &j, stopped);
-        }
-        if (plan.n == 0)
-            l->first(&j);
-        else
-            l->run(&j, 1, 0);
-        plan.n++;
-        stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
-    }
-}
-
-/* Whether a lane is no longer finite that has not stopped before: those that have are so for good, and cost their neighbours no time. */
-static bool lost_another(const lanes *l, const double *numbers, size_t elements, const double *stopped)
-{
-    if (all_finite(numbers, elements * (size_t)l->block))
-        return false;
-    bool any = false;
-    for (size_t i = 0; i < (size_t)l->block; i++)
-        any |= isnan(stopped[i]) && !lane_finite(l, numbers, elements, i);
-    return any;
-}
-
-static void run_block(void *ctx, size_t block, int thread)
-{
-    const batch *b = ctx;
-    const lanes *l = b->l;
-    lanes_job j = job_of(b, block, thread);
-    double *before = spare_of(b, thread), *stopped = stopped_of(b, block);
-    memcpy(before, j.carry, l->carry_size * sizeof(double));
-    if (b->plan.n == 0)
-        l->first(&j);
-    else
-        l->run(&j, b->steps, b->every);
-    if (lost_another(l, j.carry, l->carried, stopped))
-        trace(b, j, before, stopped);
-}
-
-static void look_at_block(void *ctx, size_t block, int thread)
-{
-    const batch *b = ctx;
-    lanes_job j = job_of(b, block, thread);
-    b->l->run(&j, 0, 1);
-    stop_looked(b->l, &j, stopped_of(b, block));
-}
-
-/* The shorter last step is a leg of its own, from the state at the end of the whole ones. */
-static void turn_block(void *ctx, size_t block, int thread)
-{
-    const batch *b = ctx;
-    lanes_job j = job_of(b, block, thread);
-    j.record_count = 0;
-    b->l->run(&j, 0, 1);
-    b->l->set(&j);
-}
-
-static void end_block(const batch *b, size_t block)
-{
-    const lanes *l = b->l;
-    const lanes_job j = job_of(b, block, 0);
-    const double *stopped = stopped_of(b, block);
-    for (size_t i = 0; i < (size_t)l->block && block * (size_t)l->block + i < b->count; i++) {
-        const size_t k = trajectory(b, block, i), all = l->def.source_count * REDUCE_KEPT;
-        for (size_t r = 0; r < l->def.source_count; r++) {
-            const double kept[REDUCE_KEPT] = {j.kept[at(l, all, r * REDUCE_KEPT, i)], j.kept[at(l, all, r * REDUCE_KEPT + 1, i)]};
-            b->results[r][k] = isnan(stopped[i]) ? reduce_last(kept, l->records[r].how, (double)b->looks) : NAN;
-        }
-        if (b->stopped)
-            b->stopped[k] = stopped[i];
-    }
-}
-
-/* ---- all of them ---- */
-
-/* What depends on time alone, from the present step on. */
-static void fill_table(batch *b, int64_t steps)
-{
-    const lanes_job j = job_of(b, 0, 0);
-    b->first_row = b->plan.n;
-    b->l->table(&j, b->table, steps + 1);
-}
-
-static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->l->def.threads, b->blocks, body, b); }
-
-/* The next chunk: steps to take, and how often to look on the way. The first step is a chunk of its own; the look at the end is not among them. */
-static void next_chunk(batch *b)
-{
-    const lanes_def *d = &b->l->def;
-    const int64_t left = d->whole - b->plan.n, every = d->every, due = every - b->plan.n % every;
-    b->steps = b->plan.n == 0 ? 1 : left < CHUNK ? left : CHUNK;
-    b->every = 0;
-    if (!b->looking || due > b->steps || b->plan.n == 0)
-        return;
-    const bool end = d->last == 0 && due == left;
-    if (due < every || end) {
-        b->steps = due;
-        b->every = end ? 0 : due;
-        return;
-    }
-    b->steps -= b->steps % every;
-    if (d->last == 0 && b->steps == left)
-        b->steps -= every;
-    b->every = every;
-}
-
-static motus_status through_time(batch *b, double from, double share, motus_error *err)
-{
-    lanes *l = b->l;
-    const lanes_def *d = &l->def;
-    b->looking = false;
-    for (size_t r = 0; r < d->source_count; r++)
-        b->looking |= d->sources[r].how != REDUCE_FINAL;
-    b->plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
-    b->plan.stride = b->plan.nv;
-    b->looks = 0;
-    b->ends = false;
-    each_block(b, begin_block);
-    if (b->looking && (d->whole > 0 || d->last != 0)) {
-        fill_table(b, 0);
-        each_block(b, look_at_block);
-        b->looks++;
-    }
-    while (b->plan.n < d->whole) {
-        next_chunk(b);
-        fill_table(b, b->steps);
-        each_block(b, run_block);
-        b->plan.n += b->steps;
-        b->looks += b->every ? b->steps / b->every : 0;
-        if (b->plan.n == 1 && b->looking && d->every == 1 && (d->whole > 1 || d->last != 0)) {
-            fill_table(b, 0);
-            each_block(b, look_at_block);
-            b->looks++;
-        }
-        if (d->progress && d->progress(d->context, from + share * (double)b->plan.n / (double)(d->whole + 1)))
-            return fail(err, MOTUS_CANCELLED, "cancelled");
-    }
-    if (d->last != 0) {
-        fill_table(b, 0);
-        each_block(b, turn_block);
-        b->plan = stepper_plan(d->problem, d->chosen, time_of(&b->plan, b->plan.n), d->last);
-        b->plan.stride = b->plan.nv;
-        b->steps = 1;
-        b->every = 0;
-        fill_table(b, 1);
-        each_block(b, run_block);
-        b->plan.n = 1;
-    }
-    b->ends = true;
-    fill_table(b, 0);
-    each_block(b, look_at_block);
-    b->looks++;
-    for (size_t k = 0; k < b->blocks; k++)
-        end_block(b, k);
-    return MOTUS_OK;
-}
-
-motus_status lanes_run(lanes *l, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
-{
-    const lanes_def *d = &l->def;
-    const size_t spare = l->carry_size > lines(l, d->place_count) ? l->carry_size : lines(l, d->place_count);
-    batch b = {.l = l, .values = values, .results = results, .stopped = stopped};
-    b.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
-    b.thread_size = l->work_size + l->look_size + spare;
-    const size_t block = (size_t)l->block, all = (count + block - 1) / block;
-    size_t most = BATCH_BYTES / sizeof(double) / b.block_size;
-    most = most < (size_t)d->threads * 4 ? (size_t)d->threads * 4 : most;
-    most = most > all ? all : most;
-    const size_t table = l->moments * l->e.terms * (CHUNK + 1 + 8 + 8);
-    double *memory = take(d->allocator, most * b.block_size + (size_t)d->threads * b.thread_size + table + ALIGNMENT / sizeof(double), sizeof(double));
-    if (!memory)
-        return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories", most * block);
-    b.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
-    b.threads = b.memory + most * b.block_size;
-    b.table = b.threads + (size_t)d->threads * b.thread_size;
-    motus_status status = MOTUS_OK;
-    for (size_t first = 0; first < all && status == MOTUS_OK; first += most) {
-        b.first = first * block;
-        b.blocks = all - first < most ? all - first : most;
-        b.count = count - b.first < b.blocks * block ? count - b.first : b.blocks * block;
-        status = through_time(&b, (double)b.first / (double)count, (double)b.count / (double)count, err);
-    }
-    give(d->allocator, memory);
-    return status;
 }

@@ -36,7 +36,7 @@ static inline const clock *compiled_terms(const compiled_host *host, clock t, cl
     return T;
 }
 
-static inline void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
+__attribute__((noinline)) static void compiled_evaluate(const compiled_host *host, clock t, real *x, real *v, real *a)
 {
     clock T[TERMS + 1];
 #if DRIVEN
@@ -64,27 +64,22 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
 #if TERMS
 static inline const clock *compiled_table(const work *w, int moment) { return w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS; }
 
-/* Lanes always have a table. */
-#ifdef GROUPS
-#define TABLED(w) true
-#else
-#define TABLED(w) ((w)->table != NULL)
-#endif
+/* Within a step there always is a table. */
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
 {
-    if (!TABLED(w)) return accel(w, time_in(w, FACT(w, c)[i]), x, v, a);
     return accel_with(w, time_in(w, FACT(w, c)[i]), compiled_table(w, FACT(w, moment)[i]), x, v, a);
 }
 
 static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
 {
-    if (!TABLED(w) || FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
+    if (FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
     return accel_with(w, time_of(w, w->n), compiled_table(w, 0), x, v, a);
 }
 
-/* The table of LANES_OF_TIME steps, from number `n` on. */
-static inline void compiled_fill(const work *w, const compiled_host *host, clock *restrict table, whole n)
+/* The table of LANES_OF_TIME steps from number `n` on. It is given time and step alone, so that a workspace may stay in registers. */
+static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n)
 {
+    const work clockwork = {.t0 = t0, .h = h}, *w = &clockwork;
     reals step;
     for (int l = 0; l < LANES_OF_TIME; l++) LANE_OF(step, l) = l;
     step += (clock)n;
@@ -94,6 +89,12 @@ static inline void compiled_fill(const work *w, const compiled_host *host, clock
         for (int k = 0; k < TERMS; k++)
             for (int l = 0; l < LANES_OF_TIME; l++) table[(l * MOMENTS + m) * TERMS + k] = LANE_OF(many[k], l);
     }
+}
+
+/* Of `count` steps, and as many more as fill a vector. */
+__attribute__((noinline)) static void compiled_fill(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n, whole count)
+{
+    for (whole k = 0; k < count; k += LANES_OF_TIME) compiled_fill_some(host, t0, h, table + k * MOMENTS * TERMS, n + k);
 }
 #endif
 

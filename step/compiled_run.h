@@ -13,11 +13,11 @@ static inline int compiled_steps(work *w, whole steps)
     clock table[2 * HALF];
     int bad = STEP_OK;
     w->table = table;
-    compiled_fill(w, host, table, w->n);
+    compiled_fill(host, w->t0, w->h, table, w->n, LANES_OF_TIME);
     while (!bad && steps > 0) {
         const whole some = steps < LANES_OF_TIME ? steps : LANES_OF_TIME;
         w->first = w->n;
-        compiled_fill(w, host, table + HALF, w->n + LANES_OF_TIME);
+        compiled_fill_some(host, w->t0, w->h, table + HALF, w->n + LANES_OF_TIME);
         bad = some == LANES_OF_TIME ? advance_run(w, LANES_OF_TIME) : advance_run(w, some);
         for (int k = 0; k < HALF; k++) table[k] = table[HALF + k];
         steps -= some;

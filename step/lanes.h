@@ -11,8 +11,7 @@ void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_b
 void motus_lanes_table(const lanes_job *job, clock *table, whole count)
 {
 #if TERMS
-    for (whole n = 0; n < count; n += LANES_OF_TIME)
-        compiled_fill(job->plan, &job->host, table + n * MOMENTS * TERMS, job->plan->n + n);
+    compiled_fill(&job->host, job->plan->t0, job->plan->h, table, job->plan->n, count);
 #else
     (void)job, (void)table, (void)count;
 #endif
@@ -77,7 +76,7 @@ void motus_lanes_set(const lanes_job *job)
 }
 
 /* A workspace of one group in memory, after n steps. */
-#if NUMBERS
+#if LANES_LOCAL
 #define LANES_WORKSPACE(w, host, n_)                                                    \
     work w##_ = *job->plan, *w = &w##_;                                                  \
     real room[ARRAYS * NUMBERS];                                                        \
@@ -112,7 +111,7 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
     real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
     advance_sync(w, x, v, (real *)0);
-    if (t != time_of(w, n)) refresh_at(w, t, x, v);          /* the end is `until`, whatever t0 + n h comes to */
+    if (t != time_of(w, n)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
     if (a) accel(w, t, x, v, a);
     lanes_looks(&host, t, x, v, a, out);
     for (whole i = 0; i < job->record_count; i++) {
@@ -124,7 +123,7 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
     }
 }
 
-#if NUMBERS
+#if LANES_LOCAL
 #define LANES_ROOM(g) real room_##g[ARRAYS * NUMBERS];
 #else
 #define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
@@ -138,7 +137,7 @@ __attribute__((noinline)) static void lanes_look(const lanes_job *job, whole n, 
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
-#if NUMBERS
+#if LANES_LOCAL
     w->stride = NUMBERS;
 #endif
     EVERY_GROUP(LANES_ROOM)

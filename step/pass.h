@@ -3,9 +3,12 @@
  *
  * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that differs.
  */
-static inline void pass_window(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at, const window_put *how)
+/* Functions of their own, so that their loops have all registers, and whether there is a pass is known when they are compiled. */
+#define PASS_WINDOW(...) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, &(window_put){__VA_ARGS__})
+
+__attribute__((noinline, flatten)) static void pass_keep(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at)
 {
-    compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, how);
+    PASS_WINDOW(.pass = false);
 }
 
 /* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as well. */
@@ -14,7 +17,7 @@ static inline void pass_all(const compiled_host *host, clock t, const clock *T, 
     const tiling *in = host->tiling;
     for (size_t i = 0; i < in->stills; i++)
         for (size_t k = in->still[2 * i]; k < in->still[2 * i + 1]; k++) a[k] = 0;
-    pass_window(host, t, T, x, v, a, &(window){.from = -WINDOW_ALL, .to = WINDOW_ALL}, &(window_put){.pass = false});
+    pass_keep(host, t, T, x, v, a, &(window){.from = -WINDOW_ALL, .to = WINDOW_ALL});
 }
 
 #if LOCAL
@@ -38,14 +41,19 @@ static inline void pass_still(const work *w, const real *x, real *v, real *a, co
 
 static inline void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
-    const window_put keep = {.pass = false};
     window_move(w, host_of(w)->tiling->around);
-    pass_still(w, x, v, a, &keep);
-    pass_window(host_of(w), t, T, x, v, a, &w->window, &keep);
+    pass_still(w, x, v, a, &(window_put){.pass = false});
+    pass_keep(host_of(w), t, T, x, v, a, &w->window);
     window_move(w, host_of(w)->tiling->around);
 }
 
 #if !COMPANIONS
+__attribute__((noinline, flatten)) static void pass_move(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at,
+                                                         const window_put *how)
+{
+    PASS_WINDOW(true, how->b, how->c, how->ex, how->ev);
+}
+
 /* Stage i: v += b a, x += c v. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
 static inline void pass_run(work *w, int i, clock b, clock c)
@@ -62,7 +70,7 @@ static inline void pass_run(work *w, int i, clock b, clock c)
     w->evaluations++;
     window_move(w, host_of(w)->tiling->pass);
     pass_still(w, x, w->v, next, &move);
-    pass_window(host_of(w), t, T, x, w->v, next, &w->window, &move);
+    pass_move(host_of(w), t, T, x, w->v, next, &w->window, &move);
     w->x = next;
     w->a = x;
 }
@@ -79,7 +87,7 @@ static void pass_task(void *ctx, size_t k, int thread)
     const tiling *in = job->host->tiling;
     const whole cells = in->last - in->first + 1, tasks = (whole)job->tasks, i = (whole)k;
     window part = {.from = i == 0 ? -WINDOW_ALL : in->first + cells * i / tasks, .to = i == tasks - 1 ? WINDOW_ALL : in->first + cells * (i + 1) / tasks};
-    pass_window(job->host, job->t, job->T, job->x, job->v, job->a, &part, &(window_put){.pass = false});
+    pass_keep(job->host, job->t, job->T, job->x, job->v, job->a, &part);
 }
 
 enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to even out; and cells that are worth a task */

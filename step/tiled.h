@@ -86,7 +86,7 @@ static inline void tiled_run(work *w, whole steps)
         if (job.block >= TILED_LINE) job.block -= job.block % TILED_LINE;
 #if TERMS
         w->first = w->n;
-        for (whole s = 0; s <= job.steps; s += LANES_OF_TIME) compiled_fill(w, host, table + s * MOMENTS * TERMS, w->n + s);
+        compiled_fill(host, w->t0, w->h, table, w->n, job.steps + 1);
 #endif
         host->parallel(w->threads, (size_t)job.blocks, tiled_block, &job);
         host->parallel(w->threads, (size_t)job.blocks - 1, tiled_seam, &job);
