@@ -21,21 +21,21 @@ static const given_case cases[] = {
     {"arenstorf", {{"mu", NULL, 0.0122, 1e-5}, {"y'(0)", NULL, -2, -1e-3}}, "rk4 gauss4", false},
     {"chain", {{"beta", NULL, 0.5, 0.01}, {"x[3]'(0)", NULL, 0.1, 0.01}}, "velocity-verlet newmark", false},
     {"chain", {{"A", NULL, 0.5, 0.01}}, "verlet", true},
-    {"charged-particle", {{"q", NULL, 1, 0.01}, {"E.y", "E=(0.5, %s, 0)", 0.1, 0.01}, {"r'.x(0)", "r'(0)=(%s, 0, 0.25)", 1, 0.1}}, "boris rk4-38", false},
-    {"damped-cubic", {{"x(0)", NULL, 9, 0.1}, {"x'(0)", NULL, -1, 0.1}}, "verlet heun2", false},
+    {"charged-particle", {{"q", NULL, 1, 0.01}, {"E.y", "E=(0.5, %s, 0)", 0.1, 0.01}, {"r'.x(0)", "r'(0)=(%s, 0, 0.25)", 1, 0.1}}, "boris", false},
+    {"damped-cubic", {{"x(0)", NULL, 9, 0.1}, {"x'(0)", NULL, -1, 0.1}}, "heun2", false},
     {"damped-spring", {{"gamma", NULL, 0.05, 0.01}, {"omega0", NULL, 1.5, 0.1}, {"F", NULL, 0, 0.3}}, "rk4", false},
     {"double-pendulum", {{"l1", NULL, 0.5, 0.1}, {"m2", NULL, 1, -0.01}, {"θ1(0)", NULL, 1, 0.05}}, "rk4", false},
     {"driven-oscillator", {{"F", NULL, 0.01, 0.01}, {"x(0)", NULL, 0, 0.01}}, "verlet beeman kahan-li8", false},
-    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}}, "velocity-verlet leapfrog verlet-literal", false},
+    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}}, "velocity-verlet verlet-literal", false},
     {"duffing", {{"d", NULL, 0.1, 0.01}, {"omega", NULL, 1, 0.05}, {"x'(0)", NULL, 0, 0.1}}, "explicit-euler", false},
-    {"henon-heiles", {{"y(0)", NULL, -0.3, 0.01}, {"x'(0)", NULL, 0.3, 0.01}}, "pefrl verlet", false},
-    {"kepler", {{"e", NULL, 0.1, 0.02}, {"mu", NULL, 0.9, 0.02}}, "kahan-li8 symplectic-euler gauss4", false},
+    {"henon-heiles", {{"y(0)", NULL, -0.3, 0.01}, {"x'(0)", NULL, 0.3, 0.01}}, "pefrl", false},
+    {"kepler", {{"e", NULL, 0.1, 0.02}, {"mu", NULL, 0.9, 0.02}}, "kahan-li8 gauss4", false},
     {"outer-solar-system", {{"G", NULL, 2.9e-4, 1e-6}, {"m[2]", "m=[1.00000597682, %s, 0.000285583733151, 0.0000437273164546, 0.0000517759138449, 1/1.3e8]", 9e-4, 1e-5},
                             {"r[3].x(0)", "r[3](0)=(%s, -3.0458353, -1.6483708)", 9, 0.1}}, "leapfrog", false},
-    {"pendulum", {{"omega0", NULL, 0.5, 0.1}, {"theta(0)", NULL, 2, 0.1}}, "symplectic-euler-adjoint blanes-moan6", false},
+    {"pendulum", {{"omega0", NULL, 0.5, 0.1}, {"theta(0)", NULL, 2, 0.1}}, "blanes-moan6", false},
     {"penning-trap", {{"wc", NULL, 9, 0.1}, {"wz", NULL, 1.5, 0.05}}, "boris", false},
     {"projectile-drag", {{"k", NULL, 0.01, 0.01}, {"g", NULL, 9, 0.1}, {"r'.y(0)", "r'(0)=(30, %s)", 40, 1}}, "rk4", false},
-    {"projectile", {{"g.y", "g=(0, %s)", -9, -0.1}, {"m", NULL, 1, 0.5}}, "symplectic-euler exact", false},
+    {"projectile", {{"g.y", "g=(0, %s)", -9, -0.1}, {"m", NULL, 1, 0.5}}, "symplectic-euler-adjoint exact", false},
     {"spring", {{"k", NULL, 1, 0.1}, {"m", NULL, 1, 0.01}, {"x'(0)", NULL, 0, 0.1}}, "velocity-verlet exact", false},
     {"three-body-figure-eight", {{"r[1].x(0)", "r[1](0)=(%s, -0.24308753)", 0.9, 0.001}, {"r[2]'.y(0)", "r[2]'(0)=(0.466203685, %s)", 0.43, 0.001}}, "verlet", false},
     {"three-body-figure-eight", {{"vx[2]", "vx=[0.466203685, %s, -0.93240737]", 0.46, 0.001}}, "kahan-li6", true},
@@ -300,7 +300,7 @@ static void every_model(void **state)
                 if ((!all_rows() && cc != pairs % 2) || !use_compiler(compilers[cc]))
                     continue;
                 for (int w = 0; w < WIDTHS; w++)
-                    if (all_rows() || (w == (pairs / 2) % WIDTHS))
+                    if (all_rows() || (w == (pairs / 2) % (WIDTHS - 2)))
                         for (int f = 0; f < SHAPES; f++)
                             compare(&t, f, widths[w], 1 + f % 2, w == 0 || !all_rows());
             }
@@ -310,7 +310,7 @@ static void every_model(void **state)
     unsetenv("CC");
     print_message("%d pairs of model and method\n", pairs);
 #ifndef SANITIZED
-    assert_true(pairs >= 30);
+    assert_true(pairs >= 26);
 #endif
 }
 
@@ -334,9 +334,10 @@ static void every_width(void **state)
                 if (lanes % 8)
                     continue;
 #endif
-                if (p == 1 && cc && lanes != 1 && lanes != 8 && !all_rows())
+                /* A compiler's time grows with the lanes: the large model shows what the small one cannot in a few of them. */
+                if (!all_rows() && (p == 1 ? lanes != (cc ? 1 : 0) && lanes != (cc ? 8 : 2) : cc && lanes != 0 && lanes != 4 && lanes != 32))
                     continue;
-                for (int f = 0; f < SHAPES; f += 1 + (lanes > 0))
+                for (int f = 0; f < SHAPES; f += 1 + (lanes > 2))
                     compare(&t, f, lanes, 1 + f / 2 % 2, lanes == 0);
             }
         }

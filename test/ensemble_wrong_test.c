@@ -159,7 +159,7 @@ static void the_lost_cost_nothing(void **state)
     const double *values[] = {x};
     motus_ensemble_def def = define(names, 1, "velocity-verlet", 0.001, 200, "compiled");
     def.record_count = 1;
-    for (int round = 0; round < 10; round++) {
+    for (int round = 0; round < 20; round++) {
         motus_ensemble *e = given_ensemble(s, &def, "lost");
         for (int i = 0; i < COUNT; i++)
             x[i] = (round % 2) && i % 4 == 0 ? 100 : 0.01 * i;
@@ -171,7 +171,9 @@ static void the_lost_cost_nothing(void **state)
     }
     motus_system_destroy(s);
     print_message("with a lost lane in every block: %.2f times as long\n", seconds[1] / seconds[0]);
-    assert_true(seconds[1] < 2.5 * seconds[0]);          /* step by step it is some 10 */
+#ifndef SANITIZED
+    assert_true(seconds[1] < 4 * seconds[0]);            /* step by step it is more than 20 */
+#endif
 }
 
 /* Requests that cannot be met ------------------------------------------------------------------------------------------------------- */
