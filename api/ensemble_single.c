@@ -58,6 +58,7 @@ static void put_back(motus_ensemble *e, const double *room)
     compiled_rebind(e->system->compiled);
     memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
     memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
+    e->system->sampled_gyroscopic = false;
 }
 
 /* ---- a trajectory ---- */
@@ -73,6 +74,14 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
         if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
         compiled_rebind(y->compiled);
+        if (e->chosen.row->gyroscopic) {         /* which velocity terms do no work is seen at states, for these parameters */
+            y->sampled_gyroscopic = false;
+            if (!system_sample_gyroscopic(y))
+                return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+            motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
+            if (status != MOTUS_OK)
+                return status;
+        }
     }
     if (y->problem.nx)
         memcpy(s->x, y->x0, y->problem.nx * sizeof(double));

@@ -384,6 +384,34 @@ static void nothing_varies(void **state)
     motus_system_destroy(s);
 }
 
+/* Whether boris fits is seen for each trajectory's parameters; afterwards the system is what it was. */
+static void a_method_that_no_longer_fits(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("k = 0\nx'' = y' - k x'\ny'' = -x' - k y'\nx(0) = 1\ny(0) = 0\nx'(0) = 0\ny'(0) = 1\nstep 0.01\nuntil 0.1\n");
+    static const char *const vary[] = {"k"};
+    const double k[2] = {0, 0.5}, *values[] = {k};
+    double results[2], *places[] = {results};
+    const motus_record record = {MOTUS_FINAL, 1};
+    motus_ensemble_def def = motus_default_ensemble();
+    motus_error err = motus_default_error();
+    motus_ensemble *e;
+    def.vary = vary;
+    def.vary_count = 1;
+    def.records = &record;
+    def.record_count = 1;
+    def.method = "boris";
+    def.machine = "interpreter";
+    assert_int_equal(motus_ensemble_create(s, &def, &e, &err), MOTUS_OK);
+    assert_int_equal(motus_ensemble_run(e, 1, values, places, NULL, &err), MOTUS_OK);
+    assert_int_equal(motus_ensemble_run(e, 2, values, places, NULL, &err), MOTUS_METHOD);
+    assert_non_null(strstr(err.message, "boris"));
+    assert_int_equal(motus_method_admits(s, "boris", NULL), MOTUS_OK);
+    assert_int_equal(motus_ensemble_run(e, 1, values, places, NULL, &err), MOTUS_OK);
+    motus_ensemble_destroy(e);
+    motus_system_destroy(s);
+}
+
 typedef struct watcher { int calls, cancel_at; double last; } watcher;
 
 static int watch(void *context, double fraction)
@@ -453,7 +481,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(some_leave_the_finite_numbers), cmocka_unit_test(a_domain_is_left), cmocka_unit_test(no_solution),
         cmocka_unit_test(the_lost_cost_nothing), cmocka_unit_test(names), cmocka_unit_test(definitions),
-        cmocka_unit_test(a_system_is_left_as_it_was), cmocka_unit_test(nothing_varies), cmocka_unit_test(watched_and_cancelled),
+        cmocka_unit_test(a_system_is_left_as_it_was), cmocka_unit_test(nothing_varies), cmocka_unit_test(a_method_that_no_longer_fits), cmocka_unit_test(watched_and_cancelled),
         cmocka_unit_test(without_a_compiler)};
     int failed = cmocka_run_group_tests_name("ensembles that meet trouble", tests, NULL, NULL);
     close_cache();
