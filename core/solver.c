@@ -215,6 +215,8 @@ int solver_factor(solver *s, const double *ax, const double *av, double t, doubl
     return 0;
 }
 
+const double *solver_diagonal(const solver *s) { return s->constant && s->factored && diagonal(s) ? s->matrix : NULL; }
+
 void solver_back(solver *s, double *r)
 {
     const size_t stages = (size_t)s->stages, nv = s->problem->nv;

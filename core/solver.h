@@ -18,6 +18,8 @@ motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, 
 void solver_destroy(solver *);
 /* 0; 1: the callback failed; 2: singular. *evaluations grows by what difference quotients cost. */
 int solver_factor(solver *, const double *ax, const double *av, double t, double *x, double *v, int64_t *evaluations);
+/* The matrix that was factored last, where it is diagonal and the same for good; else NULL. solver_back divides by it. */
+const double *solver_diagonal(const solver *);
 void solver_back(solver *, double *r);
 void solver_apply(const solver *, double c, const double *y, double *out);       /* out = (I + c da/dv) y */
 

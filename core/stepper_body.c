@@ -34,6 +34,8 @@ static inline int solve_factor(work *w, int s, const clock *ax, const clock *av,
 static inline void solve_back(work *w, real *r) { solver_back(((stepper_host *)w->user)->solver, r); }
 static inline void solve_apply(work *w, clock c, const real *y, real *out) { solver_apply(((stepper_host *)w->user)->solver, c, y, out); }
 
+static const real *solve_diagonal(const work *w) { return solver_diagonal(((stepper_host *)w->user)->solver); }
+
 static inline int exact_at(work *w, clock t, real *x, real *v)
 {
     const problem *p = ((const stepper_host *)w->user)->problem;
@@ -60,4 +62,4 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 #define TEXT(isa) #isa
 #define TEXT_OF(isa) TEXT(isa)
 
-const stepper_body NAMED(ISA) = {TEXT_OF(ISA), advance_run, advance_sync, advance_check, solve_factor, solve_back, solve_apply};
+const stepper_body NAMED(ISA) = {TEXT_OF(ISA), advance_run, advance_sync, advance_check, solve_factor, solve_back, solve_apply, solve_diagonal};

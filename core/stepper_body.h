@@ -22,6 +22,7 @@ typedef struct stepper_body {
     int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
+    const real *(*diagonal)(const work *);                   /* solver_diagonal */
 } stepper_body;
 
 /* The fastest one here. */

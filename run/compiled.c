@@ -174,6 +174,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
     c->host.factor = library->factor;
     c->host.back = library->back;
     c->host.apply = library->apply;
+    c->host.diagonal = library->diagonal;
     c->count++;
     return &o->body;
 }

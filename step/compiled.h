@@ -102,8 +102,18 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 #ifndef GROUPS
 static inline int solve_factor(work *w, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
-    return host_of(w)->factor(w, s, ax, av, t, x, v);
+    const compiled_host *host = host_of(w);
+    if (ROW(w, family) != TWO_STEP) return host->factor(w, s, ax, av, t, x, v);
+    if (w->diagonal && w->slope == *av) return STEP_OK;
+    int bad = host->factor(w, s, ax, av, t, x, v);
+    w->diagonal = bad ? NULL : host->diagonal(w);
+    w->slope = *av;
+    return bad;
 }
-static inline void solve_back(work *w, real *r) { host_of(w)->back(w, r); }
+static inline void solve_back(work *w, real *r)
+{
+    if (ROW(w, family) == TWO_STEP && w->diagonal) EACHV(k) r[k] /= w->diagonal[k];
+    else host_of(w)->back(w, r);
+}
 static inline void solve_apply(work *w, clock c, const real *y, real *out) { host_of(w)->apply(w, c, y, out); }
 #endif

@@ -35,6 +35,7 @@ __attribute__((flatten)) int motus_run(work *given, whole steps)
     enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 };      /* the stride that the library's solver expects */
     for (whole some; steps > 0; steps -= some) {
         work local = *given, *w = &local;
+        w->diagonal = NULL;
 #if SMALL
         some = steps < SPAN ? steps : SPAN;
         real room[ARRAYS * STRIDE];

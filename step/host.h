@@ -10,6 +10,7 @@ typedef struct compiled_host {
     int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
+    const real *(*diagonal)(const work *);                   /* the factored matrix, where it is that and stays so; else NULL */
     const struct tiling *tiling;     /* of families whose outer indices can be taken apart; NULL */
     void (*parallel)(int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);      /* parallel_for */
 } compiled_host;

@@ -67,6 +67,9 @@ typedef struct work {
     const clock *table;            /* the includer's: of what depends on time alone, from step `first` on; NULL where there is none now */
     whole first;
 
+    const real *diagonal;          /* the includer's: the matrix of an implicit kick, where it is diagonal and constant, for this slope */
+    clock slope;
+
     size_t which;                  /* what went wrong: entry of v, or of x where !in_v */
     bool in_v;
     void *user;                    /* the includer's */
