@@ -12,6 +12,7 @@
 #include <string.h>
 
 enum { CHUNK = 512, ALIGNMENT = 64, BATCH_BYTES = 1 << 20 };
+#define LITTLE_WORK 1e6              /* operations: some 0.1 ms in lanes */
 
 /* ---- a block ---- */
 
@@ -22,6 +23,7 @@ typedef struct batch {               /* blocks that go through time together */
     double *const *results, *stopped;
     double *memory, *threads, *table;        /* of blocks, of threads */
     size_t block_size, thread_size;
+    int thread_count;
     work plan;                       /* of the present leg; n: steps taken */
     int64_t first_row, steps, every; /* the present chunk */
     int64_t looks;                   /* recorded so far */
@@ -218,7 +220,7 @@ static void fill_table(batch *b, int64_t steps)
     b->l->table(&j, b->table, steps + 1);
 }
 
-static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->l->def.threads, b->blocks, body, b); }
+static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->thread_count, b->blocks, body, b); }
 
 /* The next chunk: steps to take, and how often to look on the way. The first step is a chunk of its own; the look at the end is not among them. */
 static void next_chunk(batch *b)
@@ -296,7 +298,9 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
 {
     const lanes_def *d = &l->def;
     const size_t spare = l->carry_size > lines(l, d->place_count) ? l->carry_size : lines(l, d->place_count);
-    batch b = {.l = l, .values = values, .results = results, .stopped = stopped};
+    /* To wake threads takes longer than a little work. */
+    const bool little = (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
+    batch b = {.l = l, .values = values, .results = results, .stopped = stopped, .thread_count = little ? 1 : d->threads};
     b.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
     b.thread_size = l->work_size + l->look_size + spare;
     const size_t block = (size_t)l->block, all = (count + block - 1) / block;
