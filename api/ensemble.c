@@ -1,6 +1,8 @@
 /* Ensembles. See ensemble.h. */
 #include "api/ensemble.h"
 
+#include "api/choice.h"
+
 #include "run/parallel.h"
 #include "run/reduction.h"
 
@@ -44,11 +46,6 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
         return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d", MOTUS_THREADS_MAX, d->threads);
     if (d->lanes < 0 || d->lanes > ENSEMBLE_LANES_MAX || (d->lanes & (d->lanes - 1)))
         return fail(err, MOTUS_ARGUMENT, "lanes are 0 (as many as suits) or a power of two up to %d, not %d", ENSEMBLE_LANES_MAX, d->lanes);
-    if (d->machine && strcmp(d->machine, "auto") && strcmp(d->machine, "compiled") && strcmp(d->machine, "interpreter")) {
-        fail(err, MOTUS_ARGUMENT, "there is no machine %s", d->machine);
-        hint(err, "the machines are auto, interpreter and compiled");
-        return MOTUS_ARGUMENT;
-    }
     return MOTUS_OK;
 }
 
@@ -128,23 +125,13 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
         e->block = ensemble_block_size(s, &e->chosen);
     if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
         return MOTUS_OK;
-    if (!s->compiled) {
-        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
-        if (status != MOTUS_OK)
-            return status;
-    }
-    s->compiled_problem.traits = s->problem.traits;
-    const char *why = compiled_prepare(s->compiled, &e->chosen, false);
+    const char *why;
+    motus_status status = choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &why, err);
+    if (status != MOTUS_OK)
+        return status;
     if (!why) {
         e->machine = &machine_compiled;
         return MOTUS_OK;
-    }
-    if (s->arena.failed)
-        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
-    if (wanted && !strcmp(wanted, "compiled")) {
-        fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
-        hint(err, "--machine interpreter needs no compiler");
-        return MOTUS_TOOL;
     }
     snprintf(e->note, sizeof e->note, "%s", why);
     return MOTUS_OK;
@@ -154,13 +141,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
 {
     motus_system *s = e->system;
     const motus_method *card;
-    motus_settings set;
-    motus_settings_of(s, &set);
-    motus_status status = row_choose(d->method ? d->method : set.method ? set.method : "verlet", &e->chosen, &card, err);
-    if (status == MOTUS_OK && (card->forces != MOTUS_FORCES_XVT || !strcmp(card->name, "boris")) && !system_sample_gyroscopic(s))
-        status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
-    if (status == MOTUS_OK)
-        status = row_admits(&e->chosen, &s->problem.traits, err);
+    motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
     if (status == MOTUS_OK)
         status = run_timing(s, &e->chosen, d->step, d->until, NAN, &e->timing, err);
     if (status == MOTUS_OK)
@@ -168,10 +149,14 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     if (status == MOTUS_OK && s->model)
         status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
     const char *wanted = d->machine;
-    if (status == MOTUS_OK && s->model && d->expected && (!wanted || !strcmp(wanted, "auto")) &&
-        run_worth_compiling(s, card, (double)d->expected * (double)e->timing.total) < 1)
+    bool automatic, compiled;
+    if (status == MOTUS_OK)
+        status = choice_machine(wanted, &automatic, &compiled, err);
+    if (status == MOTUS_OK && s->model && d->expected && automatic && choice_worth(s, card, (double)d->expected * (double)e->timing.total) < 1) {
+        compiled = false;
         wanted = "interpreter";
-    if (status == MOTUS_OK && s->model && !(wanted && !strcmp(wanted, "interpreter")))
+    }
+    if (status == MOTUS_OK && s->model && compiled)
         status = try_lanes(e, d, err);
     if (status == MOTUS_OK && !e->lanes)
         status = choose_single(e, wanted, err);

@@ -81,6 +81,7 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
             motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
             if (status != MOTUS_OK)
                 return status;
+            y->compiled_problem.traits = y->problem.traits;
         }
     }
     if (y->problem.nx)

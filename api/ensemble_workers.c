@@ -4,6 +4,8 @@
  */
 #include "api/ensemble.h"
 
+#include "api/choice.h"
+
 #include "run/parallel.h"
 
 #include <math.h>
@@ -20,12 +22,11 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
         motus_status status = system_again(e->system, &s, err);
         if (status == MOTUS_OK && s->model)
             status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
-        if (status == MOTUS_OK && e->machine == &machine_compiled) {
-            status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
-            const char *why = status == MOTUS_OK ? compiled_prepare(s->compiled, &e->chosen, false) : NULL;
-            if (why)
-                status = s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the compiled model") : fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
-        }
+        if (status == MOTUS_OK && !system_sample_gyroscopic(s))
+            status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+        const char *why;
+        if (status == MOTUS_OK && e->machine == &machine_compiled)
+            status = choice_compile(s, &e->chosen, true, false, &why, err);
         if (status != MOTUS_OK) {
             motus_system_destroy(s == e->system ? NULL : s);
             return status;

@@ -1,6 +1,8 @@
 /* Runs. See run.h. */
 #include "api/run.h"
 
+#include "api/choice.h"
+
 #include "run/cache.h"
 
 #include <math.h>
@@ -73,58 +75,29 @@ static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *er
 
 /* ---- which machine ---- */
 
-/* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
-#define WORTH_COMPILING 1e8
-/* What a compiler takes grows with the text: this much work for each operation that stands in it. */
-#define WORTH_AN_OPERATION 1e6
-/* From this part of that on it is worth a millisecond to see whether the model is compiled already. */
-#define WORTH_LOOKING 0.01
-
-double run_worth_compiling(const motus_system *s, const motus_method *card, double steps)
-{
-    const double nodes = (double)s->model->graph->count;
-    const double operations = steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
-    return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
-}
-
 static motus_status choose_machine(motus_run *r, const char *wanted, motus_error *err)
 {
     motus_system *s = r->system;
+    bool automatic, compiled;
     r->machine = s->machine;
     r->problem = &s->problem;
     r->note = "";
-    bool automatic = !wanted || !strcmp(wanted, "auto");
-    if (!automatic && strcmp(wanted, "compiled") && strcmp(wanted, "interpreter")) {
-        fail(err, MOTUS_ARGUMENT, "there is no machine %s", wanted);
-        hint(err, "the machines are auto, interpreter and compiled");
-        return MOTUS_ARGUMENT;
-    }
-    if (!s->model || (!automatic && !strcmp(wanted, "interpreter")))
+    motus_status status = choice_machine(wanted, &automatic, &compiled, err);
+    if (status != MOTUS_OK || !s->model || !compiled)
+        return status;
+    const double worth = choice_worth(s, r->card, (double)r->total);
+    if (automatic && worth < CHOICE_LOOK)
         return MOTUS_OK;
-    const double worth = run_worth_compiling(s, r->card, (double)r->total);
-    if (automatic && worth < WORTH_LOOKING)
-        return MOTUS_OK;
-    if (!s->compiled) {
-        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
-        if (status != MOTUS_OK)
-            return status;
-    }
-    s->compiled_problem.traits = s->problem.traits;
     const bool kept = automatic && worth < 1;
-    const char *why = compiled_prepare(s->compiled, &r->chosen, kept);
-    if (!why) {
+    const char *why;
+    status = choice_compile(s, &r->chosen, !automatic, kept, &why, err);
+    if (status == MOTUS_OK && !why) {
         r->machine = &machine_compiled;
         r->problem = &s->compiled_problem;
-    } else if (s->arena.failed) {
-        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
-    } else if (!automatic) {
-        fail(err, MOTUS_TOOL, "the model could not be compiled: %s", why);
-        hint(err, "--machine interpreter needs no compiler");
-        return MOTUS_TOOL;
-    } else if (!kept) {
+    } else if (status == MOTUS_OK && !kept) {
         r->note = why;
     }
-    return MOTUS_OK;
+    return status;
 }
 
 const char *motus_run_note(const motus_run *r) { return r ? r->note : ""; }
@@ -134,13 +107,11 @@ const char *motus_compiled_text(motus_system *s, const char *method, motus_error
     chosen c;
     const motus_method *card;
     size_t length;
-    motus_settings set;
-    motus_settings_of(s, &set);
     if (!s || !s->model) {
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
     }
-    if (row_choose(method ? method : set.method ? set.method : "verlet", &c, &card, err) != MOTUS_OK || row_admits(&c, &s->problem.traits, err) != MOTUS_OK)
+    if (choice_method(s, method, &c, &card, err) != MOTUS_OK)
         return NULL;
     if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err) != MOTUS_OK)
         return NULL;
@@ -201,14 +172,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->piece = 1;
     r->context = def.context;
     modes m = modes_enter();
-    motus_settings set;
-    motus_settings_of(s, &set);
-    motus_status status = row_choose(def.method ? def.method : set.method ? set.method : "verlet", &r->chosen, &r->card, err);
-    bool may_turn = status == MOTUS_OK && (r->card->forces != MOTUS_FORCES_XVT || !strcmp(r->card->name, "boris"));
-    if (may_turn && !system_sample_gyroscopic(s))
-        status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
-    if (status == MOTUS_OK)
-        status = row_admits(&r->chosen, &s->problem.traits, err);
+    motus_status status = choice_method(s, def.method, &r->chosen, &r->card, err);
     if (status == MOTUS_OK)
         status = plan(r, &def, err);
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))

@@ -36,8 +36,6 @@ struct motus_run {
 /* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
 typedef struct timing { double t0, h, until, last; int64_t whole, total; } timing;
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *, motus_error *);
-/* Whether so many steps of a model are worth a compiler's time, 1 and more, or at least a look whether it is compiled already, 0.01 and more. */
-double run_worth_compiling(const motus_system *, const motus_method *, double steps);
 double run_time(const motus_run *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
 

@@ -1,0 +1,59 @@
+/* See choice.h. */
+#include "api/choice.h"
+
+#include <string.h>
+
+motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card, motus_error *err)
+{
+    motus_settings set;
+    motus_settings_of(s, &set);
+    motus_status status = row_choose(name ? name : set.method ? set.method : "verlet", chosen, card, err);
+    if (status != MOTUS_OK)
+        return status;
+    const bool may_turn = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
+    if (may_turn && !system_sample_gyroscopic(s))
+        return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+    return row_admits(chosen, &s->problem.traits, err);
+}
+
+motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *err)
+{
+    *automatic = !wanted || !strcmp(wanted, "auto");
+    *compiled = *automatic || !strcmp(wanted, "compiled");
+    if (*compiled || !strcmp(wanted, "interpreter"))
+        return MOTUS_OK;
+    fail(err, MOTUS_ARGUMENT, "there is no machine %s", wanted);
+    hint(err, "the machines are auto, interpreter and compiled");
+    return MOTUS_ARGUMENT;
+}
+
+motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bool kept, const char **why, motus_error *err)
+{
+    *why = NULL;
+    if (!s->compiled) {
+        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
+        if (status != MOTUS_OK)
+            return status;
+    }
+    s->compiled_problem.traits = s->problem.traits;
+    *why = compiled_prepare(s->compiled, chosen, kept);
+    if (*why && s->arena.failed)
+        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
+    if (!*why || !must)
+        return MOTUS_OK;
+    fail(err, MOTUS_TOOL, "the model could not be compiled: %s", *why);
+    hint(err, "--machine interpreter needs no compiler");
+    return MOTUS_TOOL;
+}
+
+/* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
+#define WORTH_COMPILING 1e8
+/* What a compiler takes grows with the text: this much work for each operation that stands in it. */
+#define WORTH_AN_OPERATION 1e6
+
+double choice_worth(const motus_system *s, const motus_method *card, double steps)
+{
+    const double nodes = (double)s->model->graph->count;
+    const double operations = steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
+    return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
+}
