@@ -3,7 +3,7 @@
  *
  * The law is 1 ulp, for pow and erf 2, over all doubles. `functions_test N` takes N random arguments for each function (100000
  * without), and always the hard ones below and the neighbours of every bound in the texts. The largest error seen may not exceed the
- * committed one, which is what 1e6 arguments gave, rounded up, and 0.02: a worse one is news, to be written down here and in
+ * committed one, which is what 1e7 arguments gave, rounded up, and 0.02: a worse one is news, to be written down here and in
  * bench/results/functions.txt.
  */
 #include <math.h>
@@ -37,21 +37,21 @@
 /* name, arguments, usual range of each, law, committed error in ulp, hash of the results for 1e5 arguments */
 #define EACH_FUNCTION(X)                                                                                              \
     X(sin, 1, -10, 10, 0, 0, 1, 0.62, 0x634995452ae2f3cd)                                                             \
-    X(cos, 1, -10, 10, 0, 0, 1, 0.62, 0x5a93fa9116683e1d)                                                             \
-    X(tan, 1, -10, 10, 0, 0, 1, 0.68, 0x35335f612bfeab05)                                                             \
+    X(cos, 1, -10, 10, 0, 0, 1, 0.63, 0x5a93fa9116683e1d)                                                             \
+    X(tan, 1, -10, 10, 0, 0, 1, 0.72, 0x35335f612bfeab05)                                                             \
     X(asin, 1, -1, 1, 0, 0, 1, 0.68, 0x44316d1b562ba7d7)                                                              \
-    X(acos, 1, -1, 1, 0, 0, 1, 0.65, 0x0469c0e586666c59)                                                              \
-    X(atan, 1, -5, 5, 0, 0, 1, 0.67, 0xdbd7df4a0dda48f2)                                                              \
+    X(acos, 1, -1, 1, 0, 0, 1, 0.67, 0x0469c0e586666c59)                                                              \
+    X(atan, 1, -5, 5, 0, 0, 1, 0.69, 0xdbd7df4a0dda48f2)                                                              \
     X(atan2, 2, -5, 5, -5, 5, 1, 0.77, 0xbb40dcde57812c2a)                                                            \
-    X(sinh, 1, -5, 5, 0, 0, 1, 0.57, 0xd2c85a6a45105ab8)                                                              \
-    X(cosh, 1, -5, 5, 0, 0, 1, 0.54, 0xa5bd50ba69ae2af4)                                                              \
-    X(tanh, 1, -5, 5, 0, 0, 1, 0.57, 0x9a65fbf419502463)                                                              \
-    X(exp, 1, -5, 5, 0, 0, 1, 0.61, 0x0a41f49fc6d85ee0)                                                               \
-    X(log, 1, 0, 3, 0, 0, 1, 0.65, 0x457063b4d693498d)                                                                \
+    X(sinh, 1, -5, 5, 0, 0, 1, 0.58, 0xd2c85a6a45105ab8)                                                              \
+    X(cosh, 1, -5, 5, 0, 0, 1, 0.55, 0xa5bd50ba69ae2af4)                                                              \
+    X(tanh, 1, -5, 5, 0, 0, 1, 0.56, 0x9a65fbf419502463)                                                              \
+    X(exp, 1, -5, 5, 0, 0, 1, 0.68, 0x0a41f49fc6d85ee0)                                                               \
+    X(log, 1, 0, 3, 0, 0, 1, 0.68, 0x457063b4d693498d)                                                                \
     X(pow, 2, 0, 50, -150, 150, 2, 0.77, 0x48e4b480b86a4b26)                                                          \
     X(cbrt, 1, -10, 10, 0, 0, 1, 0.52, 0x2c04977b808dfb81)                                                            \
-    X(hypot, 2, -5, 5, -5, 5, 1, 0.68, 0x4c257765b02b8fce)                                                            \
-    X(erf, 1, -6, 6, 0, 0, 2, 1.13, 0x7c792896dd2b4c20)
+    X(hypot, 2, -5, 5, -5, 5, 1, 0.77, 0x4c257765b02b8fce)                                                            \
+    X(erf, 1, -6, 6, 0, 0, 2, 1.24, 0x7c792896dd2b4c20)
 
 enum { BLOCK = 32, HASHED = 100000 };
 
