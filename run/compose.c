@@ -111,6 +111,22 @@ static void add_family(emit_text *t, const composition *c)
 
 /* ---- functions and operations ---- */
 
+int compose_width(void)
+{
+#if defined __x86_64__
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
+        return 8;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return 4;
+    return 2;
+#elif defined __aarch64__
+    return 2;
+#else
+    return 1;
+#endif
+}
+
 /* The texts of the functions that a set of operations needs. */
 static void add_functions(emit_text *t, uint64_t used)
 {
@@ -165,6 +181,21 @@ static bool by_number(const row *r, const traits *t)
     return (r->family == SPLITTING && !r->gyroscopic) || r->family == RUNGE_KUTTA || (r->family == TWO_STEP && !t->velocity);
 }
 
+static void add_windows(emit *e)
+{
+    emit_text *t = &e->text;
+    add_text(t, "step/tiling.h");
+    add_text(t, "step/window.h");
+    emit_add(t, "#define NUMBER double\n#define NUMBER_OF(x) (x)\n#define NUMBER_AT(array, k) (array)[k]\n#define window_number window_keep\n");
+    add_text(t, "step/window_put.h");
+    if (!e->uses_vectors)
+        return;
+    emit_add(t, "#define NUMBER reals\n#define NUMBER_OF(x) MANY(x)\n#define NUMBER_AT(array, k) (*(reals_anywhere *)&(array)[k])\n"
+                "#define window_number window_keep_many\n#undef FMA\n#define FMA(a, b, c) MANY_FUSED(a, b, c)\n");
+    add_text(t, "step/window_put.h");
+    emit_add(t, "#undef FMA\n#define FMA(a, b, c) fma(a, b, c)\n");
+}
+
 /* ---- the whole ---- */
 
 bool compose(emit *e, const composition *c)
@@ -174,6 +205,7 @@ bool compose(emit *e, const composition *c)
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c->chosen->row, &c->problem->traits);
     e->literal = structure;
     e->arrays = c->model->arrays;
+    e->vectors = !lanes && compose_width() > 1;
     for (size_t i = 0; i < c->program_count; i++) {
         e->separate = !i && c->model->graph->count > FORCE_INLINE_MAX;
         e->windowed = !i && windowed;
@@ -182,7 +214,7 @@ bool compose(emit *e, const composition *c)
     if (lanes)
         e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX);          /* what is recorded wants them */
     const emit_text bodies = *t;
-    const int of_time = e->terms ? 4 : 0, width = lanes ? c->width : of_time;
+    const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
@@ -201,7 +233,7 @@ bool compose(emit *e, const composition *c)
         emit_add(t, "\n");
     }
     if (windowed)
-        emit_add(t, "#define WINDOWED 1\n#define LOCAL %d\n#define COMPANIONS %d\n", local, c->problem->traits.companions);
+        emit_add(t, "#define ADVANCE_STEP __attribute__((noinline)) static\n#define WINDOWED 1\n#define LOCAL %d\n#define COMPANIONS %d\n", local, c->problem->traits.companions);
     if (e->terms)
         emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
     if (!lanes)
@@ -212,15 +244,14 @@ bool compose(emit *e, const composition *c)
     add_text(t, "step/work.h");
     add_text(t, "step/host.h");
     if (e->wraps)
-        emit_add(t, "static inline int64_t wrapped(int64_t k, int64_t n) { return (k %% n + n) %% n; }\n");
-    if (windowed) {
-        add_text(t, "step/tiling.h");
-        add_text(t, "step/window.h");
+        emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"
+                    "static inline int64_t wrapped(int64_t k, int64_t n) { return (uint64_t)k < (uint64_t)n ? k : (k %% n + n) %% n; }\n");
+    if (e->uses_vectors) {
+        emit_add(t, "#define WIDTH %d\n", width);
+        add_text(t, "step/index_lanes.h");
     }
-    if (e->indices)
-        emit_add(t, "/* (double)j for |j| < 2^51, which processors without an instruction for that can do in lanes. */\n"
-                    "static inline double index_number(int64_t j)\n{\n    union { int64_t i; double v; } x = {j + 0x4338000000000000};\n"
-                    "    return x.v - 0x1.8p52;\n}\n");
+    if (windowed)
+        add_windows(e);
     emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
     add_text(t, "step/compiled.h");
     if (lanes) {

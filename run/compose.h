@@ -23,6 +23,8 @@ typedef struct composition {
     const char *const *last;             /* the texts that stand last, up to a NULL */
 } composition;
 
+/* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
+int compose_width(void);
 /* Writes into e->text; e->lanes and e->varied must be set. False: the arena failed. */
 bool compose(emit *e, const composition *);
 

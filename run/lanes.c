@@ -16,22 +16,6 @@ enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
-static int best_width(void)
-{
-#if defined __x86_64__
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
-        return 8;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return 4;
-    return 2;
-#elif defined __aarch64__
-    return 2;
-#else
-    return 1;
-#endif
-}
-
 /* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one is company enough for
  * itself, and a compiler has enough to do. */
 static int best_groups(const lanes_def *d)
@@ -239,7 +223,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     lanes *l = arena_take(m->arena, sizeof *l);
     if (m->arena->failed)
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    *l = (lanes){.def = *d, .width = best_width()};
+    *l = (lanes){.def = *d, .width = compose_width()};
     if (list_looks(d, looks, &outs) == SIZE_MAX) {
         snprintf(note, size, "more than %d quantities are recorded", LOOKS_MAX);
         return MOTUS_TOOL;

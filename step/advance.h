@@ -1,5 +1,8 @@
 /* A STEP, by family. What it evaluates at the time of n is the caller's to count on: the loop owns n, and time is t0 + n h, never summed. */
-static inline int advance_step(work *w)
+#ifndef ADVANCE_STEP
+#define ADVANCE_STEP static inline       /* a compiled model of families has it compiled once, and called */
+#endif
+ADVANCE_STEP int advance_step(work *w)
 {
     switch (ROW(w, family)) {
     case SPLITTING: return splitting_step(w);

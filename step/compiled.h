@@ -14,8 +14,8 @@ static inline const compiled_host *host_of(const work *w) { return **(const comp
 
 #define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
 #if WINDOWED                         /* pass.h: of all outer indices, and of those that are the workspace's turn */
-static inline void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
-static inline void pass_force(work *, clock t, const clock *T, real *x, real *v, real *a);
+static void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
+static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *a);
 #define FORCE(host, t, T, x, v, a) pass_all(host, t, T, x, v, a)
 #define FORCE_OF(w, t, T, x, v, a) pass_force(w, t, T, x, v, a)
 #else

@@ -29,8 +29,10 @@ static inline int compiled_steps(work *w, whole steps)
 #define compiled_steps advance_run
 #endif
 
-/* Flat: a workspace that no call sees can live in registers, and what the plan says is known everywhere. */
-__attribute__((flatten)) int motus_run(work *given, whole steps)
+#if SMALL                        /* a workspace that no call sees can live in registers, and what the plan says is known everywhere */
+__attribute__((flatten))
+#endif
+int motus_run(work *given, whole steps)
 {
     enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 };      /* the stride that the library's solver expects */
     for (whole some; steps > 0; steps -= some) {

@@ -19,7 +19,7 @@ static inline bool advance_finite(const work *w)
 }
 
 /* STEP_DIVERGED where the main line holds an infinity or a NaN; w->which, w->in_v say where. */
-static int advance_check(work *w)
+static inline int advance_check(work *w)
 {
     const real *restrict x = w->x, *restrict v = ROW(w, two_step) == VERLET_LITERAL ? w->x : w->v;
     if (advance_finite(w)) return STEP_OK;
@@ -31,19 +31,19 @@ static int advance_check(work *w)
     w->in_v = true;
     EACHV(k) if (!FINITE(v[k])) {
         w->which = k;
-        return STEP_DIVERGED;
+        break;
     }
     return STEP_DIVERGED;
 }
 
-/* `steps` more; stops in the middle of a step that fails. */
+/* `steps` more; stops in the middle of a step that fails. Where a number is no longer finite, advance_check says afterwards. */
 static int advance_run(work *w, whole steps)
 {
     for (; steps > 0; steps--) {
         int bad = advance_step(w);
         if (bad) return bad;
         w->n++;
-        if (w->check && !advance_finite(w)) return advance_check(w);
+        if (w->check && !advance_finite(w)) return STEP_DIVERGED;
     }
     return STEP_OK;
 }

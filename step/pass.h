@@ -12,7 +12,7 @@ __attribute__((noinline, flatten)) static void pass_keep(const compiled_host *ho
 }
 
 /* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as well. */
-static inline void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
+static void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
 {
     const tiling *in = host->tiling;
     for (size_t i = 0; i < in->stills; i++)
@@ -22,7 +22,7 @@ static inline void pass_all(const compiled_host *host, clock t, const clock *T, 
 
 #if LOCAL
 /* The numbers in the window that no equation moves: their acceleration is 0. */
-static inline void pass_still(const work *w, const real *x, real *v, real *a, const window_put *move)
+__attribute__((noinline)) static void pass_still(const work *w, real *x, real *v, real *a, const window_put *move)
 {
     const tiling *in = host_of(w)->tiling;
     for (int p = 0; p < in->parts; p++) {
@@ -39,7 +39,7 @@ static inline void pass_still(const work *w, const real *x, real *v, real *a, co
     }
 }
 
-static inline void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+__attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
     window_move(w, host_of(w)->tiling->around);
     pass_still(w, x, v, a, &(window_put){.pass = false});
@@ -56,7 +56,7 @@ __attribute__((noinline, flatten)) static void pass_move(const compiled_host *ho
 
 /* Stage i: v += b a, x += c v. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
-static inline void pass_run(work *w, int i, clock b, clock c)
+__attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 {
     const window_put move = {true, b, c, w->ex, w->ev};
     const clock t = time_in(w, FACT(w, c)[i]);
@@ -92,7 +92,7 @@ static void pass_task(void *ctx, size_t k, int thread)
 
 enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to even out; and cells that are worth a task */
 
-static inline void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+__attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
     const compiled_host *host = host_of(w);
     const whole most = (host->tiling->last - host->tiling->first + 1) / PASS_CELLS_MIN;

@@ -56,21 +56,5 @@ static inline void window_open(work *w)
  * the accelerations would, so that neighbours still find the old one. */
 typedef struct window_put { bool pass; clock b, c; real *ex, *ev; } window_put;
 
-static inline void window_keep(const window_put *how, const real *restrict x, real *restrict v, real *restrict a, size_t k, real value)
-{
-    if (!how->pass) {
-        a[k] = value;
-        return;
-    }
-    real at = x[k];
-    if (ROW(how, compensated)) {
-        real *restrict ex = how->ex, *restrict ev = how->ev;
-        ADVANCE_EXACTLY(v[k], ev[k], how->b, value);
-        ADVANCE_EXACTLY(at, ex[k], how->c, v[k]);
-    } else {
-        ADVANCE(v[k], how->b, value);
-        ADVANCE(at, how->c, v[k]);
-    }
-    a[k] = at;
-}
 #define PUT(k, value) window_keep(move, x, v, a, (size_t)(k), (value))
+#define PUTS(k, value) window_keep_many(move, x, v, a, (size_t)(k), (value))

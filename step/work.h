@@ -103,7 +103,7 @@ static inline clock time_in(const work *w, clock c) { return TIME_IN(w, (clock)w
 #define ADVANCE(y, c, z) ((y) = FMA((c), (z), (y)))
 #define ADVANCE_EXACTLY(y, e, c, z)                                 \
     do {                                                            \
-        real p_ = FMA((c), (z), (e)), s_ = (y) + p_, b_ = s_ - (y); \
+        __typeof__(y) p_ = FMA((c), (z), (e)), s_ = (y) + p_, b_ = s_ - (y); \
         (e) = ((y) - (s_ - b_)) + (p_ - b_);                        \
         (y) = s_;                                                   \
     } while (0)

@@ -1,0 +1,53 @@
+/* Lanes along an index: a loop over the cells of a family, or over the terms of a sum, takes WIDTH values of its index at a time.
+ *
+ * Invariant: lane l is the l-th of them, and sees the operations that it would see alone. What is left of the loop is taken one by one.
+ */
+typedef reals reals_anywhere __attribute__((aligned(8)));      /* GCC and clang let a vector alias its elements */
+
+/* Keeps a vector in a register. Compilers like to read memory again for every use of a value; here that is what bounds the speed. */
+#if (defined __AVX512F__ && WIDTH == 8)
+#define INDEX_KEEP(x) __asm__("" : "+v"(x))
+#elif (defined __AVX__ && WIDTH == 4) || (defined __SSE2__ && WIDTH == 2)
+#define INDEX_KEEP(x) __asm__("" : "+x"(x))
+#elif defined __aarch64__ && WIDTH == 2
+#define INDEX_KEEP(x) __asm__("" : "+w"(x))
+#else
+#define INDEX_KEEP(x) ((void)0)
+#endif
+
+/* In the loop over the rest, which is too short to be turned into lanes again. */
+#define INDEX_REST __asm__ volatile("")
+
+static inline reals index_load(const double *p)
+{
+    reals r = *(const reals_anywhere *)p;
+    INDEX_KEEP(r);
+    return r;
+}
+
+static inline void index_store(double *p, reals r) { *(reals_anywhere *)p = r; }
+
+/* j, j + 1, … as numbers. */
+static inline reals index_count(int64_t j)
+{
+#if WIDTH == 8
+    const reals lanes = {0, 1, 2, 3, 4, 5, 6, 7};
+#elif WIDTH == 4
+    const reals lanes = {0, 1, 2, 3};
+#else
+    const reals lanes = {0, 1};
+#endif
+    return lanes + MANY((double)j);
+}
+
+#ifdef WRAPS
+/* On a ring of n numbers, from place k on. */
+static inline reals index_around(const double *ring, int64_t k, int64_t n)
+{
+    k = wrapped(k, n);
+    if (k + WIDTH <= n) return index_load(ring + k);
+    reals r;
+    for (int l = 0; l < WIDTH; l++) LANE_OF(r, l) = ring[wrapped(k + l, n)];
+    return r;
+}
+#endif
