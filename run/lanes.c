@@ -22,11 +22,12 @@ static int best_groups(const lanes_def *d)
 {
     const graph *g = d->model->graph;
     size_t operations = 4 * d->model->nv;
-    for (uint32_t k = 0; k < g->count; k++)
-        operations += g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    for (uint32_t k = 0; k < g->count; k++)          /* what depends on time alone is in the table */
+        operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
     for (size_t k = 0; k < d->source_count; k++)
         operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
-    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : stepper_plan(d->problem, d->chosen, 0, 1).stages) * operations;
+    const work plan = stepper_plan(d->problem, d->chosen, 0, 1);
+    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : plan.merged ? plan.stages - 1 : plan.stages) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }

@@ -9,21 +9,34 @@
 #include "run/parallel.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
-enum { CHUNK = 512, ALIGNMENT = 64, BATCH_BYTES = 1 << 20 };
+enum { CHUNK = 512, ALIGNMENT = 64, ITEM_BYTES = 256 << 10 };      /* an item's blocks fit the second cache */
 #define LITTLE_WORK 1e6              /* operations: some 0.1 ms in lanes */
 
 /* ---- a block ---- */
 
-typedef struct batch {               /* blocks that go through time together */
+typedef struct crowd {               /* all trajectories of a call */
     lanes *l;
+    size_t count, blocks, most, items;       /* most: blocks in one item of the work */
+    const double *const *values;
+    double *const *results, *stopped;
+    double *memory;                  /* of every thread: blocks, scratch, table */
+    size_t block_size, scratch_size, thread_size;
+    atomic_size_t done;              /* items */
+    atomic_bool cancelled;
+} crowd;
+
+typedef struct batch {               /* blocks that go through time together, in one thread */
+    lanes *l;
+    crowd *crowd;
+    bool told;                       /* progress is reported from here */
     size_t first, count, blocks;     /* trajectories; lanes too many in the last block repeat the last one */
     const double *const *values;
     double *const *results, *stopped;
-    double *memory, *threads, *table;        /* of blocks, of threads */
-    size_t block_size, thread_size;
-    int thread_count;
+    double *memory, *scratch, *table;        /* of blocks; of whichever block is at work; of time */
+    size_t block_size;
     work plan;                       /* of the present leg; n: steps taken */
     int64_t first_row, steps, every; /* the present chunk */
     int64_t looks;                   /* recorded so far */
@@ -47,12 +60,12 @@ static size_t trajectory(const batch *b, size_t block, size_t lane)
 /* A block's memory: its own parameters, what follows from them, the state, what is kept, when a lane stopped. */
 static double *stopped_of(const batch *b, size_t block) { return b->memory + (block + 1) * b->block_size - lines(b->l, 1); }
 
-static lanes_job job_of(const batch *b, size_t block, int thread)
+static lanes_job job_of(const batch *b, size_t block)
 {
     const lanes *l = b->l;
     const model *m = l->def.model;
     const size_t n = (size_t)l->block;
-    double *p = b->memory + block * b->block_size, *mine = b->threads + (size_t)thread * b->thread_size, *look = mine + l->work_size;
+    double *p = b->memory + block * b->block_size, *look = b->scratch + l->work_size;
     lanes_job j = {.plan = &b->plan, .table = b->table, .first = b->first_row, .places = l->places, .value_count = (int64_t)l->def.place_count,
                    .from_x = l->from_x, .from_v = l->from_v, .x0 = m->x0, .v0 = m->v0, .record_count = (int64_t)l->def.source_count, .out_size = l->outs,
                    .first_look = b->looks == 0, .ends = b->ends, .until = l->def.until};
@@ -61,7 +74,7 @@ static lanes_job job_of(const batch *b, size_t block, int thread)
     j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};
     j.carry = p + l->own_size + l->bound_size;
     j.kept = j.carry + l->carry_size;
-    j.room = mine;
+    j.room = b->scratch;
     j.x = look;
     j.v = look + m->nx * n;
     j.a = l->wants_a ? look + (m->nx + m->nv) * n : NULL;
@@ -69,15 +82,14 @@ static lanes_job job_of(const batch *b, size_t block, int thread)
     return j;
 }
 
-static double *spare_of(const batch *b, int thread) { return b->threads + (size_t)thread * b->thread_size + b->l->work_size + b->l->look_size; }
+static double *spare_of(const batch *b) { return b->scratch + b->l->work_size + b->l->look_size; }
 
-static void begin_block(void *ctx, size_t block, int thread)
+static void begin_block(const batch *b, size_t block)
 {
-    const batch *b = ctx;
     const lanes *l = b->l;
     const model *m = l->def.model;
-    lanes_job j = job_of(b, block, thread);
-    double *values = spare_of(b, thread), *stopped = stopped_of(b, block);
+    lanes_job j = job_of(b, block);
+    double *values = spare_of(b), *stopped = stopped_of(b, block);
     const size_t width = (size_t)l->width, count = l->def.place_count;
     for (size_t g = 0; g < (size_t)l->groups; g++) {
         for (size_t k = 0; k < count; k++)
@@ -161,12 +173,11 @@ static bool lost_another(const lanes *l, const double *numbers, size_t elements,
     return any;
 }
 
-static void run_block(void *ctx, size_t block, int thread)
+static void run_block(const batch *b, size_t block)
 {
-    const batch *b = ctx;
     const lanes *l = b->l;
-    lanes_job j = job_of(b, block, thread);
-    double *before = spare_of(b, thread), *stopped = stopped_of(b, block);
+    lanes_job j = job_of(b, block);
+    double *before = spare_of(b), *stopped = stopped_of(b, block);
     memcpy(before, j.carry, l->carry_size * sizeof(double));
     if (b->plan.n == 0)
         l->first(&j);
@@ -176,19 +187,17 @@ static void run_block(void *ctx, size_t block, int thread)
         trace(b, j, before, stopped);
 }
 
-static void look_at_block(void *ctx, size_t block, int thread)
+static void look_at_block(const batch *b, size_t block)
 {
-    const batch *b = ctx;
-    lanes_job j = job_of(b, block, thread);
+    lanes_job j = job_of(b, block);
     b->l->look(&j);
     stop_looked(b->l, &j, stopped_of(b, block));
 }
 
 /* The shorter last step is a leg of its own, from the state at the end of the whole ones. */
-static void turn_block(void *ctx, size_t block, int thread)
+static void turn_block(const batch *b, size_t block)
 {
-    const batch *b = ctx;
-    lanes_job j = job_of(b, block, thread);
+    lanes_job j = job_of(b, block);
     j.record_count = 0;
     b->l->look(&j);
     b->l->set(&j);
@@ -197,7 +206,7 @@ static void turn_block(void *ctx, size_t block, int thread)
 static void end_block(const batch *b, size_t block)
 {
     const lanes *l = b->l;
-    const lanes_job j = job_of(b, block, 0);
+    const lanes_job j = job_of(b, block);
     const double *stopped = stopped_of(b, block);
     for (size_t i = 0; i < (size_t)l->block && block * (size_t)l->block + i < b->count; i++) {
         const size_t k = trajectory(b, block, i), all = l->def.source_count * REDUCE_KEPT;
@@ -210,17 +219,32 @@ static void end_block(const batch *b, size_t block)
     }
 }
 
-/* ---- all of them ---- */
+/* ---- through time ---- */
 
 /* What depends on time alone, from the present step on. */
 static void fill_table(batch *b, int64_t steps)
 {
-    const lanes_job j = job_of(b, 0, 0);
+    const lanes_job j = job_of(b, 0);
     b->first_row = b->plan.n;
     b->l->table(&j, b->table, steps + 1);
 }
 
-static void each_block(batch *b, void (*body)(void *, size_t, int)) { parallel_for(b->thread_count, b->blocks, body, b); }
+/* How far all have come, `part` of this batch's way counted; true: enough. */
+static bool tell(batch *b, double part)
+{
+    crowd *c = b->crowd;
+    const lanes_def *d = &b->l->def;
+    const double fraction = ((double)atomic_load(&c->done) + part) / (double)c->items;
+    if (d->progress(d->context, fraction < 1 ? fraction : 1))
+        atomic_store(&c->cancelled, true);
+    return atomic_load(&c->cancelled);
+}
+
+static void each_block(const batch *b, void (*body)(const batch *, size_t))
+{
+    for (size_t k = 0; k < b->blocks; k++)
+        body(b, k);
+}
 
 /* The next chunk: steps to take, and how often to look on the way. The first step is a chunk of its own; the look at the end is not among them. */
 static void next_chunk(batch *b)
@@ -243,7 +267,7 @@ static void next_chunk(batch *b)
     b->every = every;
 }
 
-static motus_status through_time(batch *b, double from, double share, motus_error *err)
+static void through_time(batch *b)
 {
     lanes *l = b->l;
     const lanes_def *d = &l->def;
@@ -271,8 +295,8 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
             each_block(b, look_at_block);
             b->looks++;
         }
-        if (d->progress && d->progress(d->context, from + share * (double)b->plan.n / (double)(d->whole + 1)))
-            return fail(err, MOTUS_CANCELLED, "cancelled");
+        if (b->told && tell(b, (double)b->plan.n / (double)(d->whole + 1)))
+            return;
     }
     if (d->last != 0) {
         fill_table(b, 0);
@@ -291,7 +315,29 @@ static motus_status through_time(batch *b, double from, double share, motus_erro
     b->looks++;
     for (size_t k = 0; k < b->blocks; k++)
         end_block(b, k);
-    return MOTUS_OK;
+}
+
+/* ---- all of them ---- */
+
+/* One item of the work: some blocks, from the start to the end, by one thread, with memory of its own. */
+static void run_item(void *ctx, size_t item, int thread)
+{
+    crowd *c = ctx;
+    const lanes *l = c->l;
+    const size_t first = item * c->most, block = (size_t)l->block;
+    if (atomic_load(&c->cancelled))
+        return;
+    batch b = {.l = c->l, .crowd = c, .values = c->values, .results = c->results, .stopped = c->stopped, .block_size = c->block_size, .first = first * block};
+    b.blocks = c->blocks - first < c->most ? c->blocks - first : c->most;
+    b.count = c->count - b.first < b.blocks * block ? c->count - b.first : b.blocks * block;
+    b.memory = c->memory + (size_t)thread * c->thread_size;
+    b.scratch = b.memory + c->most * c->block_size;
+    b.table = b.scratch + c->scratch_size;
+    b.told = thread == 0 && l->def.progress;         /* the caller's hook is called by the caller's thread */
+    through_time(&b);
+    atomic_fetch_add(&c->done, 1);
+    if (b.told)
+        tell(&b, 0);
 }
 
 motus_status lanes_run(lanes *l, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
@@ -300,27 +346,22 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     const size_t spare = l->carry_size > lines(l, d->place_count) ? l->carry_size : lines(l, d->place_count);
     /* To wake threads takes longer than a little work. */
     const bool little = (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
-    batch b = {.l = l, .values = values, .results = results, .stopped = stopped, .thread_count = little ? 1 : d->threads};
-    b.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
-    b.thread_size = l->work_size + l->look_size + spare;
-    const size_t block = (size_t)l->block, all = (count + block - 1) / block;
-    size_t most = BATCH_BYTES / sizeof(double) / b.block_size;
-    most = most < (size_t)d->threads * 4 ? (size_t)d->threads * 4 : most;
-    most = most > all ? all : most;
-    const size_t table = l->moments * l->e.terms * (CHUNK + 1 + 8 + 8);
-    double *memory = take(d->allocator, most * b.block_size + (size_t)d->threads * b.thread_size + table + ALIGNMENT / sizeof(double), sizeof(double));
+    const size_t threads = little ? 1 : (size_t)d->threads;
+    crowd c = {.l = l, .count = count, .values = values, .results = results, .stopped = stopped, .blocks = (count + (size_t)l->block - 1) / (size_t)l->block};
+    c.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
+    c.scratch_size = l->work_size + l->look_size + spare;
+    c.most = ITEM_BYTES / sizeof(double) / c.block_size;
+    if (c.most > (c.blocks + 4 * threads - 1) / (4 * threads))
+        c.most = (c.blocks + 4 * threads - 1) / (4 * threads);
+    if (c.most == 0)
+        c.most = 1;
+    c.thread_size = c.most * c.block_size + c.scratch_size + (l->moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c.items = (c.blocks + c.most - 1) / c.most;
+    double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)
-        return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories", most * block);
-    b.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
-    b.threads = b.memory + most * b.block_size;
-    b.table = b.threads + (size_t)d->threads * b.thread_size;
-    motus_status status = MOTUS_OK;
-    for (size_t first = 0; first < all && status == MOTUS_OK; first += most) {
-        b.first = first * block;
-        b.blocks = all - first < most ? all - first : most;
-        b.count = count - b.first < b.blocks * block ? count - b.first : b.blocks * block;
-        status = through_time(&b, (double)b.first / (double)count, (double)b.count / (double)count, err);
-    }
+        return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories at once", threads * c.most * (size_t)l->block);
+    c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
+    parallel_for((int)threads, c.items, run_item, &c);
     give(d->allocator, memory);
-    return status;
+    return atomic_load(&c.cancelled) ? fail(err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
 }
