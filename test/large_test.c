@@ -48,6 +48,13 @@ static const char pairs[] =
     "N = 10\nr[i]'' = sum(j = 1..N, j != i: (r[j] - r[i])/(N |r[j] - r[i]|^3)) + sum(j = 3..N, r[j].x > r[i].y: 0.01 r[j]) for i = 1..N\n"
     "r[i](0) = (cos(i), sin(2 i), sin(3 i + 0.4)) for i = 1..N\nr[i]'(0) = (0, 0, 0) for i = 1..N\nstep 0.01\nuntil 1\n";
 
+/* Numbers that do not lie side by side: the lattice across, and sums along columns; a function of every cell. */
+static const char across[] =
+    "N = 10\nu[i,j]'' = 0.3 (u[j,i] - u[i,j]) - 0.1 sin(u[i,j]) + sum(k = 1..N, k != j: 0.01 u[k,j] u[i,k]) + 0.1 u[mod(i, N)+1, mod(j+2, N)+1] "
+    "for i = 1..N, j = 1..N\nu[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..N\nu[i,j]'(0) = 0 for i = 1..N, j = 1..N\n"
+    "w[i]'' = u[i,i] - 2 w[i] + w[mod(i+1, N)+1] exp(-w[i]^2) - u[3,i] for i = 1..N\nw[i](0) = sin(3 i) for i = 1..N\nw[i]'(0) = 0.1 i for i = 1..N\n"
+    "step 0.1\nuntil 1\n";
+
 static motus_system *open_text(const char *text, int n)
 {
     char set[2][24];
@@ -160,6 +167,12 @@ static void untiled(void **state)
     same(chain, 3001, "implicit-midpoint", 5);
 }
 
+static void scattered(void **state)
+{
+    (void)state;
+    rows(across, LIST(text_of, "velocity-verlet", "rk4", "kahan-li6"), LIST(int, 10, 17, 51), 9);
+}
+
 static void every_pair(void **state)
 {
     (void)state;
@@ -204,6 +217,7 @@ int main(void)
     unsetenv("SUDO_UID");
     const struct CMUnitTest tests[] = {cmocka_unit_test(chains),     cmocka_unit_test(families),   cmocka_unit_test(lattices),
                                        cmocka_unit_test(companions), cmocka_unit_test(untiled),    cmocka_unit_test(every_pair),
+                                       cmocka_unit_test(scattered),
                                        cmocka_unit_test(divergence), cmocka_unit_test(threads_asked_for)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     motus_cache_clear();
