@@ -11,8 +11,9 @@
 
 int main(int count, char **words)
 {
+    /* Programs first: what a program is charged for begins with the memory of the process that starts it. */
     static const struct { const char *name; void (*run)(void); } parts[] = {
-        { "ensembles", compare_ensembles }, { "single", compare_single }, { "large", compare_large }, { "programs", compare_programs }
+        { "programs", compare_programs }, { "ensembles", compare_ensembles }, { "single", compare_single }, { "large", compare_large }
     };
     const char *directory = NULL;
     char file[512] = "";
