@@ -2,7 +2,6 @@
 #include "api/ensemble.h"
 
 #include "api/choice.h"
-
 #include "run/parallel.h"
 #include "run/reduction.h"
 
@@ -14,17 +13,10 @@ _Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX ==
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
-double ensemble_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 int ensemble_watched(void *context, double fraction)
 {
     motus_ensemble *e = context;
-    const double t = e->progress ? ensemble_now() : 0;
+    const double t = e->progress ? run_now() : 0;
     if (!e->progress || t - e->told < 0.01)
         return 0;
     e->told = t;
@@ -211,14 +203,14 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (!count)
         return MOTUS_OK;
     modes m = modes_enter();
-    double began = ensemble_now();
+    double began = run_now();
     places p = {values, results, stopped, false};
     for (size_t r = 0; r < e->record_count; r++)
         p.looks |= e->records[r].how != MOTUS_FINAL;
     e->count = count;
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
                           : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
-    e->seconds += ensemble_now() - began;
+    e->seconds += run_now() - began;
     modes_leave(m);
     return status;
 }

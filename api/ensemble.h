@@ -48,7 +48,6 @@ struct motus_ensemble {
     char note[MOTUS_TEXT_MAX];
 };
 
-double ensemble_now(void);               /* seconds */
 /* Tells the one who watches, not more often than every 10 ms; other than 0: cancel. The context is the ensemble. */
 int ensemble_watched(void *context, double fraction);
 /* What varies: its place in the pool of a model, or in x and then v of a callback. */

@@ -109,13 +109,13 @@ motus_status ensemble_advance(worker *w, engine *engine, int64_t n, int64_t step
     motus_status status = MOTUS_OK;
     while (steps > 0 && status == MOTUS_OK) {
         const int64_t piece = !e->progress || steps < w->piece ? steps : w->piece;
-        const double began = e->progress ? ensemble_now() : 0;
+        const double began = e->progress ? run_now() : 0;
         status = e->machine->advance(engine, piece, err);
         n += piece;
         steps -= piece;
         if (!e->progress || status != MOTUS_OK)
             continue;
-        const double took = ensemble_now() - began;
+        const double took = run_now() - began;
         if (took < 0.005 && piece == w->piece && piece < INT64_MAX / 4)
             w->piece *= 2;
         else if (took > 0.02 && w->piece > 1)

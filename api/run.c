@@ -266,7 +266,7 @@ motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count,
 
 /* ---- going on ---- */
 
-static double now(void)
+double run_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -280,14 +280,14 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
     r->synchronised = false;
     while (n > 0) {
         int64_t piece = !r->progress || n < r->piece ? n : r->piece;
-        double began = r->progress ? now() : 0;
+        double began = r->progress ? run_now() : 0;
         motus_status status = m->advance(r->engine, piece, err);
         if (status != MOTUS_OK)
             return status;
         n -= piece;
         if (!r->progress)
             continue;
-        double t = now(), took = t - began;
+        double t = run_now(), took = t - began;
         if (took < 0.05 && piece == r->piece && piece < INT64_MAX / 4)
             r->piece *= 2;
         else if (took > 0.2 && r->piece > 1)

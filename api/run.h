@@ -36,6 +36,7 @@ struct motus_run {
 /* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
 typedef struct timing { double t0, h, until, last; int64_t whole, total; } timing;
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *, motus_error *);
+double run_now(void);                  /* seconds of a clock that never goes back */
 double run_time(const motus_run *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
 

@@ -148,6 +148,8 @@ work stepper_plan(const problem *p, const chosen *method, double t0, double h)
     return plan;
 }
 
+size_t stepper_arrays(work plan) { return work_place(&plan, NULL); }
+
 motus_status stepper_create(const problem *p, const chosen *method, double t0, double h, const double *x, const double *v,
                             const motus_allocator *allocator, stepper **out, motus_error *err)
 {

@@ -34,6 +34,7 @@ extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 
 /* A workspace without memory: sizes, traits, and what follows from the row, its arguments and the step. */
 work stepper_plan(const problem *, const chosen *, double t0, double h);
+size_t stepper_arrays(work plan);       /* how many arrays it needs */
 
 /* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */
 struct stepper;

@@ -121,16 +121,7 @@ static const char *space_name(space s)
     return names[s];
 }
 
-bool emit_varies(const writer *w, const array *a)
-{
-    size_t last = a->base;
-    for (int d = 0; d < a->dims; d++)
-        last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
-    for (size_t k = a->base; w->e->varied && k <= last; k++)
-        if (w->e->varied[k])
-            return true;
-    return false;
-}
+bool emit_varies(const writer *w, const array *a) { return w->e->varied && graph_marked(a, w->e->varied); }
 
 /* Places ---------------------------------------------------------------------------------------------------------- */
 

@@ -326,3 +326,14 @@ node graph_total(graph *g, const node *terms, size_t count)
             p[k] = graph_op(g, OP_ADD, p[k], p[k + width], 0);
     return p[0];
 }
+
+bool graph_marked(const array *a, const uint8_t *marks)
+{
+    size_t last = a->base;
+    for (int d = 0; d < a->dims; d++)
+        last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
+    for (size_t k = a->base; k <= last; k++)
+        if (marks[k])
+            return true;
+    return false;
+}

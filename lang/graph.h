@@ -29,6 +29,9 @@ typedef struct array {
     int64_t first[MAX_DIMS], last[MAX_DIMS], stride[MAX_DIMS];
 } array;
 
+/* Whether any of an array's places, from its first to its last, is marked. */
+bool graph_marked(const array *, const uint8_t *marks);
+
 typedef struct reference { uint16_t array; uint8_t dims; subscript at[MAX_DIMS]; } reference;
 
 typedef enum operation {

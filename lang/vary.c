@@ -85,17 +85,6 @@ void vary_freeze(model *m, node n, const char *what)
 
 /* ---- what is affected ---- */
 
-static bool touches(const vary *v, const array *a)
-{
-    size_t last = a->base;
-    for (int d = 0; d < a->dims; d++)
-        last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
-    for (size_t k = a->base; k <= last; k++)
-        if (v->affected[k])
-            return true;
-    return false;
-}
-
 /* Marks every node whose value changes. Operands stand before what uses them. */
 static void mark_nodes(const vary *v, uint8_t *changed)
 {
@@ -107,7 +96,7 @@ static void mark_nodes(const vary *v, uint8_t *changed)
         if (m->op == OP_PARAM)
             changed[n] = v->affected[m->a];
         else if (m->op == OP_LOAD && g->arrays[g->references[m->a].array].space == SPACE_POOL)
-            changed[n] = touches(v, &g->arrays[g->references[m->a].array]);
+            changed[n] = graph_marked(&g->arrays[g->references[m->a].array], v->affected);
         else if (m->op == OP_SUM)
             changed[n] = changed[m->a] | (m->b ? changed[m->b] : 0);
         for (int i = 0; i < arity; i++)

@@ -14,7 +14,6 @@
 enum {
     SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
-    LANES_LOCAL_MAX = 1024,          /* vectors in all workspaces of a block, up to which they lie on the stack */
     FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
 };
 
@@ -75,11 +74,10 @@ static void add_facts(emit_text *t, const composition *c, bool structure)
     double *list[CARRY_MAX];
     emit_add(t, "#define CARRIED %d\n", work_carry(&w, list));
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", w.moments,
-             work_place(&(work){.row = r, .stages = w.stages, .velocity = w.velocity}, NULL), c->width || (structure && w.nv <= SMALL_MAX),
+             stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX),
              structure ? w.nv : 0);
     if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
-        emit_add(t, "#ifdef __clang__\n#define WRITTEN_OUT _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT _Pragma(\"GCC unroll 20\")\n#endif\n"
-                    "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
+        emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
 }
 
 /* ---- the family ---- */
@@ -221,12 +219,9 @@ bool compose(emit *e, const composition *c)
     add_text(t, "step/freestanding.h");
     add_text(t, "step/row.h");
     add_facts(t, c, structure);
-    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n#define BOUND %u\n", c->model->driven, e->terms, width, e->fixed_lanes);
+    emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {
-        const work w = stepper_plan(c->problem, c->chosen, 0, 1);
-        const size_t arrays = work_place(&(work){.row = c->chosen->row, .stages = w.stages, .velocity = w.velocity}, NULL);
-        emit_add(t, "#define LANES_LOCAL %d\n", structure && arrays * w.nv * (size_t)c->groups <= LANES_LOCAL_MAX);
         emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)", c->model->boundary_count > 0, c->groups, c->width);
         for (int group = 0; group < c->groups; group++)
             emit_add(t, " DO(%d)", group);

@@ -91,9 +91,8 @@ static void write_records(emit_text *t, const lanes_def *d, const looked *looks,
         looking |= s->how != REDUCE_FINAL;
         velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
     }
-    emit_add(t, "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n%s\n", d->source_count, looking, velocity,
-             d->source_count > RECORDS_WRITTEN_MAX ? "#define WRITTEN_OUT_RECORDS\n"
-                 : "#ifdef __clang__\n#define WRITTEN_OUT_RECORDS _Pragma(\"clang loop unroll(full)\")\n#else\n#define WRITTEN_OUT_RECORDS _Pragma(\"GCC unroll 16\")\n#endif\n");
+    emit_add(t, "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define WRITTEN_OUT_RECORDS%s\n", d->source_count, looking,
+             velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
 }
 
 /* The functions of the text that call the programs, all of one kind in one. */
@@ -165,11 +164,9 @@ static bool write_text(lanes *l)
                            .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
     if (m->arena->failed || !compose(&l->e, &c))
         return false;
-    l->text = l->e.text.bytes;
     return true;
 }
 
-const char *lanes_text(lanes *l) { return l->text; }
 int lanes_in_block(const lanes *l) { return l->block; }
 
 /* ---- memory ---- */
@@ -211,7 +208,7 @@ static bool prepare(lanes *l)
     l->bound_size = lines(l, l->e.fixed_lanes);
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
-    l->work_size = lines(l, work_place(&(work){.row = d->chosen->row, .stages = plan.stages, .velocity = plan.velocity}, NULL) * m->nv);
+    l->work_size = lines(l, stepper_arrays(plan) * m->nv);
     l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
     return true;
 }
@@ -235,7 +232,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->text, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
+    l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
     if (!l->handle)
         return MOTUS_TOOL;
     /* POSIX promises that a function's address survives the way through void *. */

@@ -40,6 +40,5 @@ void lanes_destroy(lanes *);
 /* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
 int lanes_in_block(const lanes *);
-const char *lanes_text(lanes *);
 
 #endif

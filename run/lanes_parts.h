@@ -13,7 +13,6 @@ struct lanes {
     lanes_def def;
     int width, groups, block;        /* block: trajectories in one */
     emit e;
-    const char *text;
     void *handle;
     void (*bind)(const double *, const int64_t *, double *);
     void (*table)(const lanes_job *, clock *, whole);

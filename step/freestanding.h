@@ -18,3 +18,9 @@ typedef __UINT64_TYPE__ uint64_t;
 #define fmod __builtin_fmod
 #define copysign __builtin_copysign
 #define signbit __builtin_signbit
+/* Before a loop whose turns are known in number: it is written out. */
+#ifdef __clang__
+#define WRITTEN_OUT _Pragma("clang loop unroll(full)")
+#else
+#define WRITTEN_OUT _Pragma("GCC unroll 20")
+#endif

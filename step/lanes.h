@@ -75,6 +75,9 @@ void motus_lanes_set(const lanes_job *job)
     }
 }
 
+/* The workspaces of a block lie on the stack where their size is known, and not too large for that. */
+#define LANES_LOCAL (NUMBERS > 0 && ARRAYS * NUMBERS * GROUPS <= 1024)
+
 /* A workspace of one group in memory, after n steps. */
 #if LANES_LOCAL
 #define LANES_WORKSPACE(w, host, n_)                                                    \

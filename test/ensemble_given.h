@@ -3,10 +3,7 @@
 #define TEST_ENSEMBLE_GIVEN_H
 
 #include "test/given.h"
-
-#include <dirent.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "test/given_cache.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #define SANITIZED
@@ -17,35 +14,6 @@
 #endif
 
 enum { COUNT_MAX = 64, VARY_MAX = 4, RECORDS_MAX = 400 };
-
-/* The objects that a test compiles are kept from one of its ensembles to the next, and go with it. */
-static char given_cache[] = "/tmp/motus-cache-XXXXXX";
-
-UNUSED static void open_cache(void)
-{
-    if (!mkdtemp(given_cache))
-        exit(1);
-    setenv("XDG_CACHE_HOME", given_cache, 1);
-    unsetenv("SUDO_UID");
-}
-
-UNUSED static void close_cache(void)
-{
-    char path[600];
-    motus_cache_clear();
-    snprintf(path, sizeof path, "%s/motus", given_cache);
-    DIR *d = opendir(path);
-    for (struct dirent *e; d && (e = readdir(d));) {
-        char file[1200];
-        snprintf(file, sizeof file, "%s/%s", path, e->d_name);
-        if (e->d_name[0] != '.')
-            unlink(file);
-    }
-    if (d)
-        closedir(d);
-    rmdir(path);
-    rmdir(given_cache);
-}
 
 /* Results of `count` trajectories, record by record, and when they stopped. */
 typedef struct outcome {

@@ -66,14 +66,7 @@ static char *text_of(const char *model)
 
 static motus_system *read_with(const char *text, const char *const *set, size_t count)
 {
-    motus_error err = motus_default_error();
-    motus_text_def def = motus_default_text();
-    motus_system *s = NULL;
-    def.text = text;
-    def.set = set;
-    def.set_count = count;
-    must(motus_system_from_text(&def, &s, &err), &err, count ? set[0] : text);
-    return s;
+    return given_text_with(text, set, count, count ? set[0] : text);
 }
 
 /* What is computed, apart from who computes it. */

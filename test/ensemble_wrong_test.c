@@ -412,16 +412,6 @@ static void a_method_that_no_longer_fits(void **state)
     motus_system_destroy(s);
 }
 
-typedef struct watcher { int calls, cancel_at; double last; } watcher;
-
-static int watch(void *context, double fraction)
-{
-    watcher *w = context;
-    assert_true(fraction >= w->last && fraction <= 1);
-    w->last = fraction;
-    return ++w->calls == w->cancel_at;
-}
-
 static void watched_and_cancelled(void **state)
 {
     (void)state;

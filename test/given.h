@@ -26,14 +26,30 @@ UNUSED static void must(motus_status status, const motus_error *err, const char 
         fail_msg("%s: %s: %s (%s)", what, motus_status_word(status), err->message, err->hint);
 }
 
-UNUSED static motus_system *given_text(const char *text)
+/* With `count` settings of parameters or initial values. */
+UNUSED static motus_system *given_text_with(const char *text, const char *const *set, size_t count, const char *what)
 {
     motus_error err = motus_default_error();
     motus_text_def def = motus_default_text();
     motus_system *s = NULL;
     def.text = text;
-    must(motus_system_from_text(&def, &s, &err), &err, text);
+    def.set = set;
+    def.set_count = count;
+    must(motus_system_from_text(&def, &s, &err), &err, what);
     return s;
+}
+
+UNUSED static motus_system *given_text(const char *text) { return given_text_with(text, NULL, 0, text); }
+
+/* A progress hook that sees to it that fractions grow, and cancels at a call. */
+typedef struct watcher { int calls, cancel_at; double last; } watcher;
+
+UNUSED static int watch(void *context, double fraction)
+{
+    watcher *w = context;
+    assert_true(fraction >= w->last && fraction <= 1);
+    w->last = fraction;
+    return ++w->calls == w->cancel_at;
 }
 
 /* The whole file, to be freed. */
@@ -62,13 +78,7 @@ UNUSED static motus_system *given_model(const char *name, const char *const *set
     char path[1024];
     given_path(path, sizeof path, "models", name);
     char *text = given_file(path);
-    motus_error err = motus_default_error();
-    motus_text_def def = motus_default_text();
-    motus_system *s = NULL;
-    def.text = text;
-    def.set = set;
-    def.set_count = count;
-    must(motus_system_from_text(&def, &s, &err), &err, name);
+    motus_system *s = given_text_with(text, set, count, name);
     free(text);
     return s;
 }

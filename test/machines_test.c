@@ -5,6 +5,7 @@
  * Steps are few: bits that differ differ at once, and the longer runs are the golden test's.
  */
 #include "motus.h"
+#include "test/given_cache.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -29,8 +30,6 @@
 #define SANITIZED
 #endif
 #endif
-
-static char cache[] = "/tmp/motus-cache-XXXXXX";
 
 static char *read_model(const char *name)
 {
@@ -187,7 +186,7 @@ static void every_function(void **state)
 static int entries(char *one, size_t size)
 {
     char path[600];
-    snprintf(path, sizeof path, "%s/motus", cache);
+    snprintf(path, sizeof path, "%s/motus", given_cache);
     DIR *d = opendir(path);
     int n = 0;
     for (struct dirent *e; d && (e = readdir(d));)
@@ -269,7 +268,7 @@ static void shared_directory_is_not_trusted(void **state)
 {
     (void)state;
     char path[600];
-    snprintf(path, sizeof path, "%s/motus", cache);
+    snprintf(path, sizeof path, "%s/motus", given_cache);
     motus_cache_clear();
     compile_again();
     motus_cache_clear();
@@ -320,28 +319,12 @@ static void no_text_of_the_model_is_compiled(void **state)
 
 int main(void)
 {
-    if (!mkdtemp(cache))
-        return 1;
-    setenv("XDG_CACHE_HOME", cache, 1);
-    unsetenv("SUDO_UID");
+    open_cache();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_model), cmocka_unit_test(every_construct), cmocka_unit_test(every_function), cmocka_unit_test(one_object_for_all_sizes),
         cmocka_unit_test(damaged_entries_are_rebuilt), cmocka_unit_test(shared_directory_is_not_trusted), cmocka_unit_test(without_a_compiler),
         cmocka_unit_test(no_text_of_the_model_is_compiled)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    motus_cache_clear();
-    char path[600];
-    snprintf(path, sizeof path, "%s/motus", cache);
-    DIR *d = opendir(path);
-    for (struct dirent *e; d && (e = readdir(d));) {
-        char file[1200];
-        snprintf(file, sizeof file, "%s/%s", path, e->d_name);
-        if (e->d_name[0] != '.')
-            unlink(file);
-    }
-    if (d)
-        closedir(d);
-    rmdir(path);
-    rmdir(cache);
+    close_cache();
     return failed;
 }

@@ -450,16 +450,6 @@ static void an_implicit_equation_without_solution(void **state)
     motus_system_destroy(s);
 }
 
-typedef struct watcher { int calls, cancel_at; double last; } watcher;
-
-static int watch(void *context, double fraction)
-{
-    watcher *w = context;
-    assert_true(fraction >= w->last && fraction <= 1);
-    w->last = fraction;
-    return ++w->calls == w->cancel_at;
-}
-
 static motus_run *watched(motus_system *s, watcher *w, double until)
 {
     motus_error err = motus_default_error();

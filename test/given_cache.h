@@ -1,0 +1,42 @@
+/* A cache of its own for the objects that a test compiles: kept from one test of a program to the next, gone with it. */
+#ifndef TEST_GIVEN_CACHE_H
+#define TEST_GIVEN_CACHE_H
+
+#include "motus.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* XDG_CACHE_HOME for one program of tests. */
+static char given_cache[] = "/tmp/motus-cache-XXXXXX";
+
+static inline void open_cache(void)
+{
+    if (!mkdtemp(given_cache))
+        exit(1);
+    setenv("XDG_CACHE_HOME", given_cache, 1);
+    unsetenv("SUDO_UID");
+}
+
+static inline void close_cache(void)
+{
+    char path[600];
+    motus_cache_clear();
+    snprintf(path, sizeof path, "%s/motus", given_cache);
+    DIR *d = opendir(path);
+    for (struct dirent *e; d && (e = readdir(d));) {
+        char file[1200];
+        snprintf(file, sizeof file, "%s/%s", path, e->d_name);
+        if (e->d_name[0] != '.')
+            unlink(file);
+    }
+    if (d)
+        closedir(d);
+    rmdir(path);
+    rmdir(given_cache);
+}
+
+#endif
