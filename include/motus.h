@@ -257,7 +257,7 @@ typedef struct motus_run_def {
      * $XDG_CACHE_HOME/motus; NULL or "auto": compiled where the run is long enough to repay it and a compiler is there. The bits are the same. */
     const char *machine;
     /* How many threads the compiled machine may use for one large system, 1 … MOTUS_THREADS_MAX; 0: one. Small systems run on one whatever is
-     * said here, and so does a library built without OpenMP. The bits are the same. */
+     * said here. The bits are the same. */
     int threads;
 } motus_run_def;
 #define MOTUS_THREADS_MAX 1024

@@ -80,6 +80,8 @@ void compiled_close(compiled *c)
     for (int i = 0; c && i < c->count; i++)
         dlclose(c->objects[i].handle);
     if (c) {
+        parallel_dismiss(c->host.crew);
+        c->host.crew = NULL;
         c->count = 0;
         c->accel = NULL;
         c->bind = NULL;
@@ -131,7 +133,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
         c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     c->bind = bind;
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .parallel = parallel_for};
+    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .crew = c->host.crew, .parallel = parallel_by};
     return true;
 }
 
@@ -194,9 +196,15 @@ static motus_status open_engine(const problem *p, const chosen *chosen, double t
     if (!body)
         return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", ((compiled *)p->ctx)->note);
     motus_status status = stepping_open(p, chosen, t0, h, x, v, a, out, err);
-    if (status == MOTUS_OK)
-        stepper_use_body((stepper *)*out, body);
-    return status;
+    if (status != MOTUS_OK)
+        return status;
+    stepper_use_body((stepper *)*out, body);
+    /* One crew for all runs of the model, large enough for any: more threads than processors bring nothing. */
+    compiled *c = p->ctx;
+    const int processors = parallel_processors();
+    if (chosen->threads > 1 && c->tiling && !c->host.crew)
+        c->host.crew = parallel_hire(chosen->threads > processors ? chosen->threads : processors, &c->model->arena->allocator);
+    return MOTUS_OK;
 }
 
 const machine machine_compiled = {.name = "compiled", STEPPING_BUT_OPEN, .open = open_engine};

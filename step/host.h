@@ -12,5 +12,6 @@ typedef struct compiled_host {
     void (*apply)(work *, clock c, const real *y, real *out);
     const real *(*diagonal)(const work *);                   /* the factored matrix, where it is that and stays so; else NULL */
     const struct tiling *tiling;     /* of families whose outer indices can be taken apart; NULL */
-    void (*parallel)(int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);      /* parallel_for */
+    struct parallel_crew *crew;      /* and its parallel_by */
+    void (*parallel)(struct parallel_crew *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);
 } compiled_host;

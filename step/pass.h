@@ -101,6 +101,6 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
         return;
     }
     pass_job job = {host, t, T, x, v, a, (size_t)window_sooner(w->threads * PASS_TASKS, most)};
-    host->parallel(w->threads, job.tasks, pass_task, &job);
+    host->parallel(host->crew, w->threads, job.tasks, pass_task, &job);
 }
 #endif

@@ -88,8 +88,8 @@ static inline void tiled_run(work *w, whole steps)
         w->first = w->n;
         compiled_fill(host, w->t0, w->h, table, w->n, job.steps + 1);
 #endif
-        host->parallel(w->threads, (size_t)job.blocks, tiled_block, &job);
-        host->parallel(w->threads, (size_t)job.blocks - 1, tiled_seam, &job);
+        host->parallel(host->crew, w->threads, (size_t)job.blocks, tiled_block, &job);
+        host->parallel(host->crew, w->threads, (size_t)job.blocks - 1, tiled_seam, &job);
         *w = job.end;
         window_open(w);
         steps -= job.steps;

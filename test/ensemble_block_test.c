@@ -7,12 +7,6 @@
 #include <stdbool.h>
 #include <time.h>
 
-#ifdef SANITIZED
-/* What clang's OpenMP keeps for its threads until the process ends. */
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) { return "leak:libomp.so"; }
-#endif
-
 /* Two positions and a companion; trajectory i has a stiffness of its own where `stiffness` is given. */
 typedef struct world {
     const double *stiffness;

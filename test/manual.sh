@@ -77,7 +77,7 @@ block README.md 1 "" >"$place/readme.motus"
 judge "the README's model is models/driven-oscillator.motus" "$(diff <("$motus" run "$place/readme.motus" --json | jq -c .state) \
     <("$motus" run models/driven-oscillator.motus --json | jq -c .state) 2>&1)"
 block README.md 1 c >"$place/readme.c"
-judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -fopenmp -lm -o "$place/readme" 2>&1)"
+judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -lm -ldl -pthread -o "$place/readme" 2>&1)"
 judge "the README's C program gives x(100)" "$(out=$("$place/readme" 2>&1); grep -q '^x(100) = 0\.04778239807187' <<<"$out" || echo "$out")"
 # The error that the manual prints is the error that the program prints.
 printf "k = 2\nm = 1\nx'' = -1/2 x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
