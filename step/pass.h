@@ -48,17 +48,23 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
 }
 
 #if !COMPANIONS
-__attribute__((noinline, flatten)) static void pass_move(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at,
-                                                         const window_put *how)
-{
-    PASS_WINDOW(true, how->b, how->c, how->ex, how->ev);
-}
+#define PASS_MOVE(name, twice)                                                                                                                          \
+    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at, \
+                                                        const window_put *how)                                                                        \
+    {                                                                                                                                                  \
+        PASS_WINDOW(true, twice, how->b, how->c, how->next, how->ex, how->ev);                                                                          \
+    }
+PASS_MOVE(pass_move, false)
+PASS_MOVE(pass_move_twice, true)
 
 /* Stage i: v += b a, x += c v. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
+#define PASSED(w, i) pass_passed(w)
+#define PASS_DRIFTS_FIRST (ROW_family == SPLITTING && !(FACT_kicks & 1))
 __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 {
-    const window_put move = {true, b, c, w->ex, w->ev};
+    const bool twice = PASS_DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
+    const window_put move = {true, twice, b, c, w->drift[0], w->ex, w->ev};
     const clock t = time_in(w, FACT(w, c)[i]);
     real *x = w->x, *next = w->a;
     clock room[TERMS + 1];
@@ -70,9 +76,18 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
     w->evaluations++;
     window_move(w, host_of(w)->tiling->pass);
     pass_still(w, x, w->v, next, &move);
-    pass_move(host_of(w), t, T, x, w->v, next, &w->window, &move);
+    if (twice) pass_move_twice(host_of(w), t, T, x, w->v, next, &w->window, &move);
+    else pass_move(host_of(w), t, T, x, w->v, next, &w->window, &move);
+    w->window.ahead = twice;
     w->x = next;
     w->a = x;
+}
+
+static inline bool pass_passed(work *w)
+{
+    const bool passed = w->window.ahead;
+    w->window.ahead = false;
+    return passed;
 }
 #endif
 

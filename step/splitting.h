@@ -53,19 +53,25 @@ static int splitting_turn(work *w, clock b, clock t)
     return STEP_OK;
 }
 
+/* A machine may have its own PASS(w, i, b, c), acceleration, kick b and drift c of stage i in one pass over memory; PASSED(w, i): it made the drift
+ * of stage i, the first of this step, too. */
+#ifndef PASS
+#define PASSED(w, i) false
+#endif
+
 static int splitting_step(work *w)
 {
     EACH_STAGE(i, FACT(w, merged) ? FACT(w, stages) - 1 : FACT(w, stages)) {
         int bad = STEP_OK;
         if (!(FACT(w, kicks) >> i & 1)) {
-            DRIFT(w, w->drift[i]);
+            if (!PASSED(w, i)) DRIFT(w, w->drift[i]);
         } else if (ROW(w, gyroscopic)) {
             bad = splitting_turn(w, w->kick[i], time_in(w, FACT(w, c)[i]));
             DRIFT(w, w->drift[i]);
         } else {
             bool known = i == 0 && work_reuse(w);
             clock b = i == 0 && FACT(w, merged) && w->n > 0 ? w->joint : w->kick[i];
-#ifdef PASS                                     /* the machine's own: acceleration, kick and drift in one pass over memory */
+#ifdef PASS
             if (!known && (FACT(w, drifts) >> i & 1)) {
                 PASS(w, i, b, w->drift[i]);
                 TRACE(w, i);

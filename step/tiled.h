@@ -25,6 +25,7 @@ typedef struct tiled_job {
 __attribute__((noinline)) static void tiled_steps(const tiled_job *job, work *w)
 {
     for (whole s = 0; s < job->steps; s++) {
+        w->window.more = s + 1 < job->steps;
         (void)advance_step(w);                 /* nothing here can fail: no solver, no callback */
         w->n++;
     }

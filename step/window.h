@@ -53,8 +53,8 @@ static inline void window_open(work *w)
 }
 
 /* What PUT does: keeps the acceleration or, in a pass, kicks and drifts at once; the new position goes to another copy of x, which stands where
- * the accelerations would, so that neighbours still find the old one. */
-typedef struct window_put { bool pass; clock b, c; real *ex, *ev; } window_put;
+ * the accelerations would, so that neighbours still find the old one. `twice`: a drift `next`, which the next step begins with, follows. */
+typedef struct window_put { bool pass, twice; clock b, c, next; real *ex, *ev; } window_put;
 
 #define PUT(k, value) window_keep(move, x, v, a, (size_t)(k), (value))
 #define PUTS(k, value) window_keep_many(move, x, v, a, (size_t)(k), (value))

@@ -12,11 +12,13 @@ static inline void window_number(const window_put *how, real *restrict x, real *
         NUMBER speed_error = NUMBER_AT(how->ev, k), error = NUMBER_AT(how->ex, k);
         ADVANCE_EXACTLY(speed, speed_error, NUMBER_OF(how->b), value);
         ADVANCE_EXACTLY(at, error, NUMBER_OF(how->c), speed);
+        if (how->twice) ADVANCE_EXACTLY(at, error, NUMBER_OF(how->next), speed);
         NUMBER_AT(how->ev, k) = speed_error;
         NUMBER_AT(how->ex, k) = error;
     } else {
         ADVANCE(speed, NUMBER_OF(how->b), value);
         ADVANCE(at, NUMBER_OF(how->c), speed);
+        if (how->twice) ADVANCE(at, NUMBER_OF(how->next), speed);
     }
     NUMBER_AT(v, k) = speed;
     NUMBER_AT(a, k) = at;

@@ -32,6 +32,7 @@ typedef struct window {
     whole from, to;
     whole strip[2], block[2];      /* their intersection is from … to; a strip moves down with every pass, a block's ends by `slope` */
     int slope[2];
+    bool more, ahead;              /* another step follows in this tile; its first drift is made already */
 } window;
 
 typedef struct work {
