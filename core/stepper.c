@@ -297,8 +297,9 @@ motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
             s->snapshot_iterations = w->iterations;
         }
         const int64_t room = apart - (w->n - s->snapshot_step), chunk = steps < room ? steps : room;
+        w->finite = false;
         int bad = s->body->run(w, chunk);
-        if (!bad && !w->check) bad = s->body->check(w);
+        if (!bad && !w->check && !w->finite) bad = s->body->check(w);
         if (bad) return recover(s, bad, err);
         steps -= chunk;
     }

@@ -3,7 +3,8 @@
  * The outer indices are cut into blocks. In the plane of index and time a block is first advanced over the trapezoid that needs nothing from its
  * neighbours: its inner ends draw in with every pass. Then the seams between blocks, triangles that widen by as much, are filled. Blocks, and
  * after them seams, need nothing of each other, so threads may take them in any order. Within a block the trapezoid is cut
- * into strips that lean to lower indices: strip after strip, every strip all the steps, so a strip's numbers stay in the cache.
+ * into strips that lean to lower indices: strip after strip, every strip all the steps, so a strip's numbers stay in the cache. Whether all
+ * are finite at the end is seen while they are there.
  *
  * Invariant: every number sees the operations of the untiled loop in their order, with the same operands. What a step changes besides the
  * numbers (count, copies exchanged) is the same for every tile; it is kept from one of them.
@@ -20,15 +21,17 @@ typedef struct tiled_job {
     work end;
     whole steps, strip, block;
     int blocks;
+    bool last, lost;               /* sweep; a number is not finite at its end */
 } tiled_job;
 
-__attribute__((noinline)) static void tiled_steps(const tiled_job *job, work *w)
+__attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)
 {
     for (whole s = 0; s < job->steps; s++) {
         w->window.more = s + 1 < job->steps;
         (void)advance_step(w);                 /* nothing here can fail: no solver, no callback */
         w->n++;
     }
+    if (job->last && !advance_finite(w)) __atomic_store_n(&job->lost, true, __ATOMIC_RELAXED);
 }
 
 static whole tiled_border(const tiled_job *job, int k) { return host_of(job->begin)->tiling->first + k * job->block; }
@@ -81,6 +84,7 @@ static inline void tiled_run(work *w, whole steps)
 #endif
     while (steps > 0) {
         job.steps = window_sooner(most, steps);
+        job.last = job.steps == steps;
         if (w->threads > 1)
             job.blocks = (int)window_later(1, window_sooner(w->threads * TILED_BLOCKS, cells / (4 * way * job.steps + TILED_LINE)));
         job.block = cells / job.blocks;
@@ -96,4 +100,5 @@ static inline void tiled_run(work *w, whole steps)
         steps -= job.steps;
     }
     w->table = NULL;
+    w->finite = !job.lost;
 }

@@ -43,6 +43,7 @@ typedef struct work {
     bool velocity, linear;         /* the acceleration depends on v; at most linearly */
     bool constant;                 /* it depends on parameters alone */
     bool check;                    /* look for infinities after every step */
+    bool finite;                   /* whoever took the last steps saw that all is finite */
 
     bool fresh;                    /* the acceleration of the present state is known already, because somebody looked */
     whole owed_evaluations, owed_iterations;      /* what it cost: counted when the method uses it */
