@@ -201,6 +201,7 @@ void motus_run_destroy(motus_run *r)
     if (r->tail)
         r->machine->close(r->tail);
     give(&a, r->saved);
+    give(&a, r->trace);
     give(&a, r);
 }
 
@@ -301,15 +302,15 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The shorter last step, by an engine of its own: two-step methods take it in their one-step form. */
-static motus_status finish(motus_run *r, motus_error *err)
+/* The shorter last step, by an engine of its own: two-step methods take it in their one-step form. `to`: NULL, or told of it. */
+static motus_status finish(motus_run *r, const tracer *to, motus_error *err)
 {
     const machine *m = r->machine;
     motus_status status = run_sync(r, false, err);
     if (status == MOTUS_OK)
         status = m->open(r->problem, &r->chosen, run_time(r), r->last, r->x, r->v, &r->allocator, &r->tail, err);
     if (status == MOTUS_OK)
-        status = m->advance(r->tail, 1, err);
+        status = to ? m->trace(r->tail, to, err) : m->advance(r->tail, 1, err);
     if (status != MOTUS_OK) {
         if (r->tail)
             m->close(r->tail);
@@ -329,8 +330,19 @@ static motus_status step(motus_run *r, int64_t n, motus_error *err)
     if (n > 0 && left > 0)
         status = advance(r, n < left ? n : left, err);
     if (status == MOTUS_OK && n > left && r->last != 0 && !r->tail)
-        status = finish(r, err);
+        status = finish(r, NULL, err);
     return status;
+}
+
+motus_status run_trace(motus_run *r, const tracer *to, motus_error *err)
+{
+    r->before = false;
+    if (motus_run_done(r))
+        return MOTUS_OK;
+    if (done(r) == r->whole)
+        return finish(r, to, err);
+    r->synchronised = false;
+    return r->machine->trace(r->engine, to, err);
 }
 
 motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)

@@ -31,6 +31,7 @@ struct motus_run {
     int64_t piece;                   /* steps between two looks at the clock, and when the hook was last called */
     double told;
     char *saved; size_t saved_room;
+    struct trace *trace;             /* of the last step that was traced; NULL */
 };
 
 /* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
@@ -39,5 +40,7 @@ motus_status run_timing(const motus_system *, const chosen *, double step, doubl
 double run_now(void);                  /* seconds of a clock that never goes back */
 double run_time(const motus_run *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
+/* One more step, whole or the short last one, told to the tracer; not past the end. */
+motus_status run_trace(motus_run *, const tracer *, motus_error *);
 
 #endif

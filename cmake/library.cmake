@@ -45,6 +45,9 @@ foreach(source IN LISTS library_sources)
   endif()
 endforeach()
 
+# The texts once more, for single steps that somebody looks into: small is better than fast.
+set_property(SOURCE core/trace_body.c APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-Os>)
+
 add_library(motus_static STATIC ${objects})
 add_library(motus_shared SHARED ${objects})
 foreach(library motus_static motus_shared)

@@ -9,6 +9,7 @@
  */
 #include "core/stepper.h"
 #include "core/stepper_body.h"
+#include "core/trace_body.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -285,25 +286,50 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     return status;
 }
 
-motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
+/* How many steps may follow before the next snapshot, which is made first if its time has come. */
+static int64_t room_of(stepper *s)
+{
+    const work *w = &s->work;
+    const int64_t apart = w->check ? SNAPSHOT : SNAPSHOT_LARGE;
+    if (s->snapshot_step < 0 || w->n - s->snapshot_step >= apart) {
+        stepper_save(s, s->snapshot);
+        s->snapshot_step = w->n;
+        s->snapshot_evaluations = w->evaluations;
+        s->snapshot_iterations = w->iterations;
+    }
+    return apart - (w->n - s->snapshot_step);
+}
+
+static motus_status take_steps(stepper *s, const stepper_body *body, int64_t steps, motus_error *err)
 {
     work *w = &s->work;
-    const int64_t apart = w->check ? SNAPSHOT : SNAPSHOT_LARGE;
-    while (steps > 0) {
-        if (s->snapshot_step < 0 || w->n - s->snapshot_step >= apart) {
-            stepper_save(s, s->snapshot);
-            s->snapshot_step = w->n;
-            s->snapshot_evaluations = w->evaluations;
-            s->snapshot_iterations = w->iterations;
-        }
-        const int64_t room = apart - (w->n - s->snapshot_step), chunk = steps < room ? steps : room;
-        w->finite = false;
-        int bad = s->body->run(w, chunk);
-        if (!bad && !w->check && !w->finite) bad = s->body->check(w);
-        if (bad) return recover(s, bad, err);
+    w->finite = false;
+    int bad = body->run(w, steps);
+    if (!bad && !w->check && !w->finite) bad = body->check(w);
+    return bad ? recover(s, bad, err) : MOTUS_OK;
+}
+
+motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    while (steps > 0 && !status) {
+        const int64_t room = room_of(s), chunk = steps < room ? steps : room;
+        status = take_steps(s, s->body, chunk, err);
         steps -= chunk;
     }
-    return MOTUS_OK;
+    return status;
+}
+
+/* The body that tells is lent for this one step. What recovery takes once more is taken by the usual one, in silence. */
+motus_status stepper_trace(stepper *s, const tracer *to, motus_error *err)
+{
+    const tracing tracing = {.to = to, .unit = stepper_plan(&s->problem, &s->method, 0, 1), .iterations = s->work.iterations};
+    room_of(s);
+    s->machine.tracing = &tracing;
+    trace_begin(&s->work);
+    const motus_status status = take_steps(s, &trace_body, 1, err);
+    s->machine.tracing = NULL;
+    return status;
 }
 
 motus_status stepper_sync(stepper *s, double *x, double *v, double *a, motus_error *err)

@@ -6,7 +6,7 @@
 #ifndef CORE_STEPPER_H
 #define CORE_STEPPER_H
 
-#include "core/methods.h"
+#include "core/trace.h"
 
 typedef struct stepper stepper;
 
@@ -17,6 +17,8 @@ void stepper_destroy(stepper *);
 
 /* `steps` more steps. DIVERGED, SOLVE and CALLBACK name time and variable; the stepper then stays at the last good step. */
 motus_status stepper_advance(stepper *, int64_t steps, motus_error *);
+/* One step, to the same bits, and what happens in it is told. */
+motus_status stepper_trace(stepper *, const tracer *, motus_error *);
 /* The state at the present time, velocities synchronised. x, v of nx, nv numbers; a (may be NULL): the acceleration there. */
 motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_error *);
 

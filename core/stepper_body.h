@@ -11,7 +11,8 @@
 #include "step/scalar.h"
 #include "step/work.h"
 
-typedef struct stepper_host { const problem *problem; solver *solver; } stepper_host;      /* work.user points to it */
+/* work.user points to it. tracing: of core/trace.h, while a step is traced. */
+typedef struct stepper_host { const problem *problem; solver *solver; const struct tracing *tracing; } stepper_host;
 
 typedef struct stepper_body {
     const char *name;

@@ -301,6 +301,39 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
 MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
 
+/* One step opened up: what the method does inside it, in the order in which it does it; for pictures, and to see why a method errs. It is the step
+ * that motus_run_step(r, 1) would take, to the same bits, told as the method stands on paper: from a state (x, v) to a state (x, v). */
+typedef enum motus_event {
+    MOTUS_EVENT_START,               /* the state at `time`, and the acceleration there */
+    MOTUS_EVENT_KICK,                /* v += coefficient step a, a = a(x, time): splitting. boris: a at the mean of the velocities before and after */
+    MOTUS_EVENT_DRIFT,               /* x += coefficient step v; `time` is where that leads */
+    MOTUS_EVENT_STAGE,               /* a = a(x, v, time) at the stage's own x and v, coefficient steps after the start. Runge-Kutta and implicit: */
+                                     /*   v = v₀ + step Σ row[j] a[j],   x = x₀ + step Σ row[j] v[j] = x₀ + coefficient step v₀ + step² Σ row_x[j] a[j]; */
+                                     /*   the end:   v₀ + step Σ weight a,   x₀ + step Σ weight v = x₀ + step v₀ + step² Σ weight_x a */
+                                     /*   (newmark has the forms with row_x and weight_x only) */
+    MOTUS_EVENT_SOLVE,               /* the stages that follow solve their equations: `iterations` of Newton's method */
+    MOTUS_EVENT_TAYLOR,              /* the first step of a recurrence, which has no step before: x = x₀ + step v₀ + step²/2 a, a that of START */
+    MOTUS_EVENT_STEP,                /* x = 2 x₀ - before_x + step² a, a that of START; beeman: x = x₀ + step v₀ + step²/6 (4 a - before_a), */
+                                     /*   v = v₀ + step/6 (2 a₁ + 5 a - before_a) with a₁ of the end, and before_a = a in the first step */
+    MOTUS_EVENT_END                  /* the state after the step, that of motus_run_state, and the acceleration there */
+} motus_event;
+typedef struct motus_trace_entry {
+    motus_event kind;
+    int stage, stages;               /* which, from 1, of how many; START, SOLVE, END: 0 of as many */
+    int64_t iterations;              /* of Newton's method, in this step up to here */
+    double time, step;               /* step: negative backward; the last one may be shorter */
+    double coefficient;              /* of a kick, a drift; the node of a stage: in units of the step */
+    double weight, weight_x;         /* of a stage */
+    const double *row, *row_x;       /* of a stage: `stages` numbers each; else NULL */
+    const double *x, *v;             /* the numbers after the event, as in motus_run_state; of a stage its own. TAYLOR and STEP of verlet, verlet-literal: */
+                                     /*   v is (x - x₀)/step, to which half a kick by the acceleration of the end is still to come */
+    const double *a;                 /* as many as in v. NULL where none belongs to the event, or at START and END none could be had */
+    const double *before_x, *before_a;   /* of a recurrence: positions, acceleration of the step before; NULL where there are none */
+} motus_trace_entry;
+/* The entries are the run's until it is traced again or destroyed. At the end of the run there is nothing left to take: *count is 0. Fails as
+ * motus_run_step does; and where the step could be taken but the state after it cannot be had, as motus_run_state does then. Calls no progress hook. */
+MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry **entries, size_t *count, motus_error *);
+
 /* 6. Ensembles --------------------------------------------------------------------------------------------------- */
 
 /* Many trajectories of one model, by one method, from the start to one end, in which some parameters or initial values differ. What is

@@ -18,6 +18,7 @@ typedef struct machine {
                          engine **, motus_error *);
     void (*close)(engine *);
     motus_status (*advance)(engine *, int64_t steps, motus_error *);
+    motus_status (*trace)(engine *, const tracer *, motus_error *);
     motus_status (*sync)(engine *, double *x, double *v, double *a, motus_error *);
     int64_t (*steps)(const engine *), (*evaluations)(const engine *), (*iterations)(const engine *);
     size_t (*carry)(const engine *);

@@ -15,6 +15,7 @@ motus_status stepping_open(const problem *p, const chosen *c, double t0, double 
 
 void stepping_close(engine *e) { stepper_destroy(of(e)); }
 motus_status stepping_advance(engine *e, int64_t steps, motus_error *err) { return stepper_advance(of(e), steps, err); }
+motus_status stepping_trace(engine *e, const tracer *to, motus_error *err) { return stepper_trace(of(e), to, err); }
 motus_status stepping_sync(engine *e, double *x, double *v, double *a, motus_error *err) { return stepper_sync(of(e), x, v, a, err); }
 int64_t stepping_steps(const engine *e) { return stepper_steps(seen(e)); }
 int64_t stepping_evaluations(const engine *e) { return stepper_evaluations(seen(e)); }

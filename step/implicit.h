@@ -76,6 +76,7 @@ static int implicit_step(work *w)
     for (int i = 0; i < s; i++) EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     int bad = implicit_iterate(w);
     if (bad) return bad;
+    TRACE(w, s - 1);
     if (ROW(w, compensated)) {
         EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, FMA(h, v[k], runge_kutta_sum(w->hhb, ALL_TERMS, A, stride, k, s)));
         EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s));
@@ -84,6 +85,5 @@ static int implicit_step(work *w)
         EACHV(k) v[k] += runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s);
     }
     if (FACT(w, known)) EACHV(k) w->a[k] = A[(size_t)(s - 1) * stride + k];
-    TRACE(w, 0);
     return STEP_OK;
 }

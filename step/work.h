@@ -5,7 +5,7 @@
  *     whole       a signed integer of 64 bits                             coef    a coefficient of a row; `row` as in core/rows.h
  *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of real
  *     EACH(k)     a loop over the positions of `w`                        EACHV(k)  over velocities, then companions
- *     TRACE(w,i)  called after stage i; empty unless somebody looks in
+ *     TRACE(w,i)  called after stage i, of implicit stages when all are solved and not yet summed; empty unless somebody looks in
  *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change; not needed where the row is known at run time only, while a
  *                             compiled model makes them constants, so that what it does not use is never translated
  * and, before newton.h and the families, the functions

@@ -244,7 +244,7 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
     size_t count = motus_column_count(s), nx = motus_positions(s), nv = motus_velocities(s), *columns = malloc(count * sizeof *columns);
     double *out = malloc(count * sizeof *out), *y = malloc((nx + nv) * sizeof *y), times[2] = {0.033, 0.05};
     char *kept = NULL;
-    size_t length = 0;
+    size_t length = 0, length_traced = 0;
     const char *text = NULL;
     uint64_t h = 1;
     assert_true(columns && out && y);
@@ -269,7 +269,12 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
         kept = malloc(length + 1);
         assert_non_null(kept);
         memcpy(kept, text, length + 1);
-        status = motus_run_step(r, 1, err);
+        const motus_trace_entry *e;
+        status = motus_run_trace(r, &e, &length_traced, err);
+        for (size_t k = 0; k < length_traced; k++) {
+            h = mix(mix(mix(h, &e[k].kind, sizeof e[k].kind), e[k].x, nx * sizeof(double)), e[k].v, nv * sizeof(double));
+            h = mix(h, e[k].a, e[k].a ? nv * sizeof(double) : 0);
+        }
     }
     if (status == MOTUS_OK)
         status = motus_run_restore(r, kept, length, err);

@@ -112,6 +112,10 @@ static void run(motus_system *s, const char *method)
     motus_status status = motus_run_create(s, &def, &r, &err);
     if (status == MOTUS_OK)
         status = motus_run_step(r, 3, &err);
+    const motus_trace_entry *entries;
+    size_t count = 0;
+    if (status == MOTUS_OK)
+        status = motus_run_trace(r, &entries, &count, &err);
     if (status != MOTUS_OK)
         check_error(&err, status);
     if (r)

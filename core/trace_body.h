@@ -1,0 +1,18 @@
+/* The stepper's body that tells: core/trace_body.c, and what it finds through the workspace while it does. */
+#ifndef CORE_TRACE_BODY_H
+#define CORE_TRACE_BODY_H
+
+#include "core/stepper_body.h"
+#include "core/trace.h"
+
+typedef struct tracing {
+    const tracer *to;
+    work unit;                 /* the plan of the same row with step 1: its constants are the row's coefficients */
+    int64_t iterations;        /* before the step */
+} tracing;
+
+extern const stepper_body trace_body;
+/* Before the step: what it will have overwritten when it is told. */
+void trace_begin(const work *);
+
+#endif
