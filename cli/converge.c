@@ -42,6 +42,8 @@ static void row_json(json *j, const motus_converge_row *r)
         json_number(j, r->points[i].step);
         json_key(j, "error");
         json_number(j, r->points[i].error);
+        json_key(j, "evaluations");
+        json_integer(j, r->points[i].evaluations);
         json_key(j, "used");
         json_bool(j, r->points[i].used != 0);
         json_close(j, '}');

@@ -430,7 +430,11 @@ typedef struct motus_comparison {
 MOTUS_API motus_status motus_compare(motus_system *, const motus_study_def *, motus_comparison **, motus_error *);
 MOTUS_API void motus_comparison_destroy(motus_comparison *);
 
-typedef struct motus_point { double step, error; int used; } motus_point;   /* used: in the fit */
+typedef struct motus_point {
+    double step, error;
+    int used;                        /* in the fit */
+    int64_t evaluations;             /* of the acceleration over the whole motion, at this step; of a run that failed: until then */
+} motus_point;
 typedef struct motus_converge_row {
     const char *method;
     int declared;

@@ -480,7 +480,8 @@ for name in pendulum damped-cubic projectile-drag charged-particle; do
     [ $name = pendulum ] && cp "$out" "$place/pendulum.json"
 done
 that "converge is JSON" json "$place/pendulum.json"
-that "converge: the keys of a row" holds '.rows | all(.[]; has("method") and has("declared") and has("observed") and (.points | length > 2 and all(.[]; has("step") and has("error"))))' "$place/pendulum.json"
+that "converge: the keys of a row" holds '.rows | all(.[]; has("method") and has("declared") and has("observed") and (.points | length > 2 and all(.[]; has("step") and has("error") and .evaluations > 0)))' "$place/pendulum.json"
+that "... one evaluation a step, and four" holds '[.rows[] | select(.method == "velocity-verlet" or .method == "rk4") | . as $r | .points[] | .evaluations * .step / (if $r.method == "rk4" then 4 else 1 end)] | max / min < 1.4' "$place/pendulum.json"
 gives "converge for people" 0 "$motus" converge $osc --methods verlet,rk4
 that "... prints certificates" eval "grep -qE 'verlet: observed (1\.9|2\.0)[0-9], declared 2' '$out' && grep -qE 'rk4: observed (3\.9|4\.0|3\.8|4\.1)[0-9], declared 4' '$out'"
 gives "exact here" 0 "$motus" converge models/projectile.motus --methods verlet,rk4

@@ -40,7 +40,7 @@ static size_t make(motus_point *p, size_t count, double ratio, recipe r)
         double h = pow(ratio, -(double)i), n = 8 / h;
         double e = r.coefficient * pow(h, r.order) + r.next * pow(h, r.next_order);
         e += r.floor * (0.6 + 0.4 * fabs(scatter(i))) * pow(n, r.growth);
-        p[i] = (motus_point){ h, h > r.unstable ? NAN : fabs(e), 7 };
+        p[i] = (motus_point){ h, h > r.unstable ? NAN : fabs(e), 7, 0 };
     }
     return count;
 }
@@ -153,7 +153,7 @@ static void noise_is_no_slope(void **state)
     (void)state;
     motus_point points[POINTS];
     for (size_t i = 0; i < 12; i++)
-        points[i] = (motus_point){ pow(2, -(double)i), 1e-3 * exp(4 * scatter(i)), 0 };
+        points[i] = (motus_point){ pow(2, -(double)i), 1e-3 * exp(4 * scatter(i)), 0, 0 };
     fit_order_result f = fit_order(points, 12, 8, DBL_EPSILON, 0);
     assert_true(f.verdict != FIT_EXACT);
     assert_false(f.verdict == FIT_SLOPE && fit_passes(f.observed, f.standard_error, 6));
@@ -637,8 +637,14 @@ static void certificates(void **state)
         assert_string_equal(r->certificate, text);
         assert_true(r->passed && r->status == MOTUS_OK);
         size_t used = 0;
-        for (size_t i = 0; i < r->point_count; i++)
+        const motus_method *card = NULL;
+        assert_int_equal(motus_method_find(r->method, &card, NULL), MOTUS_OK);
+        for (size_t i = 0; i < r->point_count; i++) {
             used += r->points[i].used != 0;
+            /* as the card says; where a step begins with the acceleration that ended the last one, one more for the first */
+            double expected = card->evaluations * round(5 / r->points[i].step), spent = (double)r->points[i].evaluations;
+            assert_true(card->evaluations ? spent == expected || spent == expected + 1 : spent > 0);
+        }
         assert_true(used >= FIT_POINTS_MIN);
         assert_true(r->observed > r->declared - 0.15 - 2 * r->standard_error && r->observed < r->declared + 0.3);
     }
