@@ -124,17 +124,21 @@ static int direct(solver *s, bool in_v, const sparse *m, size_t colour, double t
     return 0;
 }
 
-/* The same by a difference quotient. A linear dependence has no truncation error, so there the shift is as large as the numbers. */
+double solver_shift(double y, double size, bool linear)
+{
+    return (linear ? 1 : sqrt(DBL_EPSILON)) * ldexp(1, ilogb(fabs(y) + size));
+}
+
+/* The same by a difference quotient. */
 static int quotient(solver *s, bool in_v, const sparse *m, size_t colour, double t, double *x, double *v, double size)
 {
     const problem *p = s->problem;
     const bool linear = in_v ? p->traits.linear_v : p->traits.affine;
     const double *y = in_v ? v : x;
-    const double share = linear ? 1 : sqrt(DBL_EPSILON);
     memcpy(s->shifted, y, (in_v ? p->nv : p->nx) * sizeof *y);
     for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++) {
         const size_t c = m->colour_column[i];
-        s->shifted[c] = y[c] + share * ldexp(1, ilogb(fabs(y[c]) + size));
+        s->shifted[c] = y[c] + solver_shift(y[c], size, linear);
         s->direction[c] = s->shifted[c] - y[c];
     }
     int bad = p->accel(p->ctx, t, in_v ? x : s->shifted, in_v ? s->shifted : v, s->image);

@@ -16,6 +16,9 @@ typedef struct solver solver;
 motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, bool constant, size_t stride, const motus_allocator *,
                            solver **, motus_error *);
 void solver_destroy(solver *);
+/* By how much y, one of numbers as large as `size`, is shifted for a difference quotient. A linear dependence has no truncation error, so there
+ * the shift is as large as the numbers. */
+double solver_shift(double y, double size, bool linear);
 /* 0; 1: the callback failed; 2: singular. *evaluations grows by what difference quotients cost. */
 int solver_factor(solver *, const double *ax, const double *av, double t, double *x, double *v, int64_t *evaluations);
 /* The matrix that was factored last, where it is diagonal and the same for good; else NULL. solver_back divides by it. */

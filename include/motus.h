@@ -8,7 +8,7 @@
  *     4. methods                the catalogue, from the rows the code runs
  *     5. runs                   one integration: create, step, look, save, destroy
  *     6. ensembles              one model, many trajectories: parameters or initial values vary, numbers are recorded
- *     7. studies                every method side by side; observed order and its certificate
+ *     7. studies                every method side by side; observed order and its certificate; the truth
  *
  *     motus_text_def def = motus_default_text();
  *     def.text = "x'' = -x   x(0) = 1 ...";
@@ -195,6 +195,34 @@ MOTUS_API size_t motus_invariant_count(const motus_system *);
 MOTUS_API const char *motus_invariant_name(const motus_system *, size_t k, size_t *numbers);
 MOTUS_API int motus_has_exact(const motus_system *);         /* by an exact line, or recognised */
 
+/* What may be set: parameters, in the order of the model, and initial values. With `set` in motus_text_def a system is made in which they differ. */
+typedef struct motus_parameter {
+    const char *name;
+    const char *text;                /* what stands behind its =, in the model or in `set`: `length` bytes, not ended with 0; owned by the system */
+    size_t length;
+    int components;                  /* 0: numbers, else the length of the vector */
+    int list;                        /* 1: a list, or a family */
+    int dimensions;                  /* of a list: number of indices, 1 … 4, */
+    int64_t first[4], last[4];       /*   and their ranges */
+    size_t count;                    /* numbers in all: cells × components */
+    const char *decides;             /* NULL: numbers alone follow from it. "a size or an index", "step", "until", "the start" …: it decides that (and
+                                      * maybe more), so an ensemble cannot vary it. "unknown": there was no memory to find out */
+} motus_parameter;
+MOTUS_API size_t motus_parameter_count(const motus_system *);
+MOTUS_API motus_status motus_parameter_at(const motus_system *, size_t k, motus_parameter *);
+/* Its present numbers, cell by cell, component by component. */
+MOTUS_API motus_status motus_parameter_values(const motus_system *, size_t k, double *out);
+
+typedef struct motus_initial {
+    size_t variable;                 /* for motus_variable_at: its components, its indices */
+    int is_velocity;
+    size_t count;                    /* numbers in all */
+    char name[MOTUS_NAME_MAX + 64];  /* "x(0)", "r'(0)", as `set` takes it */
+} motus_initial;
+MOTUS_API size_t motus_initial_count(const motus_system *);
+MOTUS_API motus_status motus_initial_at(const motus_system *, size_t k, motus_initial *);
+MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, double *out);
+
 /* What the model's settings say. NaN, 0 or NULL where it says nothing. */
 typedef struct motus_settings {
     const char *method;              /* "verlet", "newmark(0.25, 0.5)" */
@@ -238,6 +266,14 @@ MOTUS_API const motus_method *motus_method_at(size_t k);
 MOTUS_API motus_status motus_method_find(const char *name, const motus_method **, motus_error *);
 /* MOTUS_OK, or MOTUS_METHOD with the reason in message and the nearest method that fits in hint. */
 MOTUS_API motus_status motus_method_admits(const motus_system *, const char *method, motus_error *);
+
+/* The stability region. radius[k]: by how much one step multiplies a motion in the long run (the spectral radius) at the point
+ * z = h λ = re[k] + i im[k] on the equation whose rates are λ and its conjugate, x'' = 2 Re λ x' - |λ|² x: an oscillator without friction is the
+ * imaginary axis, friction the left half plane. Stable where the radius is not above 1, but for rounding: some 1e-15 (1 + |z|) to the power of
+ * the stages, and the root of that where two rates meet. For Runge-Kutta it is |R(z)|. The plane off the axis does not exist for a method that
+ * takes no force with velocities: NaN there. INFINITY where a step has no finite or no single answer. |z| is at most MOTUS_STABILITY_FAR. */
+#define MOTUS_STABILITY_FAR 1e6
+MOTUS_API motus_status motus_stability(const char *method, size_t count, const double *re, const double *im, double *radius, motus_error *);
 
 /* 5. Runs -------------------------------------------------------------------------------------------------------- */
 
@@ -291,6 +327,12 @@ MOTUS_API int motus_cache_clear(void);
 MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_error *);
 /* Columns (numbers from motus_column_find) at the present state. */
 MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size_t count, double *out, motus_error *);
+/* The linearised equations at the present state: row i is the acceleration (or rate) of number i of motus_velocities(), its columns are derivatives
+ * by the motus_positions() positions (da_dx) and by the motus_velocities() velocities and companions (da_dv), row by row; either may be NULL.
+ * Exact where the system has derivatives, else difference quotients: half of the digits, nearly all where the dependence is linear.
+ * MOTUS_LIMIT for more than MOTUS_JACOBIAN_MAX velocities. */
+#define MOTUS_JACOBIAN_MAX 256
+MOTUS_API motus_status motus_run_jacobian(motus_run *, double *da_dx, double *da_dv, motus_error *);
 /* Columns at given times, in the direction of the run, none beyond `until`: steps as needed, and between steps reads the quintic
  * Hermite polynomial through (x, v, a) at both ends (local error h^6, never fed back). out: times × columns, row by row. */
 MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t time_count, const size_t *columns,
@@ -455,6 +497,19 @@ typedef struct motus_convergence {
 } motus_convergence;
 MOTUS_API motus_status motus_converge(motus_system *, const motus_study_def *, motus_convergence **, motus_error *);
 MOTUS_API void motus_convergence_destroy(motus_convergence *);
+
+/* The truth by itself: what compare and converge judge by, at any times, so that one may draw |x - truth| of several methods. Of the definition,
+ * `until`, `step` (a hint: a motus_compare at this step has the same reference; NaN where the model has none: its own choice), `progress` and
+ * `context` are read, the latter two during this call only. MOTUS_DIVERGED where no method followed the motion to the end. The system must
+ * outlive the handle. */
+typedef struct motus_reference motus_reference;
+MOTUS_API motus_status motus_reference_create(motus_system *, const motus_study_def *, motus_reference **, motus_error *);
+/* At `count` times between the start and `until`: x gets count × motus_positions() numbers, v count × motus_velocities(), row by row; either may
+ * be NULL. Any order will do; in the direction of the motion it is fastest. */
+MOTUS_API motus_status motus_reference_at(motus_reference *, const double *times, size_t count, double *x, double *v, motus_error *);
+MOTUS_API double motus_reference_error(const motus_reference *);      /* estimated, of the largest component; 0 for the exact motion */
+MOTUS_API const char *motus_reference_name(const motus_reference *);  /* "exact", or "gauss6 at step 0.00125" */
+MOTUS_API void motus_reference_destroy(motus_reference *);
 
 /* Defaults ------------------------------------------------------------------------------------------------------- */
 

@@ -59,7 +59,9 @@ static void parse_value(parser *p, statement *s)
         COMPLAIN(p, p->token.at, "one = is enough in a statement");
         return;
     }
+    const span first = p->token.at;
     s->value = parse_or(p);
+    s->value_at = (span){first.text, first.from, p->last.at.to};
     parse_for(p, s);
     end_of_statement(p, source_line(p->source, s->at));
 }

@@ -48,7 +48,7 @@ typedef enum statement_kind {
 
 typedef struct statement {
     statement_kind kind;
-    span at, name_at;
+    span at, name_at, value_at;      /* value_at: what stands behind =, without the indices' ranges */
     const char *name;
     tree **index; uint32_t index_count;
     int primes;

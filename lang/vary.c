@@ -127,6 +127,43 @@ static void mark_places(vary *v, const vary_entry *e)
     }
 }
 
+/* From the places that are affected to all that follows from them; the entries among it to `active`, where there is one. */
+static void follow(vary *v, uint8_t *changed)
+{
+    const vary_log *log = &v->model->log;
+    mark_nodes(v, changed);
+    for (uint32_t k = 0; k < log->count; k++) {
+        if (!entry_changes(&log->entries[k], changed))
+            continue;
+        mark_places(v, &log->entries[k]);
+        mark_nodes(v, changed);
+        if (v->active)
+            v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
+    }
+}
+
+static const char *decision(const struct vary_frozen *f) { return f->what ? f->what : "a size or an index"; }
+
+bool vary_decides(const model *m, size_t first, size_t count, const motus_allocator *allocator, const char **what)
+{
+    const size_t nodes = m->graph->count;
+    uint8_t *room = take(allocator, m->pool_count + nodes + 2, 1);
+    *what = NULL;
+    if (!room)
+        return false;
+    uint8_t *changed = room + m->pool_count + 1;
+    vary v = {.model = (model *)m, .affected = room};
+    memset(room + first, 1, count);
+    follow(&v, changed);
+    for (uint32_t k = 0; k < m->log.frozen_count; k++) {
+        const struct vary_frozen *f = &m->log.frozen[k];
+        if (changed[f->n] && !*what)
+            *what = decision(f);
+    }
+    give(allocator, room);
+    return true;
+}
+
 static motus_status refuse(const model *m, const uint8_t *changed, bool own_step, bool own_until, motus_error *err)
 {
     for (uint32_t k = 0; k < m->log.frozen_count; k++) {
@@ -135,7 +172,7 @@ static motus_status refuse(const model *m, const uint8_t *changed, bool own_step
         if (!changed[f->n] || (step && own_step) || (until && own_until))
             continue;
         fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories", step || until ? "the " : "",
-             step ? "step" : until ? "end" : f->what ? f->what : "a size or an index");
+             until ? "end" : decision(f));
         if (step || until)
             hint(err, "give a step and an end of its own: --step and --until");
         return MOTUS_ARGUMENT;
@@ -160,15 +197,10 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
         v->places[k] = places[k];
         v->affected[places[k]] = 1;
     }
+    follow(v, changed);
     size_t largest = 0;
-    mark_nodes(v, changed);
-    for (uint32_t k = 0; k < m->log.count; k++) {
-        const vary_entry *e = &m->log.entries[k];
-        if (!entry_changes(e, changed))
-            continue;
-        mark_places(v, e);
-        mark_nodes(v, changed);
-        v->active[v->active_count++] = (vary_active){.entry = e};
+    for (uint32_t k = 0; k < v->active_count; k++) {
+        const vary_entry *e = v->active[k].entry;
         if (e->map && e->hull * (size_t)e->parts > largest)
             largest = e->hull * (size_t)e->parts;
     }

@@ -27,6 +27,10 @@ typedef struct vary_active { const vary_entry *entry; program *program; struct t
 
 /* For `count` places of the pool. Settings that are given by the caller (`step`, `until`) may depend on them. */
 motus_status vary_create(model *, const size_t *places, size_t count, bool own_step, bool own_until, vary **, motus_error *);
+/* What a change of `count` places from `first` on decides besides numbers: *what is "a size or an index", "step", "until" … (the first in the
+ * order in which the model was read), or NULL: nothing.
+ * Leaves no trace in the model. False: no memory. */
+bool vary_decides(const model *, size_t first, size_t count, const motus_allocator *, const char **what);
 /* values[k] to places[k], and all that follows: the pool, x0 and v0. False: no memory. */
 bool vary_apply(vary *, const double *values);
 /* For a machine that does the same for many trajectories at once: what to compute, and what differs (one byte for each place of the pool). */

@@ -428,12 +428,7 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
 static motus_status compare_all(compare *c)
 {
     study *s = &c->s;
-    int64_t per;
-    study_grid g;
-    if (c->def.evaluations > 0)
-        g = study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
-    else
-        g = study_grid_of(s, c->step, s->total, s->last_step, &per);
+    study_grid g = truth_grid(s, c->def.evaluations > 0 ? NAN : c->step);
     study_part(s, 0, TRUTH_SHARE);
     motus_status status = truth_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, 0, &c->truth);
     if (status == MOTUS_OK)

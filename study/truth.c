@@ -29,6 +29,14 @@ typedef struct candidate {
     double x, v, scaled;             /* the estimated error; scaled is NaN where there is none */
 } candidate;
 
+study_grid truth_grid(const study *s, double step)
+{
+    int64_t per;
+    if (isnan(step))
+        return study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
+    return study_grid_of(s, step, s->total, s->last_step, &per);
+}
+
 static size_t candidates(study *s, candidate *out)
 {
     size_t count = 0;

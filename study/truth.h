@@ -17,6 +17,8 @@ typedef struct truth {
     char text[TRUTH_TEXT_MAX];       /* "exact", "kahan-li8 at step 0.05" or why there is none */
 } truth;
 
+/* Where the motion is compared with the truth: at steps of size `step`, those of the trial run, or (NaN) at STUDY_SAMPLES even intervals. */
+study_grid truth_grid(const study *, double step);
 /* A failure to find the truth is no error: then known is false. steps: how many steps the judged methods take (for the bound on
  * the work). enough: an error, in units of the motion's size, that need not be improved; 0 for the best. Sets the study's
  * scale. truth_free in any case. */

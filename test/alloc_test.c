@@ -288,6 +288,13 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
         status = motus_run_state(r, y, y + nx, err);
     if (status == MOTUS_OK)
         h = mix(h, y, (nx + nv) * sizeof *y);
+    double *derivatives = malloc((nx + nv) * nv * sizeof *derivatives);
+    assert_non_null(derivatives);
+    if (status == MOTUS_OK && nv <= MOTUS_JACOBIAN_MAX) {
+        status = motus_run_jacobian(r, derivatives, derivatives + nx * nv, err);
+        h = mix(h, derivatives, status == MOTUS_OK ? (nx + nv) * nv * sizeof *derivatives : 0);
+    }
+    free(derivatives);
     *result = h;
     motus_run_destroy(r);
     free(kept);
@@ -329,6 +336,35 @@ static motus_status admit(motus_system *s, const char *method, uint64_t *result,
 {
     *result = 1;
     return motus_method_admits(s, method, err);
+}
+
+/* What a parameter decides is "unknown" where there is no memory to find out; all else about it needs none. */
+static motus_status settings(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    (void)method;
+    *result = 1;
+    for (size_t k = 0; k < motus_parameter_count(s); k++) {
+        motus_parameter p;
+        assert_int_equal(motus_parameter_at(s, k, &p), MOTUS_OK);
+        if (p.decides && !strcmp(p.decides, "unknown")) {
+            *err = (motus_error){.status = MOTUS_MEMORY, .message = "unknown"};
+            return MOTUS_MEMORY;
+        }
+        *result = mix(*result, p.decides ? p.decides : "", p.decides ? strlen(p.decides) : 0);
+        double *values = malloc(p.count * sizeof *values);
+        assert_non_null(values);
+        assert_int_equal(motus_parameter_values(s, k, values), MOTUS_OK);
+        *result = mix(*result, values, p.count * sizeof *values);
+        free(values);
+    }
+    return MOTUS_OK;
+}
+
+static void what_may_be_set(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(rich, "", settings, "parameters") >= 4);      /* one for each */
+    refuse_each(wide, "", settings, "parameters");
 }
 
 static void admission(void **state)
@@ -530,6 +566,7 @@ int main(void)
         cmocka_unit_test(wrong_texts),
         cmocka_unit_test(runs),
         cmocka_unit_test(admission),
+        cmocka_unit_test(what_may_be_set),
         cmocka_unit_test(explanations),
         cmocka_unit_test(studies),
         cmocka_unit_test(a_pool_without_release),

@@ -884,7 +884,7 @@ static void spare(void *context, void *block)
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
-    for (int converging = 0; converging < 2; converging++) {
+    for (int what = 0; what < 3; what++) {
         purse p = { -1, 0, 0 };
         motus_callback_def callback = spring_def();
         callback.exact = NULL;
@@ -893,21 +893,27 @@ static void every_allocation_may_fail(void **state)
         long before = p.open;
         const char *methods[] = { "verlet" };
         motus_study_def def = study_of(methods, 1, 0.5, 4);
-        def.evaluations = converging ? 0 : 40;
+        def.evaluations = what == 0 ? 40 : 0;
         motus_status status = MOTUS_MEMORY;
         /* Thousands of runs are made: the first failures one by one, then a scatter of them. */
         for (long k = 0; status != MOTUS_OK; k = k < 60 ? k + 1 : k + k / 8) {
             motus_comparison *c = NULL;
             motus_convergence *v = NULL;
+            motus_reference *r = NULL;
             motus_error e = motus_default_error();
             p.left = k;
             p.refused = 0;
-            status = converging ? motus_converge(s, &def, &v, &e) : motus_compare(s, &def, &c, &e);
+            status = what == 0 ? motus_compare(s, &def, &c, &e) : what == 1 ? motus_converge(s, &def, &v, &e) : motus_reference_create(s, &def, &r, &e);
+            const double times[] = { 3.1, 0.2 };
+            double x[2];
+            if (r)
+                status = motus_reference_at(r, times, 2, x, NULL, &e);
             p.left = -1;
             assert_int_equal(status, p.refused ? MOTUS_MEMORY : MOTUS_OK);
             assert_int_equal(e.status, status);
             motus_comparison_destroy(c);
             motus_convergence_destroy(v);
+            motus_reference_destroy(r);
             assert_int_equal(p.open, before);
         }
         motus_system_destroy(s);
