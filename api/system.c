@@ -25,6 +25,7 @@ void motus_system_destroy(motus_system *s)
     motus_allocator a = s->allocator;
     compiled_close(s->compiled);
     arena_release(&s->arena);
+    give(&a, s->mathml);
     give(&a, s);
 }
 

@@ -37,6 +37,7 @@ struct motus_system {
     bool sampled_gyroscopic, sampled_gradient;
     char *explanation;
     char *equation;
+    char *mathml;                    /* of the statement asked for last, from the hooks */
 };
 
 /* The same system once more, for another thread; what was found out by sampling is known to it too. */

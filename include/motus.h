@@ -246,6 +246,30 @@ MOTUS_API const char *motus_explain(motus_system *);
 /* Equation k of the normal form, as text in the language: "x'' = x^3 - x + F cos(t)". NULL past the last. */
 MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
 
+/* The statements of the model, in the order of its text; of a callback there are none. */
+typedef enum motus_statement_kind {
+    MOTUS_STATEMENT_MOTION,          /* x'' = … */
+    MOTUS_STATEMENT_COMPANION,       /* s' = … */
+    MOTUS_STATEMENT_PARAMETER, MOTUS_STATEMENT_QUANTITY,
+    MOTUS_STATEMENT_START,           /* x(0) = …, x'(0) = … */
+    MOTUS_STATEMENT_BOUNDARY,        /* x[0] = … */
+    MOTUS_STATEMENT_EXACT, MOTUS_STATEMENT_INVARIANT,
+    MOTUS_STATEMENT_SETTING          /* method, step, tolerance, from, until, every */
+} motus_statement_kind;
+typedef struct motus_statement {
+    motus_statement_kind kind;
+    const char *name;                /* what it is about: "x", "energy"; of a setting its word: "step" */
+    int line;                        /* of the model's text, 1-based, where it begins; 0: added by `set` */
+    int is_set;                      /* `set` gave its value */
+} motus_statement;
+MOTUS_API size_t motus_statement_count(const motus_system *);
+MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_statement *);
+/* Statement k as it was understood, typeset: one presentation MathML element, <math xmlns="…" display="block">…</math>, in UTF-8. It is
+ * well-formed XML, and so can be put into a page, whatever the text of the model is; what is too long for a page ends in an
+ * ellipsis. Two elements have a class for a style sheet: "cases", a table whose cells begin at the left, and "for", the indices of a
+ * family behind its equation. Owned by the system, until the next call of this function; NULL past the last, or without memory. */
+MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
+
 /* 4. Methods ----------------------------------------------------------------------------------------------------- */
 
 typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } motus_forces;

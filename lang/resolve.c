@@ -611,7 +611,7 @@ static bool resolve_settings(model *m)
     m->step = m->tolerance = m->until = m->every_time = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
-        if (s->kind < STATEMENT_METHOD || (s->kind == STATEMENT_METHOD && !s->text))
+        if (s->kind < STATEMENT_METHOD)
             continue;
         if (seen[s->kind]) {
             source_complain(&m->source, MOTUS_NAME, s->at, "%s is set twice", s->name);

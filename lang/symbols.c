@@ -112,27 +112,26 @@ static bool replace(model *m, uint32_t text)
             source_hint(s, "its initial values can: %s%s(0) = …", one->name, one->index_count ? "[…]" : "");
             return false;
         }
-    int found = 0;
+    uint32_t found = 0, kept = 0;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         statement *old = &m->statements.item[i];
-        if (old->kind != one->kind || strcmp(old->name, one->name))
-            continue;
-        if (one->kind == STATEMENT_START) {
-            if (old->primes != one->primes)
-                continue;
-            if (one->index_count > 0)
-                continue;            /* an additional line, which has precedence over the model's */
-        } else if (old->index_count != one->index_count) {
-            continue;
-        }
-        if (found++ == 0) {
-            tree *replaced = old->value;
+        bool same = old->kind == one->kind && !strcmp(old->name, one->name);
+        if (one->kind == STATEMENT_START)
+            same = same && old->primes == one->primes && one->index_count == 0;     /* x[3](0) is an additional line, before the model's */
+        else
+            same = same && old->index_count == one->index_count;
+        if (same && found++)
+            continue;                /* the first has taken the place of all */
+        if (same) {
+            tree *replaced = old->replaced ? old->replaced : old->value;
+            span stood = old->replaced ? old->stood : old->at;
             *old = *one;
             old->replaced = replaced;
+            old->stood = stood;
         }
-        else
-            old->kind = STATEMENT_METHOD, old->text = NULL;     /* an emptied line */
+        m->statements.item[kept++] = *old;
     }
+    m->statements.count = kept;
     if (found)
         return true;
     if (one->kind == STATEMENT_START) {

@@ -57,7 +57,8 @@ typedef struct statement {
     bool steps;                      /* every n steps */
     const char *text;                /* METHOD */
     loop *loops; uint32_t loop_count;
-    tree *replaced;                  /* DEFINITION by --set: the expression whose place it took */
+    tree *replaced;                  /* by --set: the model's expression whose place it took, */
+    span stood;                      /*   and where that statement begins */
     uint8_t progress;                /* START: 0 not yet, 1 on the way (seeing it again is a circle), 2 done */
     uint32_t next;                   /* 1 + number of the next line about the same state; 0: none */
 } statement;

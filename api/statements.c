@@ -1,0 +1,43 @@
+/* The statements of a model: what kind each is, where it stands, and how it looks in print. */
+#include "api/system.h"
+#include "lang/typeset.h"
+
+size_t motus_statement_count(const motus_system *s) { return s && s->model ? s->model->statements.count : 0; }
+
+static motus_statement_kind kind_of(const model *m, const statement *s)
+{
+    symbol named = {0};
+    switch (s->kind) {
+    case STATEMENT_EQUATION: return s->primes == 2 ? MOTUS_STATEMENT_MOTION : MOTUS_STATEMENT_COMPANION;
+    case STATEMENT_START: return MOTUS_STATEMENT_START;
+    case STATEMENT_EXACT: return MOTUS_STATEMENT_EXACT;
+    case STATEMENT_INVARIANT: return MOTUS_STATEMENT_INVARIANT;
+    case STATEMENT_DEFINITION:
+        named = symbols_find(m, s->name);
+        return named.state ? MOTUS_STATEMENT_BOUNDARY
+               : named.definition->kind == DEFINED_PARAMETER ? MOTUS_STATEMENT_PARAMETER : MOTUS_STATEMENT_QUANTITY;
+    default: return MOTUS_STATEMENT_SETTING;
+    }
+}
+
+motus_status motus_statement_at(const motus_system *s, size_t k, motus_statement *out)
+{
+    if (!out || k >= motus_statement_count(s))
+        return MOTUS_ARGUMENT;
+    model *m = s->model;
+    const statement *one = &m->statements.item[k];
+    bool set = one->at.text != 0;
+    *out = (motus_statement){.kind = kind_of(m, one), .name = one->name, .is_set = set};
+    if (!set || one->replaced)
+        out->line = source_line(&m->source, set ? one->stood : one->at);
+    return MOTUS_OK;
+}
+
+const char *motus_statement_mathml(motus_system *s, size_t k)
+{
+    if (k >= motus_statement_count(s))
+        return NULL;
+    give(&s->allocator, s->mathml);
+    s->mathml = typeset_statement(s->model, &s->allocator, k);
+    return s->mathml;
+}
