@@ -1,7 +1,7 @@
 /* Statements, and the loop that does what was put off. See typeset.h. */
 #include "lang/typeset_parts.h"
 
-void typeset_push(typesetter *p, task t)
+static void push(typesetter *p, task t)
 {
     if (p->failed)
         return;
@@ -21,6 +21,11 @@ void typeset_push(typesetter *p, task t)
     p->tasks[p->count++] = t;
 }
 
+void typeset_tag(typesetter *p, const char *text) { push(p, (task){.kind = TASK_TAG, .text = text}); }
+void typeset_sign(typesetter *p, const char *text) { push(p, (task){.kind = TASK_SIGN, .text = text}); }
+void typeset_then(typesetter *p, const tree *t, place at) { push(p, (task){.kind = TASK_TREE, .tree = t, .place = at}); }
+void typeset_word(typesetter *p, task_kind kind, const char *name) { push(p, (task){.kind = kind, .text = name}); }
+
 /* Tasks are noted in reading order and taken from the end. */
 static void turn(task *tasks, uint32_t count)
 {
@@ -37,8 +42,8 @@ static void do_all(typesetter *p)
     while (p->count && !p->failed) {
         task t = p->tasks[--p->count];
         uint32_t mark = p->count;
-        switch ((task_kind)t.kind) {
-        case TASK_TREE: typeset_tree(p, &t); break;
+        switch (t.kind) {
+        case TASK_TREE: typeset_tree(p, t.tree, t.place); break;
         case TASK_NAME: typeset_name(p, t.text); break;
         case TASK_TAIL: typeset_tail(p, t.text); break;
         case TASK_TAG: typeset_put(p, t.text); break;
@@ -55,7 +60,7 @@ static void ranges(typesetter *p, const statement *s)
         const loop *l = &s->loops[i];
         double more = l->first->kind == TREE_NUMBER && l->last->kind == TREE_NUMBER ? l->last->number - l->first->number : 2;
         typeset_tag(p, i ? "<mtext>&#xA0;and&#xA0;</mtext>" : "<mspace width=\"2em\"/><mrow class=\"for\"><mtext>for&#xA0;</mtext>");
-        typeset_range(p, l, more == 0 ? NULL : more == 1 ? "<mo>,</mo>" : "<mo>,</mo><mi>…</mi><mo>,</mo>", (place){0});
+        typeset_range(p, l, more == 0 ? NULL : more == 1 ? "<mo>,</mo>" : "<mo>,</mo><mi>…</mi><mo>,</mo>", 0);
     }
     if (s->loop_count)
         typeset_tag(p, "</mrow>");
@@ -71,7 +76,7 @@ static void setting(typesetter *p, const statement *s)
     typeset_put(p, "</mtext>");
     if (s->kind == STATEMENT_METHOD)
         return;
-    typeset_then(p, s->value, (place){0});
+    typeset_then(p, s->value, 0);
     if (s->steps)
         typeset_sign(p, "<mtext>&#xA0;steps</mtext>");
 }
@@ -88,9 +93,9 @@ char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
     if (s->kind >= STATEMENT_METHOD) {
         setting(&p, s);
     } else {
-        typeset_then(&p, s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT ? &start : &name, (place){0});
+        typeset_then(&p, s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT ? &start : &name, 0);
         typeset_tag(&p, "<mo>=</mo>");
-        typeset_then(&p, s->value, (place){0});
+        typeset_then(&p, s->value, 0);
         ranges(&p, s);
     }
     typeset_tag(&p, "</math>");

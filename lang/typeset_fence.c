@@ -5,7 +5,7 @@
 static bool tall(const tree *t, int *patience)
 {
     for (;; t = t->item[0]) {
-        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || typeset_calls(t, OP_SQRT) || typeset_calls(t, OP_CBRT) || --*patience < 0)
+        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*patience < 0)
             return true;
         if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_START || t->kind == TREE_COMPONENT)
             return false;
@@ -30,7 +30,7 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
 {
     int patience = 256;
     bool stretch = false, cut = count > TYPESET_ITEMS_MAX;
-    for (uint32_t i = 0; i < count && !stretch && !at.small; i++)
+    for (uint32_t i = 0; i < count && !stretch && !(at & PLACE_SMALL); i++)
         stretch = tall(itself ? itself : item[i], &patience);
     typeset_tag(p, open_fence[f][stretch]);
     for (uint32_t i = 0; i < count; i++) {

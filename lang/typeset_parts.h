@@ -15,16 +15,27 @@ typedef enum tight {
     TIGHT_OR, TIGHT_AND, TIGHT_NOT, TIGHT_COMPARE, TIGHT_MOD, TIGHT_SUM, TIGHT_MINUS, TIGHT_DOT, TIGHT_SLASH, TIGHT_PRODUCT, TIGHT_POWER, TIGHT_ATOM
 } tight;
 
-/* What stands to the right of an expression, outside its brackets: a sign of sum would draw a factor in, a choice anything. */
-typedef enum follow { FOLLOW_NOTHING, FOLLOW_TERM, FOLLOW_FACTOR } follow;
+/* What an expression finds where it stands, in one word (a struct would be passed through memory in WebAssembly):
+ *
+ *     tight    looser expressions are bracketed
+ *     follow   what stands to the right, outside its brackets: a sign of sum would draw a factor in, a choice anything
+ *     whole    one element is due, not a row of them
+ *     small    in a superscript, a subscript or a limit
+ *     chain    the left side of the same operator: its terms are counted already
+ *     level    expressions about it, in the bits from PLACE_LEVEL on
+ */
+typedef uint32_t place;
+enum { PLACE_TIGHT = 0xF, FOLLOW_NOTHING = 0, FOLLOW_TERM = 0x10, FOLLOW_FACTOR = 0x20, PLACE_FOLLOW = 0x30, PLACE_WHOLE = 0x40, PLACE_SMALL = 0x80,
+       PLACE_CHAIN = 0x100, PLACE_LEVEL = 0x10000 };
 
-typedef struct place {
-    uint8_t tight, follow;           /* TREE: what is looser is bracketed */
-    uint8_t level;
-    bool whole;                      /* one element is due here, not a row of them */
-    bool small;                      /* in a superscript, a subscript or a limit */
-    bool chain;                      /* the left side of the same operator: its terms are counted already */
-} place;
+/* A row of its own: in brackets, under a root … */
+static inline place place_inside(place at) { return ((at & PLACE_SMALL) | (at & ~0xFFFFu)) + PLACE_LEVEL; }
+/* One element of its own: a numerator, a base … */
+static inline place place_element(place at) { return place_inside(at) | PLACE_WHOLE; }
+static inline place place_script(place at) { return place_inside(at) | PLACE_WHOLE | PLACE_SMALL; }
+/* In the same row, with something to the right; the last in the row has to its right what the whole has. */
+static inline place place_left(place at, tight t, uint32_t follow) { return place_inside(at) | t | follow; }
+static inline place place_last(place at, tight t) { return place_inside(at) | t | (at & PLACE_FOLLOW); }
 
 typedef enum task_kind {
     TASK_TREE,
@@ -35,10 +46,9 @@ typedef enum task_kind {
 } task_kind;
 
 typedef struct task {
-    uint8_t kind;
+    task_kind kind;
     place place;
-    const tree *tree;
-    const char *text;
+    union { const tree *tree; const char *text; };
 } task;
 
 typedef struct typesetter {
@@ -60,9 +70,12 @@ bool typeset_has_exponent(const source *, const tree *);
 void typeset_plain(typesetter *, const char *text);        /* of the model: escaped */
 
 /* typeset.c: what is put off */
-void typeset_push(typesetter *, task);
+void typeset_tag(typesetter *, const char *);
+void typeset_sign(typesetter *, const char *);
+void typeset_then(typesetter *, const tree *, place);
+void typeset_word(typesetter *, task_kind, const char *name);
 /* typeset_tree.c */
-void typeset_tree(typesetter *, const task *);
+void typeset_tree(typesetter *, const tree *, place);
 /* typeset_fence.c: in brackets that are as high as they must be: a tree's items, with commas, or itself */
 typedef enum fence { FENCE_ROUND, FENCE_SQUARE, FENCE_BARS, FENCE_FLOOR } fence;
 void typeset_items(typesetter *, fence, const tree *, place);
@@ -76,17 +89,6 @@ void typeset_component(typesetter *, const tree *, place);
 void typeset_range(typesetter *, const loop *, const char *between, place);   /* between NULL: without the last */
 
 #define TYPESET_APPLY "<mo>&#x2061;</mo>"
-
-static inline void typeset_tag(typesetter *p, const char *text) { typeset_push(p, (task){.kind = TASK_TAG, .text = text}); }
-static inline void typeset_sign(typesetter *p, const char *text) { typeset_push(p, (task){.kind = TASK_SIGN, .text = text}); }
-static inline void typeset_then(typesetter *p, const tree *t, place at) { typeset_push(p, (task){.kind = TASK_TREE, .tree = t, .place = at}); }
-static inline void typeset_word(typesetter *p, task_kind kind, const char *name) { typeset_push(p, (task){.kind = (uint8_t)kind, .text = name}); }
-
-/* A row of its own: in brackets, under a root … */
-static inline place place_inside(place at) { return (place){.level = (uint8_t)(at.level + 1), .small = at.small}; }
-/* One element of its own: a numerator, a base … */
-static inline place place_element(place at) { return (place){.level = (uint8_t)(at.level + 1), .small = at.small, .whole = true}; }
-static inline place place_script(place at) { return (place){.level = (uint8_t)(at.level + 1), .small = true, .whole = true}; }
 
 static inline bool typeset_calls(const tree *t, int operation) { return t->kind == TREE_CALL && t->operation == operation; }
 

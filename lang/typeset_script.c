@@ -27,8 +27,7 @@ static const char *component_letter(const source *s, const tree *number)
 /* x_{max,i,y}: one part is an element by itself, several are a row. */
 static void subscripts(typesetter *p, const head *h, uint32_t parts, place at)
 {
-    place in = place_script(at);
-    in.whole = parts == 1;
+    place in = parts == 1 ? place_script(at) : place_inside(at) | PLACE_SMALL;
     uint32_t done = 0;
     if (parts > 1)
         typeset_tag(p, "<mrow>");
@@ -61,10 +60,8 @@ static void superscripts(typesetter *p, int primes, const tree *power, place at)
         typeset_tag(p, "<mrow>");
     if (primes)
         typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">″</mo>");
-    place in = place_script(at);
-    in.whole = !both;
     if (power)
-        typeset_then(p, power, in);
+        typeset_then(p, power, both ? place_inside(at) | PLACE_SMALL : place_script(at));
     if (both)
         typeset_tag(p, "</mrow>");
 }
@@ -100,10 +97,8 @@ void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
 
 void typeset_component(typesetter *p, const tree *t, place at)
 {
-    place base = place_element(at);
-    base.tight = TIGHT_ATOM;
     typeset_tag(p, "<msub>");
-    typeset_then(p, t->item[0], base);
+    typeset_then(p, t->item[0], place_element(at) | TIGHT_ATOM);
     const char *letter = component_letter(&p->model->source, t->item[1]);
     if (letter)
         typeset_word(p, TASK_NAME, letter);

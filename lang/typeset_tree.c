@@ -5,10 +5,6 @@
  */
 #include "lang/typeset_parts.h"
 
-/* In the same row, with something to the right; the last in the row has to its right what the whole has. */
-static place left(place at, tight t, follow f) { return (place){(uint8_t)t, (uint8_t)f, (uint8_t)(at.level + 1), false, at.small, false}; }
-static place last(place at, tight t) { return left(at, t, at.follow); }
-
 /* Shapes ------------------------------------------------------------------------------------------------------------- */
 
 /* Functions whose name is written; the others have a shape. */
@@ -84,7 +80,7 @@ static void times(typesetter *p, const tree *a, const tree *b, place at)
 {
     head h;
     const tree *before = a->kind == TREE_MULTIPLY ? a->item[1] : a, *first = b->kind == TREE_POWER ? b->item[0] : b;
-    bool brackets = tight_of(p, b, at.small) < TIGHT_POWER, state = false, word = function_name(first) != NULL;
+    bool brackets = tight_of(p, b, at & PLACE_SMALL) < TIGHT_POWER, state = false, word = function_name(first) != NULL;
     bool dot = !brackets && digit_first(b) && (b->kind != TREE_DIVIDE || before->kind == TREE_NUMBER);
     if (typeset_head(before, &h) && !h.start) {
         state = symbols_find(p->model, h.name->name).state != NULL;
@@ -121,26 +117,22 @@ static bool shortened(typesetter *p, const tree *t, place at)
         return false;
     for (; terms > TYPESET_TERMS_MAX; terms--)
         t = t->item[0];
-    at.chain = true;
-    at.follow = FOLLOW_FACTOR;
-    typeset_then(p, t, at);
+    typeset_then(p, t, (at & ~(uint32_t)PLACE_FOLLOW) | PLACE_CHAIN | FOLLOW_FACTOR);
     typeset_sign(p, rest[chain]);
     return true;
 }
 
-static void infix(typesetter *p, const tree *t, place at, tight a, follow f, const char *sign, tight b)
+static void infix(typesetter *p, const tree *t, place at, tight a, uint32_t follow, const char *sign, tight b)
 {
-    place of_left = left(at, a, f);
-    if (chain_of(t->kind) && chain_of(t->item[0]->kind) == chain_of(t->kind)) {
-        of_left.chain = true;
-        of_left.level = at.level;
-    }
+    place of_left = place_left(at, a, follow);
+    if (chain_of(t->kind) && chain_of(t->item[0]->kind) == chain_of(t->kind))
+        of_left = (of_left | PLACE_CHAIN) - PLACE_LEVEL;
     typeset_then(p, t->item[0], of_left);
     if (sign)
         typeset_sign(p, sign);
     else
         times(p, t->item[0], t->item[1], at);
-    typeset_then(p, t->item[1], last(at, b));
+    typeset_then(p, t->item[1], place_last(at, b));
 }
 
 /* Sums, calls, powers, quotients -------------------------------------------------------------------------------- */
@@ -153,15 +145,13 @@ static void sum(typesetter *p, const tree *t, place at)
         typeset_range(p, &t->loops[i], NULL, in);
         for (uint32_t k = 0; i + 1 == t->loop_count && k + 1 < t->count; k++) {
             typeset_sign(p, "<mo>,</mo>");
-            place condition = place_inside(in);
-            condition.tight = TIGHT_AND;
-            typeset_then(p, t->item[k], condition);
+            typeset_then(p, t->item[k], place_inside(in) | TIGHT_AND);
         }
         typeset_tag(p, "</mrow>");
         typeset_then(p, t->loops[i].last, in);
         typeset_tag(p, "</munderover>");
     }
-    typeset_then(p, t->item[t->count - 1], last(at, TIGHT_DOT));
+    typeset_then(p, t->item[t->count - 1], place_last(at, TIGHT_DOT));
 }
 
 static void function(typesetter *p, const tree *t, const tree *power, place at)
@@ -211,17 +201,15 @@ static void power(typesetter *p, const tree *t, place at)
         function(p, t->item[0], t->item[1], at);
         return;
     }
-    place base = place_element(at);
-    base.tight = TIGHT_ATOM;
     typeset_tag(p, "<msup>");
-    typeset_then(p, t->item[0], base);
+    typeset_then(p, t->item[0], place_element(at) | TIGHT_ATOM);
     typeset_then(p, t->item[1], place_script(at));
     typeset_tag(p, "</msup>");
 }
 
 static void quotient(typesetter *p, const tree *t, place at)
 {
-    if (at.small) {
+    if (at & PLACE_SMALL) {
         infix(p, t, at, TIGHT_SLASH, FOLLOW_FACTOR, "<mo lspace=\"0\" rspace=\"0\">/</mo>", TIGHT_POWER);
         return;
     }
@@ -235,7 +223,7 @@ static void unbracketed(typesetter *p, const tree *t, place at)
 {
     static const char *const relations[] = {"<mo>&lt;</mo>", "<mo>≤</mo>", "<mo>&gt;</mo>", "<mo>≥</mo>", "<mo>=</mo>", "<mo>≠</mo>"};
     head h;
-    if (chain_of(t->kind) && !at.chain && shortened(p, t, at))
+    if (chain_of(t->kind) && !(at & PLACE_CHAIN) && shortened(p, t, at))
         return;
     switch (t->kind) {
     case TREE_NUMBER: typeset_number(p, t); return;
@@ -248,7 +236,7 @@ static void unbracketed(typesetter *p, const tree *t, place at)
     case TREE_CALL: call(p, t, at); return;
     case TREE_NEGATE:
         typeset_sign(p, "<mo form=\"prefix\">−</mo>");
-        typeset_then(p, t->item[0], last(at, TIGHT_DOT));
+        typeset_then(p, t->item[0], place_last(at, TIGHT_DOT));
         return;
     case TREE_ADD: infix(p, t, at, TIGHT_SUM, FOLLOW_TERM, "<mo>+</mo>", TIGHT_DOT); return;
     case TREE_SUBTRACT: infix(p, t, at, TIGHT_SUM, FOLLOW_TERM, "<mo>−</mo>", TIGHT_DOT); return;
@@ -260,7 +248,7 @@ static void unbracketed(typesetter *p, const tree *t, place at)
     case TREE_OR: infix(p, t, at, TIGHT_OR, FOLLOW_TERM, "<mtext>&#xA0;or&#xA0;</mtext>", TIGHT_AND); return;
     case TREE_NOT:
         typeset_sign(p, "<mtext>not&#xA0;</mtext>");
-        typeset_then(p, t->item[0], last(at, TIGHT_NOT));
+        typeset_then(p, t->item[0], place_last(at, TIGHT_NOT));
         return;
     case TREE_VECTOR: typeset_items(p, FENCE_ROUND, t, at); return;
     case TREE_LIST: typeset_items(p, FENCE_SQUARE, t, at); return;
@@ -269,27 +257,21 @@ static void unbracketed(typesetter *p, const tree *t, place at)
     }
 }
 
-void typeset_tree(typesetter *p, const task *task)
+void typeset_tree(typesetter *p, const tree *t, place at)
 {
-    const tree *t = task->tree;
-    place at = task->place;
-    if (p->full || at.level > TYPESET_LEVELS_MAX) {
-        if (at.whole || !p->full)
-            typeset_tag(p, p->full ? "<mrow></mrow>" : "<mi>…</mi>");
+    bool deep = at / PLACE_LEVEL > TYPESET_LEVELS_MAX, ends = !p->full && p->length > TYPESET_BYTES_MAX;
+    if (p->full || deep || ends) {
+        typeset_put(p, !p->full ? "<mi>…</mi>" : at & PLACE_WHOLE ? "<mrow></mrow>" : "");
+        p->full |= ends;
         return;
     }
-    if (p->length > TYPESET_BYTES_MAX) {
-        p->full = true;
-        typeset_tag(p, "<mi>…</mi>");
-        return;
-    }
-    bool swallows = (t->kind == TREE_SUM && at.follow == FOLLOW_FACTOR) || (typeset_calls(t, CALL_IF) && at.follow != FOLLOW_NOTHING);
-    if (tight_of(p, t, at.small) < (tight)at.tight || swallows) {
+    uint32_t follow = at & PLACE_FOLLOW;
+    bool swallows = (t->kind == TREE_SUM && follow == FOLLOW_FACTOR) || (typeset_calls(t, CALL_IF) && follow != FOLLOW_NOTHING);
+    if (tight_of(p, t, at & PLACE_SMALL) < (at & PLACE_TIGHT) || swallows) {
         typeset_itself(p, FENCE_ROUND, t, at);
-    } else if (at.whole && !single(t, at.small)) {
-        at.whole = false;
+    } else if (at & PLACE_WHOLE && !single(t, at & PLACE_SMALL)) {
         typeset_tag(p, "<mrow>");
-        typeset_then(p, t, at);
+        typeset_then(p, t, at & ~(uint32_t)PLACE_WHOLE);
         typeset_tag(p, "</mrow>");
     } else {
         unbracketed(p, t, at);

@@ -398,6 +398,30 @@ static void explanations(void **state)
         refuse_each(texts[i], "", explain, "explain");
 }
 
+/* All of the model in print; the next statement can be had where one could not. */
+static motus_status typeset(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    (void)method;
+    bool lost = false;
+    *result = 1;
+    for (size_t k = 0; k < motus_statement_count(s); k++) {
+        const char *text = motus_statement_mathml(s, k);
+        lost |= !text;
+        *result = text ? mix(*result, text, strlen(text)) : *result;
+    }
+    if (!lost)
+        return MOTUS_OK;
+    *err = (motus_error){.status = MOTUS_MEMORY, .message = "not typeset"};
+    return MOTUS_MEMORY;
+}
+
+static void statements(void **state)
+{
+    (void)state;
+    for (int i = 0; i < TEXTS; i++)
+        assert_true(refuse_each(texts[i], "", typeset, "typeset") > 8);
+}
+
 static motus_status compare(motus_system *s, const char *methods, uint64_t *result, motus_error *err)
 {
     motus_comparison *c = NULL;
@@ -568,6 +592,7 @@ int main(void)
         cmocka_unit_test(admission),
         cmocka_unit_test(what_may_be_set),
         cmocka_unit_test(explanations),
+        cmocka_unit_test(statements),
         cmocka_unit_test(studies),
         cmocka_unit_test(a_pool_without_release),
         cmocka_unit_test(ensembles),

@@ -5,6 +5,7 @@
  * Under libFuzzer the sanitizers judge; with -DREPLAY it is a plain program that replays the files named as arguments.
  */
 #include "motus.h"
+#include "test/mathml.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 32, NUMBERS = 1000, SETTINGS = 4 };
+enum { HEADER = 32, NUMBERS = 1000, SETTINGS = 4, TYPESET_MAX = 1 << 17 };
 
 #define CHECK(truth)                                                        \
     do {                                                                    \
@@ -77,6 +78,23 @@ static void check_error(const motus_error *err, motus_status status)
     for (const char *p = err->source; *p; p++)
         CHECK((unsigned char)*p >= 0x20 && *p != 0x7F);
     CHECK((err->line > 0) == (err->column > 0));
+}
+
+/* Every statement typeset is XML that a page can take. */
+static void check_statements(motus_system *s)
+{
+    for (size_t k = 0; k < motus_statement_count(s) && k < NUMBERS; k++) {
+        motus_statement statement;
+        const char *text = motus_statement_mathml(s, k), *wrong;
+        CHECK(motus_statement_at(s, k, &statement) == MOTUS_OK && statement.name && (statement.line > 0 || statement.is_set));
+        if (!text)
+            continue;                /* no memory */
+        CHECK(strlen(text) < TYPESET_MAX);
+        wrong = mathml_read(text, NULL, 0, NULL);
+        if (wrong)
+            fprintf(stderr, "%s: %s\n", wrong, text);
+        CHECK(!wrong);
+    }
 }
 
 static void look(motus_system *s, motus_run *r)
@@ -164,6 +182,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t length)
         CHECK(!s);
         check_error(&err, status);
     } else if (motus_positions(s) + motus_velocities(s) <= NUMBERS) {
+        check_statements(s);
         for (size_t k = 0; k < 20 && motus_equation_text(s, k); k++)
             check_text(motus_equation_text(s, k), SIZE_MAX / 2);
         look(s, NULL);
