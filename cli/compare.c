@@ -7,6 +7,7 @@
 #include "cli/json.h"
 #include "cli/load.h"
 #include "cli/overlay.h"
+#include "cli/share.h"
 #include "cli/stop.h"
 #include "cli/table.h"
 #include "cli/text.h"
@@ -224,6 +225,8 @@ static motus_status show(const options *o, load *m, const motus_comparison *c, m
 
 motus_status compare_verb(const options *o, motus_error *err)
 {
+    if (o->share)
+        return share_verb(o, err);
     load m = {0};
     motus_comparison *c = NULL;
     motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;

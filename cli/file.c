@@ -102,6 +102,21 @@ bool file_same(const char *a, const char *b)
            first.st_ino == second.st_ino;
 }
 
+bool file_program(const char *name, char *path, size_t size)
+{
+    const char *folders = getenv("PATH");
+    if (!folders || !*folders)
+        folders = "/usr/local/bin:/usr/bin:/bin";
+    while (*folders) {
+        size_t length = strcspn(folders, ":");
+        int n = snprintf(path, size, "%.*s%s%s", (int)length, folders, length ? "/" : "./", name);
+        if (n > 0 && (size_t)n < size && access(path, X_OK) == 0)
+            return true;
+        folders += length + (folders[length] == ':');
+    }
+    return false;
+}
+
 static motus_status cannot_write(file_out *f, motus_error *err)
 {
     if (f->code == EPIPE && strcmp(f->path, "-") == 0)

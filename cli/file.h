@@ -14,6 +14,9 @@
 motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *);
 bool file_same(const char *a, const char *b);   /* one and the same file, also through links */
 
+/* Where PATH finds a program; false: nowhere. */
+bool file_program(const char *name, char *path, size_t size);
+
 /* A file being written. Until file_keep() it has a temporary name in the same folder. What is no regular file (a device, a
  * pipe, "-") is written directly. */
 typedef struct file_out {

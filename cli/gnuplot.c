@@ -31,18 +31,8 @@ static motus_status missing(motus_error *err)
 
 motus_status gnuplot_check(motus_error *err)
 {
-    const char *path = getenv("PATH");
-    if (!path || !*path)
-        path = "/usr/local/bin:/usr/bin:/bin";
-    while (*path) {
-        char candidate[4096];
-        size_t length = strcspn(path, ":");
-        int n = snprintf(candidate, sizeof candidate, "%.*s%sgnuplot", (int)length, path, length ? "/" : "./");
-        if (n > 0 && (size_t)n < sizeof candidate && access(candidate, X_OK) == 0)
-            return MOTUS_OK;
-        path += length + (path[length] == ':');
-    }
-    return missing(err);
+    char path[4096];
+    return file_program("gnuplot", path, sizeof path) ? MOTUS_OK : missing(err);
 }
 
 static int spawn(pid_t *process, int script, int picture, int complaints)

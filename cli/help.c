@@ -15,7 +15,8 @@ static const page pages[] = {
      "  motus run models/damped-cubic.motus --plot phase.svg --plot-of \"x,x'\"\n"
      "  motus run models/kepler.motus --save-state half.state --until 10\n"
      "  motus run models/kepler.motus --restart half.state --until 20\n"
-     "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"},
+     "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"
+     "  motus run models/pendulum.motus --set \"theta(0)=3\" --step 1/64 --share\n"},
     {VERB_COMPARE, "motus compare MODEL [options]",
      "Runs every method side by side: steps, evaluations, time, largest and final error against the exact motion or a\n"
      "reference whose own error is shown, drift of the invariants and its trend, and what is left after going there and\n"
@@ -43,6 +44,14 @@ static const page pages[] = {
      "method whether the model admits it, and why not.",
      "  motus check models/damped-cubic.motus\n"
      "  motus check models/charged-particle.motus --json\n"},
+    {VERB_LAB, "motus lab [MODEL] [options]",
+     "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser. The file\n"
+     "is NAME-lab.html in the current folder, where NAME is the model's; its path goes to standard output.\n"
+     "The browser is $BROWSER, else the system's.",
+     "  motus lab\n"
+     "  motus lab models/pendulum.motus --set \"theta(0)=3\"\n"
+     "  motus lab models/spring.motus --method verlet --methods explicit-euler,symplectic-euler --step 1/8\n"
+     "  motus lab models/kepler.motus --no-open -o lesson.html\n"},
     {VERB_METHODS, "motus methods [METHOD] [options]",
      "Lists the methods, or shows the card of one: formula, properties, reference, when to use it.",
      "  motus methods\n"
@@ -63,6 +72,7 @@ void help_program(FILE *out)
           "  motus sweep    MODEL     many trajectories: parameters and initial values vary\n"
           "  motus check    MODEL     what the program understood, which methods it admits\n"
           "  motus methods [METHOD]   the catalogue, or the card of one method\n"
+          "  motus lab     [MODEL]    the page: the motion drawn, methods beside each other, in the browser\n"
           "  motus cache    --clear   forget the compiled models\n\n"
           "  motus VERB --help        options and examples;  motus --version\n\n"
           "A model is a text that reads like a textbook:\n\n"

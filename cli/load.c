@@ -21,25 +21,25 @@ static motus_status no_model(const options *o, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-/* A byte 0 says that this is no text; where it stands, for the message. */
-static motus_status check_text(const char *text, size_t length, const char *file, motus_error *err)
+static const char *called(const char *path)
 {
-    const char *zero = memchr(text, 0, length);
-    if (!zero)
-        return MOTUS_OK;
-    int line = 1;
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+motus_status load_complain(const char *text, const char *at, const char *path, const char *what, motus_error *err)
+{
+    int line = 1, column = 1;
     const char *start = text;
-    for (const char *s = text; s < zero; s++)
+    for (const char *s = text; s < at; s++)
         if (*s == '\n') {
             line++;
             start = s + 1;
         }
-    int column = 1;
-    for (uint32_t c; start < zero; column++)
+    for (uint32_t c; start < at; column++)
         start += text_decode(start, &c);
-    complain(err, MOTUS_SYNTAX, "a byte 0: this is not a text");
+    complain(err, MOTUS_SYNTAX, "%s", what);
     complain_hint(err, "a model is a text file in UTF-8");
-    text_safe(file, err->file, sizeof err->file);
+    text_safe(called(path), err->file, sizeof err->file);
     err->line = line;
     err->column = column;
     return MOTUS_SYNTAX;
@@ -65,14 +65,13 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     motus_status status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
     if (status)
         return status;
-    const char *file = strcmp(o->operand, "-") == 0 ? "standard input" : o->operand;
-    status = check_text(m->text, length, file, err);
-    if (status)
-        return status;
+    const char *zero = memchr(m->text, 0, length);
+    if (zero)
+        return load_complain(m->text, zero, o->operand, "a byte 0: this is not a text", err);
     motus_text_def def = motus_default_text();
     def.text = m->text;
     def.length = length;
-    def.file = file;
+    def.file = called(o->operand);
     def.set = o->set.items;
     def.set_count = o->set.count;
     status = motus_system_from_text(&def, &m->system, err);

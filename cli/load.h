@@ -16,6 +16,9 @@ typedef struct load {
 motus_status load_model(load *, const options *, motus_error *);
 void load_free(load *);
 
+/* An error in a text at one of its bytes; `path` as a command names it, - is standard input. Returns MOTUS_SYNTAX. */
+motus_status load_complain(const char *text, const char *at, const char *path, const char *what, motus_error *);
+
 /* First column of the quantities and of the invariants. */
 size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);

@@ -27,7 +27,7 @@ static const verb verbs[] = {
     {"check", VERB_CHECK, check_verb},
     {"methods", VERB_METHODS, methods_verb},
     {"cache", VERB_CACHE, cache_verb},
-    {"lab", 0, NULL},
+    {"lab", VERB_LAB, lab_verb},
     {"bench", 0, NULL},
 };
 enum { VERBS = sizeof verbs / sizeof *verbs };

@@ -13,10 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP, STUDY = VERB_COMPARE | VERB_CONVERGE,
-       MOTION = VERB_RUN | STUDY | VERB_SWEEP, DRAWN = VERB_RUN | STUDY, ONE = VERB_RUN | VERB_SWEEP, ANY = MODEL | VERB_METHODS | VERB_CACHE };
+enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP | VERB_LAB, STUDY = VERB_COMPARE | VERB_CONVERGE,
+       MOTION = VERB_RUN | STUDY | VERB_SWEEP | VERB_LAB, DRAWN = VERB_RUN | STUDY, ONE = VERB_RUN | VERB_SWEEP, SHARED = VERB_RUN | VERB_COMPARE,
+       ANY = MODEL | VERB_METHODS | VERB_CACHE };
 
-typedef enum kind { FLAG, WORD, POSITIVE, REAL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
+typedef enum kind { FLAG, WORD, STEP, UNTIL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
 
 typedef struct option {
     const char *name, *brief, *argument;
@@ -28,13 +29,13 @@ typedef struct option {
 
 #define AT(member) offsetof(options, member)
 static const option table[] = {
-    {"--method",      NULL, "M",       WORD,     AT(method),      ONE,           "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
-    {"--methods",     NULL, "A,B,C",   METHOD_LIST, AT(methods),  STUDY,         "these methods (else every one the model admits)"},
-    {"--step",        NULL, "H",       POSITIVE, AT(step),        MOTION,        "time step: 0.01, 1/64, pi/100"},
-    {"--until",       NULL, "T",       REAL,     AT(until),       MOTION,        "end time; before the start: backward"},
+    {"--method",      NULL, "M",       WORD,     AT(method),      ONE | VERB_LAB, "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
+    {"--methods",     NULL, "A,B,C",   METHOD_LIST, AT(methods),  STUDY | VERB_LAB, "these methods (else every one the model admits; lab: else the model's)"},
+    {"--step",        NULL, "H",       STEP,     AT(step),        MOTION,        "time step: 0.01, 1/64, pi/100"},
+    {"--until",       NULL, "T",       UNTIL,    AT(until),       MOTION,        "end time; before the start: backward"},
     {"--set",         NULL, "P=EXPR",  NAMED,    AT(set),         MODEL,         "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
     {"--evaluations", NULL, "N",       COUNT,    AT(evaluations), VERB_COMPARE,  "equal work: each method's step is chosen to spend N evaluations"},
-    {"--output",      "-o", "FILE",    WORD,     AT(output),      ONE,           "write the CSV (sweep: .npy as well) to FILE; - is standard output"},
+    {"--output",      "-o", "FILE",    WORD,     AT(output),      ONE | VERB_LAB, "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
     {"--columns",     NULL, "A,B,C",   WORD,     AT(columns),     VERB_RUN,      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
     {"--every",       NULL, "T",       EVERY,    AT(every_time),  ONE,           "a row (sweep: a look for max and the like) every time T, or every \"10 steps\""},
     {"--plot",        NULL, "FIG",     WORD,     AT(plot),        DRAWN,         "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
@@ -44,6 +45,8 @@ static const option table[] = {
     {"--machine",     NULL, "NAME",    WORD,     AT(machine),     ONE,           "auto (compiles where the run is long enough), interpreter, compiled"},
     {"--threads",     NULL, "N",       COUNT,    AT(threads),     ONE,           "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
     {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
+    {"--share",       NULL, NULL,      FLAG,     AT(share),       SHARED,        "print what stands behind the address of the lab to show this, and stop"},
+    {"--no-open",     NULL, NULL,      FLAG,     AT(no_open),     VERB_LAB,      "write the page and start no browser"},
     {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
     {"--vary",        NULL, "P=RANGE", NAMED,    AT(vary),        VERB_SWEEP,    "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
     {"--random",      NULL, "P=DIST",  NAMED,    AT(random),      VERB_SWEEP,    "\"x(0)=-1:1\", evenly; m=normal:MEAN:DEVIATION; repeatable"},
@@ -62,7 +65,7 @@ static const option table[] = {
 };
 enum { OPTIONS = sizeof table / sizeof *table };
 
-static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods", "cache", "sweep"};
+static const char *const verb_names[] = {"run", "compare", "converge", "check", "methods", "cache", "sweep", "lab"};
 
 const char *options_verb(unsigned verb)
 {
@@ -98,7 +101,7 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
     }
     if (elsewhere) {
         char verbs[64] = "";
-        for (unsigned bit = 1; bit <= VERB_SWEEP; bit <<= 1)
+        for (unsigned bit = 1; bit <= VERB_LAB; bit <<= 1)
             if (elsewhere->verbs & bit)
                 snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "", options_verb(bit));
         complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
@@ -213,12 +216,12 @@ static motus_status store(options *o, const option *row, const char *value, motu
             return complain(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
         *(const char **)place = value;
         return MOTUS_OK;
-    case POSITIVE:
-        if (!typed_number(value, place) || !(*(double *)place > 0))
-            return bad_value(row, value, "a number above 0", err);
-        return MOTUS_OK;
-    case REAL:
-        return typed_number(value, place) ? MOTUS_OK : bad_value(row, value, "a number", err);
+    case STEP:
+        o->step_typed = value;
+        return typed_number(value, &o->step) && o->step > 0 ? MOTUS_OK : bad_value(row, value, "a number above 0", err);
+    case UNTIL:
+        o->until_typed = value;
+        return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
     case COUNT:
         return typed_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "a whole number above 0", err);
     case EVERY:
@@ -235,6 +238,23 @@ static motus_status store(options *o, const option *row, const char *value, motu
     case NAMED:
         return add_named(place, row, value, err);
     }
+    return MOTUS_OK;
+}
+
+/* An address has a model, its settings and methods: it cannot say how much work is spent or where a run was interrupted. And as
+ * nothing is computed, there is nothing to write. */
+static motus_status check_share(const options *o, motus_error *err)
+{
+    const struct { const char *name; bool given; } others[] = {
+        {"--output", o->output}, {"--plot", o->plot}, {"--save-state", o->save_state}, {"--restart", o->restart},
+        {"--evaluations", o->evaluations > 0}, {"--emit-c", o->emit_c},
+    };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (others[i].given) {
+            complain(err, MOTUS_ARGUMENT, "--share and %s exclude each other", others[i].name);
+            complain_hint(err, "--share computes nothing: it prints the model and its settings as an address has them");
+            return MOTUS_ARGUMENT;
+        }
     return MOTUS_OK;
 }
 
@@ -263,12 +283,12 @@ static motus_status check(const options *o, motus_error *err)
     }
     if (o->json && o->output && strcmp(o->output, "-") == 0) {
         complain(err, MOTUS_ARGUMENT, "--json and -o - both want standard output");
-        complain_hint(err, "write the CSV to a file: -o traj.csv");
+        complain_hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV", o->verb == VERB_LAB ? "lab.html" : "traj.csv");
         return MOTUS_ARGUMENT;
     }
     if (o->json && o->markdown)
         return complain(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
-    return MOTUS_OK;
+    return o->share ? check_share(o, err) : MOTUS_OK;
 }
 
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)

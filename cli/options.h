@@ -8,7 +8,8 @@
 #include <stdio.h>
 
 /* Verbs, as bits, so that an option can say where it belongs. */
-enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32, VERB_SWEEP = 64 };
+enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32, VERB_SWEEP = 64,
+       VERB_LAB = 128 };
 
 typedef struct options_list { const char **items; size_t count; } options_list;
 
@@ -17,6 +18,7 @@ typedef struct options {
     const char *operand;                 /* the model, or the method of `methods`; NULL: none */
     const char *method, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
     double step, until;                  /* NaN: the model's */
+    const char *step_typed, *until_typed;   /* as given; NULL: the model's */
     double every_time;                   /* 0: not given */
     int64_t every_steps;                 /* 0: not given */
     int64_t evaluations, threads;        /* 0: not given */
@@ -28,7 +30,7 @@ typedef struct options {
     bool seeded;                         /* a seed was given */
     bool zip, fast, resume, force;
     char *methods_text;                  /* what the items of `methods` point into */
-    bool json, quiet, help, markdown, emit_c, clear;
+    bool json, quiet, help, markdown, emit_c, clear, share, no_open;
     int argc;
     char **argv;                         /* the whole command, for the header of files */
 } options;

@@ -9,6 +9,7 @@
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
+#include "cli/share.h"
 #include "cli/stop.h"
 #include "cli/summary.h"
 #include "cli/verbs.h"
@@ -192,6 +193,8 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c)
         return emit(o, err);
+    if (o->share)
+        return share_verb(o, err);
     job j = {.options = o};
     motus_status status = begin(&j, err);
     if (!status) {

@@ -11,5 +11,6 @@ motus_status check_verb(const options *, motus_error *);
 motus_status methods_verb(const options *, motus_error *);
 motus_status sweep_verb(const options *, motus_error *);
 motus_status cache_verb(const options *, motus_error *);
+motus_status lab_verb(const options *, motus_error *);
 
 #endif

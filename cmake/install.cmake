@@ -25,6 +25,8 @@ install(FILES ${PROJECT_BINARY_DIR}/motus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 install(FILES doc/motus.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES README.md LICENSE doc/manual.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/motus FILES_MATCHING PATTERN "*.motus")
+# The page is there when `make lab` has built it.
+install(FILES ${PROJECT_BINARY_DIR}/lab/motus-lab.html DESTINATION ${CMAKE_INSTALL_DATADIR}/motus OPTIONAL)
 install(FILES doc/completions/motus.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME motus)
 install(FILES doc/completions/_motus DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES doc/completions/motus.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

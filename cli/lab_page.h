@@ -1,0 +1,19 @@
+/* The page of the lab as `make lab` builds it, and the place in it where a written one says with what it starts. */
+#ifndef CLI_LAB_PAGE_H
+#define CLI_LAB_PAGE_H
+
+#include "cli/file.h"
+
+typedef struct lab_page {
+    char *path, *text;
+    size_t length, place;        /* bytes; the start goes before byte `place` */
+} lab_page;
+
+/* The page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0]. To be freed, also after a
+ * failure. */
+motus_status lab_page_read(lab_page *, const char *program, motus_error *);
+void lab_page_free(lab_page *);
+/* The page with a start: text of a fragment without its #, or "". */
+motus_status lab_page_write(const lab_page *, const char *start, file_out *, motus_error *);
+
+#endif
