@@ -86,7 +86,7 @@ motus_status lab_page_read(lab_page *p, const char *program, motus_error *err)
     if (strstr(rest, meta))
         return not_a_page(p, "two places in it say with what it starts", err);
     if (strncmp(rest, empty, sizeof empty - 1) != 0)
-        return not_a_page(p, "it has a start already", err);
+        return not_a_page(p, "its place for a start is not empty", err);
     p->place = (size_t)(rest - p->text) + strlen(" content=\"");
     return MOTUS_OK;
 }

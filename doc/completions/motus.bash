@@ -2,11 +2,11 @@
 _motus() {
     local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} verb= i
     for ((i = 1; i < COMP_CWORD; i++)); do
-        case ${COMP_WORDS[i]} in run|compare|converge|sweep|check|methods|cache) verb=${COMP_WORDS[i]}; break ;; esac
+        case ${COMP_WORDS[i]} in run|compare|converge|sweep|check|methods|lab|cache) verb=${COMP_WORDS[i]}; break ;; esac
     done
     COMPREPLY=()
     if [[ -z $verb ]]; then
-        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep check methods cache --help --version' -- "$current")
+        mapfile -t COMPREPLY < <(compgen -W 'run compare converge sweep check methods lab cache --help --version' -- "$current")
         return
     fi
     local methods='motus methods --json 2>/dev/null | grep -o "\"name\": *\"[^\"]*\"" | cut -d\" -f4'
@@ -21,11 +21,12 @@ _motus() {
     if [[ $current == -* ]]; then
         local options='--json --quiet --help'
         case $verb in
-        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c' ;;
-        compare)  options+=' --methods --step --until --set --evaluations --plot' ;;
+        run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share' ;;
+        compare)  options+=' --methods --step --until --set --evaluations --plot --share' ;;
         converge) options+=' --methods --step --until --set --plot' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --step --until --every --set --output --resume --force'
                   options+=' --threads --lanes --machine --fast' ;;
+        lab)      options+=' --method --methods --step --until --set --output --no-open' ;;
         cache)    options+=' --clear' ;;
         check)    options+=' --set' ;;
         methods)  options+=' --markdown' ;;

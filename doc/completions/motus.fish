@@ -2,7 +2,7 @@
 function __motus_methods
     motus methods --json 2>/dev/null | string match -ra '"name": *"[^"]*"' | string replace -r '.*"([^"]*)"$' '$1'
 end
-set -l verbs run compare converge sweep check methods cache
+set -l verbs run compare converge sweep check methods lab cache
 complete -c motus -f
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a run -d 'the motion'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a cache -d 'compiled models'
@@ -11,17 +11,18 @@ complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a converge -d 'ob
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a sweep -d 'many trajectories'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a check -d 'what the program understood'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a methods -d 'the catalogue of methods'
+complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a lab -d 'the page, in the browser'
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -l version -d 'the version'
-complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check" -k -a "(__fish_complete_suffix .motus)"
+complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -k -a "(__fish_complete_suffix .motus)"
 complete -c motus -n "__fish_seen_subcommand_from methods" -a "(__motus_methods)"
 complete -c motus -n "__fish_seen_subcommand_from methods" -l markdown -d 'as a Markdown table'
-complete -c motus -n "__fish_seen_subcommand_from run sweep" -l method -x -a "(__motus_methods)" -d 'the method'
-complete -c motus -n "__fish_seen_subcommand_from compare converge" -l methods -x -a "(__fish_append , (__motus_methods))" -d 'these methods'
-complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep" -l step -x -d 'time step'
-complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep" -l until -x -d 'end'
-complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check" -l set -x -d 'replace a parameter or initial value'
+complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -l method -x -a "(__motus_methods)" -d 'the method'
+complete -c motus -n "__fish_seen_subcommand_from compare converge lab" -l methods -x -a "(__fish_append , (__motus_methods))" -d 'these methods'
+complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab" -l step -x -d 'time step'
+complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep lab" -l until -x -d 'end'
+complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -l set -x -d 'replace a parameter or initial value'
 complete -c motus -n "__fish_seen_subcommand_from compare" -l evaluations -x -d 'equal work'
-complete -c motus -n "__fish_seen_subcommand_from run sweep" -s o -l output -r -F -d 'trajectory as CSV'
+complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -s o -l output -r -F -d 'trajectory as CSV, or the page'
 complete -c motus -n "__fish_seen_subcommand_from run" -l columns -x -d 'columns of the CSV'
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l every -x -d 'a row every time, or "n steps"'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge" -l plot -r -F -d 'draw with gnuplot'
@@ -41,6 +42,8 @@ complete -c motus -n "__fish_seen_subcommand_from sweep" -l force -d 'replace th
 complete -c motus -n "__fish_seen_subcommand_from run sweep" -l threads -x -d threads
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l lanes -x -d 'trajectories side by side'
 complete -c motus -n "__fish_seen_subcommand_from sweep" -l fast -d 'let the compiler reorder'
+complete -c motus -n "__fish_seen_subcommand_from run compare" -l share -d 'print the fragment of an address'
+complete -c motus -n "__fish_seen_subcommand_from lab" -l no-open -d 'start no browser'
 complete -c motus -n "__fish_seen_subcommand_from cache" -l clear -d 'remove compiled models'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -l json -d 'one JSON object'
 complete -c motus -n "__fish_seen_subcommand_from $verbs" -s q -l quiet -d 'nothing but errors'
