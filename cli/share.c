@@ -136,29 +136,36 @@ static void number_of(double value, const char *typed, char *out, size_t size)
     snprintf(out, size, "%s", same ? typed : digits);
 }
 
+static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment, motus_error *err)
+{
+    char step[256], until[256];
+    all->list[all->count++] = (item){'v', "1"};
+    all->list[all->count++] = (item){'m', m->text};
+    for (size_t k = 0; k < o->set.count; k++)
+        all->list[all->count++] = (item){'s', o->set.items[k]};
+    if (*methods)
+        all->list[all->count++] = (item){'a', methods};
+    if (o->step_typed) {
+        number_of(o->step, o->step_typed, step, sizeof step);
+        all->list[all->count++] = (item){'h', step};
+    }
+    if (o->until_typed) {
+        number_of(o->until, o->until_typed, until, sizeof until);
+        all->list[all->count++] = (item){'T', until};
+    }
+    return write_items(all, o, fragment, err);
+}
+
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    char step[256] = "", until[256] = "";
+    enum { OTHERS = 5 };                        /* v m a h T */
     char *methods = methods_of(o);
-    items all = {malloc((o->set.count + 5) * sizeof *all.list), 0};
-    motus_status status = methods && all.list ? MOTUS_OK : complain_memory(err);
-    if (!status) {
-        all.list[all.count++] = (item){'v', "1"};
-        all.list[all.count++] = (item){'m', m->text};
-        for (size_t k = 0; k < o->set.count; k++)
-            all.list[all.count++] = (item){'s', o->set.items[k]};
-        if (*methods)
-            all.list[all.count++] = (item){'a', methods};
-        if (o->step_typed) {
-            number_of(o->step, o->step_typed, step, sizeof step);
-            all.list[all.count++] = (item){'h', step};
-        }
-        if (o->until_typed) {
-            number_of(o->until, o->until_typed, until, sizeof until);
-            all.list[all.count++] = (item){'T', until};
-        }
-        status = write_items(&all, o, fragment, err);
-    }
+    items all = {malloc((o->set.count + OTHERS) * sizeof *all.list), 0};
+    motus_status status;
+    if (methods && all.list)
+        status = gather(&all, m, o, methods, fragment, err);
+    else
+        status = complain_memory(err);
     free(all.list);
     free(methods);
     return status;
