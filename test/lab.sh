@@ -124,6 +124,13 @@ that "... stays in its quotes" holds_fragment nasty-lab.html "$(cat nasty.fragme
 that "... and opens or closes nothing" is "$(tr -cd '<>\"'"'" <nasty-lab.html)" "$(tr -cd '<>\"'"'" <page.html)"
 "$motus" lab - --no-open <osc.motus >"$out" 2>"$err"
 that "a model from standard input" eval "is \"\$(cat '$out')\" model-lab.html && cmp model-lab.html osc-lab.html"
+long=$(printf 'é%.0s' $(seq 100))
+cp osc.motus "$long.motus"
+gives "a long name" 0 "$motus" lab "$long.motus" --no-open
+that "... is cut at a whole letter" cmp "${long:0:31}-lab.html" osc-lab.html
+cp osc.motus $'we\nird \033[31m.motus'
+gives "a name with a newline and an escape" 0 "$motus" lab $'we\nird \033[31m.motus' --no-open
+that "... gives a file without them" is "$(cat "$out")" $'we\ufffdird \ufffd[31m-lab.html'
 gives "-o -" 0 "$motus" lab osc.motus -o -
 that "... is the page alone" cmp "$out" osc-lab.html
 gives "-o - and --json" 2 "$motus" lab osc.motus -o - --json

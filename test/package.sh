@@ -128,6 +128,9 @@ refuse() { ! configure "$1"; }
 try "find_package refuses another minor version" refuse "0.$(( $(cut -d. -f2 <<<"$version") + 1 ))"
 
 try "the program is installed and runs" "$prefix/bin/motus" run "$prefix/share/motus/models/spring.motus" --quiet
+if [ -f "$build/lab/motus-lab.html" ]; then
+    try "the page of the lab is installed, and the program finds it" cmp "$build/lab/motus-lab.html" <(env -u MOTUS_LAB_PAGE "$prefix/bin/motus" lab -o -)
+fi
 try "the program needs no libmotus beside it" sh -c '! readelf -d "$1" | grep -q libmotus' - "$prefix/bin/motus"
 try "the manual page is installed" test -s "$prefix/share/man/man1/motus.1"
 try "completions are installed" test -s "$prefix/share/bash-completion/completions/motus" \
