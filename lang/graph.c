@@ -285,8 +285,10 @@ node graph_op(graph *g, operation op, node a, node b, node c)
 
 node graph_power(graph *g, node base, int exponent)
 {
-    if (exponent < 0)
-        return graph_op(g, OP_DIV, graph_const(g, 1), graph_power(g, base, -exponent), 0);
+    if (exponent < 0) {
+        node power = graph_power(g, base, -exponent);      /* made first, whatever a compiler would choose */
+        return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
+    }
     if (exponent == 0)
         return graph_const(g, 1);
     if (exponent == 1)

@@ -131,6 +131,13 @@ static node norm_power(lowering *l, value of, int n)
     return n < 0 ? binary(l, OP_DIV, graph_const(g, 1), p) : p;
 }
 
+/* a[i] b[j] - a[j] b[i]. The order in which nodes are made is the graph's, not a compiler's choice. */
+static node area(lowering *l, const node *a, const node *b, int i, int j)
+{
+    node minus = binary(l, OP_MUL, a[j], b[i]), plus = binary(l, OP_MUL, a[i], b[j]);
+    return binary(l, OP_SUB, plus, minus);
+}
+
 static value lower_power(lowering *l, const tree *t)
 {
     const tree *base = t->item[0], *exponent = t->item[1];
@@ -196,12 +203,10 @@ static value lower_call(lowering *l, const tree *t)
             return scalar(l, dot(l, v[0], v[1]));
         const node *a = v[0].item, *b = v[1].item;
         if (v[0].count == 2)
-            return scalar(l, binary(l, OP_SUB, binary(l, OP_MUL, a[0], b[1]), binary(l, OP_MUL, a[1], b[0])));
+            return scalar(l, area(l, a, b, 0, 1));
         value r = vector(l, 3);
-        for (int k = 0; k < 3; k++) {
-            int i = (k + 1) % 3, j = (k + 2) % 3;
-            r.item[k] = binary(l, OP_SUB, binary(l, OP_MUL, a[i], b[j]), binary(l, OP_MUL, a[j], b[i]));
-        }
+        for (int k = 0; k < 3; k++)
+            r.item[k] = area(l, a, b, (k + 1) % 3, (k + 2) % 3);
         return r;
     }
     if (t->operation == OP_MIN || t->operation == OP_MAX) {

@@ -193,8 +193,10 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
             n->number = n->at.level >= 0 || n->constant ? binary(l, OP_ADD, n->number, graph_const(g, n->at.literal)) : graph_const(g, n->at.literal);
         if (n->constant)
             n->number = n->at.level >= 0 || n->at.literal ? binary(l, OP_ADD, n->number, n->constant) : n->constant;
-        if (n->at.modulus >= 0)
-            n->number = binary(l, OP_ADD, binary(l, OP_MOD, n->number, l->model->int_nodes[n->at.modulus]), graph_const(g, 1));
+        if (n->at.modulus >= 0) {
+            node one = graph_const(g, 1);
+            n->number = binary(l, OP_ADD, binary(l, OP_MOD, n->number, l->model->int_nodes[n->at.modulus]), one);
+        }
         const tree *name = s->index[k];
         if (name->kind == TREE_NAME) {
             n->name = name->name;
