@@ -31,7 +31,7 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
     int patience = 256;
     bool stretch = false, cut = count > TYPESET_ITEMS_MAX;
     for (uint32_t i = 0; i < count && !stretch && !(at & PLACE_SMALL); i++)
-        stretch = tall(itself ? itself : item[i], &patience);
+        stretch = tall(item ? item[i] : itself, &patience);
     typeset_tag(p, open_fence[f][stretch]);
     for (uint32_t i = 0; i < count; i++) {
         if (i)
@@ -40,7 +40,7 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
             typeset_sign(p, "<mi>…</mi><mo>,</mo>");
             i = count - 1;
         }
-        typeset_then(p, itself ? itself : item[i], place_inside(at));
+        typeset_then(p, item ? item[i] : itself, place_inside(at));
     }
     typeset_tag(p, close_fence[f][stretch]);
 }
