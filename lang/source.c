@@ -86,7 +86,7 @@ static void point(source *s, span at, motus_error *e)
 
 void source_complain(source *s, motus_status status, span at, const char *format, ...)
 {
-    if (s->failed)
+    if (source_failed(s))            /* what seems wrong after memory ran out is not the text's fault */
         return;
     s->failed = true;
     s->status = status;
