@@ -5,7 +5,8 @@ set(kernels core/stepper_body.c lang/tape_kernels.c lang/tape_run.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   core/*.c lang/*.c run/*.c api/*.c study/*.c)
-list(REMOVE_ITEM library_sources ${kernels})
+# The page's module takes run/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
+list(REMOVE_ITEM library_sources ${kernels} run/nowhere.c)
 
 # The texts of step/ travel in the library: the compiled machine compiles them again, with a model between them.
 file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h)

@@ -59,7 +59,7 @@ static void superscripts(typesetter *p, int primes, const tree *power, place at)
     if (both)
         typeset_tag(p, "<mrow>");
     if (primes)
-        typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">″</mo>");
+        typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">′′</mo>");
     if (power)
         typeset_then(p, power, both ? place_inside(at) | PLACE_SMALL : place_script(at));
     if (both)

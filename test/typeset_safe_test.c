@@ -190,7 +190,7 @@ static void settings(void **state)
     static const char text[] = "\nF =\n  0.1\nx'' = -x + F\nx(0) = 1\nx'(0) = 0\nu[i]'' = 0 for i = 1..3\nu[1](0) = 1\nu[i](0) = 2 for i = 2..3\nu[i]'(0) = 0 for i = 1..3\nG = F\n";
     const char *const set[] = {"F = 7", "\n\n F = 8e-3", "x(0) = F", "u[2](0) = 5"};
     static const struct { int line, is_set; const char *in_short; } expected[] = {
-        {2, 1, "F={8×msup{10|{−3}}}"}, {4, 0, "msup{x|″}=−x+F"}, {5, 1, "{x@{(0)}}=F"}, {6, 0, "{msup{x|′}@{(0)}}=0"}, {7, 0, "msubsup{u|i|″}=0 {for_i=1,…,3}"},
+        {2, 1, "F={8×msup{10|{−3}}}"}, {4, 0, "msup{x|′′}=−x+F"}, {5, 1, "{x@{(0)}}=F"}, {6, 0, "{msup{x|′}@{(0)}}=0"}, {7, 0, "msubsup{u|i|′′}=0 {for_i=1,…,3}"},
         {8, 0, "{msub{u|1}@{(0)}}=1"}, {9, 0, "{msub{u|i}@{(0)}}=2 {for_i=2,3}"}, {10, 0, "{msubsup{u|i|′}@{(0)}}=0 {for_i=1,…,3}"}, {11, 0, "G=F"},
         {0, 1, "{msub{u|2}@{(0)}}=5"}};
     motus_system *s = given_text_with(text, set, 4, "set");

@@ -58,7 +58,7 @@ static void expressions(void **state)
         {"a", "a"}, {"speed", "speed"}, {"omega0", "msub{ω|0}"}, {"x_max", "msub{x|max}"}, {"Gamma", "Γ"}, {"mu", "μ"}, {"pi", "π"}, {"t", "t"},
         {"m1_max", "msub{m|1,max}"}, {"θ1", "msub{θ|1}"}, {"k₁₂", "msub{k|12}"}, {"vₓ", "msub{v|x}"}, {"_low", "_low"}, {"end_", "end_"},
         {"alpha_beta", "msub{α|β}"},
-        {"x'", "msup{x|′}"}, {"x''", "msup{x|″}"}, {"x'^2", "msup{x|{′2}}"}, {"r'.y", "msubsup{r|y|′}"}, {"r'.y^2", "msubsup{r|y|{′2}}"},
+        {"x'", "msup{x|′}"}, {"x''", "msup{x|′′}"}, {"x'^2", "msup{x|{′2}}"}, {"r'.y", "msubsup{r|y|′}"}, {"r'.y^2", "msubsup{r|y|{′2}}"},
         {"omega0^2", "msubsup{ω|0|2}"}, {"m[2]", "msub{m|2}"}, {"q[2]'^n", "msubsup{q|2|{′n}}"}, {"u[1, 2]", "msub{u|{1,2}}"}, {"w[2].y", "msub{w|{2,y}}"},
         {"w[2]'[3]", "msubsup{w|{2,3}|′}"}, {"sum(i = 1..2: q[i+1])", "munderover{∑|{i=1}|2}msub{q|{i+1}}"}, {"q[mod(3, 2)+1]", "msub{q|{{(3mod2)}+1}}"},
         {"x(0)", "{x@{(0)}}"}, {"x'(0)^2", "msup{{msup{x|′}@{(0)}}|2}"}, {"r(0).x", "{msub{r|x}@{(0)}}"}, {"cross(r, s).z", "msub{{(r×s)}|z}"},
@@ -129,9 +129,9 @@ static void kinds(void **state)
 {
     (void)state;
     static const struct { motus_statement_kind kind; int line; const char *name, *in_short; } expected[] = {
-        {MOTUS_STATEMENT_PARAMETER, 2, "k", "k=1"}, {MOTUS_STATEMENT_MOTION, 4, "x", "msup{x|″}=−k~x"}, {MOTUS_STATEMENT_START, 5, "x", "{x@{(0)}}=1"},
+        {MOTUS_STATEMENT_PARAMETER, 2, "k", "k=1"}, {MOTUS_STATEMENT_MOTION, 4, "x", "msup{x|′′}=−k~x"}, {MOTUS_STATEMENT_START, 5, "x", "{x@{(0)}}=1"},
         {MOTUS_STATEMENT_START, 6, "x", "{msup{x|′}@{(0)}}=0"}, {MOTUS_STATEMENT_INVARIANT, 7, "energy", "energy=mfrac{msup{x|{′2}}|2}+mfrac{msup{x|2}|2}"},
-        {MOTUS_STATEMENT_QUANTITY, 8, "v", "v=msup{x|′}"}, {MOTUS_STATEMENT_MOTION, 10, "u", "msubsup{u|i|″}=msub{u|{i+1}}−msub{u|i} {for_i=1}"},
+        {MOTUS_STATEMENT_QUANTITY, 8, "v", "v=msup{x|′}"}, {MOTUS_STATEMENT_MOTION, 10, "u", "msubsup{u|i|′′}=msub{u|{i+1}}−msub{u|i} {for_i=1}"},
         {MOTUS_STATEMENT_BOUNDARY, 11, "u", "msub{u|2}=sin@{(t)}"}, {MOTUS_STATEMENT_START, 12, "u", "{msub{u|i}@{(0)}}=0 {for_i=1}"},
         {MOTUS_STATEMENT_START, 13, "u", "{msubsup{u|i|′}@{(0)}}=0 {for_i=1}"}, {MOTUS_STATEMENT_COMPANION, 14, "fed", "msup{fed|′}=x"},
         {MOTUS_STATEMENT_START, 15, "fed", "{fed@{(0)}}=0"}, {MOTUS_STATEMENT_SETTING, 16, "until", "until_1"}, {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"}};
@@ -163,7 +163,7 @@ static void letters(void **state)
     (void)state;
     static const char *const expected[] = {
         "<mi>ω</mi><mo>=</mo><mn>2</mn>",
-        "<msup><mi>x</mi><mo class=\"prime\">″</mo></msup><mo>=</mo><mo form=\"prefix\">−</mo><msup><mi>ω</mi><mn>2</mn></msup><mo>&#x2062;</mo><mi>x</mi>",
+        "<msup><mi>x</mi><mo class=\"prime\">′′</mo></msup><mo>=</mo><mo form=\"prefix\">−</mo><msup><mi>ω</mi><mn>2</mn></msup><mo>&#x2062;</mo><mi>x</mi>",
         "<mrow><mi>x</mi><mo>&#x2061;</mo><mrow><mo stretchy=\"false\">(</mo><mn>0</mn><mo stretchy=\"false\">)</mo></mrow></mrow><mo>=</mo><mn>1</mn>",
         "<mrow><msup><mi>x</mi><mo class=\"prime\">′</mo></msup><mo>&#x2061;</mo><mrow><mo stretchy=\"false\">(</mo><mn>0</mn><mo stretchy=\"false\">)</mo>"
         "</mrow></mrow><mo>=</mo><mrow><mo form=\"prefix\" stretchy=\"false\">|</mo><mi>ω</mi><mo form=\"postfix\" stretchy=\"false\">|</mo></mrow>",

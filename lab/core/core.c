@@ -1,0 +1,148 @@
+/* The calls of the page, over motus.h. The page writes texts and reads numbers in the module's memory; answers with names in them are JSON.
+ *
+ * Every call that can fail returns a motus_status, and lab_problem tells the rest. Counts are doubles: JavaScript's integers.
+ */
+#include "lab/core/core.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char **lab_list(const char *strings, size_t count)
+{
+    const char **list = malloc((count + 1) * sizeof *list);
+    for (size_t k = 0; list && k < count; k++, strings += strlen(strings) + 1)
+        list[k] = strings;
+    return list;
+}
+
+LAB_CALL(lab_create) lab *lab_create(void)
+{
+    lab *l = malloc(sizeof *l);
+    if (l)
+        *l = (lab){.error = motus_default_error()};
+    return l;
+}
+
+static void forget_run(lab *l)
+{
+    motus_run_destroy(l->run);
+    l->run = NULL;
+}
+
+LAB_CALL(lab_destroy) void lab_destroy(lab *l)
+{
+    if (!l)
+        return;
+    forget_run(l);
+    motus_reference_destroy(l->reference);
+    motus_system_destroy(l->system);
+    json_free(&l->json);
+    free(l);
+}
+
+/* The text of a model and what replaces its values, `sets` strings one behind the other. */
+LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length, const char *set, size_t sets)
+{
+    forget_run(l);
+    motus_reference_destroy(l->reference);
+    motus_system_destroy(l->system);
+    l->reference = NULL;
+    l->system = NULL;
+    motus_text_def def = motus_default_text();
+    const char **list = lab_list(set, sets);
+    if (!list) {
+        l->error.status = MOTUS_MEMORY;
+        return MOTUS_MEMORY;
+    }
+    def.text = text;
+    def.length = length;
+    def.set = list;
+    def.set_count = sets;
+    motus_status status = motus_system_from_text(&def, &l->system, &l->error);
+    free(list);
+    return status;
+}
+
+/* The last problem. */
+LAB_CALL(lab_problem) const char *lab_problem(lab *l)
+{
+    json *j = &l->json;
+    const motus_error *e = &l->error;
+    json_clear(j);
+    json_open(j, NULL, '{');
+    json_string(j, "kind", motus_status_word(e->status));
+    json_string(j, "message", e->message[0] ? e->message : motus_status_text(e->status));
+    json_string(j, "hint", e->hint);
+    json_number(j, "line", e->line);
+    json_number(j, "column", e->column);
+    json_string(j, "source", e->source);
+    json_string(j, "caret", e->caret);
+    json_number(j, "time", e->time);
+    json_string(j, "variable", e->variable);
+    json_close(j, '}');
+    return json_text(j);
+}
+
+/* Runs: started, recorded in slices, and looked at. `step`, `until`: NaN is the model's. */
+LAB_CALL(lab_start) motus_status lab_start(lab *l, const char *method, double step, double until)
+{
+    forget_run(l);
+    motus_run_def def = motus_default_run();
+    def.method = *method ? method : NULL;
+    def.step = step;
+    def.until = until;
+    def.machine = "interpreter";
+    return motus_run_create(l->system, &def, &l->run, &l->error);
+}
+
+/* Steps on by `every` (from the second row of a run on) and writes the numbers of `count` columns, up to `rows` times or to the end. The rows
+ * that were written are in *written, also where a step failed. */
+LAB_CALL(lab_record)
+motus_status lab_record(lab *l, const size_t *columns, size_t count, double every, size_t rows, int first, double *out, size_t *written)
+{
+    *written = 0;
+    for (size_t i = 0; i < rows; i++) {
+        motus_status status = MOTUS_OK;
+        if (!first || i > 0) {
+            if (motus_run_done(l->run))
+                return MOTUS_OK;
+            status = motus_run_step(l->run, (int64_t)every, &l->error);
+        }
+        if (status == MOTUS_OK)
+            status = motus_run_values(l->run, columns, count, out + i * count, &l->error);
+        if (status != MOTUS_OK)
+            return status;
+        *written = i + 1;
+    }
+    return MOTUS_OK;
+}
+
+/* out: time, steps, steps in all, step, last step, evaluations, done. */
+LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
+{
+    out[0] = motus_run_time(l->run);
+    out[1] = (double)motus_run_steps(l->run);
+    out[2] = (double)motus_run_steps_total(l->run);
+    out[3] = motus_run_step_size(l->run);
+    out[4] = motus_run_last_step(l->run);
+    out[5] = (double)motus_run_evaluations(l->run);
+    out[6] = motus_run_done(l->run);
+}
+
+LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps) { return motus_run_step(l->run, (int64_t)steps, &l->error); }
+
+LAB_CALL(lab_method) const char *lab_method(const lab *l) { return motus_run_method(l->run); }
+
+/* The restart state: the whole state in hexadecimal numbers. NULL: lab_problem. */
+LAB_CALL(lab_save) const char *lab_save(lab *l)
+{
+    const char *text;
+    size_t length;
+    return motus_run_save(l->run, &text, &length, &l->error) == MOTUS_OK ? text : NULL;
+}
+
+LAB_CALL(lab_positions) size_t lab_positions(const lab *l) { return motus_positions(l->system); }
+LAB_CALL(lab_velocities) size_t lab_velocities(const lab *l) { return motus_velocities(l->system); }
+LAB_CALL(lab_jacobian) motus_status lab_jacobian(lab *l, double *da_dx, double *da_dv) { return motus_run_jacobian(l->run, da_dx, da_dv, &l->error); }

@@ -1,0 +1,195 @@
+/* Studies for the page: truth and errors, one step opened up, convergence, comparison, stability. */
+#include "lab/core/core.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The exact motion or a reference run, judged as a study at this step would be. */
+LAB_CALL(lab_reference) motus_status lab_reference(lab *l, double step, double until)
+{
+    motus_reference_destroy(l->reference);
+    l->reference = NULL;
+    motus_study_def def = motus_default_study();
+    def.step = step;
+    def.until = until;
+    return motus_reference_create(l->system, &def, &l->reference, &l->error);
+}
+LAB_CALL(lab_reference_name) const char *lab_reference_name(const lab *l) { return motus_reference_name(l->reference); }
+LAB_CALL(lab_reference_error) double lab_reference_error(const lab *l) { return motus_reference_error(l->reference); }
+
+/* positions and velocities at `count` times, row by row. */
+LAB_CALL(lab_reference_at) motus_status lab_reference_at(lab *l, const double *times, size_t count, double *x, double *v)
+{
+    return motus_reference_at(l->reference, times, count, x, v, &l->error);
+}
+
+static void numbers(json *j, const char *name, const double *values, size_t count)
+{
+    if (!values) {
+        json_string(j, name, NULL);
+        return;
+    }
+    json_open(j, name, '[');
+    for (size_t i = 0; i < count; i++)
+        json_number(j, NULL, values[i]);
+    json_close(j, ']');
+}
+
+/* The next step of the run, event by event (protocol.ts, TraceEntry). NULL: lab_problem. */
+LAB_CALL(lab_trace) const char *lab_trace(lab *l)
+{
+    static const char *const kinds[] = {
+        [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick", [MOTUS_EVENT_DRIFT] = "drift", [MOTUS_EVENT_STAGE] = "stage",
+        [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor", [MOTUS_EVENT_STEP] = "step", [MOTUS_EVENT_END] = "end",
+    };
+    const motus_trace_entry *entries;
+    size_t count;
+    if (motus_run_trace(l->run, &entries, &count, &l->error) != MOTUS_OK)
+        return NULL;
+    const size_t nx = motus_positions(l->system), nv = motus_velocities(l->system);
+    json *j = &l->json;
+    json_clear(j);
+    json_open(j, NULL, '[');
+    for (size_t k = 0; k < count; k++) {
+        const motus_trace_entry *e = &entries[k];
+        json_open(j, NULL, '{');
+        json_string(j, "kind", kinds[e->kind]);
+        json_number(j, "stage", e->stage);
+        json_number(j, "stages", e->stages);
+        json_number(j, "iterations", (double)e->iterations);
+        json_number(j, "time", e->time);
+        json_number(j, "step", e->step);
+        json_number(j, "coefficient", e->coefficient);
+        json_number(j, "weight", e->weight);
+        json_number(j, "weightX", e->weight_x);
+        numbers(j, "row", e->row, (size_t)e->stages);
+        numbers(j, "rowX", e->row_x, (size_t)e->stages);
+        numbers(j, "x", e->x, nx);
+        numbers(j, "v", e->v, nv);
+        numbers(j, "a", e->a, nv);
+        numbers(j, "beforeX", e->before_x, nx);
+        numbers(j, "beforeA", e->before_a, nv);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    return json_text(j);
+}
+
+static motus_study_def study(const char **methods, size_t count, double step, double until)
+{
+    motus_study_def def = motus_default_study();
+    def.methods = methods;
+    def.method_count = count;
+    def.step = step;
+    def.until = until;
+    return def;
+}
+
+/* Order, by slope (protocol.ts, Convergence). NULL: lab_problem. */
+LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, size_t count, double step, double until)
+{
+    const char **list = lab_list(methods, count);
+    motus_study_def def = study(list, count, step, until);
+    motus_convergence *c = NULL;
+    motus_status status = list ? motus_converge(l->system, &def, &c, &l->error) : MOTUS_MEMORY;
+    free(list);
+    if (!c) {
+        l->error.status = status;
+        return NULL;
+    }
+    json *j = &l->json;
+    json_clear(j);
+    json_open(j, NULL, '{');
+    json_open(j, "rows", '[');
+    for (size_t k = 0; k < c->row_count; k++) {
+        const motus_converge_row *r = &c->rows[k];
+        json_open(j, NULL, '{');
+        json_string(j, "method", r->method);
+        json_number(j, "declared", r->declared);
+        json_number(j, "observed", r->observed);
+        json_number(j, "standardError", r->standard_error);
+        json_bool(j, "exactHere", r->exact_here);
+        json_bool(j, "passed", r->passed);
+        json_open(j, "points", '[');
+        for (size_t i = 0; i < r->point_count; i++) {
+            json_open(j, NULL, '{');
+            json_number(j, "step", r->points[i].step);
+            json_number(j, "error", r->points[i].error);
+            json_number(j, "evaluations", (double)r->points[i].evaluations);
+            json_bool(j, "used", r->points[i].used);
+            json_close(j, '}');
+        }
+        json_close(j, ']');
+        json_string(j, "certificate", r->certificate);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_string(j, "reference", c->reference);
+    json_number(j, "referenceError", c->reference_error);
+    json_close(j, '}');
+    motus_convergence_destroy(c);
+    return json_text(j);
+}
+
+static void compare_row(json *j, const motus_compare_row *r)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "method", r->method);
+    json_number(j, "order", r->order);
+    json_string(j, "status", motus_status_word(r->status));
+    json_number(j, "step", r->step);
+    json_number(j, "steps", (double)r->steps);
+    json_number(j, "evaluations", (double)r->evaluations);
+    json_number(j, "errorMaxX", r->error_max_x);
+    json_number(j, "errorMaxV", r->error_max_v);
+    json_number(j, "errorFinalX", r->error_final_x);
+    json_number(j, "reversal", r->reversal);
+    json_open(j, "invariants", '[');
+    for (size_t i = 0; i < r->invariant_count; i++) {
+        const motus_drift *d = &r->invariants[i];
+        json_open(j, NULL, '{');
+        json_string(j, "name", d->name);
+        json_number(j, "initial", d->initial);
+        json_number(j, "final", d->final);
+        json_number(j, "max", d->max_drift);
+        json_number(j, "trend", d->trend);
+        json_bool(j, "trending", d->trending);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_string(j, "note", r->note ? r->note : "");
+    json_close(j, '}');
+}
+
+/* Every method side by side (protocol.ts, Comparison). NULL: lab_problem. */
+LAB_CALL(lab_compare) const char *lab_compare(lab *l, const char *methods, size_t count, double step, double until)
+{
+    const char **list = lab_list(methods, count);
+    motus_study_def def = study(list, count, step, until);
+    motus_comparison *c = NULL;
+    motus_status status = list ? motus_compare(l->system, &def, &c, &l->error) : MOTUS_MEMORY;
+    free(list);
+    if (!c) {
+        l->error.status = status;
+        return NULL;
+    }
+    json *j = &l->json;
+    json_clear(j);
+    json_open(j, NULL, '{');
+    json_open(j, "rows", '[');
+    for (size_t k = 0; k < c->row_count; k++)
+        compare_row(j, &c->rows[k]);
+    json_close(j, ']');
+    json_string(j, "reference", c->reference);
+    json_number(j, "referenceError", c->reference_error);
+    json_string(j, "remarks", c->remarks);
+    json_close(j, '}');
+    motus_comparison_destroy(c);
+    return json_text(j);
+}
+
+LAB_CALL(lab_stability) motus_status lab_stability(lab *l, const char *method, size_t count, const double *re, const double *im, double *growth)
+{
+    return motus_stability(method, count, re, im, growth, &l->error);
+}
