@@ -1,5 +1,6 @@
 # make              the program, build/motus, and the library
 # make demo         runs and compares the founding models; tables here, plots in out/
+# make lab          the page: build/lab/ for a server, build/lab/motus-lab.html for a double click
 # make test         every test; ends with "N passed, N failed"
 # make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
@@ -7,7 +8,7 @@
 # make functions   the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
 # make clean
 #
-# demo, test, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
+# demo, lab, test, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
 # Building is CMake's work: CMakeLists.txt, CMakePresets.json.
 
 PREFIX ?= /usr/local
@@ -17,7 +18,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo test bench install clean fuzz tidy functions manual need-demo
+.PHONY: all demo lab test bench install clean fuzz tidy functions manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -32,8 +33,12 @@ need-demo:
 demo: need-demo all
 	@cmake/demo.sh
 
+lab:
+	@cmake/need.sh build lab
+	@JOBS=$(JOBS) cmake/lab.sh
+
 test:
-	@cmake/need.sh build demo test
+	@cmake/need.sh build demo test lab page
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary
 
 # Nothing here fails for want of a peer, or of speed.

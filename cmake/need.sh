@@ -2,7 +2,7 @@
 # What a target needs from outside: looks whether it is there; what is missing is installed by apt-get where this user may
 # install (root, or sudo without a password), and otherwise the line to run is printed and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|bench|fuzz|tidy ...        --check: only look, and say
+#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|tidy ...        --check: only look, and say
 set -eu
 check_only=no
 if [ "${1-}" = --check ]; then check_only=yes; shift; fi
@@ -21,12 +21,21 @@ fuzzer_runs() {
     { (void)p; (void)n; return 0; }' | clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
 }
 
+# The page's core: clang, lld, the C library for WebAssembly and the compiler's runtime for it.
+wasm_links() {
+    echo '#include <stdlib.h>
+    long double take(const char *p) { return strtold(p, NULL); }' |
+        clang --target=wasm32-wasi -nostartfiles -Wl,--no-entry,--export=take -x c - -o /dev/null 2>/dev/null
+}
+
 for what; do
     case $what in
     build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
     demo)  tool gnuplot gnuplot-nox ;;
     test)  tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
            tool clang clang; fuzzer_runs || add clang-runtime ;;
+    lab)   tool node nodejs; tool npm npm; tool wasm-opt binaryen; tool clang clang; tool wasm-ld lld; wasm_links || add wasi ;;
+    page)  tool chromium chromium ;;
     bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
            header boost/version.hpp libboost-dev
            module numpy python3-numpy; module scipy python3-scipy; module numba python3-numba ;;
@@ -38,7 +47,7 @@ done
 [ -n "$missing" ] || exit 0
 
 if ! command -v apt-get >/dev/null 2>&1; then
-    echo "motus needs what Debian calls:$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/'); install it, then run this again." >&2
+    echo "motus needs what Debian calls:$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/; s/wasi/wasi-libc libclang-rt-dev-wasm32/'); install it, then run this again." >&2
     exit 1
 fi
 # clang's sanitizer and fuzzer runtimes are a package of their own, but part of clang on Ubuntu 22.04. Where apt has no lists yet, it
@@ -50,7 +59,11 @@ runtime() {
 }
 packages() {
     for name in $missing; do
-        if [ "$name" = clang-runtime ]; then runtime; else echo "$name"; fi
+        case $name in
+        clang-runtime) runtime ;;
+        wasi) echo wasi-libc; echo libclang-rt-dev-wasm32 ;;
+        *) echo "$name" ;;
+        esac
     done | sort -u | tr '\n' ' ' | sed 's/ $//'
 }
 

@@ -1,0 +1,195 @@
+/* The WebAssembly core, with types: texts and arrays go in and out of its memory here and nowhere else.
+ *
+ * Invariant: every block that is taken from the module's memory is given back, and no view of that memory outlives the call that made it (the memory
+ * may move when it grows).
+ */
+import type { Comparison, Convergence, Description, Method, Model, Problem, TraceEntry } from './protocol';
+import { Refused } from './scene';
+
+/** The exports of core/*.c, as a module of 32-bit addresses shows them. */
+interface Exports {
+  readonly memory: WebAssembly.Memory;
+  malloc(bytes: number): number;
+  free(block: number): void;
+  lab_create(): number;
+  lab_destroy(lab: number): void;
+  lab_open(lab: number, text: number, length: number, sets: number, count: number): number;
+  lab_problem(lab: number): number;
+  lab_describe(lab: number): number;
+  lab_catalogue(lab: number): number;
+  lab_start(lab: number, method: number, step: number, until: number): number;
+  lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
+  lab_progress(lab: number, out: number): void;
+  lab_advance(lab: number, steps: number): number;
+  lab_method(lab: number): number;
+  lab_save(lab: number): number;
+  lab_positions(lab: number): number;
+  lab_velocities(lab: number): number;
+  lab_jacobian(lab: number, x: number, v: number): number;
+  lab_reference(lab: number, step: number, until: number): number;
+  lab_reference_name(lab: number): number;
+  lab_reference_error(lab: number): number;
+  lab_reference_at(lab: number, times: number, count: number, x: number, v: number): number;
+  lab_trace(lab: number): number;
+  lab_converge(lab: number, methods: number, count: number, step: number, until: number): number;
+  lab_compare(lab: number, methods: number, count: number, step: number, until: number): number;
+  lab_stability(lab: number, method: number, count: number, re: number, im: number, growth: number): number;
+}
+
+export interface Progress {
+  readonly time: number; readonly steps: number; readonly total: number; readonly step: number; readonly last: number; readonly evaluations: number; readonly done: boolean;
+}
+export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }
+
+const NaNs = (value: number | null): number => value ?? NaN;
+const noMemory: Problem = {
+  kind: 'memory', message: 'out of memory', hint: 'a smaller model, fewer steps', line: 0, column: 0, source: '', caret: '', time: null, variable: '',
+};
+
+/** JSON has no infinities; the core writes them as texts. */
+function revive(_key: string, value: unknown): unknown {
+  return value === 'inf' ? Infinity : value === '-inf' ? -Infinity : value;
+}
+const lines = (text: string): string[] => text.split('\n').filter((line) => line !== '');
+
+export class Core {
+  private readonly exports: Exports;
+  private readonly encoder = new TextEncoder();
+  private readonly decoder = new TextDecoder();
+
+  constructor(module: WebAssembly.Module) {
+    this.exports = new WebAssembly.Instance(module).exports as unknown as Exports;
+  }
+
+  /** Room for `bytes`, while `use` runs. */
+  private room<T>(bytes: number, use: (at: number) => T): T {
+    const at = this.exports.malloc(Math.max(bytes, 1));
+    if (at === 0) throw new Refused(noMemory);
+    try {
+      return use(at);
+    } finally {
+      this.exports.free(at);
+    }
+  }
+  /** The texts one behind the other, each ended by 0. A text that holds a 0 of its own is cut there by the core. */
+  private texts<T>(list: readonly string[], use: (at: number, bytes: number) => T): T {
+    const bytes = this.encoder.encode(list.map((text) => text + '\0').join(''));
+    return this.room(bytes.length, (at) => {
+      new Uint8Array(this.exports.memory.buffer, at, bytes.length).set(bytes);
+      return use(at, bytes.length);
+    });
+  }
+  private numbers<T>(values: ArrayLike<number>, use: (at: number) => T): T {
+    return this.room(8 * values.length, (at) => {
+      new Float64Array(this.exports.memory.buffer, at, values.length).set(values);
+      return use(at);
+    });
+  }
+  private copy(at: number, count: number): Float64Array {
+    return new Float64Array(this.exports.memory.buffer, at, count).slice();
+  }
+  private string(at: number): string {
+    const bytes = new Uint8Array(this.exports.memory.buffer);
+    return this.decoder.decode(bytes.subarray(at, bytes.indexOf(0, at)));
+  }
+  private json<T>(at: number): T {
+    if (at === 0) throw new Refused(noMemory);
+    return JSON.parse(this.string(at), revive) as T;
+  }
+  problem(lab: number): Problem { return this.json<Problem>(this.exports.lab_problem(lab)); }
+  private check(lab: number, status: number): void {
+    if (status !== 0) throw new Refused(this.problem(lab));
+  }
+  /** A JSON answer, or the problem. */
+  private answer<T>(lab: number, at: number): T {
+    if (at === 0) throw new Refused(this.problem(lab));
+    return this.json<T>(at);
+  }
+
+  create(): number {
+    const lab = this.exports.lab_create();
+    if (lab === 0) throw new Refused(noMemory);
+    return lab;
+  }
+  destroy(lab: number): void { this.exports.lab_destroy(lab); }
+  bytes(): number { return this.exports.memory.buffer.byteLength; }
+
+  catalogue(lab: number): Method[] {
+    type Raw = Omit<Method, 'aliases'> & { aliases: string };
+    return this.json<Raw[]>(this.exports.lab_catalogue(lab)).map((row) => ({ ...row, aliases: row.aliases.split(' ').filter((name) => name !== '') }));
+  }
+  open(lab: number, model: Model): void {
+    this.texts([model.text], (text, length) => this.texts(model.set, (sets) => {
+      this.check(lab, this.exports.lab_open(lab, text, length - 1, sets, model.set.length));
+    }));
+  }
+  describe(lab: number): Description {
+    type Raw = Omit<Description, 'explain'> & { explain: string };
+    const raw = this.json<Raw>(this.exports.lab_describe(lab));
+    return { ...raw, explain: lines(raw.explain) };
+  }
+  start(lab: number, method: string, step: number | null, until: number | null): void {
+    this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(until))));
+  }
+  /** Rows of columns, one after the other, every `every` steps; the first row is the present state if `first`. */
+  record(lab: number, columns: readonly number[], every: number, rows: number, first: boolean): Rows {
+    return this.room(4 * columns.length + 8, (list) => this.room(8 * columns.length * rows, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, columns.length).set(columns);
+      const count = list + 4 * columns.length;
+      const status = this.exports.lab_record(lab, list, columns.length, every, rows, first ? 1 : 0, out, count);
+      const written = new DataView(this.exports.memory.buffer).getUint32(count, true);
+      return { values: this.copy(out, written * columns.length), rows: written, problem: status === 0 ? null : this.problem(lab) };
+    }));
+  }
+  progress(lab: number): Progress {
+    return this.room(56, (at) => {
+      this.exports.lab_progress(lab, at);
+      const [time = 0, steps = 0, total = 0, step = 0, last = 0, evaluations = 0, done = 0] = this.copy(at, 7);
+      return { time, steps, total, step, last, evaluations, done: done !== 0 };
+    });
+  }
+  advance(lab: number, steps: number): void { this.check(lab, this.exports.lab_advance(lab, steps)); }
+  method(lab: number): string { return this.string(this.exports.lab_method(lab)); }
+  save(lab: number): string {
+    const at = this.exports.lab_save(lab);
+    if (at === 0) throw new Refused(this.problem(lab));
+    return this.string(at);
+  }
+  positions(lab: number): number { return this.exports.lab_positions(lab); }
+  velocities(lab: number): number { return this.exports.lab_velocities(lab); }
+  /** Row by row: derivatives of each acceleration by the positions, and by the velocities. */
+  jacobian(lab: number): { byX: Float64Array; byV: Float64Array } {
+    const nx = this.positions(lab), nv = this.velocities(lab);
+    return this.room(8 * nv * nx, (x) => this.room(8 * nv * nv, (v) => {
+      this.check(lab, this.exports.lab_jacobian(lab, x, v));
+      return { byX: this.copy(x, nv * nx), byV: this.copy(v, nv * nv) };
+    }));
+  }
+  reference(lab: number, step: number | null, until: number | null): { name: string; error: number } {
+    this.check(lab, this.exports.lab_reference(lab, NaNs(step), NaNs(until)));
+    return { name: this.string(this.exports.lab_reference_name(lab)), error: this.exports.lab_reference_error(lab) };
+  }
+  /** Row by row. */
+  referenceAt(lab: number, times: Float64Array): { x: Float64Array; v: Float64Array } {
+    const nx = this.positions(lab), nv = this.velocities(lab), n = times.length;
+    return this.numbers(times, (at) => this.room(8 * n * nx, (x) => this.room(8 * n * nv, (v) => {
+      this.check(lab, this.exports.lab_reference_at(lab, at, n, x, v));
+      return { x: this.copy(x, n * nx), v: this.copy(v, n * nv) };
+    })));
+  }
+  trace(lab: number): TraceEntry[] { return this.answer<TraceEntry[]>(lab, this.exports.lab_trace(lab)); }
+  converge(lab: number, methods: readonly string[], step: number | null, until: number | null): Convergence {
+    return this.texts(methods, (at) => this.answer<Convergence>(lab, this.exports.lab_converge(lab, at, methods.length, NaNs(step), NaNs(until))));
+  }
+  compare(lab: number, methods: readonly string[], step: number | null, until: number | null): Comparison {
+    type Raw = Omit<Comparison, 'remarks'> & { remarks: string };
+    const raw = this.texts(methods, (at) => this.answer<Raw>(lab, this.exports.lab_compare(lab, at, methods.length, NaNs(step), NaNs(until))));
+    return { ...raw, remarks: lines(raw.remarks) };
+  }
+  stability(lab: number, method: string, re: Float64Array, im: Float64Array): Float64Array {
+    return this.texts([method], (name) => this.numbers(re, (x) => this.numbers(im, (y) => this.room(8 * re.length, (out) => {
+      this.check(lab, this.exports.lab_stability(lab, name, re.length, x, y, out));
+      return this.copy(out, re.length);
+    }))));
+  }
+}

@@ -1,0 +1,126 @@
+/* The pen that draws on a canvas; svgPen is the other one.
+ *
+ * Invariant: whatever is passed in, nothing is thrown: what is not finite is not drawn.
+ */
+import { FAMILY, OUTLINES, SIZE, STROKE, finite, head, runs, shift } from './shapes';
+import type { Pen, Stroke } from './types';
+
+export { svgPen } from './svg';
+
+export function canvasPen(context: CanvasRenderingContext2D, width: number, height: number): Pen {
+  const c = context;
+
+  function trace(xy: ArrayLike<number>, count: number): number {
+    let down = false, length = 0, lastX = 0, lastY = 0;
+    c.beginPath();
+    for (let i = 0; i + 1 < count; i += 2) {
+      const x = xy[i]!, y = xy[i + 1]!;
+      // Not finite: the pen is lifted. x - x is 0 for finite numbers only.
+      if (x - x + (y - y) !== 0) { down = false; continue; }
+      if (down) { c.lineTo(x, y); length += Math.abs(x - lastX) + Math.abs(y - lastY); } else c.moveTo(x, y);
+      down = true, lastX = x, lastY = y;
+    }
+    return length;
+  }
+  function use(stroke: Stroke, length: number): void {
+    c.strokeStyle = stroke.colour;
+    c.lineWidth = stroke.width;
+    // A line that fills the picture many times over is a band: its dashes are not seen as dashes, and cost most of the time of drawing.
+    c.setLineDash(stroke.dash && length < 5 * (width + height) ? stroke.dash as number[] : []);
+    c.lineJoin = stroke.width > 2.5 ? 'round' : 'bevel';
+    c.globalAlpha = stroke.alpha ?? 1;
+  }
+  const plain = (): void => { c.globalAlpha = 1; };
+
+  const pen: Pen = {
+    width, height,
+    line(xy, stroke, count = xy.length) {
+      use(stroke, trace(xy, count));
+      c.stroke();
+      plain();
+    },
+    area(xy, fill, alpha = 1, count = xy.length) {
+      trace(xy, count);
+      c.fillStyle = fill;
+      c.globalAlpha = alpha;
+      c.fill();
+      plain();
+    },
+    mark(shape, x, y, radius, colour) {
+      if (!finite(x, y)) return;
+      const outline = OUTLINES[shape];
+      c.beginPath();
+      if (outline === 'disc' || outline === 'ring') {
+        c.arc(x, y, radius, 0, 2 * Math.PI);
+      } else {
+        for (const part of outline.parts) {
+          for (let i = 0; i + 1 < part.length; i += 2) {
+            const px = x + radius * part[i]!, py = y + radius * part[i + 1]!;
+            if (i) c.lineTo(px, py); else c.moveTo(px, py);
+          }
+          if (outline.closed) c.closePath();
+        }
+      }
+      if (outline === 'ring' || (outline !== 'disc' && !outline.closed)) {
+        c.setLineDash([]);
+        c.strokeStyle = colour;
+        c.lineWidth = Math.max(1.25, STROKE * radius);
+        c.stroke();
+      } else {
+        c.fillStyle = colour;
+        c.fill();
+      }
+    },
+    arrow(x0, y0, x1, y1, stroke) {
+      const h = finite(x0, y0, x1, y1) ? head(x0, y0, x1, y1, stroke.width) : null;
+      if (!h) return;
+      pen.line([x0, y0, h.shaft[0], h.shaft[1]], stroke);
+      pen.area(h.tip, stroke.colour, stroke.alpha ?? 1);
+    },
+    text(x, y, text, lettering) {
+      if (!finite(x, y)) return;
+      const anchor = lettering.anchor ?? 'start';
+      c.save();
+      c.translate(x, y);
+      if (lettering.turn) c.rotate(lettering.turn * Math.PI / 180);
+      c.font = `${lettering.italic ? 'italic ' : ''}${lettering.bold ? '600 ' : ''}${lettering.size ?? SIZE}px ${FAMILY}`;
+      c.textAlign = anchor === 'middle' ? 'center' : anchor === 'end' ? 'right' : 'left';
+      // Not canvas's own "top" and "bottom", which differ between browsers: shifts from the baseline, as the SVG has them.
+      c.textBaseline = 'alphabetic';
+      c.fillStyle = lettering.colour;
+      c.fillText(text, 0, shift(lettering));
+      c.restore();
+    },
+    box(x, y, w, h, fill, alpha = 1) {
+      if (!finite(x, y, w, h)) return;
+      c.globalAlpha = alpha;
+      c.fillStyle = fill;
+      c.fillRect(x, y, w, h);
+      plain();
+    },
+    cells(x, y, w, h, columns, rows, cells, colours) {
+      if (!finite(x, y, w, h) || columns < 1 || rows < 1) return;
+      const small = document.createElement('canvas');
+      small.width = columns;
+      small.height = rows;
+      const s = small.getContext('2d');
+      if (!s) return;
+      runs(columns, rows, cells, (i, j, n, value) => {
+        const colour = colours[value];
+        if (!colour) return;
+        s.fillStyle = colour;
+        s.fillRect(i, j, n, 1);
+      });
+      c.imageSmoothingEnabled = false;
+      c.drawImage(small, x, y, w, h);
+    },
+    clip(x, y, w, h, inside) {
+      c.save();
+      c.beginPath();
+      c.rect(x, y, w, h);
+      c.clip();
+      try { inside(); } finally { c.restore(); }
+    },
+  };
+  return pen;
+}

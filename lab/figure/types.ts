@@ -1,0 +1,81 @@
+/* What a figure is made of: a pen that draws on a canvas or writes SVG, colours of the theme, and a frame with name, summary, table and export.
+ *
+ * Invariant: a figure is drawn by one function, whatever it is drawn on; so what is exported is what is seen.
+ */
+import type { Marker } from '../scene';
+
+export interface Stroke { readonly colour: string; readonly width: number; readonly dash?: readonly number[]; readonly alpha?: number }
+export interface Lettering {
+  readonly colour: string; readonly size?: number; readonly anchor?: 'start' | 'middle' | 'end';
+  readonly baseline?: 'top' | 'middle' | 'bottom' | 'alphabetic'; readonly bold?: boolean; readonly italic?: boolean; readonly turn?: number;   // turn: degrees
+}
+/** Lengths are CSS pixels; the origin is top left. */
+export interface Pen {
+  readonly width: number; readonly height: number;
+  /** x0, y0, x1, y1, …; a NaN lifts the pen. count: numbers of xy to use. */
+  line(xy: ArrayLike<number>, stroke: Stroke, count?: number): void;
+  area(xy: ArrayLike<number>, fill: string, alpha?: number, count?: number): void;
+  mark(shape: Marker, x: number, y: number, radius: number, colour: string): void;
+  arrow(x0: number, y0: number, x1: number, y1: number, stroke: Stroke): void;
+  text(x: number, y: number, text: string, lettering: Lettering): void;
+  box(x: number, y: number, width: number, height: number, fill: string, alpha?: number): void;
+  /** A grid of cells, row by row from the top, coloured by colours[cells[i]]; '' is left free. One image, not a thousand boxes. */
+  cells(x: number, y: number, width: number, height: number, columns: number, rows: number, cells: Uint8Array, colours: readonly string[]): void;
+  clip(x: number, y: number, width: number, height: number, inside: () => void): void;
+}
+
+/** The colours of the present theme, as CSS colours. */
+export interface Ink { readonly text: string; readonly quiet: string; readonly grid: string; readonly axis: string; readonly surface: string; readonly exact: string; readonly accent: string; readonly danger: string }
+
+export interface Table { readonly head: readonly string[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
+
+export interface FigureDefinition {
+  readonly id: string; readonly title: string;
+  /** Height over width where the page leaves the choice; height is bounded by the page. */
+  readonly aspect?: number;
+  draw(pen: Pen, ink: Ink): void;
+  /** What moves with the time: on a layer of its own, above. */
+  overlay?(pen: Pen, ink: Ink): void;
+  /** Height beyond the aspect's, in pixels: a legend, more than one panel. */
+  extra?(width: number): number;
+  /** A sentence that says what is seen, for those who do not see it. */
+  summary(): string;
+  table(): Table;
+  /** Controls of the figure's own, above the picture. */
+  readonly controls?: readonly HTMLElement[];
+}
+export interface Figure {
+  readonly element: HTMLElement; readonly canvas: HTMLCanvasElement;
+  /** The layer that moves, above the canvas; it takes no pointer. */
+  readonly overlay: HTMLCanvasElement; readonly picture: HTMLElement;
+  redraw(): void; redrawOverlay(): void;
+  /** Why there is nothing to see, in the picture's place; '' brings the picture back. */
+  say(message: string): void;
+}
+
+export interface AxisDefinition {
+  readonly min: number; readonly max: number; readonly log?: boolean; readonly label: string;
+  /** Linear within this distance of zero, logarithmic beyond it on both sides. */
+  readonly linear?: number;
+}
+/** A mapping from numbers to pixels. */
+export interface Scale { (value: number): number; invert(pixel: number): number; readonly ticks: readonly number[]; label(value: number): string }
+export interface Frame { readonly x: Scale; readonly y: Scale; readonly left: number; readonly top: number; readonly width: number; readonly height: number }
+/* figure/figure.ts:  export function figure(definition: FigureDefinition): Figure
+ * figure/axes.ts:    export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, options?: AxesOptions): Frame
+ *                            options: equal, region (a part of the pen), bare (no letters along x), margin (room on the left)
+ *                            the bounds are kept as given: widen them first by padded(extent(columns)) where a curve should not touch the frame
+ *                    export function extent(columns: Iterable<ArrayLike<number>>): [number, number]        finite numbers only
+ *                    export function padded(bounds: readonly [number, number], share?: number): [number, number]
+ * figure/thin.ts:    export function thin(x: ArrayLike<number>, y: ArrayLike<number>, fx: Scale, fy: Scale): Float64Array   -> xy for Pen.line: smallest and largest of each pixel column
+ *                    export function thinPath(x, y, fx, fy, near?: number): Float64Array      the same for curves that turn back
+ * figure/pen.ts:     export function canvasPen(context: CanvasRenderingContext2D, width: number, height: number): Pen
+ * figure/svg.ts:     export function svgPen(width: number, height: number): Pen & { svg(title?: string, description?: string, background?: string): string }
+ * figure/ink.ts:     export function ink(): Ink          from the custom properties --text, --quiet, … of the document
+ *                    export function looksOf(methods: readonly string[], catalogue: readonly Method[]): Look[]
+ * figure/legend.ts:  legendLayout, drawLegend, drawValues, drawSample
+ * figure/number.ts:  readable(value, digits?), brief, raised, tenTo, minus     numbers as people read them
+ * figure/export.ts:  nameExports(model)          what exported files are called after
+ * figure/dom.ts:     element(tag, attributes, …children), button(label, act, attributes)
+ * figure/figure.css  the looks of the frame; to be taken into the page's style
+ */

@@ -1,0 +1,121 @@
+/* The page, put together: the core, the state, the controls, the clock, the pictures. What each does stands in its own file.
+ *
+ * Invariant: panels that are closed cost nothing; those that are open are shown each new scene once, and told the time as it passes.
+ */
+import { createClient } from './client';
+import { STEP_EVENT, transport } from './shell/transport';
+import { SEEK } from './figure/cursor';
+import { nameExports } from './figure/export';
+import { convergence } from './panel/convergence';
+import { driftPanel } from './panel/drift';
+import { errorPanel } from './panel/error';
+import { motionPanel } from './panel/motion';
+import { phasePanel } from './panel/phase';
+import { precision } from './panel/precision';
+import { stability } from './panel/stability';
+import { stepsPanel } from './panel/steps';
+import { timePanel } from './panel/time';
+import type { Track } from './protocol';
+import type { Panel, PanelMaker } from './scene';
+import { startState } from './shell/address';
+import { place } from './shell/dom';
+import { presetState } from './share';
+import { presets } from './shell/presets';
+import { mountShell } from './shell/shell';
+import { createStore } from './state';
+import { methodCard } from './theory/cards';
+
+const makers: readonly PanelMaker[] = [timePanel, errorPanel, driftPanel, phasePanel, convergence, precision, stability];
+
+/** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
+function stepTimes({ times, step, steps, every }: Track): Float64Array {
+  if (every === 1 || steps > 200_000) return times;
+  const first = times[0] ?? 0, last = times[times.length - 1] ?? first, h = Math.sign(last - first) * Math.abs(step);
+  return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
+}
+
+async function start(): Promise<void> {
+  const { state, problem } = startState(presets);
+  const store = createStore(await createClient(), state);
+  const motion = motionPanel(store), steps = stepsPanel(store), closer = makers.map((make) => make(store));
+  const always: readonly Panel[] = [motion, steps];
+  const open = new Set<Panel>(always);
+
+  const clock = transport({
+    onTime: (t) => { for (const panel of open) panel.at(t); },
+    speed: state.view.speed,
+    onSpeed: (speed) => store.look({ speed }),
+  });
+  const toasts = mountShell(store, closer.map(({ id, title }) => ({ id, title })), () => { for (const panel of open) panel.redraw(); });
+  if (problem) toasts.say(problem);
+  place('stage-figure').append(motion.element);
+  place('step-view').append(steps.element);
+  place('transport').append(clock.element);
+  document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
+  document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
+
+  const card = place('method-card');
+  let carded = '';
+  // The theory's own links to examples.
+  place('theory-text').addEventListener('click', ({ target }) => {
+    const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
+    if (name === undefined || presets.text(name) === undefined) return;
+    store.load(presetState(presets, name));
+    place('stage').scrollIntoView();
+  });
+
+  function showCard(): void {
+    const name = store.scene?.solution.tracks[0]?.method.replace(/\(.*$/, '') ?? '';
+    const method = store.catalogue.find((m) => m.name === name);
+    if (name === carded || !method) return;
+    carded = name;
+    card.replaceChildren(methodCard(method));
+  }
+
+  /** Opens and closes panels as the view says; those that stay are not touched. */
+  function arrange(): void {
+    const wanted = closer.filter(({ id }) => store.state.view.panels.includes(id)), holder = place('panels');
+    for (const panel of closer) {
+      if (wanted.includes(panel)) continue;
+      open.delete(panel);
+      panel.element.remove();
+    }
+    wanted.forEach((panel, k) => {
+      if (holder.children[k] !== panel.element) holder.insertBefore(panel.element, holder.children[k] ?? null);
+      if (open.has(panel)) return;
+      open.add(panel);
+      if (store.scene) panel.show(store.scene);
+      panel.at(clock.time());
+    });
+  }
+
+  function show(): void {
+    const scene = store.scene;
+    if (!scene) return;
+    const main = scene.solution.tracks[0];
+    const ends = scene.solution.tracks.map(({ times }) => times[times.length - 1] ?? store.numbers.start);
+    const end = store.numbers.until ?? Math.max(...ends);
+    nameExports(scene.state.preset || 'model');
+    for (const panel of open) panel.show(scene);
+    clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
+    for (const panel of open) panel.at(clock.time());
+    showCard();
+  }
+  store.subscribe((what) => {
+    if (what === 'scene') show();
+    if (what !== 'view') return;
+    arrange();
+    clock.setSpeed(store.state.view.speed);
+    for (const panel of open) if (store.scene) panel.show(store.scene);
+  });
+  arrange();
+}
+
+start().catch((error: unknown) => {
+  console.error(error);
+  const message = document.createElement('p');
+  message.className = 'message';
+  message.setAttribute('role', 'alert');
+  message.textContent = `The page could not start: ${error instanceof Error ? error.message : String(error)}. It needs WebAssembly, and a browser of the last few years.`;
+  place('status').append(message);
+});

@@ -1,0 +1,87 @@
+/* The columns of a solution, by what they are; and the table of several motions side by side.
+ *
+ * Invariant: a number in a table is one that was computed for that time. Where a motion has no row there, the cell is empty, never filled in.
+ */
+import type { Scene } from '../scene';
+import type { Column } from '../protocol';
+import { rowAt, valueAt } from '../figure/track';
+import type { Table } from '../figure/types';
+
+export function columnOf(scene: Scene, name: string): Column | null {
+  return scene.description.columns.find((c) => c.name === name) ?? null;
+}
+
+function named(scene: Scene, keep: (column: Column) => boolean): string[] {
+  const there = new Set(scene.solution.columns);
+  return scene.description.columns.filter((c) => there.has(c.name) && keep(c)).map((c) => c.name);
+}
+
+/** All that can be looked at against time. */
+export const movable = (scene: Scene): string[] => named(scene, (c) => c.kind !== 'time' && c.kind !== 'exact');
+export const positions = (scene: Scene): string[] => named(scene, (c) => c.kind === 'position');
+export const invariants = (scene: Scene): string[] => named(scene, (c) => c.kind === 'invariant');
+
+/** The velocity of a position: the column of the same variable and component. */
+export function velocityOf(scene: Scene, position: string): string | null {
+  const p = columnOf(scene, position);
+  const family = named(scene, (c) => c.kind === 'velocity' && c.variable === p?.variable);
+  const of = named(scene, (c) => c.kind === 'position' && c.variable === p?.variable);
+  // In the same order: r.x, r.y and r'.x, r'.y; x[1], x[2] and x[1]', x[2]'.
+  return family.length === of.length ? family[of.indexOf(position)] ?? null : family.find((n) => n.replace(/'/, '') === position) ?? null;
+}
+
+/** The exact value at a time: the core's own at a row of the run, else read off the fine exact line. */
+export function exactAt(scene: Scene, name: string, t: number): number {
+  const { solution } = scene, exact = solution.columns.indexOf(`exact ${name}`);
+  if (exact >= 0) {
+    for (const track of solution.tracks) {
+      const i = rowAt(track.times, t);
+      if (i >= 0 && track.times[i] === t) return track.columns[exact]?.[i] ?? NaN;
+    }
+  }
+  const column = solution.truth?.columns[solution.columns.indexOf(name)];
+  return solution.truth && column?.length ? valueAt(solution.truth.times, column, t) : NaN;
+}
+
+/** The times of all tracks, each once, in the direction of the run. */
+function allTimes(scene: Scene): number[] {
+  const lists = scene.solution.tracks.map((t) => t.times);
+  const first = lists[0];
+  if (!first) return [];
+  if (lists.every((l) => l.length === first.length && l[l.length - 1] === first[first.length - 1] && l[1] === first[1])) return [...first];
+  const way = first[first.length - 1]! < first[0]! ? -1 : 1;
+  return [...new Set(lists.flatMap((l) => [...l]))].sort((a, b) => way * (a - b));
+}
+
+/** One row for each time; for each of `names` the exact value where it is known there, and each method's. series: other numbers than the tracks' columns. */
+export function timeTable(scene: Scene, names: readonly string[], series?: (track: number, name: string) => ArrayLike<number>): Table {
+  const { solution } = scene, times = allTimes(scene), head = ['t'];
+  const readers: ((t: number) => number)[] = [];
+  const atRow = (of: ArrayLike<number>, column: ArrayLike<number>) => (t: number): number => {
+    const i = rowAt(of, t);
+    return i >= 0 && of[i] === t ? column[i] ?? NaN : NaN;
+  };
+  for (const name of names) {
+    const at = solution.columns.indexOf(name), exact = solution.columns.indexOf(`exact ${name}`);
+    const fine = solution.truth?.columns[at];
+    if (!series && exact >= 0) {
+      head.push(`exact ${name}`);
+      readers.push((t) => exactAt(scene, name, t));
+    } else if (!series && solution.truth && fine?.length) {
+      const read = atRow(solution.truth.times, fine);
+      if (times.some((t) => !Number.isNaN(read(t)))) {
+        head.push(`${solution.truth.name} ${name}`);
+        readers.push(read);
+      }
+    }
+    solution.tracks.forEach((track, k) => {
+      head.push(`${name} (${track.method})`);
+      readers.push(atRow(track.times, series ? series(k, name) : track.columns[at] ?? []));
+    });
+  }
+  const kept = solution.tracks.find((t) => t.every > 1);
+  return {
+    head, rows: times.map((t) => [t, ...readers.map((read) => read(t))]),
+    note: kept ? `Every ${kept.every}th step was kept, and the last one.` : '',
+  };
+}

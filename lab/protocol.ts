@@ -1,0 +1,124 @@
+/* What the page and its workers say to each other. Numbers are those of the core, bit for bit; arrays are one Float64Array per column. */
+
+/** A model and what replaces its parameters and initial values: "F=0.2", "x(0)=1", "r'(0)=(1, 2)", as `--set` of the program says it. */
+export interface Model { readonly text: string; readonly set: readonly string[] }
+
+/** motus_error: what went wrong, where, and what would be right. line and column count from 1, in characters; 0: no place. */
+export interface Problem {
+  readonly kind: string; readonly message: string; readonly hint: string;
+  readonly line: number; readonly column: number; readonly source: string; readonly caret: string;
+  readonly time: number | null; readonly variable: string;
+}
+
+export type ColumnKind = 'time' | 'position' | 'velocity' | 'companion' | 'quantity' | 'invariant' | 'exact';
+/** A number that can be looked at along a run; `variable` is the index of the variable, quantity or invariant it belongs to. */
+export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number; readonly component: number; readonly isVelocity: boolean }
+
+/** A state of the model: order 2 has x'' = …, order 1 is a companion. components 0: scalar. */
+export interface Variable { readonly name: string; readonly order: number; readonly components: number; readonly dimensions: number; readonly count: number }
+
+/** A parameter, or an initial value "x(0)", "r'(0)": what a slider moves. values: its numbers; components 0: scalar; list: [a, b] rather than (a, b). */
+export interface Parameter {
+  readonly name: string; readonly components: number; readonly list: boolean; readonly values: readonly number[];
+  /** As the model writes it; a slider is offered where this is a number, or a tuple of numbers. */
+  readonly text: string; readonly initial: boolean; readonly line: number;
+}
+
+/** A statement of the model typeset: one <math> element, well-formed XML. */
+export interface Statement { readonly kind: string; readonly line: number; readonly mathml: string }
+
+export interface Admission { readonly method: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
+
+/** What the core understood of a model. */
+export interface Description {
+  readonly statements: readonly Statement[];
+  readonly explain: readonly string[];
+  readonly analysis: Readonly<Record<'velocityDependent' | 'linearInVelocity' | 'timeDependent' | 'affine' | 'constant' | 'gyroscopic' | 'gradient' | 'smooth' | 'exactRecognised', boolean>>;
+  readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
+  readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number };
+  readonly hasExact: boolean;
+  readonly admissions: readonly Admission[];
+}
+
+/** A row of the catalogue of methods. */
+export interface Method {
+  readonly name: string; readonly aliases: readonly string[]; readonly family: string; readonly order: number; readonly stages: number; readonly evaluations: number;
+  readonly symplectic: boolean; readonly reversible: boolean; readonly stabilityLimit: number;
+  readonly cite: string; readonly formula: string; readonly use: string;
+}
+
+/** The motion by one method. Row i is at times[i]; columns as asked for. Every `every`-th step is kept, and the last. */
+export interface Track {
+  readonly method: string; readonly times: Float64Array; readonly columns: readonly Float64Array[];
+  readonly step: number; readonly steps: number; readonly total: number; readonly lastStep: number; readonly evaluations: number; readonly every: number;
+  /** Why it stopped before the end: with the time and the variable. What was computed until then stands. */
+  readonly problem: Problem | null;
+}
+
+/** The exact motion or a reference, finely and evenly in time, for the columns that follow from the state (others are empty arrays). */
+export interface Truth { readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[] }
+
+/** |x - truth| of one method: the largest component of the positions at each of the track's times, and of the velocities. */
+export interface ErrorTrack { readonly method: string; readonly x: Float64Array; readonly v: Float64Array }
+
+export interface Solve {
+  readonly model: Model; readonly methods: readonly string[];
+  readonly step: number | null; readonly until: number | null;      // null: the model's
+  readonly columns: readonly string[];                              // names; [] means: all, up to a bound
+  readonly rows: number;                                            // at most so many rows a track
+  readonly truth: boolean;                                          // truth and errors as well: dearer where there is no exact motion
+}
+export interface Solution {
+  readonly description: Description; readonly columns: readonly string[];
+  readonly tracks: readonly Track[]; readonly truth: Truth | null; readonly errors: readonly ErrorTrack[];
+  /** Of the truth, if that failed. */
+  readonly problem: Problem | null;
+  readonly milliseconds: number;
+}
+
+/** One step opened up: motus_run_trace of include/motus.h, whose names and meanings these are. */
+export interface TraceEntry {
+  readonly kind: 'start' | 'kick' | 'drift' | 'stage' | 'solve' | 'taylor' | 'step' | 'end';
+  readonly stage: number; readonly stages: number; readonly iterations: number;
+  readonly time: number; readonly step: number; readonly coefficient: number; readonly weight: number; readonly weightX: number;
+  readonly row: readonly number[] | null; readonly rowX: readonly number[] | null;
+  readonly x: readonly number[]; readonly v: readonly number[]; readonly a: readonly number[] | null;
+  readonly beforeX: readonly number[] | null; readonly beforeA: readonly number[] | null;
+}
+export interface Trace { readonly method: string; readonly step: number; readonly index: number; readonly total: number; readonly entries: readonly TraceEntry[]; readonly names: { readonly x: readonly string[]; readonly v: readonly string[] } }
+
+export interface ConvergePoint { readonly step: number; readonly error: number | null; readonly evaluations: number; readonly used: boolean }
+export interface ConvergeRow {
+  readonly method: string; readonly declared: number; readonly observed: number | null; readonly standardError: number | null;
+  readonly exactHere: boolean; readonly passed: boolean; readonly points: readonly ConvergePoint[]; readonly certificate: string;
+}
+export interface Convergence { readonly rows: readonly ConvergeRow[]; readonly reference: string; readonly referenceError: number }
+
+export interface Drift { readonly name: string; readonly initial: number; readonly final: number; readonly max: number; readonly trend: number; readonly trending: boolean }
+export interface CompareRow {
+  readonly method: string; readonly order: number; readonly status: string; readonly step: number; readonly steps: number; readonly evaluations: number;
+  readonly errorMaxX: number | null; readonly errorMaxV: number | null; readonly errorFinalX: number | null; readonly reversal: number | null;
+  readonly invariants: readonly Drift[]; readonly note: string;
+}
+export interface Comparison { readonly rows: readonly CompareRow[]; readonly reference: string; readonly referenceError: number; readonly remarks: readonly string[] }
+
+/** Where hλ must lie: growth[i + width j] is the growth of one step at z = re[i] + i im[j]; NaN where the method has no answer. */
+export interface Region { readonly method: string; readonly re: Float64Array; readonly im: Float64Array; readonly growth: Float64Array }
+/** Eigenvalues λ of the model linearised at its start (and along the run, if asked). */
+export interface Spectrum { readonly re: Float64Array; readonly im: Float64Array }
+
+export interface Requests {
+  catalogue: { ask: Record<string, never>; answer: readonly Method[] };
+  describe: { ask: { model: Model }; answer: Description };
+  solve: { ask: Solve; answer: Solution };
+  trace: { ask: { model: Model; method: string; step: number | null; until: number | null; index: number }; answer: Trace };
+  converge: { ask: { model: Model; methods: readonly string[]; step: number | null; until: number | null }; answer: Convergence };
+  compare: { ask: { model: Model; methods: readonly string[]; step: number | null; until: number | null }; answer: Comparison };
+  region: { ask: { method: string; re: readonly [number, number]; im: readonly [number, number]; width: number; height: number }; answer: Region };
+  /** Growth of one step at single points z = re[i] + i im[i]. */
+  growth: { ask: { method: string; re: readonly number[]; im: readonly number[] }; answer: Float64Array };
+  spectrum: { ask: { model: Model; method: string; step: number | null; until: number | null; times: readonly number[] }; answer: readonly Spectrum[] };
+}
+export type Ask = keyof Requests;
+export interface Question<K extends Ask = Ask> { readonly id: number; readonly kind: K; readonly ask: Requests[K]['ask'] }
+export type Reply = { readonly id: number; readonly answer: unknown } | { readonly id: number; readonly problem: Problem };

@@ -1,0 +1,67 @@
+/* What every part of the page is given: the state, what was computed for it, and how each method looks.
+ *
+ * Invariant: data flows one way. Controls change the state (Store.change); the store asks the worker; panels are shown the result. A panel never
+ * computes a motion, and never changes another panel.
+ */
+import type { Ask, Description, Method, Problem, Requests, Solution } from './protocol';
+
+/** The whole state of the page that an address can hold. Texts are as the reader typed them. */
+export interface State {
+  readonly preset: string;                      // a name of models/, or ''
+  readonly text: string;                        // the model
+  readonly set: Readonly<Record<string, string>>;      // name -> expression, in order: sliders
+  readonly methods: readonly string[];          // overlaid; the first is the main one
+  readonly step: string;                        // '' : the model's
+  readonly until: string;
+  readonly view: View;
+}
+export interface View {
+  readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z
+  readonly quantities: readonly string[];       // of the time panel; [] : the positions
+  readonly phase: readonly [string, string] | null;        // of the phase panel; null: x, x'
+  readonly panels: readonly string[];           // open ones, by id, in order
+  readonly exact: boolean;                      // green line shown
+  readonly speed: number;                       // of the animation, times the natural one
+}
+
+export type Theme = 'auto' | 'light' | 'dark';
+export type Marker = 'circle' | 'square' | 'triangle' | 'diamond' | 'cross' | 'plus' | 'star' | 'down' | 'ring' | 'bar';
+/** How a method is drawn, in every panel alike. colour: a CSS colour for the present theme. */
+export interface Look { readonly method: string; readonly label: string; readonly colour: string; readonly dash: readonly number[]; readonly marker: Marker }
+
+export interface Scene {
+  readonly state: State; readonly description: Description; readonly solution: Solution;
+  readonly looks: readonly Look[];              // parallel to solution.tracks
+  readonly catalogue: readonly Method[];
+}
+
+/** Asks a worker; `lane` 'study' is for long work, which a new question of the same lane and key cancels. */
+export interface Client {
+  ask<K extends Ask>(kind: K, ask: Requests[K]['ask'], options?: { readonly lane?: 'quick' | 'study'; readonly key?: string; readonly signal?: AbortSignal }): Promise<Requests[K]['answer']>;
+}
+/** A rejected ask carries the core's problem. */
+export class Refused extends Error {
+  constructor(readonly problem: Problem) { super(problem.message); }
+}
+
+export interface Store {
+  readonly state: State;
+  readonly scene: Scene | null;                 // of the latest state that could be computed
+  /** What step and end came to for it, where they were typed as an expression. */
+  readonly numbers: { readonly step: number | null; readonly until: number | null; readonly start: number };
+  change(part: Partial<State>): void;           // computed anew, once per frame
+  look(part: Partial<View>): void;              // the view alone
+  readonly client: Client;
+}
+
+/** One figure of the page. `element` is a <figure>; see figure/figure.ts. */
+export interface Panel {
+  readonly id: string; readonly title: string; readonly element: HTMLElement;
+  /** A new scene; called only while the panel is open. */
+  show(scene: Scene): void;
+  /** The time of the animation: a cursor, a dot. Must cost less than a millisecond or two. */
+  at(time: number): void;
+  /** Colours have changed, or the size of the element. */
+  redraw(): void;
+}
+export type PanelMaker = (store: Store) => Panel;

@@ -1,0 +1,216 @@
+/* The state of the page as an address and as a command line.
+ *
+ * Invariant: decode is total. Whatever the bytes, it answers with a state and, where they were wrong, a message; nothing in them is ever
+ * evaluated, and a model reaches a shell only inside single quotes or a quoted heredoc. decode(encode(s)) is s.
+ *
+ * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&T=UNTIL  and of the view
+ *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
+ *   f=COLUMN f=COLUMN    axes of the phase panel              o=ID,ID              open panels         e=0  green line hidden    z=SPEED
+ * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
+ */
+import type { State, View } from './scene';
+
+/** What the state is compared with: the models of the build and the methods each is shown with. */
+export interface Presets {
+  /** undefined: no such preset. */
+  text(name: string): string | undefined;
+  methods(name: string): readonly string[];
+  readonly first: string;
+}
+export interface Decoded { readonly state: State; readonly problem: string }
+
+export const longest = 128 * 1024;                     // of a fragment, in characters
+const most = { sets: 256, methods: 40, words: 200, columns: 32 };
+const defaultPanels: readonly string[] = ['time', 'error', 'drift', 'phase'];
+
+export const defaultView: View = { plane: 'auto', quantities: [], phase: null, panels: defaultPanels, exact: true, speed: 1 };
+
+export function presetState(presets: Presets, name: string): State {
+  return { preset: name, text: presets.text(name) ?? '', set: {}, methods: presets.methods(name), step: '', until: '', view: defaultView };
+}
+
+const free = /^[A-Za-z0-9\-._~(),*]$/;
+
+/** UTF-8 in percent codes; a lone surrogate, which has none, becomes U+FFFD. */
+export function escape(text: string): string {
+  let out = '';
+  for (const byte of new TextEncoder().encode(text)) {
+    const character = String.fromCharCode(byte);
+    out += free.test(character) ? character : '%' + (byte < 16 ? '0' : '') + byte.toString(16).toUpperCase();
+  }
+  return out;
+}
+
+/** null: a bad percent code, or bytes that are no UTF-8. Characters that need no code but have none are taken as they are: people edit addresses. */
+export function unescape(text: string): string | null {
+  if (/%(?![0-9A-Fa-f]{2})/.test(text)) return null;
+  const bytes: number[] = [];
+  for (const part of text.split(/(%[0-9A-Fa-f]{2})/)) {
+    if (part.startsWith('%')) bytes.push(Number.parseInt(part.slice(1), 16));
+    else if (part) for (const byte of new TextEncoder().encode(part)) bytes.push(byte);
+  }
+  try {
+    return new TextDecoder('utf-8', { fatal: true, ignoreBOM: true }).decode(new Uint8Array(bytes));
+  } catch {
+    return null;
+  }
+}
+
+/** A list at its commas, but for those inside brackets: newmark(1/4, 1/2) is one method. */
+export function splitList(text: string): string[] {
+  const parts: string[] = [];
+  let depth = 0, part = '';
+  for (const c of text) {
+    if (c === '(') depth++;
+    else if (c === ')') depth--;
+    if (c === ',' && depth <= 0) { parts.push(part.trim()); part = ''; } else part += c;
+  }
+  parts.push(part.trim());
+  return parts.filter(p => p !== '');
+}
+
+const same = (a: readonly string[], b: readonly string[]): boolean => a.length === b.length && a.every((x, i) => x === b[i]);
+
+/** The fragment without its '#'. */
+export function encode(state: State, presets: Presets): string {
+  const out = ['v=1'];
+  const put = (key: string, value: string): void => { out.push(key + '=' + escape(value)); };
+  const isPreset = state.preset !== '' && presets.text(state.preset) === state.text;
+  if (isPreset) put('p', state.preset); else put('m', state.text);
+  for (const [name, expression] of Object.entries(state.set)) put('s', name + '=' + expression);
+  const usual = isPreset ? presets.methods(state.preset) : [];
+  if (!same(state.methods, usual)) put('a', state.methods.join(','));
+  if (state.step) put('h', state.step);
+  if (state.until) put('T', state.until);
+  const view = state.view;
+  if (view.plane !== defaultView.plane) put('w', view.plane);
+  for (const name of view.quantities) put('q', name);
+  for (const name of view.phase ?? []) put('f', name);
+  if (!same(view.panels, defaultView.panels)) put('o', view.panels.join(','));
+  if (!view.exact) put('e', '0');
+  if (view.speed !== defaultView.speed) put('z', String(view.speed));
+  return out.join('&');
+}
+
+const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z']);
+const several = new Set(['s', 'q', 'f']);
+
+/** What is wrong with an address: thrown and caught in this file only. */
+class Wrong extends Error {}
+
+/** Control characters but tab and newline: they can rule a terminal, and no model needs them. */
+const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
+const lineControls = /[\u0000-\u001f\u007f-\u009f]/;
+
+function word(value: string, what: string): string {
+  if (value.length > most.words) throw new Wrong(`${what} is too long`);
+  if (lineControls.test(value)) throw new Wrong(`${what} holds a control character`);
+  return value;
+}
+
+function fields(fragment: string): Map<string, string[]> {
+  const found = new Map<string, string[]>();
+  for (const field of fragment.split('&')) {
+    if (field === '') continue;
+    const at = field.indexOf('=');
+    const key = at < 0 ? field : field.slice(0, at);
+    if (!once.has(key) && !several.has(key)) throw new Wrong(`it has a part that this page does not know, “${key.slice(0, 20)}”`);
+    const value = unescape(at < 0 ? '' : field.slice(at + 1));
+    if (value === null) throw new Wrong('a percent code in it is broken');
+    const values = found.get(key) ?? [];
+    if (values.length && once.has(key)) throw new Wrong(`it says “${key}” twice`);
+    values.push(value);
+    found.set(key, values);
+  }
+  return found;
+}
+
+function viewOf(found: Map<string, string[]>): View {
+  const plane = found.get('w')?.[0] ?? defaultView.plane;
+  if (plane !== 'auto' && plane !== 'time' && plane !== 'plane' && plane !== 'space') throw new Wrong('it asks for a view that does not exist');
+  const quantities = found.get('q') ?? [], phase = found.get('f');
+  if (quantities.length > most.columns) throw new Wrong('it asks for too many quantities');
+  for (const name of [...quantities, ...(phase ?? [])]) word(name, 'the name of a quantity');
+  if (phase && phase.length !== 2) throw new Wrong('a phase plane needs two axes');
+  const open = found.get('o')?.[0];
+  const panels = open === undefined ? defaultPanels : splitList(open);
+  if (panels.length > most.columns || !panels.every(id => /^[a-z-]{1,40}$/.test(id))) throw new Wrong('it names a panel that does not exist');
+  const hidden = found.get('e')?.[0] ?? '1';
+  if (hidden !== '0' && hidden !== '1') throw new Wrong('“e” is 0 or 1');
+  const speed = found.get('z')?.[0] ?? '1';
+  if (!/^\d{1,6}(\.\d{1,9})?$/.test(speed) || !(Number(speed) > 0)) throw new Wrong('the speed of the animation is no number above 0');
+  return {
+    plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, panels: [...new Set(panels)], exact: hidden === '1', speed: Number(speed),
+  };
+}
+
+function stateOf(fragment: string, presets: Presets, limit: number): State {
+  if (fragment.length > limit) throw new Wrong(`it is longer than ${limit / 1024} KiB`);
+  const found = fields(fragment);
+  const version = found.get('v')?.[0];
+  if (version !== '1') throw new Wrong(version === undefined ? 'it does not say its version' : 'it is of a version that this page does not know');
+  const model = found.get('m')?.[0], name = found.get('p')?.[0] ?? '';
+  const text = model?.replace(/\r\n?/g, '\n') ?? presets.text(name);
+  if (text === undefined) throw new Wrong(name ? `there is no example “${name.slice(0, 40)}”` : 'it holds no model');
+  if (controls.test(text)) throw new Wrong('the model holds a control character');
+  const sets = found.get('s') ?? [];
+  if (sets.length > most.sets) throw new Wrong('it sets too many parameters');
+  const set: [string, string][] = sets.map(item => {
+    const at = item.indexOf('=');
+    if (at < 1 || at === item.length - 1) throw new Wrong('a parameter is not written name=value');
+    return [word(item.slice(0, at), 'the name of a parameter'), word(item.slice(at + 1), 'the value of a parameter')];
+  });
+  const usual = model === undefined ? presets.methods(name) : [];
+  const listed = found.get('a')?.[0];
+  const methods = listed === undefined ? usual : [...new Set(splitList(listed))];
+  if (methods.length > most.methods) throw new Wrong('it asks for too many methods');
+  for (const method of methods) word(method, 'the name of a method');
+  return {
+    preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
+    step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found),
+  };
+}
+
+/** The state of a fragment, with or without its '#'; where it is wrong, the first preset and a sentence that says why. */
+export function decode(fragment: string, presets: Presets, limit = longest): Decoded {
+  try {
+    return { state: stateOf(fragment.replace(/^#/, ''), presets, limit), problem: '' };
+  } catch (wrong) {
+    const why = wrong instanceof Wrong ? wrong.message : 'it could not be read';
+    return { state: presetState(presets, presets.first), problem: `The address could not be used: ${why}. Here is the first example instead.` };
+  }
+}
+
+/** One word of a POSIX shell. */
+export function quote(text: string): string {
+  return /^[A-Za-z0-9_./,:=+-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
+}
+
+/** A line that the text does not hold, to end a heredoc. */
+export function delimiter(text: string): string {
+  let end = 'MOTUS_END';
+  for (let n = 2; text.includes(end); n++) end = `MOTUS_END_${n}`;
+  return end;
+}
+
+export interface Command { readonly text: string; readonly problem: string }
+
+/** The command line that computes the same bits. methods: those in use, resolved; state.methods may be empty. */
+export function command(state: State, methods: readonly string[], presets: Presets): Command {
+  const isPreset = state.preset !== '' && presets.text(state.preset) === state.text;
+  const words = methods.length > 1 ? ['motus', 'compare'] : ['motus', 'run'];
+  words.push(isPreset ? `models/${state.preset}.motus` : '-');
+  if (methods.length > 1) words.push('--methods', methods.join(','));
+  else if (methods[0]) words.push('--method', methods[0]);
+  if (state.step) words.push('--step', state.step);
+  if (state.until) words.push('--until', state.until);
+  for (const [name, expression] of Object.entries(state.set)) words.push('--set', `${name}=${expression}`);
+  const text = state.text.endsWith('\n') || state.text === '' ? state.text : state.text + '\n';
+  if (words.some(w => lineControls.test(w)) || (!isPreset && controls.test(text))) {
+    return { text: '', problem: 'There is no safe command: the model holds a control character.' };
+  }
+  const line = words.map(quote).join(' ');
+  if (isPreset) return { text: line, problem: '' };
+  const end = delimiter(text);
+  return { text: `${line} <<'${end}'\n${text}${end}\n`, problem: '' };
+}

@@ -1,0 +1,135 @@
+/* Which methods are compared. The common ones and those in use are toggles with the line they are drawn with; all others wait in a list that can be
+ * searched.
+ *
+ * Invariant: a toggle shows what is chosen, and one that the model does not admit cannot be chosen and says why.
+ */
+import { looksOf } from '../figure/ink';
+import type { Method } from '../protocol';
+import { admittedMethods, type LiveStore } from '../state';
+import { button, el, say } from './dom';
+import { sample } from './sample';
+
+const common = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'];
+const most = 12;
+
+interface Toggle { readonly element: HTMLElement; readonly name: string; refresh(chosen: readonly string[]): void; repaint(): void }
+
+export function methods(store: LiveStore): { readonly element: HTMLElement; repaint(): void } {
+  const list = el('div', { class: 'toggles' }), more = el('div', { class: 'toggles' });
+  const search = el('input', { type: 'search', id: 'method-search', placeholder: 'order 4, symplectic, Yoshida …', autocomplete: 'off', spellcheck: 'false' });
+  const found = el('p', { class: 'quiet', role: 'status' });
+  const main = el('select', { id: 'main-method' });
+  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Shown step by step'), main);
+  const fold = el('details', { class: 'more' }, el('summary', {}, 'All methods'), el('label', { for: 'method-search' }, 'Search'), search, found, more, mainRow);
+  const message = el('p', { class: 'message mild', role: 'status' });
+  const element = el('fieldset', { class: 'methods' }, el('legend', {}, 'Methods'), list, message, fold);
+
+  let toggles: Toggle[] = [], shown = '', limitReached = false;
+  /** What is drawn: the state's, or the model's own where the state names none. */
+  const chosen = (): readonly string[] => {
+    if (store.state.methods.length) return store.state.methods;
+    return store.description ? admittedMethods(store.state, store.description).methods : [];
+  };
+  function press(name: string): void {
+    const now = chosen();
+    limitReached = false;
+    if (now.includes(name)) {
+      if (now.length > 1) store.change({ methods: now.filter(m => m !== name) });
+    } else if (now.length >= most) {
+      limitReached = true;
+      refresh();
+    } else store.change({ methods: [...now, name] });
+  }
+  const words = (method: Method): string => [method.order ? `order ${method.order}` : '', method.symplectic ? 'symplectic' : '', method.reversible ? 'reversible' : '', method.family,
+    method.evaluations > 0 ? `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step` : 'implicit'].filter(Boolean).join(', ');
+
+  function toggle(name: string): Toggle {
+    const reason = el('span', { class: 'reason' });
+    const label = el('span', { class: 'label' });
+    const picture = el('span', { class: 'picture' });
+    const method = store.catalogue.find(m => m.name === name);
+    const control = button('', () => { if (control.getAttribute('aria-disabled') !== 'true') press(name); }, { class: 'toggle', 'aria-pressed': 'false' }, picture, el('span', { class: 'words' }, label, reason));
+    const usual = method ? words(method) : '';
+    const repaint = (): void => {
+      const look = looksOf([name], store.catalogue)[0];
+      if (!look) return;
+      picture.replaceChildren(sample(look));
+      say(label, look.label);
+    };
+    repaint();
+    return {
+      element: control, name, repaint,
+      refresh(now) {
+        const entry = store.description?.admissions.find(a => a.method === name);
+        const refused = entry !== undefined && !entry.admitted;
+        control.setAttribute('aria-pressed', String(now.includes(name) && !refused));
+        control.setAttribute('aria-disabled', String(refused));
+        say(reason, refused ? entry.reason.replace(/^\S+ does not admit this model: /, '') : '');
+        control.title = refused ? [entry.reason, entry.hint].filter(Boolean).join('; ') : usual;
+      },
+    };
+  }
+  function build(): void {
+    const now = chosen(), names = [...common, ...now.filter(name => !common.includes(name))];
+    const admitted = (name: string): boolean => store.description?.admissions.find(a => a.method === name)?.admitted ?? true;
+    const unused = store.catalogue.map(m => m.name).filter(name => !names.includes(name) && name !== 'exact');
+    const others = [...unused.filter(admitted), ...unused.filter(name => !admitted(name))];
+    const key = names.join() + '|' + others.join();
+    if (key === shown || !store.catalogue.length) return;
+    shown = key;
+    const held = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.method : undefined;
+    toggles = [...names, ...others].map(toggle);
+    for (const t of toggles) t.element.dataset.method = t.name;
+    list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element));
+    more.replaceChildren(...toggles.slice(names.length).map(t => t.element));
+    if (held !== undefined) toggles.find(t => t.name === held)?.element.focus({ preventScroll: true });
+    filter();
+  }
+  /** Many are refused for one reason, which is written at the first of them; each has it as its description. */
+  function reasons(): void {
+    let last = '';
+    for (const { element: control } of toggles) {
+      const reason = control.querySelector<HTMLElement>('.reason'), text = reason?.textContent ?? '';
+      if (!reason || control.hidden) continue;
+      reason.hidden = text === last || text === '';
+      control.classList.toggle('explained', !reason.hidden);
+      last = text;
+    }
+  }
+  function filter(): void {
+    // "order 4" is one thing; every other word stands for itself, and for the beginnings of words.
+    const wanted = search.value.toLowerCase().match(/order\s+\d+|\S+/g)?.map(word => ' ' + word.replace(/\s+/, ' ')) ?? [];
+    let count = 0;
+    for (const { element: control, name } of toggles) {
+      if (control.parentElement !== more) continue;
+      const method = store.catalogue.find(m => m.name === name);
+      const text = [' ', name, name.replace(/-/g, ' '), control.textContent, method && words(method), method?.aliases.join(' '), method?.cite].join(' ').toLowerCase();
+      control.hidden = !wanted.every(word => text.includes(word));
+      if (!control.hidden) count++;
+    }
+    say(found, wanted.length ? (count === 1 ? '1 method' : `${count} methods`) : '');
+    reasons();
+  }
+  function refresh(): void {
+    build();
+    const now = chosen();
+    for (const t of toggles) t.refresh(now);
+    reasons();
+    const drawn = store.description ? admittedMethods({ ...store.state, methods: now }, store.description).methods : now;
+    mainRow.hidden = drawn.length < 2;
+    if (main.options.length !== drawn.length || drawn.some((name, i) => main.options[i]?.value !== name)) {
+      main.replaceChildren(...looksOf(drawn, store.catalogue).map(look => el('option', { value: look.method }, look.label)));
+    }
+    main.value = drawn[0] ?? '';
+    say(message, limitReached ? `${most} methods at once are as many as a picture can hold.` : store.trouble.methods);
+  }
+  main.addEventListener('change', () => {
+    const now = chosen();
+    // The chosen one comes first; the others keep their order.
+    store.change({ methods: [main.value, ...now.filter(m => m !== main.value)] });
+  });
+  search.addEventListener('input', filter);
+  search.addEventListener('keydown', event => { if (event.key === 'Escape' && search.value) { search.value = ''; filter(); event.stopPropagation(); } });
+  store.subscribe(what => { if (what !== 'view' && what !== 'busy') refresh(); });
+  return { element, repaint: () => { for (const t of toggles) t.repaint(); } };
+}

@@ -1,0 +1,65 @@
+/* Share: the address of what is seen, and the command that computes the same bits. Invariant: what is copied is shown. */
+import { command, type Presets } from '../share';
+import type { LiveStore } from '../state';
+import { addressOf } from './address';
+import { button, el, fresh, icon, say } from './dom';
+import type { Toasts } from './toasts';
+
+/** The clipboard where the page may use it; else the field is selected, for the reader to copy. */
+async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string, toasts: Toasts): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(field.value);
+    toasts.say(`${what} copied.`);
+  } catch {
+    field.focus();
+    field.select();
+    toasts.say(`${what} selected: press Ctrl+C or ⌘C to copy it.`);
+  }
+}
+
+export function shareMenu(store: LiveStore, presets: Presets, toasts: Toasts): HTMLElement {
+  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command');
+  const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
+  const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
+  const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
+  const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
+  const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
+  const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
+    el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
+    el('label', { for: commandId }, 'The same bits from the program'), line, older, copyCommand, refusal);
+  const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
+    icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
+  const root = el('div', { class: 'share' }, opener, panel);
+
+  function fill(): void {
+    const address = addressOf(store.state, presets);
+    link.value = address || 'The model is too long for an address.';
+    copyLink.disabled = !address;
+    say(remark, location.protocol === 'file:' ? 'This page lies on a disk: the link opens where the same file is. What follows the # works with any copy of the page.' : '');
+    remark.hidden = remark.textContent === '';
+    // The command computes what is seen: the last state that could be computed.
+    const seen = store.scene?.state ?? store.state, { model, step, until, run } = store.trouble;
+    const { text, problem } = command(seen, seen.methods, presets);
+    line.value = text;
+    say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');
+    older.hidden = older.textContent === '';
+    copyCommand.disabled = problem !== '';
+    say(refusal, problem);
+    refusal.hidden = problem === '';
+  }
+  function toggle(open: boolean): void {
+    if (open) fill();
+    panel.hidden = !open;
+    opener.setAttribute('aria-expanded', String(open));
+    if (open) copyLink.focus();
+  }
+  root.addEventListener('keydown', event => {
+    if (event.key === 'Escape' && !panel.hidden) { toggle(false); opener.focus(); event.stopPropagation(); }
+  });
+  root.addEventListener('focusout', event => {
+    if (event.relatedTarget instanceof Node && !root.contains(event.relatedTarget)) toggle(false);
+  });
+  document.addEventListener('pointerdown', event => { if (!panel.hidden && event.target instanceof Node && !root.contains(event.target)) toggle(false); });
+  store.subscribe(what => { if (!panel.hidden && (what === 'state' || what === 'scene' || what === 'view')) fill(); });
+  return root;
+}

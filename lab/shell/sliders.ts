@@ -1,0 +1,140 @@
+/* Parameters and initial values as sliders with numbers.
+ *
+ * Invariant: the rows are rebuilt only when the model has other parameters; while a slider is dragged nothing but numbers changes. What a slider does
+ * not touch keeps the text that the model has, so an untouched component keeps its bits.
+ */
+import type { Parameter } from '../protocol';
+import type { LiveStore } from '../state';
+import { button, el, fresh, icon, say } from './dom';
+import { compact, normal, numberOf, short, tuple } from './number';
+import { reach, widen, type Reach } from './range';
+
+const mostRows = 40;
+interface Row { readonly element: HTMLElement; refresh(): void }
+
+const axes = ['x', 'y', 'z'];
+function partName(parameter: Parameter, k: number, count: number): string {
+  if (count === 1 && parameter.components === 0 && !parameter.list) return parameter.name;
+  return parameter.list || count > 3 ? `${parameter.name}[${k + 1}]` : `${parameter.name}.${axes[k] ?? k + 1}`;
+}
+
+/** What the model writes for it. Of an initial value only the line is known. */
+function written(parameter: Parameter, model: string): string {
+  if (parameter.text !== '') return parameter.text;
+  const line = model.split('\n')[parameter.line - 1] ?? '', at = line.indexOf('=');
+  return at < 0 ? '' : line.slice(at + 1).replace(/#.*$/s, '').trim();
+}
+
+/** A number of things rather than a size: an upper end of an index. */
+const counts = (text: string, name: string): boolean => /^[A-Za-z]\w*$/.test(name) && new RegExp(`\\.\\.[^:\\n]*\\b${name}\\b`).test(text);
+
+function rowsOf(store: LiveStore, parameter: Parameter, model: string): Row[] {
+  const literal = tuple(written(parameter, model));
+  const fits = literal !== null && literal.parts.length === parameter.values.length;
+  // Numbers that the model computes follow its parameters; a single initial value may be moved all the same, and then stands for itself.
+  if (!fits && !(parameter.initial && !parameter.list && parameter.values.length <= 3)) return [];
+  const [open, close] = fits ? [literal.open, literal.close] : parameter.components > 0 ? ['(', ')'] : ['', ''];
+  const values = fits ? literal.parts.map(Number) : parameter.values;
+  const scale = Math.max(...values.map(Math.abs)), several = values.length > 1;
+  const latest = (): readonly string[] => {
+    const now = store.scene?.state.text === model ? store.scene.solution.description.parameters.find(p => p.name === parameter.name) : undefined;
+    return (now?.values.length === values.length ? now.values : parameter.values).map(String);
+  };
+  const own = (): readonly string[] => (fits ? literal.parts : latest());
+  const isSet = (): boolean => Object.hasOwn(store.state.set, parameter.name);
+  const current = (): readonly string[] => {
+    const parts = isSet() ? tuple(store.state.set[parameter.name] ?? '')?.parts : null;
+    return parts?.length === values.length ? parts : isSet() ? latest() : own();
+  };
+  const write = (k: number, text: string): void => {
+    const parts = current().map((part, i) => (i === k ? text : part));
+    const { [parameter.name]: _, ...others } = store.state.set;
+    const unchanged = fits && parts.every((part, i) => Number(part) === values[i]);
+    store.change({ set: unchanged ? others : { ...others, [parameter.name]: open + parts.join(', ') + close } });
+  };
+  /** This component back to the model's; the others too where they were computed together. */
+  const restore = (k: number): void => {
+    const { [parameter.name]: _, ...others } = store.state.set;
+    if (fits) write(k, literal.parts[k] as string); else store.change({ set: others });
+  };
+
+  return values.map((value, k): Row => {
+    const name = partName(parameter, k, values.length), id = fresh('parameter');
+    let limits: Reach = reach(value, several ? scale : 0, parameter.initial || several, counts(model, parameter.name));
+const digits = (text: string): string => (text.length <= 9 ? text : compact(Number(text)));
+    const slider = el('input', { type: 'range', id, 'aria-describedby': id + '-message' });
+    const field = el('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: 'number' });
+    const message = el('p', { id: id + '-message', class: 'message', role: 'status' });
+    const reset = button('Reset', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': `${name}: back to the model’s value`, title: 'Back to the model’s value' },
+      icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
+    const element = el('div', { class: 'row' }, el('label', { for: id, title: name }, name), slider, field, reset, message);
+
+    const limit = (): void => { slider.min = String(limits.low); slider.max = String(limits.high); slider.step = String(limits.step); };
+    limit();
+    function refresh(): void {
+      const text = current()[k] ?? '', number = Number(text);
+      const wider = widen(limits, number);
+      if (wider !== limits) { limits = wider; limit(); }
+      if (document.activeElement !== slider) slider.value = text;
+      if (document.activeElement !== field) { field.value = digits(text); say(message, ''); field.removeAttribute('aria-invalid'); }
+      const changed = fits ? number !== value : isSet();
+      reset.classList.toggle('shown', changed);
+      reset.disabled = !changed;
+    }
+    slider.addEventListener('input', () => {
+      const text = short(slider.valueAsNumber);
+      field.value = digits(text);
+      write(k, text);
+    });
+    const commit = (): void => {
+      const number = numberOf(field.value);
+      const complaint = field.value.trim() === '' ? `A number, please; the model has ${own()[k] ?? ''}.`
+        : number === null ? 'A number, please, like 0.5 or 0,5. Expressions belong in the text of the model.' : '';
+      say(message, complaint);
+      if (complaint) { field.setAttribute('aria-invalid', 'true'); return; }
+      field.removeAttribute('aria-invalid');
+      write(k, normal(field.value));
+      slider.value = String(number);
+    };
+    field.addEventListener('focus', () => { if (field.getAttribute('aria-invalid') !== 'true') field.value = current()[k] ?? ''; });
+    field.addEventListener('input', commit);
+    field.addEventListener('blur', () => { if (field.getAttribute('aria-invalid') !== 'true') refresh(); });
+    field.addEventListener('keydown', event => { if (event.key === 'Escape') { field.blur(); refresh(); } });
+    refresh();
+    return { element, refresh };
+  });
+}
+
+export function sliders(store: LiveStore): HTMLElement {
+  const parameters = el('div', { class: 'rows' }), initial = el('div', { class: 'rows' });
+  const first = el('fieldset', {}, el('legend', {}, 'Parameters'), parameters), second = el('fieldset', {}, el('legend', {}, 'Start'), initial);
+  const problem = el('p', { class: 'message', role: 'status' });
+  const element = el('div', { class: 'sliders' }, first, second, problem);
+  let rows: Row[] = [], shown = '';
+  function build(): void {
+    const description = store.description;
+    if (!description || store.trouble.model) return;
+    const key = JSON.stringify(description.parameters.map(p => [p.name, p.text, p.list]));
+    if (key === shown) return;
+    shown = key;
+    rows = [];
+    parameters.replaceChildren();
+    initial.replaceChildren();
+    for (const parameter of description.parameters) {
+      const own = rowsOf(store, parameter, store.state.text).slice(0, mostRows);
+      if (!own.length || rows.length > mostRows) continue;
+      rows.push(...own);
+      const target = parameter.initial ? initial : parameters, elements = own.map(row => row.element);
+      // A long list would push everything else out of sight.
+      target.append(...(own.length > 3 ? [el('details', {}, el('summary', {}, `${parameter.name}: ${own.length} numbers`), el('div', { class: 'rows' }, ...elements))] : elements));
+    }
+    first.hidden = parameters.childElementCount === 0;
+    second.hidden = initial.childElementCount === 0;
+  }
+  store.subscribe(what => {
+    if (what === 'description') build();
+    if (what === 'state' || what === 'description' || what === 'scene') for (const row of rows) row.refresh();
+    if (what === 'description' || what === 'scene') say(problem, store.trouble.run ? [store.trouble.run.message, store.trouble.run.hint].filter(Boolean).join(': ') : '');
+  });
+  return element;
+}

@@ -1,0 +1,23 @@
+/* What the page is doing, where that takes long, and what stopped a motion. Invariant: long work can always be cancelled from here. */
+import type { LiveStore } from '../state';
+import { button, el, say } from './dom';
+
+/** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end; or why nothing could be computed. */
+function stopped(store: LiveStore): string {
+  const { run, model } = store.trouble;
+  if (model && !store.scene) return 'The model has an error; see under its text.';
+  if (run) return [run.message, run.hint].filter(Boolean).join(': ');
+  return store.scene?.solution.tracks.map((track, k) => (track.problem ? `${store.scene?.looks[k]?.label ?? track.method}: ${track.problem.message}` : '')).filter(Boolean).join('. ') ?? '';
+}
+
+export function status(store: LiveStore): HTMLElement {
+  const words = el('span', {}, ''), cancel = button('Cancel', () => store.cancel(), { class: 'text-button', hidden: true });
+  const element = el('div', { class: 'status' }, el('p', { class: 'message', role: 'status' }, words), cancel);
+  const show = (): void => {
+    element.classList.toggle('busy', store.busy);
+    cancel.hidden = !store.busy;
+    say(words, store.busy ? 'Computing …' : stopped(store));
+  };
+  store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
+  return element;
+}

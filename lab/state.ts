@@ -1,0 +1,270 @@
+/* The state of the page, and what the core made of it.
+ *
+ * Invariant: at most one solve is under way; a newer state replaces one that waits. `scene` is always the latest state that could be computed, and
+ * stays while the reader types something that cannot; what is wrong with the present state stands beside it, in `trouble`.
+ * A state is looked at once per frame at most, so a dragged slider costs no more than the picture it makes.
+ */
+import { looksOf } from './figure/ink';
+import type { Description, Method, Problem, Solution } from './protocol';
+import { Refused, type Client, type Scene, type State, type Store, type View } from './scene';
+import { normal, plain, short } from './shell/number';
+
+export interface Trouble {
+  readonly model: Problem | null;               // the text, or a replaced parameter
+  readonly run: Problem | null;                 // the computation as a whole
+  readonly step: string; readonly until: string; readonly methods: string;       // sentences; '' where all is well
+  /** The computation goes on nevertheless. */
+  readonly remark: string;
+}
+/** state: what the reader chose; view: how it is shown; description: the model was read; scene: computed; busy: began or ended to take long. */
+export type Happening = 'state' | 'view' | 'description' | 'scene' | 'busy';
+
+export interface LiveStore extends Store {
+  readonly catalogue: readonly Method[];
+  /** Of the last text that could be read, with nothing replaced: the model's own values. */
+  readonly description: Description | null;
+  readonly trouble: Trouble;
+  readonly busy: boolean;
+  /** Step and end as numbers, of the last state that could be computed. */
+  readonly numbers: { readonly step: number | null; readonly until: number | null; readonly start: number };
+  /** Replace the whole state: a preset, an address. */
+  load(state: State): void;
+  cancel(): void;
+  /** The theme has changed. */
+  recolour(): void;
+  subscribe(listener: (what: Happening) => void): () => void;
+}
+
+/** Of the page: beyond this a run belongs to the program. */
+export const mostSteps = 1e7;
+const rows = 12000;
+/* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
+const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
+const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
+
+const failure = (message: string): Problem => ({
+  kind: 'page', message, hint: '', line: 0, column: 0, source: '', caret: '', time: null, variable: '',
+});
+
+/** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
+export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
+  const refused: string[] = [];
+  const family = (name: string): string => name.replace(/\(.*$/s, '');
+  const methods = state.methods.filter(name => {
+    const entry = description.admissions.find(a => a.method === name) ?? description.admissions.find(a => a.method === family(name));
+    if (!entry?.admitted) refused.push(name);
+    return entry?.admitted ?? false;
+  });
+  if (!methods.length) {
+    const own = description.settings.method || 'verlet';
+    const admitted = (name: string): boolean => description.admissions.some(a => a.method === family(name) && a.admitted);
+    methods.push(admitted(own) ? own : description.admissions.find(a => a.admitted && a.method !== 'exact')?.method ?? own);
+  }
+  return { methods, refused };
+}
+
+export function createStore(client: Client, initial: State): LiveStore {
+  let state = initial, scene: Scene | null = null, catalogue: readonly Method[] = [];
+  let description: Description | null = null, described: string | null = null;
+  let trouble = well, busy = false;
+  let numbers: LiveStore['numbers'] = { step: null, until: null, start: 0 };
+  let underWay = false, waiting = false, refining = false, began = 0, version = 0, truthTime = 0;
+  let running: AbortController | null = null, hurry = (): void => {};
+  const listeners = new Set<(what: Happening) => void>();
+  const constants = new Map<string, number | string>();
+
+  const tell = (what: Happening): void => { for (const listener of [...listeners]) listener(what); };
+  const setBusy = (value: boolean): void => { if (busy !== value) { busy = value; tell('busy'); } };
+
+  /** A constant expression as the core reads it, by the model that the program uses for the same purpose; a string: what is wrong. */
+  async function constant(typed: string): Promise<number | string> {
+    const text = normal(typed);
+    if (plain(text)) return Number.isFinite(Number(text)) ? Number(text) : `${text} is too large for a number.`;
+    const known = constants.get(text);
+    if (known !== undefined) return known;
+    let answer: number | string = `“${text}” is no number.`;
+    try {
+      const read = await client.ask('describe', { model: { text: "x' = 0\nx(0) = 0\nstep 1\nuntil 1", set: [`x(0)=${text}`] } });
+      const initial = read.parameters.find(p => p.initial);
+      if (initial?.values.length === 1 && Number.isFinite(initial.values[0])) answer = initial.values[0] as number;
+    } catch (error) {
+      if (error instanceof Refused) answer = `“${text}” is no number${error.problem.hint ? `: ${error.problem.hint}` : ''}.`;
+      else throw error;
+    }
+    if (constants.size > 500) constants.clear();
+    constants.set(text, answer);
+    return answer;
+  }
+
+  /** Step and end of this state, with what is wrong with them. */
+  async function measure(of: State, model: Description): Promise<{ step: number | null; until: number | null; trouble: Pick<Trouble, 'step' | 'until' | 'remark'> }> {
+    const said = { step: '', until: '', remark: '' };
+    let step = model.settings.step, until = model.settings.until;
+    if (of.until) {
+      const value = await constant(of.until);
+      if (typeof value === 'string') said.until = value;
+      else if (value === model.settings.start) said.until = `The motion starts at ${short(value)}: an end at the same time leaves nothing to compute.`;
+      else until = value;
+    }
+    if (of.step) {
+      const value = await constant(of.step);
+      if (typeof value === 'string') said.step = value;
+      else if (value === 0) said.step = 'With a step of zero, time would stand still: a number above 0.';
+      else if (value < 0) said.step = 'A step is a length of time, above 0. To run backward, set an end before the start.';
+      else step = value;
+    }
+    if (step !== null && until !== null && !said.step && !said.until) {
+      const span = Math.abs(until - model.settings.start), steps = span / step;
+      if (steps > mostSteps) {
+        said.step = `That makes ${steps.toPrecision(2).replace('e+', ' × 10^')} steps; the page stops at 10 million. The program has no such limit.`;
+      } else if (step > span) said.remark = `The step is longer than the whole motion: one step of ${short(span, 6)} is taken.`;
+    }
+    return { step, until, trouble: said };
+  }
+
+  const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
+
+  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, truth: boolean): Promise<Solution> {
+    running ??= new AbortController();
+    const start = performance.now();
+    const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
+    const solution = await client.ask('solve', { model: { text: of.text, set }, methods, ...how, columns: [], rows, truth }, { lane: 'quick', signal: running.signal });
+    if (truth) truthTime = performance.now() - start;
+    return solution;
+  }
+
+  /** null: this state cannot be computed, and trouble says why. */
+  async function read(of: State): Promise<Description | null> {
+    if (described === of.text && description) return description;
+    try {
+      description = await client.ask('describe', { model: { text: of.text, set: [] } }, { lane: 'quick', signal: running?.signal });
+      described = of.text;
+      truthTime = 0;
+      return description;
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      described = null;
+      trouble = { ...well, model: error.problem };
+      return null;
+    }
+  }
+
+  async function compute(of: State): Promise<void> {
+    const model = await read(of);
+    if (!model) { tell('description'); return; }
+    // What the text no longer has is no longer set.
+    const kept = Object.entries(of.set).filter(([name]) => model.parameters.some(p => p.name === name));
+    const set = Object.fromEntries(kept);
+    if (kept.length !== Object.keys(of.set).length && state === of) state = of = { ...of, set };
+    else of = { ...of, set };
+    const measured = await measure(of, model);
+    const { methods, refused } = admittedMethods(of, model);
+    trouble = { ...well, ...measured.trouble, methods: refused.length ? `Not for this force: ${refused.join(', ')}.` : '' };
+    tell('description');
+    // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
+    if ((measured.trouble.step || measured.trouble.until) && scene?.state.text === of.text) return;
+    const own = model.settings;
+    const asked = { step: measured.trouble.step ? own.step : measured.step, until: measured.trouble.until ? own.until : measured.until };
+    if (asked.step === null || asked.until === null) {
+      trouble = {
+        ...trouble, step: trouble.step || (asked.step === null ? 'The model names no step: type one, for example 0.01.' : ''),
+        until: trouble.until || (asked.until === null ? 'The model names no end: type one, for example 10.' : ''),
+      };
+      tell('description');
+      return;
+    }
+    const shown: State = { ...of, methods };
+    const finish = (solution: Solution): void => {
+      scene = makeScene(shown, solution);
+      numbers = { step: asked.step, until: asked.until, start: own.start };
+      tell('scene');
+    };
+    try {
+      // A reference costs more than the methods: while the state still moves it is left out, unless it has proved cheap.
+      const atOnce = model.hasExact || (truthTime > 0 && truthTime < patience.truth);
+      finish(await solve(of, methods, asked, atOnce));
+      if (!atOnce) {
+        if (truthTime > 0) await settled();
+        if (!waiting) {
+          refining = true;
+          finish(await solve(of, methods, asked, true));
+        }
+      }
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      const inText = error.problem.line > 0 && !kept.length;
+      trouble = { ...trouble, model: inText ? error.problem : null, run: inText ? null : error.problem };
+      tell('description');
+    }
+  }
+
+  async function work(): Promise<void> {
+    underWay = true;
+    while (waiting) {
+      waiting = false;
+      began = performance.now();
+      running = new AbortController();
+      const mine = ++version;
+      setTimeout(() => { if (underWay && mine === version) setBusy(true); }, patience.busy);
+      try {
+        if (!catalogue.length) catalogue = await client.ask('catalogue', {});
+        await compute(state);
+      } catch (error) {
+        if (!(running as AbortController | null)?.signal.aborted) {
+          trouble = { ...trouble, run: failure(error instanceof Error ? error.message : String(error)) };
+          tell('description');
+        }
+      }
+      running = null;
+      refining = false;
+      // A picture is drawn before the next is begun, where computing takes no longer than a frame.
+      if (waiting && performance.now() - began < 14) await frame();
+    }
+    underWay = false;
+    setBusy(false);
+  }
+  /** A little while in which nothing changes, or the next change. */
+  const settled = (): Promise<void> => new Promise(done => { hurry = done; setTimeout(done, patience.settled); });
+  const frame = (): Promise<void> => new Promise(done => { if (document.hidden) setTimeout(done, 0); else requestAnimationFrame(() => done()); });
+
+  function ask(): void {
+    if (waiting && !underWay) return;
+    waiting = true;
+    if (!underWay) queueMicrotask(() => void work());
+    else {
+      hurry();
+      const mine = version, limit = refining ? patience.reference : patience.picture;
+      setTimeout(() => { if (underWay && waiting && mine === version) running?.abort(); }, Math.max(0, began + limit - performance.now()));
+    }
+  }
+
+  const store: LiveStore = {
+    client,
+    get state() { return state; },
+    get scene() { return scene; },
+    get catalogue() { return catalogue; },
+    get description() { return description; },
+    get trouble() { return trouble; },
+    get busy() { return busy; },
+    get numbers() { return numbers; },
+    change(part: Partial<State>) { state = { ...state, ...part }; tell('state'); ask(); },
+    load(next: State) { state = next; tell('state'); tell('view'); ask(); },
+    look(part: Partial<View>) {
+      state = { ...state, view: { ...state.view, ...part } };
+      if (scene) scene = { ...scene, state: { ...scene.state, view: state.view } };
+      tell('view');
+    },
+    cancel() {
+      waiting = false;
+      running?.abort();
+      trouble = { ...trouble, run: failure('The computation was stopped. The picture is the last one that was finished.') };
+      tell('description');
+    },
+    recolour() {
+      if (scene) { scene = { ...scene, looks: looksOf(scene.looks.map(l => l.method), catalogue) }; tell('scene'); }
+    },
+    subscribe(listener) { listeners.add(listener); return () => { listeners.delete(listener); }; },
+  };
+  ask();
+  return store;
+}

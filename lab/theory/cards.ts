@@ -1,0 +1,62 @@
+/* The card of a method, shown beside its picture: title, formula, two sentences, and what the catalogue says of it.
+ *
+ * Invariant: the facts are the catalogue's, never written twice; a method without a card of its own gets one from the catalogue's words.
+ */
+import { cards } from 'motus:theory';
+import type { Method } from '../protocol';
+
+function element<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, text = ''): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  made.textContent = text;
+  return made;
+}
+
+/** Our own text, typeset when the page was built. */
+function typeset(body: string): readonly Node[] {
+  const parsed = new DOMParser().parseFromString(`<div xmlns="http://www.w3.org/1999/xhtml">${body}</div>`, 'application/xhtml+xml');
+  return Array.from(parsed.documentElement.childNodes, node => document.importNode(node, true));
+}
+
+const NAMES: Readonly<Record<string, string>> = {
+  heun: 'Heun', ralston: 'Ralston', ruth3: 'Ruth', pefrl: 'PEFRL', mclachlan4: 'McLachlan', suzuki4: 'Suzuki', rk3: 'Kutta’s method of order 3', 'rk4-38': 'The three-eighths rule',
+  gauss4: 'Gauss, two stages', gauss6: 'Gauss, three stages', gauss8: 'Gauss, four stages',
+};
+/** "kahan-li8" -> "Kahan–Li 8". */
+function titleOf(name: string): string {
+  return NAMES[name] ?? name.replace(/(^|-)([a-z])/g, (_, dash: string, letter: string) => (dash && '–') + letter.toUpperCase()).replace(/([a-z])(\d)/, '$1 $2');
+}
+export function methodTitle(name: string): string { return cards[name]?.title ?? titleOf(name); }
+
+function limit(h: number): string {
+  if (h === 0) return 'never stable on an undamped spring';
+  if (!Number.isFinite(h)) return 'stable at any step on a spring';
+  return `stable for hω < ${Number(h.toPrecision(4))}`;
+}
+
+/** In words: "order 2", "1 evaluation a step", "symplectic" … */
+export function facts(method: Method): string[] {
+  if (method.family === 'exact') return ['no step, no error but rounding'];
+  return [
+    `order ${method.order}`,
+    method.family === 'implicit' ? 'solves an equation at each step' : `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step`,
+    method.symplectic ? 'symplectic' : 'not symplectic',
+    method.reversible ? 'reversible' : 'not reversible',
+    limit(method.stabilityLimit),
+  ];
+}
+
+export function methodCard(method: Method): HTMLElement {
+  const made = element('section', 'card');
+  const title = element('h3', '', methodTitle(method.name));
+  const own = cards[method.name];
+  made.append(title);
+  if (own) made.append(...typeset(own.body));
+  else made.append(
+    element('p', 'plain', method.formula.replace(/ {2,}/g, '\u2003')),
+    element('p', '', method.use.replace(/\s+/g, ' ')));
+  const list = element('ul', 'facts');
+  for (const fact of facts(method)) list.append(element('li', '', fact));
+  made.append(list);
+  return made;
+}

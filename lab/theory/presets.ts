@@ -1,0 +1,110 @@
+/* A note beside the scene of a preset: what to try, what to see. Two to four sentences each; a preset without one has none.
+ *
+ * Invariant: every number here is the program's, for the model as it stands in models/.
+ */
+export interface Note { readonly title: string; readonly text: readonly string[] }
+
+export const notes: Readonly<Record<string, Note>> = {
+  projectile: {
+    title: 'A ball in constant gravity',
+    text: [
+      'The green parabola is exact. After three seconds with the step 0.05 explicit Euler is 0.7357 above it, symplectic Euler 0.7357 below; pull the step, and both errors grow in proportion.',
+      'Midpoint lies on the parabola, and Verlet too: they are exact here, since the acceleration never changes. So the parabola cannot tell which method is good; choose the spring to see where the two Eulers differ.',
+    ],
+  },
+  spring: {
+    title: 'A mass on a spring',
+    text: [
+      'Here the Eulers part. Overlay explicit and symplectic Euler and look at the phase plane: one spirals outward, the other stays on a slightly tilted ellipse for ever.',
+      'Then choose Verlet and pull the step up past 2: below it the oscillation holds, above it the numbers explode.',
+    ],
+  },
+  'driven-oscillator': {
+    title: 'An oscillator driven near its own frequency',
+    text: [
+      'The motion swells and dies away again: the softening spring falls out of step with the drive. Raise F from 0.1 to 0.105 and the mass escapes over the hill at |x| = 1.',
+      'Verlet ends 7e-7 away from the motion at t = 100; halve the step and a quarter of that is left. The error panel shows it.',
+    ],
+  },
+  'damped-cubic': {
+    title: 'A hardening spring with friction',
+    text: [
+      'The force depends on the velocity, and Verlet’s central difference for it makes the step an equation; being linear in the velocity, it is solved in closed form. The formula is in the theory, under Störmer–Verlet.',
+      'Look at the convergence: the slope is 2, friction and all. The first swings are fast and need a short step; the last ones hardly any.',
+    ],
+  },
+  'damped-spring': {
+    title: 'A spring with friction and a periodic force',
+    text: [
+      'Set F to 1 and move omega towards omega0 = 2: the steady swing grows, and lags further behind the force.',
+      'In the stability panel the points hλ now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
+    ],
+  },
+  'projectile-drag': {
+    title: 'A ball in air',
+    text: [
+      'Drag that grows with the square of the speed bends the parabola. Set k to 0, and the parabola is back; the more k, the steeper the ball comes down.',
+      'The force is not linear in the velocity, so Verlet solves a small equation at each step, and keeps its order 2.',
+    ],
+  },
+  pendulum: {
+    title: 'A pendulum',
+    text: [
+      'Let it go at theta = 2 and the swing takes a third longer than a small one. Start at 3.1, nearly upright, and it lingers at the top.',
+      'The energy is kept, so the phase plane should close on itself: see for which methods it does.',
+    ],
+  },
+  kepler: {
+    title: 'A planet on an ellipse',
+    text: [
+      'The orbit should close. Explicit Euler leaves it at once; symplectic methods keep the energy, but let the ellipse turn slowly, into a rosette.',
+      'High order pays on a smooth orbit: with 35 700 evaluations of the force for these ten turns velocity Verlet is off by 0.004, kahan-li8 by 2×10⁻¹¹.',
+    ],
+  },
+  duffing: {
+    title: 'Two wells and a drive',
+    text: [
+      'The mass hops between two wells at what look like random times. Two methods, or two steps of one, agree for a while and then part for good: the motion is chaotic, and in double precision nothing holds much beyond t = 200.',
+      'In the phase plane the shape they draw is the same.',
+    ],
+  },
+  'van-der-pol': {
+    title: 'An oscillator that feeds itself',
+    text: [
+      'Start where you like, the motion ends on the same closed curve of the phase plane. The larger mu, the longer it creeps and the faster it jumps.',
+      'In the stability panel the points hλ run far to the left and back on each turn: raise mu, and explicit methods need ever shorter steps.',
+    ],
+  },
+  'double-pendulum': {
+    title: 'Two pendulums, one hung from the other',
+    text: ['Neighbouring motions part by a factor e every second. Change the first angle by 0.0001 and watch for how long nothing seems to have happened.'],
+  },
+  'henon-heiles': {
+    title: 'A star in a galaxy',
+    text: ['Regular below the energy 1/12, mostly chaotic above; this start is between 1/12 and 1/6. A symplectic method keeps the energy, and with it the answer to the question whether the star may escape.'],
+  },
+  'three-body-figure-eight': {
+    title: 'Three bodies on one curve',
+    text: ['Three equal masses chase one another along a figure of eight. The motion is stable; a poor method still breaks it: make the step longer and see after how many turns.'],
+  },
+  arenstorf: {
+    title: 'Between the Earth and the Moon',
+    text: ['A closed orbit of four loops, if it is computed well. Near the Moon a small error is magnified enormously: try RK4 with the step 0.0085, and the satellite is lost.'],
+  },
+  'outer-solar-system': {
+    title: 'Jupiter to Pluto',
+    text: ['Five planets over 548 years, in steps of 200 days. Explicit Euler throws them outward; symplectic Euler, at the same price, keeps them on orbits much like the true ones.'],
+  },
+  'charged-particle': {
+    title: 'A charge in two fields',
+    text: ['It circles about the magnetic field and drifts across both. Boris’ method turns the velocity by a rotation, so that the circle stays a circle at any step.'],
+  },
+  'penning-trap': {
+    title: 'A particle in a trap',
+    text: ['A fast circle, an oscillation along the axis, and a slow circle whose energy is negative. Lower wc below 1.42 wz and the particle is no longer held.'],
+  },
+  chain: {
+    title: 'A chain of springs that stiffen',
+    text: ['Started in its longest wave, the chain does not share its energy out among all waves, as was once expected. Plot E1 and E3: the energy wanders to a few waves, and in time comes back.'],
+  },
+};

@@ -1,0 +1,10 @@
+/* What build.mjs makes. */
+declare module 'virtual:presets' {
+  const presets: readonly { readonly name: string; readonly text: string }[];
+  export default presets;
+}
+/* Where the page lives: on a server, or in one file. */
+declare module 'virtual:host' {
+  export function coreModule(): Promise<WebAssembly.Module>;
+  export function createWorker(): Worker;
+}

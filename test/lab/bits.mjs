@@ -1,0 +1,52 @@
+/* The page's module against the program, byte for byte: the restart state (every number in hexadecimal) after some steps of every model by every
+ * method that it admits. Ends with `N passed, N failed`.
+ *
+ *   node bits.mjs core.mjs motus.wasm motus models/
+ */
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+
+const [bundle, wasm, program, models] = process.argv.slice(2).map((name) => resolve(name));
+const { Core } = await import(bundle);
+const module = new WebAssembly.Module(readFileSync(wasm));
+const folder = mkdtempSync(join(tmpdir(), 'motus-bits-'));
+let passed = 0, failed = 0;
+const judge = (name, good, why = '') => {
+  if (good) passed++;
+  else {
+    failed++;
+    console.log(`not ok - ${name}${why && `: ${why}`}`);
+  }
+};
+
+judge('the module imports nothing', WebAssembly.Module.imports(module).length === 0);
+for (const file of readdirSync(models).filter((name) => name.endsWith('.motus')).sort()) {
+  const text = readFileSync(join(models, file), 'utf8');
+  const core = new Core(module), lab = core.create();
+  core.open(lab, { text, set: [] });
+  const { admissions, settings } = core.describe(lab);
+  // Some hundred steps, the last of them shortened, but where a method takes whole steps only.
+  const end = (method) => settings.start + settings.step * (method === 'verlet-literal' ? 150 : 149.5);
+  for (const { method } of admissions.filter(({ admitted }) => admitted)) {
+    const until = end(method), state = join(folder, 'state');
+    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--quiet', '-o', join(folder, 'out.csv')],
+      { encoding: 'utf8' });
+    core.start(lab, method, null, until);
+    let said = '';
+    try {
+      core.advance(lab, 1e6);
+    } catch (e) {
+      said = e.problem.message;
+    }
+    const both = `${file} by ${method}`;
+    if (run.status !== 0) judge(both, said !== '' && run.stderr.includes(said), `the program says ${run.stderr}, the module ${said || 'nothing'}`);
+    else judge(both, said === '' && core.save(lab) === readFileSync(state, 'utf8'), said);
+    rmSync(state, { force: true });
+  }
+  core.destroy(lab);
+}
+rmSync(folder, { recursive: true });
+console.log(`${passed} passed, ${failed} failed`);
+process.exitCode = failed ? 1 : 0;

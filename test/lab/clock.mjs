@@ -1,0 +1,166 @@
+/* Time: Play plays, at a speed that no monitor changes, to the end and not beyond it; the other controls of the clock; long work can be cancelled.
+ * Then figures of speed, printed, not judged: the machine may be busy with other things.
+ */
+import { attempt, clean, figureOf, finish, judge, open, same, settled, singleFile, summaryOf } from './help.mjs';
+
+const now = async (page) => Number((await page.locator('.transport-now').textContent()).replace('\u2212', '-').slice(4));
+const press = (page, name) => page.locator('.transport').getByRole('button', { name }).click();
+
+/** A monitor of our own: frames come when we say, with the times we say. */
+function monitor() {
+  let waiting = new Map(), count = 0, time = 1000;
+  window.requestAnimationFrame = (f) => { waiting.set(++count, f); return count; };
+  window.cancelAnimationFrame = (id) => { waiting.delete(id); };
+  window.frames = (howMany, milliseconds) => {
+    for (let i = 0; i < howMany; i++) {
+      time += milliseconds;
+      const due = [...waiting.values()];
+      waiting = new Map();
+      for (const f of due) f(time);
+    }
+  };
+}
+
+await attempt('speed and monitor', async () => {
+  const page = await open(singleFile + '#v=1&p=projectile');
+  await page.evaluate(monitor);
+  const seen = {};
+  for (const hertz of [15, 30, 60, 144, 240]) {
+    await page.keyboard.press('Home');
+    await page.keyboard.press('Space');
+    await page.evaluate((hz) => { window.frames(1, 0); window.frames(hz, 1000 / hz); }, hertz);
+    seen[hertz] = await now(page);
+    judge(`${hertz} Hz: one second shows as much`, Math.abs(seen[hertz] - 1) < 0.011, seen[hertz]);
+    await page.evaluate((hz) => window.frames(3 * hz, 1000 / hz), hertz);
+    same(`${hertz} Hz: it stops at the end exactly`, [await page.locator('.transport-now').textContent(), await page.locator('.transport-play').getAttribute('aria-label')], ['t = 3.00', 'Play (space)']);
+  }
+  for (const [speed, after] of [['0.25', 0.25], ['0.5', 0.5], ['2', 2], ['4', 3]]) {
+    await page.locator('.transport select').selectOption(speed);
+    await page.evaluate(() => document.activeElement.blur());
+    await page.keyboard.press('Home');
+    await page.keyboard.press('Space');
+    await page.evaluate(() => { window.frames(1, 0); window.frames(60, 1000 / 60); });
+    judge(`speed ${speed}`, Math.abs(await now(page) - after) < 0.02, await now(page));
+    await page.evaluate(() => window.frames(1200, 1000 / 60));
+    same(`speed ${speed}: the end exactly`, await now(page), 3);
+  }
+  await clean('speed and monitor', page);
+});
+
+await attempt('the clock', async () => {
+  const page = await open(singleFile + '#v=1&p=projectile&h=0.07&T=1');
+  await press(page, 'Play (space)');
+  await page.waitForTimeout(500);
+  await press(page, 'Pause (space)');
+  const half = await now(page);
+  judge('Play plays, by the clock on the wall', half > 0.3 && half < 0.95, half);
+  await press(page, 'One step forward (right arrow)');
+  judge('one step forward ends at a step', Math.abs(await now(page) / 0.07 - Math.round(await now(page) / 0.07)) < 0.02 && await now(page) > half - 1e-9, await now(page));
+  await press(page, 'Back to the start (Home)');
+  same('restart', await now(page), 0);
+  await press(page, 'One step back (left arrow)');
+  same('no step before the start', await now(page), 0);
+  for (let i = 0; i < 20; i++) await press(page, 'One step forward (right arrow)');
+  same('no step beyond the end; the last one is shorter', await now(page), 1);
+  const scrub = page.getByRole('slider', { name: 'Present time' });
+  await scrub.evaluate((s) => { s.value = '5000'; s.dispatchEvent(new Event('input', { bubbles: true })); });
+  judge('dragging the time', Math.abs(await now(page) - 0.5) < 0.01, await now(page));
+  judge('… is read out', /t = 0\.50.* of 1/.test(await scrub.getAttribute('aria-valuetext')), await scrub.getAttribute('aria-valuetext'));
+  await page.locator('#until').fill('-1');
+  await settled(page);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('End');
+  same('backward in time: the end', await now(page), -1);
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowRight');
+  judge('backward in time: a step', Math.abs(await now(page) + 0.07) < 1e-9, await now(page));
+  await clean('the clock', page);
+});
+
+await attempt('long work', async () => {
+  const slow = "N = 2000\nx[i]'' = -sum(j = 1..N: sin(x[i] - x[j])) for i = 1..N\nx[i](0) = i/N for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nmethod rk4\nstep 0.001\nuntil 1\n";
+  const page = await open(singleFile + '#v=1&o=&m=' + encodeURIComponent(slow), { settle: false });
+  const cancel = page.locator('#status button', { hasText: 'Cancel' });
+  await cancel.waitFor({ state: 'visible', timeout: 20000 });
+  judge('long work says so', /Computing/.test(await page.locator('#status').textContent()));
+  const frames = await page.evaluate(() => new Promise((done) => {
+    const stamps = [];
+    const tick = (t) => { stamps.push(t); if (stamps.length < 31) requestAnimationFrame(tick); else done(Math.max(...stamps.slice(1).map((s, i) => s - stamps[i]))); };
+    requestAnimationFrame(tick);
+  }));
+  judge('the page goes on meanwhile', frames < 500, frames);
+  await cancel.click();
+  await settled(page, 300, 10000);
+  judge('it can be cancelled', /stopped/.test(await page.locator('#status').textContent()), await page.locator('#status').textContent());
+  await page.locator('#preset').selectOption('spring');
+  await settled(page);
+  judge('and the next one is computed', (await summaryOf(page, 'Motion')).includes('60'), await summaryOf(page, 'Motion'));
+  await clean('long work', page);
+});
+
+// --- figures, printed --------------------------------------------------------------------------------------------------------------------
+const middle = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
+/** Milliseconds from an input event to the first frame in which the still layer of the motion was drawn anew after the answer. */
+function redrawn(selector, value) {
+  return new Promise((done) => {
+    const canvas = document.querySelector('#stage-figure canvas.figure-still'), context = canvas.getContext('2d'), clear = context.clearRect;
+    const field = document.querySelector(selector), began = performance.now();
+    context.clearRect = function (...box) {
+      delete context.clearRect;
+      clear.apply(context, box);
+      // The frame is drawn when its callbacks are over.
+      const channel = new MessageChannel();
+      channel.port1.onmessage = () => done(performance.now() - began);
+      channel.port2.postMessage(0);
+    };
+    field.value = value;
+    field.dispatchEvent(new Event('input', { bubbles: true }));
+    setTimeout(() => done(NaN), 8000);
+  });
+}
+
+await attempt('figures', async () => {
+  const page = await open(singleFile + '#v=1&p=driven-oscillator');
+  const times = [];
+  for (let i = 0; i < 9; i++) {
+    times.push(await page.evaluate(([f, s, v]) => new Function('s', 'v', `return (${f})(s, v)`)(s, v), [redrawn.toString(), '#step', i % 2 ? '0.001' : '0.0010001']).catch(() => page.evaluate(`(${redrawn.toString()})('#step', '${i % 2 ? '0.001' : '0.0010001'}')`)));
+    await settled(page, 250);
+  }
+  console.log(`# 100 000 steps of driven-oscillator, from a change to the redraw: ${middle(times).toFixed(0)} ms, at best ${Math.min(...times).toFixed(0)} ms (wanted: 60)`);
+  judge('100 000 steps are redrawn', times.every((t) => t > 0), times.join());
+
+  const ten = 'explicit-euler,symplectic-euler,midpoint,verlet,rk4,velocity-verlet,pefrl,yoshida4,kahan-li6,gauss4';
+  await page.goto('about:blank');
+  await page.goto(`${singleFile}#v=1&p=kepler&a=${ten}`);
+  await settled(page);
+  await page.keyboard.press('Home');
+  const methods = (await page.locator('.toggle[aria-pressed="true"]').count());
+  await page.keyboard.press('Space');
+  const stamps = await page.evaluate(() => new Promise((done) => {
+    const all = [], began = performance.now();
+    const tick = (t) => { all.push(t); if (performance.now() - began < 3000) requestAnimationFrame(tick); else done(all); };
+    requestAnimationFrame(tick);
+  }));
+  const gaps = stamps.slice(1).map((t, i) => t - stamps[i]), dropped = gaps.reduce((sum, gap) => sum + Math.max(0, Math.round(gap / (1000 / 60)) - 1), 0);
+  console.log(`# ${methods} methods overlaid, 3 s of animation: ${stamps.length} frames, ${dropped} dropped at 60 Hz, the longest gap ${Math.max(...gaps).toFixed(0)} ms`);
+  judge('ten methods are overlaid and move', methods === 10 && stamps.length > 20);
+  await page.keyboard.press('Space');
+
+  for (const preset of ['projectile', 'spring', 'pendulum', 'kepler', 'charged-particle', 'damped-cubic', 'driven-oscillator', 'three-body-figure-eight', 'chain', 'outer-solar-system']) {
+    await page.goto('about:blank');
+    await page.goto(`${singleFile}#v=1&p=${preset}`);
+    await settled(page, 400, 60000);
+    const drags = [];
+    const [low, high] = await page.locator('#parameters input[type=range]').first().evaluate((s) => { s.id = 'dragged'; return [Number(s.min), Number(s.max), Number(s.value)]; });
+    const value = Number(await page.locator('#dragged').inputValue());
+    for (let i = 1; i <= 7; i++) {
+      drags.push(await page.evaluate(`(${redrawn.toString()})('#dragged', '${Math.min(high, Math.max(low, value + i * (high - low) / 200))}')`));
+      await page.waitForTimeout(60);
+    }
+    console.log(`# a slider of ${preset}: ${middle(drags).toFixed(0)} ms from the event to the redraw (${drags.map((d) => d.toFixed(0)).join(' ')})`);
+    judge(`a slider of ${preset} redraws`, drags.every((d) => d > 0), drags.join());
+    await settled(page, 300, 60000);
+  }
+  await clean('figures', page);
+});
+await finish();

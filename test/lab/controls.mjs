@@ -1,0 +1,289 @@
+/* Every control does what it says: seen in the address, in the figures' summaries and in their numbers. */
+import { attempt, clean, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+
+const last = ({ head, rows }, column) => Number(rows.at(-1)[head.indexOf(column)]);
+const press = (page, name) => page.getByRole('button', { name, exact: true }).click();
+const shown = (page, selector) => page.locator(selector).evaluate((canvas) => canvas.toDataURL().length + ':' + canvas.toDataURL().slice(-4000));
+
+let page = await open(singleFile + '#v=1&p=projectile');
+await attempt('examples', async () => {
+  await page.locator('#preset').selectOption('spring');
+  await settled(page);
+  same('Example: the title', await page.locator('#scene-title').textContent(), 'Mass on a spring');
+  same('Example: the address', (await fields(page)).p, 'spring');
+  await page.locator('#model-text').fill("x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 5\n");
+  await settled(page);
+  judge('a typed model: shown', (await summaryOf(page, 'Motion')).includes('from t = 0 to 5'));
+  judge('a typed model: “Back to the example”', await page.getByText('Back to the example').isVisible());
+  await page.getByText('Back to the example').click();
+  await settled(page);
+  judge('… brings the example back', (await page.locator('#model-text').inputValue()).includes('# ') && (await fields(page)).p === 'spring');
+  await page.getByText('Bring it back').click();
+  await settled(page);
+  judge('… and “Bring it back” the reader’s own', (await page.locator('#model-text').inputValue()).startsWith("x'' = -x\n"));
+});
+
+await attempt('the model: undo, typeset, errors under the caret', async () => {
+  const area = page.locator('#model-text');
+  await area.focus();
+  await page.keyboard.press('Control+End');
+  await page.keyboard.type("# more");
+  await page.keyboard.press('Control+z');
+  judge('undo works', !(await area.inputValue()).includes('# more'));
+  await area.fill("x'' = -k x^2/3\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
+  await settled(page);
+  const mathml = await page.locator('.typeset math').first().innerHTML();
+  judge('the equation is typeset: a fraction, a power', /mfrac|<mn>3/.test(mathml) && /msup/.test(mathml), mathml);
+  const before = await summaryOf(page, 'Motion'), picture = await shown(page, '#stage-figure canvas.figure-still');
+  await area.fill("x'' = -k x^2/3 + foo\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
+  await settled(page);
+  const message = await page.locator('#model-problem').textContent();
+  judge('an error: line, column and what is wrong', /Line 1, column 18: .*foo/.test(message), message);
+  same('an error: aria-invalid', await area.getAttribute('aria-invalid'), 'true');
+  same('an error: the mark stands under the word', await page.locator('.mirror mark').textContent(), 'foo');
+  same('an error: the last picture stays', [await summaryOf(page, 'Motion'), await shown(page, '#stage-figure canvas.figure-still')], [before, picture]);
+  await area.fill("x'' = -k x^2/3 + \nk = 2\n");
+  await settled(page);
+  judge('another error: another message', (await page.locator('#model-problem').textContent()) !== message && await page.locator('#model-problem').isVisible());
+  await area.fill("x'' = -k x\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
+  await settled(page);
+  same('mended: no message, not invalid', [await page.locator('#model-problem').textContent(), await area.getAttribute('aria-invalid')], ['', 'false']);
+});
+
+await attempt('methods', async () => {
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  const toggle = (name) => page.locator(`.toggle[data-method="${name}"]`);
+  await toggle('rk4').click();
+  await settled(page);
+  same('a method is added', [(await fields(page)).a, await toggle('rk4').getAttribute('aria-pressed')], ['explicit-euler,symplectic-euler,midpoint,rk4', 'true']);
+  judge('… in the numbers', (await tableOf(page, 'Against time')).head.includes('r.y (rk4)'));
+  await toggle('explicit-euler').click();
+  await settled(page);
+  judge('a method is taken away', (await fields(page)).a === 'symplectic-euler,midpoint,rk4' && !(await tableOf(page, 'Against time')).head.includes('r.y (explicit-euler)'));
+  await page.getByText('All methods').click();
+  await page.locator('#main-method').selectOption('rk4');
+  await settled(page);
+  same('Step by step: the main method comes first', (await fields(page)).a, 'rk4,symplectic-euler,midpoint');
+  judge('… and its card is shown', /Runge|RK4/.test(await page.locator('#method-card').textContent()));
+  await page.locator('#method-search').fill('order 4 symplectic');
+  const found = await page.locator('.toggle:visible[data-method]').evaluateAll((all) => all.map((t) => t.dataset.method));
+  judge('search: order 4, symplectic', found.includes('forest-ruth') || found.some((name) => /pefrl|gauss4|yoshida/.test(name)), found.join());
+  judge('search: says how many', /\d+ methods/.test(await page.locator('.methods .quiet[role=status]').textContent()));
+  await page.locator('#method-search').fill('');
+  const more = await page.locator('.more .toggle:visible:not([aria-disabled="true"])').evaluateAll((all) => all.map((t) => t.dataset.method));
+  for (const name of more.slice(0, 11)) await toggle(name).click();
+  await settled(page);
+  const chosen = (await fields(page)).a.split(',').length;
+  judge('twelve methods at most, and it says so', chosen === 12 && /12 methods/.test(await page.locator('.methods .message').textContent()), `${chosen}: ${await page.locator('.methods .message').textContent()}`);
+  const looks = await page.locator('.toggle[aria-pressed="true"] .picture').evaluateAll((all) => all.map((p) => p.innerHTML));
+  same('each has a line and marker of its own', new Set(looks).size, looks.length);
+  await page.locator('#preset').selectOption('damped-cubic');
+  await settled(page);
+  const refused = toggle('symplectic-euler');
+  same('a refused method: cannot be chosen', await refused.getAttribute('aria-disabled'), 'true');
+  judge('… and says why', (await refused.textContent()).includes('velocity'), await refused.textContent());
+  const before = (await fields(page)).a;
+  await refused.click({ force: true });
+  same('… and a click changes nothing', (await fields(page)).a, before);
+});
+
+await attempt('step and end', async () => {
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  const step = page.locator('#step'), until = page.locator('#until'), message = () => page.locator('#step-message').textContent();
+  await step.fill('0.1');
+  await settled(page);
+  judge('a step', Math.abs(last(await tableOf(page, 'Against time'), 'r.y (explicit-euler)') + 30.645 - 1.4715) < 1e-12);
+  same('… in the address', (await fields(page)).h, '0.1');
+  await step.fill('0,2');
+  await settled(page);
+  judge('a decimal comma', Math.abs(last(await tableOf(page, 'Against time'), 'r.y (explicit-euler)') + 30.645 - 2.943) < 1e-12);
+  same('… is a point in the address', (await fields(page)).h, '0.2');
+  await step.fill('1/64');
+  await settled(page);
+  same('an expression', (await tableOf(page, 'Against time')).rows.length, 193);
+  const before = await summaryOf(page, 'Motion');
+  for (const [typed, words] of [['0', /zero/], ['-0.1', /above 0/], ['', /needed/], ['1e-12', /10 million/], ['abc', /no number|unknown/i], ['1e400', /large|no number/], ['NaN', /no number/], ['inf', /no number/], ['0/0', /no number/], ['9'.repeat(300), /long|large/], ['((((((((((', /no number/]]) {
+    await step.fill(typed);
+    await settled(page, 150);
+    judge(`a step of “${typed.slice(0, 12)}”: a message`, words.test(await message()) && await step.getAttribute('aria-invalid') === 'true', await message());
+    same(`a step of “${typed.slice(0, 12)}”: the picture stays`, await summaryOf(page, 'Motion'), before);
+  }
+  await step.fill('1e9');
+  await settled(page);
+  judge('a huge step: one step, and a remark', /one step/.test(await message()) && (await tableOf(page, 'Against time')).rows.length === 2, await message());
+  await page.getByRole('button', { name: 'Time step: back to the model’s' }).click();
+  await settled(page);
+  same('reset', [await step.inputValue(), (await fields(page)).h], ['0.05', undefined]);
+  await page.getByLabel('Time step h, slider').focus();
+  await page.keyboard.press('ArrowRight');
+  await settled(page);
+  judge('the slider of the step', Number((await fields(page)).h) > 0.05, (await fields(page)).h);
+  for (const [typed, end] of [['2', '2'], ['1.01', '1.01'], ['2 pi', String(2 * Math.PI)], ['-1', '-1']]) {
+    await until.fill(typed);
+    await settled(page);
+    same(`an end of ${typed}: the run ends there exactly`, (await tableOf(page, 'Against time')).rows.at(-1)[0], end);
+  }
+  for (const typed of ['0', '', 'x', '1e300']) {
+    await until.fill(typed);
+    await settled(page, 150);
+    const said = await page.locator('#until-message').textContent() + await message();
+    judge(`an end of “${typed}”: a message`, said.length > 10, said);
+  }
+  await page.getByRole('button', { name: 'End: back to the model’s' }).click();
+  await settled(page);
+  same('reset of the end', (await fields(page)).T, undefined);
+});
+
+await attempt('parameters and initial values', async () => {
+  await page.locator('#preset').selectOption('projectile-drag');
+  await settled(page);
+  const rows = await page.locator('#parameters .row label').allTextContents();
+  judge('a slider for each number', ['m', 'c'].every((name) => rows.includes(name)) && rows.some((name) => name.startsWith("r'(0)")), rows.join());
+  const field = (name) => page.getByLabel(`${name}, as a number`, { exact: true });
+  const before = await tableOf(page, 'Against time');
+  await field('m').fill('2,5');
+  await settled(page);
+  same('a number with a comma', (await fields(page)).s, 'm=2.5');
+  judge('mass matters: another motion', JSON.stringify(before.rows) !== JSON.stringify((await tableOf(page, 'Against time')).rows));
+  await field('m').fill('2..5');
+  await settled(page, 150);
+  judge('no number: a message, the state stays', /number/.test(await page.locator('#parameters').textContent()) && (await fields(page)).s === 'm=2.5' && await field('m').getAttribute('aria-invalid') === 'true');
+  await field('m').fill('2.5');
+  await page.getByRole('button', { name: /^m: back to/ }).click();
+  await settled(page);
+  same('reset', (await fields(page)).s, undefined);
+  const slider = page.getByLabel("r'(0).x", { exact: true });
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  await settled(page);
+  judge('a slider of an initial value', /^r'\(0\)=\(/.test((await fields(page)).s), (await fields(page)).s);
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  const first = await tableOf(page, 'Against time');
+  await field('m').fill('7');
+  await settled(page);
+  same('without drag the mass cancels', (await tableOf(page, 'Against time')).rows, first.rows);
+  await field('g.y').fill('-1.62');
+  await settled(page);
+  judge('gravity', Math.abs(last(await tableOf(page, 'Against time'), 'exact r.y') - (4.5 * 3 - 1.62 * 4.5)) < 1e-12);
+});
+
+await attempt('the pictures’ own controls', async () => {
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  const motion = figureOf(page, 'Motion');
+  await motion.getByLabel('view').selectOption({ label: 'r.y over t' });
+  await settled(page);
+  judge('Motion: view', (await summaryOf(page, 'Motion')).startsWith('r.y over time') && (await fields(page)).w === 'time', await summaryOf(page, 'Motion'));
+  await motion.getByLabel('view').selectOption({ index: 0 });
+  await settled(page);
+  const narrow = await shown(page, '#stage-figure canvas.figure-still');
+  await motion.getByLabel('equal scales').click();
+  await page.waitForTimeout(150);
+  judge('Motion: equal scales', narrow !== await shown(page, '#stage-figure canvas.figure-still'));
+  const time = figureOf(page, 'Against time');
+  await time.locator('.figure-choice summary').click();
+  await time.getByLabel('energy', { exact: true }).check();
+  judge('Against time: quantities', /energy/.test(JSON.stringify((await fields(page)).q)) && (await tableOf(page, 'Against time')).head.some((h) => h.startsWith('energy')));
+  await page.keyboard.press('Escape');
+  await figureOf(page, 'Error').scrollIntoViewIfNeeded();
+  const position = (await tableOf(page, 'Error')).rows.at(-1).join();
+  await figureOf(page, 'Error').getByLabel('Error of the').selectOption('v');
+  judge('Error: of the velocity', position !== (await tableOf(page, 'Error')).rows.at(-1).join());
+  await figureOf(page, 'Phase plane').scrollIntoViewIfNeeded();
+  await figureOf(page, 'Phase plane').getByLabel('Across').selectOption({ label: 'energy' });
+  await settled(page);
+  judge('Phase plane: another pair', (await summaryOf(page, 'Phase plane')).includes('against energy') && JSON.stringify((await fields(page)).f).includes('energy'), await summaryOf(page, 'Phase plane'));
+  for (const title of ['Error', 'Drift of an invariant', 'Convergence', 'Work and precision', 'Stability']) {
+    const chip = page.locator('.panel-picker button', { hasText: title });
+    const open = await chip.getAttribute('aria-pressed');
+    await chip.click();
+    same(`“${title}” opens and closes`, [await chip.getAttribute('aria-pressed'), await figureOf(page, title).count()], open === 'true' ? ['false', 0] : ['true', 1]);
+    if (open === 'true') await chip.click();
+  }
+  same('open panels stand in the address', (await fields(page)).o, 'time,error,drift,phase,convergence,precision,stability');
+  await settled(page, 600);
+});
+
+await attempt('a picture in space is turned', async () => {
+  await page.locator('#preset').selectOption('charged-particle');
+  await settled(page);
+  await page.evaluate(() => scrollTo(0, 0));
+  const canvas = page.locator('#stage-figure canvas.figure-still'), box = await canvas.boundingBox();
+  const first = await shown(page, '#stage-figure canvas.figure-still');
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 30, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForTimeout(150);
+  const dragged = await shown(page, '#stage-figure canvas.figure-still');
+  judge('by the pointer', dragged !== first);
+  await canvas.focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForTimeout(150);
+  judge('by the keys', await shown(page, '#stage-figure canvas.figure-still') !== dragged);
+});
+
+await attempt('colours', async () => {
+  const seen = [];
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const button = page.locator('#theme button');
+  for (const theme of ['light', 'dark', undefined]) {
+    await button.click();
+    await page.waitForTimeout(100);
+    same(`colours: ${theme ?? 'automatic'}`, await page.evaluate(() => document.documentElement.dataset.theme), theme);
+    seen.push(await ground());
+  }
+  judge('light and dark differ; automatic is the system’s', seen[0] !== seen[1] && seen[2] === seen[0], seen.join());
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForTimeout(200);
+  same('… and follows it', await ground(), seen[1]);
+  await page.emulateMedia({ colorScheme: 'light' });
+});
+
+await attempt('the links of the theory and of the notes', async () => {
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  await page.locator('#scene-note').getByRole('button', { name: 'the spring' }).click();
+  await settled(page);
+  same('the note leads to the spring', await page.locator('#scene-title').textContent(), 'Mass on a spring');
+  await page.locator('#preset').selectOption('projectile');
+  await settled(page);
+  for (const link of await page.locator('#theory a, #theory button').all()) {
+    const words = await link.textContent();
+    await link.scrollIntoViewIfNeeded();
+    await link.click();
+    await settled(page);
+    judge(`the theory's “${words}” leads somewhere`, await page.evaluate(() => location.protocol) === 'file:' && await page.locator('#scene-title').isVisible());
+    await page.locator('#preset').selectOption('projectile');
+    await settled(page);
+  }
+});
+await clean('controls', page);
+
+// --- everything that can be pressed, in an order of its own: nothing breaks ----------------------------------------------------------
+await attempt('everything pressed', async () => {
+  page = await open(singleFile + '#v=1&p=kepler&o=time,error,drift,phase,convergence,precision,stability');
+  await settled(page, 800);
+  const count = await page.locator('button:visible, summary:visible, input[type=checkbox]:visible').count();
+  for (let i = 0; i < count; i++) {
+    const control = page.locator('button:visible, summary:visible, input[type=checkbox]:visible').nth(i);
+    if (!await control.count()) break;
+    if (!await control.isEnabled()) continue;
+    const name = await control.evaluate((e) => e.getAttribute('aria-label') || e.textContent);
+    if (/^Save|panel-picker/.test(name)) continue;
+    await control.evaluate((e) => e.click());
+  }
+  for (const select of await page.locator('figure select:visible').all()) {
+    for (const value of await select.locator('option').evaluateAll((all) => all.map((o) => o.value))) {
+      if (!await select.isVisible()) break;
+      await select.selectOption(value);
+    }
+  }
+  await settled(page, 500);
+  judge('the page lives', await page.locator('#stage-figure figcaption').isVisible());
+  await clean('everything pressed', page);
+});
+await finish();

@@ -1,0 +1,190 @@
+/* What the tests of the page share: a browser, a server of static files, cases, and ways to ask the page what it shows.
+ *
+ * Invariant: a page that was opened here is watched: an error on the console, a violation of its policy, a request to anybody else is a failed case,
+ * unless the test says that it expects one. Each test prints `not ok - …` for what failed, and ends with `N passed, N failed`.
+ */
+import { execFileSync, spawnSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { extname, join, normalize, resolve } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+export const root = fileURLToPath(new URL('../../', import.meta.url));
+export const built = join(root, 'build/lab');
+export const program = resolve(process.env.MOTUS ?? join(root, 'build/motus'));
+const need = createRequire(join(root, 'lab/package.json'));
+const { chromium } = need('playwright-core');
+
+export const singleFile = pathToFileURL(join(built, 'motus-lab.html')).href;
+export const place = mkdtempSync(join(tmpdir(), 'motus-page-'));
+
+let passed = 0, failed = 0;
+export function judge(name, good, why = '') {
+  if (good) passed++;
+  else {
+    failed++;
+    console.log(`not ok - ${name}${why === '' ? '' : `: ${String(why).slice(0, 500)}`}`);
+  }
+  return Boolean(good);
+}
+export const same = (name, got, wanted) => judge(name, JSON.stringify(got) === JSON.stringify(wanted), `${JSON.stringify(got)} is not ${JSON.stringify(wanted)}`);
+/** A case that may break off: what it throws is its failure. */
+export async function attempt(name, work) {
+  try {
+    await work();
+  } catch (error) {
+    judge(name, false, String(error?.message ?? error).split('\n').slice(0, 6).join(' | '));
+  }
+}
+
+function browserPath() {
+  const names = [process.env.CHROMIUM, 'chromium', 'chromium-browser', 'google-chrome'].filter(Boolean);
+  for (const name of names) {
+    const found = name.includes('/') ? (existsSync(name) ? name : '') : spawnSync('sh', ['-c', `command -v ${name}`], { encoding: 'utf8' }).stdout.trim();
+    if (found) return found;
+  }
+  throw new Error(`no browser: none of ${names.join(', ')}`);
+}
+let browser = null;
+/** What a test opens last it also leaves open for `finish`. */
+export const launch = async () => (browser ??= await chromium.launch({ executablePath: browserPath(), args: ['--no-sandbox', '--disable-dev-shm-usage'] }));
+
+/** Static files, as any server has them. Answers the address; what it was asked for is in `asked`. */
+export async function serve(folder = built) {
+  const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.wasm': 'application/wasm' }, asked = [];
+  const server = createServer((request, answer) => {
+    const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
+    asked.push(path);
+    const file = join(folder, path.endsWith('/') ? path + 'index.html' : path);
+    if (!file.startsWith(folder) || !existsSync(file)) { answer.writeHead(404).end(); return; }
+    answer.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  servers.push(server);
+  return { address: `http://127.0.0.1:${server.address().port}/`, asked };
+}
+const servers = [];
+
+/* Runs in the page before all else: counts what the workers owe, and keeps violations of the policy. */
+function watch() {
+  window.lab = { owed: 0, asked: 0, quiet: performance.now(), violations: [] };
+  const post = Worker.prototype.postMessage, stop = Worker.prototype.terminate;
+  const owes = new WeakMap();
+  const count = (worker, by) => {
+    owes.set(worker, (owes.get(worker) ?? 0) + by);
+    window.lab.owed += by;
+    window.lab.quiet = performance.now();
+  };
+  Worker.prototype.postMessage = function (message, ...rest) {
+    if (!owes.has(this)) {
+      owes.set(this, 0);
+      this.addEventListener('message', () => count(this, -1));
+    }
+    if (!(message instanceof WebAssembly.Module)) { count(this, 1); window.lab.asked++; }
+    return post.call(this, message, ...rest);
+  };
+  Worker.prototype.terminate = function () {
+    count(this, -(owes.get(this) ?? 0));
+    return stop.call(this);
+  };
+  document.addEventListener('securitypolicyviolation', (event) => window.lab.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
+}
+
+/** A page, watched. address: with its fragment. `wrong` collects what should not be; call `clean` at the end. */
+export async function open(address = singleFile, options = {}) {
+  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true } = options;
+  const context = await (await launch()).newContext({
+    viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB',
+    ...(kept ? { storageState: kept } : {}),
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15000);
+  page.wrong = [];
+  page.asked = [];
+  await page.addInitScript(watch);
+  page.on('console', (message) => { if (message.type() === 'error' || message.type() === 'warning') page.wrong.push(`${message.type()}: ${message.text()}`); });
+  page.on('pageerror', (error) => page.wrong.push(`thrown: ${error.message}`));
+  page.on('request', (request) => page.asked.push(request.url()));
+  page.on('crash', () => page.wrong.push('the page crashed'));
+  await page.goto(address);
+  if (settle) await settled(page);
+  return page;
+}
+
+/** Waits until the workers have owed nothing for a while, and what they answered is drawn. */
+export async function settled(page, calm = 300, limit = 25000) {
+  // What was just done is asked in the next frame.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.waitForFunction((ms) => window.lab.owed === 0 && window.lab.asked > 0 && performance.now() - window.lab.quiet > ms, calm, { timeout: limit, polling: 50 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** What is wrong with a page at its end; it is closed. */
+export async function clean(name, page, allowed = null) {
+  const violations = await page.evaluate(() => window.lab.violations).catch(() => ['the page is gone']);
+  const wrong = page.wrong.filter((line) => !allowed?.test(line));
+  judge(`${name}: no error, no warning`, wrong.length === 0, wrong.join(' | '));
+  judge(`${name}: its policy is kept`, violations.length === 0, violations.join(' | '));
+  await page.context().close();
+}
+
+/** The fragment of the address once it holds the state, decoded field by field. */
+export async function fields(page) {
+  await page.waitForTimeout(500);
+  const hash = new URL(page.url()).hash.slice(1), found = {};
+  for (const part of hash.split('&').filter(Boolean)) {
+    const at = part.indexOf('='), key = part.slice(0, at), value = decodeURIComponent(part.slice(at + 1));
+    found[key] = key in found ? [].concat(found[key], value) : value;
+  }
+  return found;
+}
+export const figureOf = (page, title) => page.locator('figure', { has: page.locator('h3', { hasText: new RegExp(`^${title}$`) }) });
+/** What a figure says of itself; one that is out of sight is not kept up to date. */
+export async function summaryOf(page, title) {
+  await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
+  await page.waitForTimeout(100);
+  return figureOf(page, title).locator('figcaption').textContent();
+}
+
+/** CSV by RFC 4180, as rows of texts. */
+export function readCsv(text) {
+  const rows = [];
+  let row = [], cell = '', quoted = false;
+  for (let i = 0; i < text.length; i++) {
+    const c = text[i];
+    if (quoted) {
+      if (c === '"' && text[i + 1] === '"') { cell += '"'; i++; }
+      else if (c === '"') quoted = false;
+      else cell += c;
+    } else if (c === '"') quoted = true;
+    else if (c === ',') { row.push(cell); cell = ''; }
+    else if (c === '\n') { row.push(cell); rows.push(row); row = []; cell = ''; }
+    else if (c !== '\r') cell += c;
+  }
+  if (quoted || cell !== '' || row.length) throw new Error('the CSV does not end with its last line');
+  return rows;
+}
+
+/** A file that a button of a figure saves. */
+export async function saved(page, title, kind) {
+  const [download] = await Promise.all([page.waitForEvent('download'), figureOf(page, title).getByRole('button', { name: `Save “${title}” as ${kind}` }).click()]);
+  const path = join(place, `${Math.random().toString(36).slice(2)}.${kind.toLowerCase()}`);
+  await download.saveAs(path);
+  return { name: download.suggestedFilename(), bytes: readFileSync(path) };
+}
+/** The numbers behind a figure: head and rows of its CSV file. */
+export async function tableOf(page, title) {
+  const [head, ...rows] = readCsv((await saved(page, title, 'CSV')).bytes.toString('utf8'));
+  return { head, rows };
+}
+export const motus = (...words) => execFileSync(program, words, { encoding: 'utf8', cwd: root, stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 28 });
+
+export async function finish() {
+  await browser?.close();
+  for (const server of servers) { server.closeAllConnections(); server.close(); }
+  rmSync(place, { recursive: true, force: true });
+  console.log(`${passed} passed, ${failed} failed`);
+  process.exitCode = failed ? 1 : 0;
+}

@@ -1,0 +1,173 @@
+/* For everyone: axe-core finds nothing in either theme, wide or narrow, with all pictures open; everything by keyboard, with the focus always to be
+ * seen; phones; those who asked for less motion.
+ */
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { attempt, clean, fields, figureOf, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
+
+const axe = readFileSync(join(root, 'lab/node_modules/axe-core/axe.min.js'), 'utf8');
+const all = '&o=time,error,drift,phase,convergence,precision,stability';
+
+async function audit(name, page) {
+  await page.evaluate(axe);
+  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target.join(' ')} (${n.any[0]?.message ?? n.all[0]?.message ?? ''})`).join('; ')}`)));
+  judge(`axe: ${name}`, found.length === 0, found.join(' | '));
+}
+const sideways = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+
+for (const [theme, width] of [['light', 1280], ['dark', 320], ['dark', 1280], ['light', 320]]) {
+  await attempt(`${theme}, ${width}`, async () => {
+    const page = await open(`${singleFile}#v=1&p=spring${all}`, { theme, width, height: width < 500 ? 640 : 900, touch: width < 500 });
+    for (const title of ['Error', 'Phase plane', 'Convergence', 'Work and precision', 'Stability']) {
+      await figureOf(page, title).scrollIntoViewIfNeeded();
+      await settled(page, 400, 60000);
+    }
+    await audit(`${theme}, ${width}`, page);
+    for (const summary of await page.locator('details:not([open]) > summary').all()) if (await summary.isVisible()) await summary.evaluate((s) => s.click());
+    await page.getByRole('button', { name: 'Share', exact: true }).click();
+    await settled(page, 500);
+    await audit(`${theme}, ${width}, all folds open`, page);
+    same(`${theme}, ${width}, all folds open: the page does not scroll sideways`, await sideways(page), 0);
+    await page.keyboard.press('Escape');
+    await page.locator('#model-text').fill("x'' = -foo");
+    await page.locator('#step').fill('0');
+    await settled(page, 500);
+    await audit(`${theme}, ${width}, with messages`, page);
+    if (width < 500) {
+      const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea')].filter((e) => {
+        const { width: w, height: h } = (e.closest('label') ?? e).getBoundingClientRect();
+        return w > 0 && h > 0 && h < 43.5 && e.checkVisibility();
+      }).map((e) => `${e.tagName} “${(e.getAttribute('aria-label') || e.textContent || e.id).slice(0, 30)}” ${Math.round(e.getBoundingClientRect().height)}`));
+      judge(`${theme}, ${width}: what is touched is 44 px high`, small.length === 0, `${small.length}: ${small.slice(0, 8).join(', ')}`);
+    }
+    await clean(`${theme}, ${width}`, page);
+  });
+}
+
+// --- phones, and the widest ---------------------------------------------------------------------------------------------------------
+for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]]) {
+  await attempt(`${width} px`, async () => {
+    const page = await open(`${singleFile}#v=1&p=double-pendulum${all}`, { width, height, touch: width < 800 });
+    same(`${width} px: the page does not scroll sideways`, await sideways(page), 0);
+    const inView = () => page.locator('.transport-play').evaluate((b) => {
+      const r = b.getBoundingClientRect(), top = document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2);
+      return r.top >= 0 && r.bottom <= innerHeight && r.left >= 0 && r.right <= innerWidth && b.contains(top);
+    });
+    judge(`${width} px: Play is in reach at the top`, await inView());
+    const picture = await page.locator('#stage-figure .figure-picture').evaluate((p) => { const r = p.getBoundingClientRect(); return [r.top, r.width]; });
+    judge(`${width} px: the picture begins on the first screen`, picture[0] < height * 0.75 && picture[1] > Math.min(width * 0.7, 600), picture.join());
+    if (width < 800) {
+      await page.evaluate(() => scrollTo(0, 1500));
+      await page.waitForTimeout(100);
+      judge(`${width} px: and further down`, await inView());
+      // No scroll trap: a finger that begins on the picture moves the page.
+      same(`${width} px: fingers on a picture scroll the page`, await page.locator('#stage-figure canvas.figure-still').evaluate((c) => /auto|pan-y|manipulation/.test(getComputedStyle(c).touchAction)), true);
+    }
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.mouse.move(width / 2, height / 2);
+    await page.mouse.wheel(0, 400);
+    await page.waitForTimeout(200);
+    judge(`${width} px: the wheel over the picture scrolls the page`, await page.evaluate(() => scrollY > 0 || document.documentElement.scrollHeight <= innerHeight));
+    await clean(`${width} px`, page);
+  });
+}
+
+// --- the keyboard -----------------------------------------------------------------------------------------------------------------------
+await attempt('the keyboard', async () => {
+  const page = await open(`${singleFile}#v=1&p=projectile${all}`);
+  for (const title of ['Convergence', 'Work and precision', 'Stability']) {
+    await figureOf(page, title).scrollIntoViewIfNeeded();
+    await settled(page, 400);
+  }
+  await page.evaluate(() => { scrollTo(0, 0); document.activeElement?.blur(); });
+  const seen = [], unseen = [], nameless = [];
+  for (let i = 0; i < 260; i++) {
+    await page.keyboard.press('Tab');
+    const at = await page.evaluate(() => {
+      const e = document.activeElement;
+      if (!e || e === document.body) return null;
+      window.order ??= new Map();
+      if (window.order.has(e)) return 'again';
+      window.order.set(e, window.order.size);
+      // A ring is an outline or a shadow, of the element or of what shows it (a label, a mark beside it).
+      const shows = (x) => { const s = getComputedStyle(x); return (s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0) || s.boxShadow !== 'none'; };
+      const ring = shows(e) || [...(e.labels ?? [])].some(shows) || shows(e.parentElement) || (e.nextElementSibling !== null && shows(e.nextElementSibling));
+      const r = e.getBoundingClientRect();
+      const x = Math.min(innerWidth - 2, Math.max(1, r.left + Math.min(r.width / 2, 20))), y = r.top + Math.min(r.height / 2, 20), over = document.elementFromPoint(x, y);
+      const covered = !over || !(e.contains(over) || over.contains(e) || [...(e.labels ?? [])].some((l) => l.contains(over)) || e.parentElement.contains(over));
+      const inside = y >= 0 && y <= innerHeight;
+      const name = e.getAttribute('aria-label') || (e.getAttribute('aria-labelledby') && 'named') || e.labels?.[0]?.textContent || e.textContent || e.title;
+      return { what: `${e.tagName.toLowerCase()} “${(name ?? '').trim().slice(0, 40)}”`, named: Boolean(name?.trim()), ring, inside, covered, part: e.closest('header, #stage, .rail, #side, #looking, #theory, footer')?.id || e.closest('header, .rail')?.className || '' };
+    });
+    if (at === null || at === 'again') break;
+    seen.push(at);
+    if (!at.ring || !at.inside || at.covered) unseen.push(`${at.what}${at.ring ? '' : ' has no ring'}${at.inside ? '' : ' is out of sight'}${at.covered ? ' is covered' : ''}`);
+    if (!at.named) nameless.push(at.what);
+  }
+  judge('Tab: through everything, and no trap', seen.length > 60 && seen.length < 260, `${seen.length} stops`);
+  judge('Tab: the focus can always be seen', unseen.length === 0, `${unseen.length}: ${unseen.slice(0, 6).join(', ')}`);
+  judge('Tab: each stop has a name', nameless.length === 0, nameless.join());
+  const parts = seen.map((s) => s.part).filter((part, i, list) => part !== list[i - 1]);
+  same('Tab: one part of the page after the other', parts.length, new Set(parts).size) || console.log(`# ${parts.join(' ')}`);
+  console.log(`# ${seen.length} stops: ${parts.join(', ')}`);
+  const reached = await page.evaluate(() => [...document.querySelectorAll('button, select, textarea, input, summary, [tabindex="0"]')].filter((e) => e.checkVisibility() && !e.disabled && e.tabIndex >= 0 && !window.order.has(e)).map((e) => e.getAttribute('aria-label') || e.textContent.slice(0, 30) || e.id));
+  judge('Tab: nothing is left out', reached.length === 0, reached.join(', '));
+  await page.keyboard.press('Shift+Tab');
+  judge('Shift+Tab goes back', await page.evaluate(() => document.activeElement !== document.body));
+
+  // Space plays, arrows step.
+  await page.evaluate(() => document.activeElement?.blur());
+  const now = () => page.locator('.transport-now').textContent();
+  await page.keyboard.press('Home');
+  same('Home: the start', await now(), 't = 0.00');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  same('arrow: two steps', await now(), 't = 0.10');
+  judge('step mode: the step and its formula, with the numbers', /Step 2 of 60|2 of 60|3 of 60/.test(await page.locator('#step-view').textContent()) && /0\.05 · /.test(await page.locator('#step-view').textContent()), (await page.locator('#step-view').textContent()).slice(0, 300));
+  await page.keyboard.press('ArrowLeft');
+  same('arrow: one back', await now(), 't = 0.05');
+  await page.keyboard.press('End');
+  same('End: the end', await now(), 't = 3.00');
+  await page.keyboard.press('Space');
+  await page.waitForTimeout(400);
+  const later = await now();
+  judge('Space at the end plays from the start', Number(later.slice(4)) > 0.1 && Number(later.slice(4)) < 1.5, later);
+  await page.keyboard.press('Space');
+  const paused = await now();
+  await page.waitForTimeout(200);
+  same('Space pauses', await now(), paused);
+  // Where keys have a meaning of their own they keep it.
+  await page.locator('#model-text').focus();
+  await page.keyboard.press('Control+End');
+  await page.keyboard.type('# a b');
+  judge('Space and arrows in the text are the text’s', (await page.locator('#model-text').inputValue()).endsWith('# a b') && await now() === paused);
+  await page.locator('#step').focus();
+  await page.keyboard.press('Home');
+  same('Home in a field is the field’s', await now(), paused);
+  await page.getByRole('button', { name: 'Share', exact: true }).focus();
+  await page.keyboard.press('Space');
+  same('Space on a button is the button’s', [await page.locator('.share .popup').isVisible(), await now()], [true, paused]);
+  await page.keyboard.press('Escape');
+  const slider = page.getByRole('slider', { name: 'Time in “Error”' });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowRight');
+  judge('a picture’s time by the keys', /^t = 0\.05/.test(await now()), await now());
+  judge('… is read out', /midpoint/.test(await slider.getAttribute('aria-valuetext')), await slider.getAttribute('aria-valuetext'));
+  await clean('the keyboard', page);
+});
+
+// --- less motion ------------------------------------------------------------------------------------------------------------------------
+await attempt('less motion', async () => {
+  const page = await open(singleFile, { calm: true });
+  same('less motion: nothing moves unasked', await page.locator('.transport-now').textContent(), 't = 0.00');
+  await page.evaluate(() => { window.changes = 0; new MutationObserver(() => window.changes++).observe(document.querySelector('.transport-now'), { childList: true, characterData: true, subtree: true }); });
+  await page.keyboard.press('Space');
+  await page.waitForTimeout(1500);
+  const changes = await page.evaluate(() => window.changes);
+  judge('less motion: a few pictures, not a film', changes >= 1 && changes <= 5, changes);
+  const moving = await page.evaluate(() => document.getAnimations().length);
+  same('less motion: no transitions', moving, 0);
+  await clean('less motion', page);
+});
+await finish();

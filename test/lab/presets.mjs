@@ -1,0 +1,55 @@
+/* Every example: it starts without an error, something moves, each open panel says what it shows, and pictures of it are kept in build/lab/shots/
+ * to be looked at: light and wide, dark and narrow.
+ */
+import { mkdirSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { attempt, built, clean, figureOf, finish, judge, open, root, settled, singleFile } from './help.mjs';
+
+const shots = join(built, 'shots');
+mkdirSync(shots, { recursive: true });
+const names = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).map((name) => name.slice(0, -6)).sort();
+
+/** What a canvas shows, as a number: that two pictures differ. */
+const pixels = (page) => page.locator('#stage-figure canvas.figure-moving').evaluate((canvas) => {
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let sum = 0, some = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3]) { some++; sum = (sum * 31 + i + data[i]) % 4294967291; }
+  return { some, sum };
+});
+
+for (const [theme, width, height] of [['light', 1280, 900], ['dark', 375, 740]]) {
+  const page = await open(singleFile, { theme, width, height });
+  const offered = await page.locator('#preset option').evaluateAll((options) => options.map((o) => o.value));
+  judge(`${theme} ${width}: every model is offered`, names.every((name) => offered.includes(name)) && offered.length === names.length, offered.join());
+  for (const name of names) {
+    await attempt(`${name}, ${theme} ${width}`, async () => {
+      await page.locator('#preset').selectOption(name);
+      await settled(page);
+      const summary = await page.locator('#stage-figure figcaption').textContent();
+      judge(`${name}: the motion says what it shows`, /from t = .* to /.test(summary), summary);
+      judge(`${name}: no message but that of a motion that stopped`, !await page.locator('#model-problem').textContent(), await page.locator('#model-problem').textContent());
+      judge(`${name}: nothing stopped`, await page.locator('#status .message').textContent() === '', await page.locator('#status .message').textContent());
+      await page.keyboard.press('Home');
+      await page.evaluate(() => document.activeElement?.blur());
+      const before = await pixels(page);
+      await page.evaluate(() => document.dispatchEvent(new CustomEvent('motus-seek', { detail: 1e-3 })));
+      await page.keyboard.press('End');
+      await page.waitForTimeout(80);
+      const after = await pixels(page);
+      judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
+      if (width === 1280) {
+        for (const title of ['Against time', 'Error', 'Drift of an invariant', 'Phase plane']) {
+          const figure = figureOf(page, title);
+          await figure.scrollIntoViewIfNeeded();
+          await page.waitForTimeout(60);
+          const said = (await figure.locator('figcaption').textContent()) || (await figure.locator('.figure-message').textContent());
+          judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
+        }
+      } else judge(`${name}: the page does not scroll sideways`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+      await page.evaluate(() => scrollTo(0, 0));
+      await page.screenshot({ path: join(shots, `${name}-${theme}.png`), fullPage: false });
+    });
+  }
+  await clean(`examples, ${theme}`, page);
+}
+await finish();

@@ -1,0 +1,109 @@
+/* Addresses and command lines. Run by `node --test`; lab/share.ts is bundled on the way.
+ * Law: what goes into an address or a shell comes out of it unchanged, and no address is an exception.
+ */
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createRequire } from 'node:module';
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import test from 'node:test';
+
+const lab = new URL('../../lab/', import.meta.url);
+const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
+const built = buildSync({ entryPoints: [fileURLToPath(new URL('share.ts', lab))], bundle: true, format: 'esm', write: false, target: 'es2022' });
+const share = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+
+const model = name => readFileSync(new URL(`../../models/${name}.motus`, import.meta.url), 'utf8');
+const texts = { projectile: model('projectile'), spring: model('spring') };
+const presets = {
+  first: 'projectile',
+  text: name => (Object.hasOwn(texts, name) ? texts[name] : undefined),
+  methods: name => (name === 'projectile' ? ['explicit-euler', 'symplectic-euler', 'midpoint'] : ['verlet']),
+};
+const start = share.presetState(presets, 'projectile');
+
+const nasty = [
+  "it's", "''", "'\\''", '"', '`id`', '$(id)', '$HOME', '\\', '\\n', '!', '!!', '~', '*', '?', '[a]', '{a,b}', ';', '|', '&', '&&', '>', '<', '#', '%', '%41', '%zz',
+  '</script>', '<!--', '-->', ']]>', '&amp;', '=', '+', ' ', '  x ', '\t', 'a\nb', '\n', '\n\n', 'MOTUS_END', 'MOTUS_END\nMOTUS_END_2', "x'' = -x\n'\nMOTUS_END\nid",
+  'θ₁″ = −sin θ', '𝑥', '👩‍🔬🎯', 'é', 'é', '﻿bom', '﷽', '\u2028', '\u202e', '-n', '--', '-e', '',
+];
+
+test('an address holds what differs from the preset, and nothing else', () => {
+  assert.equal(share.encode(start, presets), 'v=1&p=projectile');
+  assert.equal(share.encode({ ...start, step: 'pi/100', until: '2 pi', methods: ['verlet', 'newmark(1/4, 1/2)'], set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' } }, presets),
+    'v=1&p=projectile&s=g%3D(0,%20-1.62)&s=r%27(0)%3D(1,%202)&a=verlet,newmark(1%2F4,%201%2F2)&h=pi%2F100&T=2%20pi');
+  assert.ok(share.encode({ ...start, text: 'é\n' }, presets).startsWith('v=1&m=%C3%A9%0A&a='));
+});
+
+test('what is encoded is free of what a page or a shell might read', () => {
+  for (const text of nasty) assert.match(share.encode({ ...start, text: text + '#' }, presets), /^[A-Za-z0-9\-._~(),*%&=]*$/);
+});
+
+test('every state comes back', () => {
+  for (const text of nasty) {
+    const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text;
+    const state = {
+      ...start, preset: '', text, set: { x: one, [one.replace(/=/g, '') || 'k']: '1', __proto__: null, ['__proto__']: '2' }, methods: ['verlet', 'rk4'], step: one, until: one,
+      view: { plane: 'space', quantities: [one, 'x[1,2]'], phase: [one, "x'"], panels: ['error', 'work-precision'], exact: false, speed: 0.25 },
+    };
+    const back = share.decode('#' + share.encode(state, presets), presets);
+    assert.equal(back.problem, '');
+    assert.deepEqual({ ...back.state, set: Object.entries(back.state.set) }, { ...state, set: Object.entries(state.set) });
+    assert.equal(share.encode(back.state, presets), share.encode(state, presets));
+  }
+  assert.deepEqual(share.decode('', { ...presets }).state, start);
+  assert.deepEqual(share.decode('v=1&p=projectile', presets).state, start);
+  assert.equal({}.polluted, undefined);
+});
+
+test('no address is an exception', () => {
+  const wrong = ['v=2&p=projectile', 'p=projectile', 'v=1', 'v=1&p=nothing', 'v=1&p=__proto__', 'v=1&p=constructor', 'v=1&m=%', 'v=1&m=%4', 'v=1&m=%GG', 'v=1&m=%FF', 'v=1&m=%C3',
+    'v=1&m=%ED%A0%80', 'v=1&m=%00', 'v=1&m=%1B%5B2J', 'v=1&p=spring&zz=1', 'v=1&p=spring&p=spring', 'v=1&p=spring&s=k', 'v=1&p=spring&s==2', 'v=1&p=spring&s=k%3D', 'v=1&p=spring&w=9',
+    'v=1&p=spring&f=x', 'v=1&p=spring&e=2', 'v=1&p=spring&z=-1', 'v=1&p=spring&z=0', 'v=1&p=spring&z=NaN', 'v=1&p=spring&o=%3Cimg%3E', 'v=1&p=spring&h=1%0A2',
+    'v=1&m=' + 'x'.repeat(share.longest), 'v=1&p=spring&' + 's=k%3D1&'.repeat(300), 'v=1&p=spring&h=' + '1'.repeat(300), '=', '&', '%', '#'];
+  for (const fragment of wrong) {
+    const { state, problem } = share.decode('#' + fragment, presets);
+    assert.notEqual(problem, '', fragment.slice(0, 60));
+    assert.deepEqual(state, start);
+  }
+  let seed = 7;                                                 // and noise, always the same
+  const next = n => (seed = (seed * 48271) % 2147483647) % n;
+  for (let i = 0; i < 3000; i++) {
+    const noise = Array.from({ length: next(40) }, () => 'v=1&pmsahTwqfoez%0123456789ABCDEF()[]\'"<>\u00e9\ud83d'[next(50)] ?? '').join('');
+    assert.equal(typeof share.decode(noise, presets).problem, 'string');
+    assert.equal(typeof share.decode('v=1&p=spring&' + noise, presets).state.text, 'string');
+  }
+});
+
+test('a lone surrogate does no harm', () => {
+  assert.equal(share.decode(share.encode({ ...start, text: 'a\ud83db' }, presets), presets).state.text, 'a\ufffdb');
+});
+
+test('a word stays one word in a shell', () => {
+  for (const text of nasty) {
+    assert.equal(execFileSync('sh', ['-c', `printf %s ${share.quote(text)}`], { encoding: 'utf8' }), text);
+  }
+});
+
+/* What a program named motus would be given by the command: its arguments, one a line, NUL-terminated, and its input. */
+const heard = text => execFileSync('sh', ['-c', `motus() { printf '%s\\0' "$@"; printf 'INPUT\\0'; cat; }\n${text}`], { encoding: 'utf8', input: '' }).split('\0');
+
+test('the command says what the page computed', () => {
+  assert.equal(share.command(start, start.methods, presets).text, 'motus compare models/projectile.motus --methods explicit-euler,symplectic-euler,midpoint');
+  assert.equal(share.command({ ...start, step: 'pi/100', set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' } }, ['verlet'], presets).text,
+    "motus run models/projectile.motus --method verlet --step pi/100 --set 'g=(0, -1.62)' --set 'r'\\''(0)=(1, 2)'");
+  for (const text of nasty) {
+    const one = /[\n\t]/.test(text) ? 'y' : text;
+    const got = heard(share.command({ ...start, text, step: one || '1', set: { x: one } }, ['rk4'], presets).text);
+    const input = text.endsWith('\n') || text === '' ? text : text + '\n';
+    assert.deepEqual(got, ['run', '-', '--method', 'rk4', '--step', one || '1', '--set', `x=${one}`, 'INPUT', input]);
+  }
+});
+
+test('control characters are refused', () => {
+  for (const c of ['\0', '\x1b', '\x7f', '\x9b', '\r']) {
+    assert.equal(share.command({ ...start, text: `x${c}` }, ['rk4'], presets).text, '');
+    assert.equal(share.command({ ...start, step: `1${c}` }, ['rk4'], presets).text, '');
+    assert.notEqual(share.command({ ...start, text: `x${c}` }, ['rk4'], presets).problem, '');
+  }
+});
