@@ -65,8 +65,8 @@ static uint64_t mix_outputs(uint64_t h, const model *m, const output *o, size_t 
 static uint64_t fingerprint(const motus_system *s)
 {
     uint64_t h = MIX_START;
-    h = mix(h, &s->problem.nx, sizeof s->problem.nx);
-    h = mix(h, &s->problem.nv, sizeof s->problem.nv);
+    /* Of one width everywhere: the page has a narrower size_t, and the same state. */
+    h = mix_number(mix_number(h, (int64_t)s->problem.nx), (int64_t)s->problem.nv);
     const model *m = s->model;
     if (!m)
         return h;

@@ -69,6 +69,9 @@ static motus_system *read_with(const char *text, const char *const *set, size_t 
     return given_text_with(text, set, count, count ? set[0] : text);
 }
 
+enum { SHAPES = 8, COUNTS = 3, MANY = 37 };
+static const size_t counts[COUNTS] = {MANY, 1, 2};      /* that fill no block */
+
 /* What is computed, apart from who computes it. */
 typedef struct task {
     const given_case *c;
@@ -81,6 +84,9 @@ typedef struct task {
     const double *value_list[VARY_MAX];
     double step, until;
     int64_t every, steps;
+    outcome plain[SHAPES][COUNTS];   /* one at a time, by the method that is `plain_by`: the same for every compiler and width */
+    bool known[SHAPES];
+    const char *plain_by;
 } task;
 
 /* Every column once for its last value and once by one of the other reductions. */
@@ -112,8 +118,17 @@ static void open_task(task *t, const given_case *c)
     t->step = set.step;
 }
 
+static void forget_plain(task *t)
+{
+    for (int k = 0; k < SHAPES; k++)
+        for (int c = 0; t->known[k] && c < COUNTS; c++)
+            forget(&t->plain[k][c]);
+    memset(t->known, 0, sizeof t->known);
+}
+
 static void close_task(task *t)
 {
+    forget_plain(t);
     motus_system_destroy(t->s);
     free(t->text);
 }
@@ -131,7 +146,6 @@ static void shape(task *t, int k)
     t->until = nextafter(set.from + t->step * (strcmp(t->method, "verlet-literal") ? shapes[k].steps : (double)t->steps), INFINITY);
     t->every = shapes[k].every;
 }
-enum { SHAPES = 8 };
 
 static motus_ensemble *make(const task *t, const char *machine, int lanes, int threads)
 {
@@ -217,8 +231,6 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
 
 /* The same bits ------------------------------------------------------------------------------------------------------------------ */
 
-enum { MANY = 37 };
-
 static bool solves(const char *method)
 {
     const motus_method *m;
@@ -226,16 +238,34 @@ static bool solves(const char *method)
     return !strcmp(m->family, "implicit") || !strcmp(m->family, "exact");
 }
 
-/* One shape: one at a time, some against runs; then compiled, for counts that fill no block. */
-static void compare(task *t, int k, int lanes, int threads, bool oracle)
+/* One shape: one at a time, and some of these against runs. */
+static const outcome *one_by_one(task *t, int k, const char *what)
 {
-    static const size_t counts[] = {MANY, 1, 2};
+    if (t->plain_by != t->method)
+        forget_plain(t);
+    t->plain_by = t->method;
+    if (t->known[k])
+        return t->plain[k];
+    motus_ensemble *plain = make(t, "interpreter", 0, 1);
+    assert_int_equal(motus_ensemble_steps(plain), t->steps);
+    assert_string_equal(motus_ensemble_machine(plain), "interpreter");
+    for (int c = 0; c < COUNTS; c++)
+        t->plain[k][c] = go(plain, counts[c], t->record_count, t->value_list, what);
+    for (size_t i = 0; i < counts[0]; i += 18)
+        as_a_run(t, &t->plain[k][0], i);
+    motus_ensemble_destroy(plain);
+    t->known[k] = true;
+    return t->plain[k];
+}
+
+/* The same compiled. */
+static void compare(task *t, int k, int lanes, int threads)
+{
     char what[200];
     shape(t, k);
     snprintf(what, sizeof what, "%s by %s, shape %d, %d lanes, %d threads, %s", t->c->model, t->method, k, lanes, threads, getenv("CC") ? getenv("CC") : "cc");
-    motus_ensemble *plain = make(t, "interpreter", 0, 1), *fast = make(t, "compiled", lanes, threads);
-    assert_int_equal(motus_ensemble_steps(plain), t->steps);
-    assert_string_equal(motus_ensemble_machine(plain), "interpreter");
+    const outcome *plain = one_by_one(t, k, what);
+    motus_ensemble *fast = make(t, "compiled", lanes, threads);
     assert_string_equal(motus_ensemble_machine(fast), "compiled");
     /* In lanes wherever that can be: a fallback would agree with itself. */
     const bool alone = motus_ensemble_note(fast)[0] != 0;
@@ -243,15 +273,11 @@ static void compare(task *t, int k, int lanes, int threads, bool oracle)
         fail_msg("%s: %s", what, motus_ensemble_note(fast));
     if (lanes && !alone)
         assert_int_equal(motus_ensemble_lanes(fast), lanes);
-    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-        outcome a = go(plain, counts[c], t->record_count, t->value_list, what), b = go(fast, counts[c], t->record_count, t->value_list, what);
-        same_outcome(&a, &b, what);
-        for (size_t i = 0; oracle && c == 0 && i < counts[c]; i += 18)
-            as_a_run(t, &a, i);
-        forget(&a);
+    for (int c = 0; c < COUNTS; c++) {
+        outcome b = go(fast, counts[c], t->record_count, t->value_list, what);
+        same_outcome(&plain[c], &b, what);
         forget(&b);
     }
-    motus_ensemble_destroy(plain);
     motus_ensemble_destroy(fast);
 }
 
@@ -302,9 +328,10 @@ static void every_model(void **state)
                 if ((!all_rows() && cc != pairs % 2) || !use_compiler(compilers[cc]))
                     continue;
                 for (int w = 0; w < WIDTHS; w++)
-                    if (all_rows() || (w == (pairs / 2) % (WIDTHS - 2)))
+                    /* What goes one at a time has no lanes. */
+                    if (all_rows() ? w == 0 || !(t.c->singly || solves(t.method)) : w == (pairs / 2) % (WIDTHS - 2))
                         for (int f = 0; f < SHAPES; f++)
-                            compare(&t, f, widths[w], 1 + f % 2, w == 0 || !all_rows());
+                            compare(&t, f, widths[w], 1 + f % 2);
             }
         }
         close_task(&t);
@@ -340,7 +367,7 @@ static void every_width(void **state)
                 if (!all_rows() && (p == 1 ? lanes != (cc ? 1 : 0) && lanes != (cc ? 8 : 2) : cc && lanes != 0 && lanes != 4 && lanes != 32))
                     continue;
                 for (int f = 0; f < SHAPES; f += 1 + (lanes > 2))
-                    compare(&t, f, lanes, 1 + f / 2 % 2, lanes == 0);
+                    compare(&t, f, lanes, 1 + f / 2 % 2);
             }
         }
         close_task(&t);
