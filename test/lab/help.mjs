@@ -100,7 +100,7 @@ export async function open(address = singleFile, options = {}) {
     ...(kept ? { storageState: kept } : {}),
   });
   const page = await context.newPage();
-  page.setDefaultTimeout(15000);
+  page.setDefaultTimeout(20000);
   page.wrong = [];
   page.asked = [];
   await page.addInitScript(watch);
@@ -169,7 +169,10 @@ export function readCsv(text) {
 
 /** A file that a button of a figure saves. */
 export async function saved(page, title, kind) {
-  const [download] = await Promise.all([page.waitForEvent('download'), figureOf(page, title).getByRole('button', { name: `Save “${title}” as ${kind}` }).click()]);
+  const button = figureOf(page, title).getByRole('button', { name: `Save “${title}” as ${kind}` });
+  const once = () => Promise.all([page.waitForEvent('download', { timeout: 10000 }), button.click()]);
+  // A page that is being laid out anew may move from under a pointer.
+  const [download] = await once().catch(once);
   const path = join(place, `${Math.random().toString(36).slice(2)}.${kind.toLowerCase()}`);
   await download.saveAs(path);
   return { name: download.suggestedFilename(), bytes: readFileSync(path) };

@@ -15,39 +15,45 @@ async function audit(name, page) {
 }
 const sideways = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
-for (const [theme, width] of [['light', 1280], ['dark', 320], ['dark', 1280], ['light', 320]]) {
-  await attempt(`${theme}, ${width}`, async () => {
-    const page = await open(`${singleFile}#v=1&p=spring${all}`, { theme, width, height: width < 500 ? 640 : 900, touch: width < 500 });
+for (const width of [1280, 320]) {
+  await attempt(`${width} px`, async () => {
+    const page = await open(`${singleFile}#v=1&p=spring${all}`, { width, height: width < 500 ? 640 : 900, touch: width < 500 });
+    const both = async (name) => {
+      for (const theme of ['light', 'dark']) {
+        await page.emulateMedia({ colorScheme: theme });
+        await page.waitForTimeout(250);
+        await audit(`${width} px, ${theme}, ${name}`, page);
+      }
+    };
     for (const title of ['Error', 'Phase plane', 'Convergence', 'Work and precision', 'Stability']) {
       await figureOf(page, title).scrollIntoViewIfNeeded();
-      await settled(page, 400, 60000);
+      await settled(page, 300, 60000);
     }
-    await audit(`${theme}, ${width}`, page);
+    await page.evaluate(() => scrollTo(0, 0));
+    await both('as it is');
     for (const summary of await page.locator('details:not([open]) > summary').all()) if (await summary.isVisible()) await summary.evaluate((s) => s.click());
     await page.getByRole('button', { name: 'Share', exact: true }).click();
-    await settled(page, 500);
-    await audit(`${theme}, ${width}, all folds open`, page);
-    same(`${theme}, ${width}, all folds open: the page does not scroll sideways`, await sideways(page), 0);
-    await page.keyboard.press('Escape');
+    await settled(page);
+    same(`${width} px, all folds open: the page does not scroll sideways`, await sideways(page), 0);
     await page.locator('#model-text').fill("x'' = -foo");
     await page.locator('#step').fill('0');
-    await settled(page, 500);
-    await audit(`${theme}, ${width}, with messages`, page);
+    await settled(page);
+    await both('all folds open, with messages');
     if (width < 500) {
       const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea')].filter((e) => {
         const { width: w, height: h } = (e.closest('label') ?? e).getBoundingClientRect();
         return w > 0 && h > 0 && h < 43.5 && e.checkVisibility();
       }).map((e) => `${e.tagName} “${(e.getAttribute('aria-label') || e.textContent || e.id).slice(0, 30)}” ${Math.round(e.getBoundingClientRect().height)}`));
-      judge(`${theme}, ${width}: what is touched is 44 px high`, small.length === 0, `${small.length}: ${small.slice(0, 8).join(', ')}`);
+      judge(`${width} px: what is touched is 44 px high`, small.length === 0, `${small.length}: ${small.slice(0, 8).join(', ')}`);
     }
-    await clean(`${theme}, ${width}`, page);
+    await clean(`${width} px`, page);
   });
 }
 
 // --- phones, and the widest ---------------------------------------------------------------------------------------------------------
 for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]]) {
   await attempt(`${width} px`, async () => {
-    const page = await open(`${singleFile}#v=1&p=double-pendulum${all}`, { width, height, touch: width < 800 });
+    const page = await open(`${singleFile}#v=1&p=double-pendulum`, { width, height, touch: width < 800 });
     same(`${width} px: the page does not scroll sideways`, await sideways(page), 0);
     const inView = () => page.locator('.transport-play').evaluate((b) => {
       const r = b.getBoundingClientRect(), top = document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2);
@@ -97,7 +103,7 @@ await attempt('the keyboard', async () => {
       const covered = !over || !(e.contains(over) || over.contains(e) || [...(e.labels ?? [])].some((l) => l.contains(over)) || e.parentElement.contains(over));
       const inside = y >= 0 && y <= innerHeight;
       const name = e.getAttribute('aria-label') || (e.getAttribute('aria-labelledby') && 'named') || e.labels?.[0]?.textContent || e.textContent || e.title;
-      return { what: `${e.tagName.toLowerCase()} “${(name ?? '').trim().slice(0, 40)}”`, named: Boolean(name?.trim()), ring, inside, covered, part: e.closest('header, #stage, .rail, #side, #looking, #theory, footer')?.id || e.closest('header, .rail')?.className || '' };
+      return { what: `${e.tagName.toLowerCase()} “${(name ?? '').trim().slice(0, 40)}”`, named: Boolean(name?.trim()), ring, inside, covered, part: e.closest('main > *, body > *')?.id || e.closest('main > *, body > *')?.className || e.tagName };
     });
     if (at === null || at === 'again') break;
     seen.push(at);
@@ -123,6 +129,8 @@ await attempt('the keyboard', async () => {
   await page.keyboard.press('ArrowRight');
   await page.keyboard.press('ArrowRight');
   same('arrow: two steps', await now(), 't = 0.10');
+  await page.locator('#step-view').scrollIntoViewIfNeeded();
+  await settled(page);
   judge('step mode: the step and its formula, with the numbers', /Step 2 of 60|2 of 60|3 of 60/.test(await page.locator('#step-view').textContent()) && /0\.05 · /.test(await page.locator('#step-view').textContent()), (await page.locator('#step-view').textContent()).slice(0, 300));
   await page.keyboard.press('ArrowLeft');
   same('arrow: one back', await now(), 't = 0.05');

@@ -3,7 +3,7 @@
  */
 import { mkdirSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, built, clean, figureOf, finish, judge, open, root, settled, singleFile } from './help.mjs';
+import { attempt, built, clean, figureOf, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
 
 const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
@@ -17,39 +17,39 @@ const pixels = (page) => page.locator('#stage-figure canvas.figure-moving').eval
   return { some, sum };
 });
 
-for (const [theme, width, height] of [['light', 1280, 900], ['dark', 375, 740]]) {
-  const page = await open(singleFile, { theme, width, height });
-  const offered = await page.locator('#preset option').evaluateAll((options) => options.map((o) => o.value));
-  judge(`${theme} ${width}: every model is offered`, names.every((name) => offered.includes(name)) && offered.length === names.length, offered.join());
-  for (const name of names) {
-    await attempt(`${name}, ${theme} ${width}`, async () => {
-      await page.locator('#preset').selectOption(name);
-      await settled(page);
-      const summary = await page.locator('#stage-figure figcaption').textContent();
-      judge(`${name}: the motion says what it shows`, /from t = .* to /.test(summary), summary);
-      judge(`${name}: no message but that of a motion that stopped`, !await page.locator('#model-problem').textContent(), await page.locator('#model-problem').textContent());
-      judge(`${name}: nothing stopped`, await page.locator('#status .message').textContent() === '', await page.locator('#status .message').textContent());
-      await page.keyboard.press('Home');
-      await page.evaluate(() => document.activeElement?.blur());
-      const before = await pixels(page);
-      await page.evaluate(() => document.dispatchEvent(new CustomEvent('motus-seek', { detail: 1e-3 })));
-      await page.keyboard.press('End');
-      await page.waitForTimeout(80);
-      const after = await pixels(page);
-      judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
-      if (width === 1280) {
-        for (const title of ['Against time', 'Error', 'Drift of an invariant', 'Phase plane']) {
-          const figure = figureOf(page, title);
-          await figure.scrollIntoViewIfNeeded();
-          await page.waitForTimeout(60);
-          const said = (await figure.locator('figcaption').textContent()) || (await figure.locator('.figure-message').textContent());
-          judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
-        }
-      } else judge(`${name}: the page does not scroll sideways`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+const page = await open(singleFile);
+const offered = await page.locator('#preset option').evaluateAll((options) => options.map((o) => o.value));
+judge('every model is offered', names.every((name) => offered.includes(name)) && offered.length === names.length, offered.join());
+for (const name of names) {
+  await attempt(name, async () => {
+    await page.locator('#preset').selectOption(name);
+    await settled(page, 300, 40000);
+    const summary = await page.locator('#stage-figure figcaption').textContent();
+    judge(`${name}: the motion says what it shows`, /from t = .* to /.test(summary), summary);
+    same(`${name}: no message, and nothing stopped`, [await page.locator('#model-problem').textContent(), await page.locator('#status .message').textContent()], ['', '']);
+    await page.evaluate(() => document.activeElement?.blur());
+    await page.keyboard.press('Home');
+    const before = await pixels(page);
+    await page.keyboard.press('End');
+    await page.waitForTimeout(80);
+    const after = await pixels(page);
+    judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
+    for (const title of ['Against time', 'Error', 'Drift of an invariant', 'Phase plane']) {
+      const figure = figureOf(page, title);
+      await figure.scrollIntoViewIfNeeded();
+      await page.waitForTimeout(60);
+      const said = (await figure.locator('figcaption').textContent()) || (await figure.locator('.figure-message').textContent());
+      judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
+    }
+    for (const [theme, width, height] of [['dark', 375, 740], ['light', 1280, 900]]) {
+      await page.setViewportSize({ width, height });
+      await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
-      await page.screenshot({ path: join(shots, `${name}-${theme}.png`), fullPage: false });
-    });
-  }
-  await clean(`examples, ${theme}`, page);
+      await page.waitForTimeout(150);
+      judge(`${name}, ${width} px: the page does not scroll sideways`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+      await page.screenshot({ path: join(shots, `${name}-${theme}.png`) });
+    }
+  });
 }
+await clean('examples', page, /readback/);
 await finish();

@@ -1,0 +1,68 @@
+#!/bin/bash
+# The page: the module against the program, byte for byte, and the page in a browser (test/lab/*.mjs), built here as `make lab` builds it.
+#
+# Each test prints what failed and, last, `N passed, N failed`; so does this script, for all of them. Screenshots are left in build/lab/shots/.
+# CHROMIUM names the browser, MOTUS the program (build/motus). `test/page.sh share clock` runs these two.
+cd "$(dirname "$0")/.." || exit 1
+export MOTUS=${MOTUS:-$PWD/build/motus}
+logs=build/lab/test
+mkdir -p $logs
+began=$SECONDS
+
+if ! cmake/lab.sh >$logs/build.log 2>&1; then
+    cat $logs/build.log
+    echo "not ok - the page is built"
+    echo "0 passed, 1 failed"
+    exit 1
+fi
+(cd lab && node_modules/.bin/esbuild core.ts --bundle --format=esm --target=es2022 --outfile=../$logs/core.mjs --log-level=warning) || echo "not ok - the core's calls are bundled"
+
+# name, seconds, command ...: its output goes to a log, its count to the sum.
+start() {
+    local name=$1 limit=$2
+    local since=$SECONDS
+    shift 2
+    # In the foreground: whoever ends this script ends them as well.
+    timeout --foreground --kill-after=5 "$limit" "$@" >"$logs/$name.log" 2>&1 </dev/null
+    echo "$? $((SECONDS - since))" >"$logs/$name.status"
+}
+bits() { start bits 200 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
+# node's own runner says it in its way.
+addresses() {
+    start addresses 60 node --test --test-reporter=tap test/lab/share.test.mjs
+    echo "$(sed -n 's/^# pass //p' $logs/addresses.log) passed, $(sed -n 's/^# fail //p' $logs/addresses.log) failed" >>$logs/addresses.log
+}
+page() { start "$1" 240 node "test/lab/$1.mjs"; }
+
+# Two at a time: most of what they do is wait. Figures of speed come last, by themselves.
+together() {
+    local name
+    for name; do
+        while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-2}" ]; do wait -n; done
+        case $name in bits | addresses) $name ;; *) page "$name" ;; esac &
+    done
+    wait
+}
+names=("$@")
+[ $# -gt 0 ] || names=(people share presets panels controls bits start addresses clock speed)
+rm -f $logs/*.status
+others=()
+for name in "${names[@]}"; do [ "$name" = speed ] || others+=("$name"); done
+together "${others[@]}"
+case " ${names[*]} " in *" speed "*) together speed ;; esac
+
+passed=0 failed=0
+for name in "${names[@]}"; do
+    closing=$(grep -aE '^[0-9]+ passed, [0-9]+ failed$' "$logs/$name.log" | tail -n 1)
+    read -r status took <"$logs/$name.status"
+    good=${closing%% *} bad=${closing#*, }
+    bad=${bad%% *}
+    if [ -z "$closing" ] || [ "$((good + bad))" = 0 ]; then good=0 bad=1; echo "not ok - $name broke off (exit status $status)"; fi
+    grep -aE '^(not ok|#  *[a-z0-9].*(ms|s|Hz|dropped))' "$logs/$name.log" | cut -c 1-400
+    [ -n "$closing" ] || tail -n 5 "$logs/$name.log" | cut -c 1-400
+    echo "$name: $good passed, $bad failed in $took s"
+    passed=$((passed + good)) failed=$((failed + bad))
+done
+echo "in $((SECONDS - began)) s; logs in $logs, screenshots in build/lab/shots"
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
