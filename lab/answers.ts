@@ -10,7 +10,7 @@ import type {
 import { Refused } from './scene';
 
 export const STEPS_MAX = 1e7;
-const NUMBERS_MAX = 4e6;                 // of one track
+const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
 const TRUTH_ROWS = 1200;
 const REGION_MAX = 250_000;
@@ -27,11 +27,16 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
   return out;
 }
 
+/** The truth at some times, `of` the reference that told it. */
+interface Known { readonly of: object | null; readonly times: Float64Array; readonly x: Float64Array; readonly v: Float64Array }
+
 export class Answers {
   private readonly lab: number;
   private opened = '';                   // the model that is open, as a key
   private description: Description | null = null;
   private reference: { key: string; name: string; error: number } | null = null;
+
+  private known: Known | null = null;
 
   constructor(private readonly core: Core) {
     this.lab = core.create();
@@ -116,7 +121,8 @@ export class Answers {
   private track(method: string, ask: Solve, all: readonly number[], count: number): { track: Track; values: Float64Array } {
     this.start(method, ask.step, ask.until);
     const { total, step, last } = this.core.progress(this.lab);
-    const rows = Math.max(2, Math.min(ask.rows, Math.floor(NUMBERS_MAX / all.length)));
+    const enough = Math.max(ROWS_ENOUGH, Math.floor(NUMBERS_ENOUGH / all.length));
+    const rows = Math.max(2, Math.min(ask.rows, enough, Math.floor(NUMBERS_MAX / all.length)));
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
@@ -154,8 +160,17 @@ export class Answers {
     return { name, error, times, columns };
   }
 
+  /** Methods with the same step are looked at at the same times: the truth there is asked for once. */
+  private truthAt(times: Float64Array): { x: Float64Array; v: Float64Array } {
+    let known = this.known;
+    if (known?.of !== this.reference || known.times.length !== times.length || !known.times.every((t, i) => t === times[i])) {
+      this.known = known = { of: this.reference, times: times.slice(), ...this.core.referenceAt(this.lab, times) };
+    }
+    return known;
+  }
+
   private errors(track: Track, values: Float64Array, width: number, first: number, nx: number, nv: number): ErrorTrack {
-    const rows = track.times.length, truth = this.core.referenceAt(this.lab, track.times);
+    const rows = track.times.length, truth = this.truthAt(track.times);
     const largest = (count: number, at: number, of: Float64Array): Float64Array => Float64Array.from({ length: rows }, (_, i) => {
       let worst = 0;
       for (let k = 0; k < count; k++) worst = Math.max(worst, Math.abs((values[i * width + at + k] as number) - (of[i * count + k] as number)));

@@ -55,7 +55,7 @@ async function start(): Promise<void> {
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
   const card = place('method-card');
-  let carded = '';
+  let carded = '', preset = state.preset;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
@@ -98,10 +98,16 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     for (const panel of open) panel.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
+    // Another example begins at its beginning; a change of this one is seen at the time that one looks at.
+    if (scene.state.preset !== preset) clock.seek(store.numbers.start);
+    preset = scene.state.preset;
     for (const panel of open) panel.at(clock.time());
     showCard();
   }
   store.subscribe((what) => {
+    // A picture that is not of what is typed looks like it.
+    const { model, run, step, until } = store.trouble;
+    document.querySelector('main')?.classList.toggle('stale', Boolean(model || run || step || until));
     if (what === 'scene') show();
     if (what !== 'view') return;
     arrange();

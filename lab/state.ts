@@ -37,7 +37,7 @@ export interface LiveStore extends Store {
 
 /** Of the page: beyond this a run belongs to the program. */
 export const mostSteps = 1e7;
-const rows = 12000;
+const rows = 6000;
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
@@ -70,6 +70,8 @@ export function createStore(client: Client, initial: State): LiveStore {
   let numbers: LiveStore['numbers'] = { step: null, until: null, start: 0 };
   let underWay = false, waiting = false, refining = false, began = 0, version = 0, truthTime = 0;
   let running: AbortController | null = null, hurry = (): void => {};
+  // The method line of the text that was read last; null: a whole state was loaded, whose own choice of methods counts.
+  let ownMethod: string | null = null;
   const listeners = new Set<(what: Happening) => void>();
   const constants = new Map<string, number | string>();
 
@@ -115,7 +117,9 @@ export function createStore(client: Client, initial: State): LiveStore {
     }
     if (step !== null && until !== null && !said.step && !said.until) {
       const span = Math.abs(until - model.settings.start), steps = span / step;
-      if (steps > mostSteps) {
+      if (span === 0) {
+        said.until = `The motion starts and ends at ${short(until)}: there is nothing to compute.`;
+      } else if (steps > mostSteps) {
         said.step = `That makes ${steps.toPrecision(2).replace('e+', ' × 10^')} steps; the page stops at 10 million. The program has no such limit.`;
       } else if (step > span) said.remark = `The step is longer than the whole motion: one step of ${short(span, 6)} is taken.`;
     }
@@ -152,6 +156,12 @@ export function createStore(client: Client, initial: State): LiveStore {
   async function compute(of: State): Promise<void> {
     const model = await read(of);
     if (!model) { tell('description'); return; }
+    const own = model.settings.method;
+    if (ownMethod !== null && own && own !== ownMethod && state === of) {
+      state = of = { ...of, methods: [own, ...of.methods.filter(name => name !== own)] };
+      tell('state');
+    }
+    ownMethod = own;
     // What the text no longer has is no longer set.
     const kept = Object.entries(of.set).filter(([name]) => model.parameters.some(p => p.name === name));
     const set = Object.fromEntries(kept);
@@ -159,12 +169,12 @@ export function createStore(client: Client, initial: State): LiveStore {
     else of = { ...of, set };
     const measured = await measure(of, model);
     const { methods, refused } = admittedMethods(of, model);
-    trouble = { ...well, ...measured.trouble, methods: refused.length ? `Not for this force: ${refused.join(', ')}.` : '' };
+    trouble = { ...well, ...measured.trouble, methods: refused.length ? `Not for this force: ${looksOf(refused, catalogue).map(l => l.label).join(', ')}.` : '' };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
     if ((measured.trouble.step || measured.trouble.until) && scene?.state.text === of.text) return;
-    const own = model.settings;
-    const asked = { step: measured.trouble.step ? own.step : measured.step, until: measured.trouble.until ? own.until : measured.until };
+    const { settings } = model;
+    const asked = { step: measured.trouble.step ? settings.step : measured.step, until: measured.trouble.until ? settings.until : measured.until };
     if (asked.step === null || asked.until === null) {
       trouble = {
         ...trouble, step: trouble.step || (asked.step === null ? 'The model names no step: type one, for example 0.01.' : ''),
@@ -176,7 +186,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const shown: State = { ...of, methods };
     const finish = (solution: Solution): void => {
       scene = makeScene(shown, solution);
-      numbers = { step: asked.step, until: asked.until, start: own.start };
+      numbers = { step: asked.step, until: asked.until, start: settings.start };
       tell('scene');
     };
     try {
@@ -248,7 +258,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     get busy() { return busy; },
     get numbers() { return numbers; },
     change(part: Partial<State>) { state = { ...state, ...part }; tell('state'); ask(); },
-    load(next: State) { state = next; tell('state'); tell('view'); ask(); },
+    load(next: State) { ownMethod = null; state = next; tell('state'); tell('view'); ask(); },
     look(part: Partial<View>) {
       state = { ...state, view: { ...state.view, ...part } };
       if (scene) scene = { ...scene, state: { ...scene.state, view: state.view } };

@@ -38,7 +38,7 @@ export function figure(definition: FigureDefinition): Figure {
 
   const tall = (w: number): number => {
     const extra = definition.extra?.(w) ?? 0;
-    return Math.round(Math.min(Math.max(LEAST, w * (definition.aspect ?? 0.62)), Math.max(LEAST, TALLEST * window.innerHeight - extra)) + extra);
+    return Math.round(Math.min(Math.max(LEAST, w * (definition.aspect ?? 0.62)), Math.max(LEAST, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
   };
   /** The canvases get the size of the page's picture, in the pixels of the screen. */
   function fit(): void {

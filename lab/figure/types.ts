@@ -36,6 +36,8 @@ export interface FigureDefinition {
   draw(pen: Pen, ink: Ink): void;
   /** What moves with the time: on a layer of its own, above. */
   overlay?(pen: Pen, ink: Ink): void;
+  /** Never higher than this part of the window. */
+  readonly tallest?: number;
   /** Height beyond the aspect's, in pixels: a legend, more than one panel. */
   extra?(width: number): number;
   /** A sentence that says what is seen, for those who do not see it. */

@@ -41,7 +41,7 @@ export function motionPanel(store: Store): Panel {
   const equalLabel = labelled('equal scales', equal, true);
 
   const definition: FigureDefinition = {
-    id: 'motion', title: 'Motion', aspect: 0.56,
+    id: 'motion', title: 'Motion', aspect: 0.56, tallest: 0.58,
     /* The names stand above the picture, not in its place; and a narrow page gives a picture that is higher than wide. */
     extra: width => namesHeight(width) + Math.max(0, Math.min(0.5 * width, 640 - width)) + (subject?.kind === 'space' ? 0.1 * width : 0),
     draw: (pen, ink) => view?.draw(pen, ink),

@@ -151,7 +151,7 @@ export const precision: PanelMaker = (store): Panel => {
     const power = level(found), exact = names.filter((_, i) => found[i]!.exactHere).map((look) => look.label);
     const parts: string[] = [];
     const needs = found.map((row, i) => ({ label: names[i]!.label, work: row.exactHere ? NaN : workFor(row, 10 ** power) })).filter((need) => need.work > 0).sort((a, b) => a.work - b.work);
-    if (needs.length) parts.push(`For an error of ${tenTo(power)} ${needs.map((need) => `${need.label} needs ${whole(Number(need.work.toPrecision(2)))}`).join(', ')} evaluations of the force.`);
+    if (needs.length) parts.push(`For an error of ${tenTo(power)} of the size of the motion, ${needs.map((need) => `${need.label} needs ${whole(Number(need.work.toPrecision(2)))}`).join(', ')} evaluations of the force.`);
     if (exact.length) parts.push(`Exact here but for round-off: ${exact.join(', ')}.`);
     return parts.join(' ');
   }

@@ -14,13 +14,13 @@ const most = 12;
 
 interface Toggle { readonly element: HTMLElement; readonly name: string; refresh(chosen: readonly string[]): void; repaint(): void }
 
-export function methods(store: LiveStore): { readonly element: HTMLElement; repaint(): void } {
+export function methods(store: LiveStore): { readonly element: HTMLElement; readonly main: HTMLElement; repaint(): void } {
   const list = el('div', { class: 'toggles' }), more = el('div', { class: 'toggles' });
   const search = el('input', { type: 'search', id: 'method-search', placeholder: 'order 4, symplectic, Yoshida …', autocomplete: 'off', spellcheck: 'false' });
   const found = el('p', { class: 'quiet', role: 'status' });
   const main = el('select', { id: 'main-method' });
-  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Shown step by step'), main);
-  const fold = el('details', { class: 'more' }, el('summary', {}, 'All methods'), el('label', { for: 'method-search' }, 'Search'), search, found, more, mainRow);
+  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Formula and steps of'), main);
+  const fold = el('details', { class: 'more' }, el('summary', {}, 'All methods'), el('label', { for: 'method-search' }, 'Search'), search, found, more);
   const message = el('p', { class: 'message mild', role: 'status' });
   const element = el('fieldset', { class: 'methods' }, el('legend', {}, 'Methods'), list, message, fold);
 
@@ -131,5 +131,5 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
   search.addEventListener('input', filter);
   search.addEventListener('keydown', event => { if (event.key === 'Escape' && search.value) { search.value = ''; filter(); event.stopPropagation(); } });
   store.subscribe(what => { if (what !== 'view' && what !== 'busy') refresh(); });
-  return { element, repaint: () => { for (const t of toggles) t.repaint(); } };
+  return { element, main: mainRow, repaint: () => { for (const t of toggles) t.repaint(); } };
 }

@@ -89,7 +89,8 @@ export function presetPicker(store: LiveStore, toasts: Toasts): { readonly picke
   const title = el('h1', { id: 'scene-title' }), mark = el('p', { class: 'mark' });
   const description = el('p', { id: 'preset-description', class: 'description' }), note = el('div', { class: 'note' });
   const revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
-  const edited = el('p', { class: 'edited' }, 'You have changed this model. ', revert);
+  const began = document.createTextNode('');
+  const edited = el('p', { class: 'edited' }, began, revert);
   const card = el('div', { class: 'scene-card' }, title, mark, description, edited);
 
   function open(name: string): void {
@@ -107,17 +108,19 @@ export function presetPicker(store: LiveStore, toasts: Toasts): { readonly picke
     if (preset !== '' && own.isConnected) own.remove();
     if (select.value !== preset) select.value = preset;
     edited.hidden = preset === '' || !changed;
-    const key = preset === '' ? ' ' + text : preset;
+    // What is said of an example holds for its own text only.
+    const name = changed ? '' : preset, key = name === '' ? `${preset} ${text}` : name;
     if (key === shown) return;
     shown = key;
-    const entry = entryOf(preset);
-    say(title, preset === '' ? 'Your own model' : titleOf(preset));
+    began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;
+    const entry = entryOf(name);
+    say(title, name === '' ? 'Your own model' : titleOf(name));
     say(mark, entry?.mark ?? '');
     mark.hidden = !entry?.mark;
-    say(description, described(texts.get(preset) ?? text));
+    say(description, described(text));
     description.hidden = description.textContent === '';
     const words = (entry?.note ?? []).map(part => (typeof part === 'string' ? part : button(part.label, () => open(part.to), { class: 'text-button' })));
-    const written = Object.hasOwn(notes, preset) ? notes[preset]?.text ?? [] : [];
+    const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];
     note.replaceChildren(...(words.length ? [el('p', {}, ...words)] : written.map(paragraph => el('p', {}, paragraph))));
     note.hidden = note.childElementCount === 0;
   }

@@ -26,6 +26,7 @@ export function mountShell(store: LiveStore, panels: readonly PanelName[], theme
   place('scene-note').append(note);
   place('model').append(editor(store), typesetView(store));
   place('methods').append(chosen.element);
+  place('main-choice').append(chosen.main);
   place('settings').append(settings(store));
   place('parameters').append(sliders(store));
   place('status').append(status(store));

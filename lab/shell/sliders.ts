@@ -76,6 +76,7 @@ const digits = (text: string): string => (text.length <= 9 ? text : compact(Numb
       const wider = widen(limits, number);
       if (wider !== limits) { limits = wider; limit(); }
       if (document.activeElement !== slider) slider.value = text;
+      slider.setAttribute('aria-valuetext', digits(text));      // its own steps are coarser than the number
       if (document.activeElement !== field) { field.value = digits(text); say(message, ''); field.removeAttribute('aria-invalid'); }
       const changed = fits ? number !== value : isSet();
       reset.classList.toggle('shown', changed);
@@ -84,6 +85,7 @@ const digits = (text: string): string => (text.length <= 9 ? text : compact(Numb
     slider.addEventListener('input', () => {
       const text = short(slider.valueAsNumber);
       field.value = digits(text);
+      slider.setAttribute('aria-valuetext', digits(text));
       write(k, text);
     });
     const commit = (): void => {

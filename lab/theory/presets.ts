@@ -22,7 +22,7 @@ export const notes: Readonly<Record<string, Note>> = {
   'driven-oscillator': {
     title: 'An oscillator driven near its own frequency',
     text: [
-      'The motion swells and dies away again: the softening spring falls out of step with the drive. Raise F from 0.1 to 0.105 and the mass escapes over the hill at |x| = 1.',
+      'The motion swells and dies away again: the softening spring falls out of step with the drive. Raise F from 0.1 to 0.11 and the mass escapes over the hill at |x| = 1.',
       'Verlet ends 7e-7 away from the motion at t = 100; halve the step and a quarter of that is left. The error panel shows it.',
     ],
   },
@@ -81,7 +81,7 @@ export const notes: Readonly<Record<string, Note>> = {
   },
   'henon-heiles': {
     title: 'A star in a galaxy',
-    text: ['Regular below the energy 1/12, mostly chaotic above; this start is between 1/12 and 1/6. A symplectic method keeps the energy, and with it the answer to the question whether the star may escape.'],
+    text: ['Nearly all motions are regular below the energy 1/12; from there to 1/6, where the star can escape, chaos takes over. This start is between the two. A symplectic method keeps the energy, and with it the answer to the question whether the star may escape.'],
   },
   'three-body-figure-eight': {
     title: 'Three bodies on one curve',
@@ -101,7 +101,7 @@ export const notes: Readonly<Record<string, Note>> = {
   },
   'penning-trap': {
     title: 'A particle in a trap',
-    text: ['A fast circle, an oscillation along the axis, and a slow circle whose energy is negative. Lower wc below 1.42 wz and the particle is no longer held.'],
+    text: ['A fast circle, an oscillation along the axis, and a slow circle whose energy is negative. The particle is held only while wc is above √2 wz.'],
   },
   chain: {
     title: 'A chain of springs that stiffen',

@@ -241,5 +241,5 @@ function arrowAlong(pen: Pen, ink: Ink, p: Projection, x: readonly number[], v: 
   if (!named) return;
   /* Beside the tip, on the side that a force downwards leaves free. */
   const side = ux >= 0 ? 1 : -1;
-  pen.text(x1 + side * uy * 14, y1 - side * ux * 14, 'v₀', { colour: ink.text, size: 14, italic: true, anchor: 'middle', baseline: 'middle' });
+  pen.text(x1 + side * uy * 14, Math.max(y1 - side * ux * 14, p.top + 9), 'v₀', { colour: ink.text, size: 14, italic: true, anchor: 'middle', baseline: 'middle' });
 }
