@@ -74,10 +74,10 @@ def draw(groups, machine):
 <desc id="d">{"; ".join(f"{title}: " + ", ".join(f"{label} {times(value)}" for label, value in rows) for title, rows in groups)}.</desc>
 <style>
   .paper {{ fill: #ffffff }} .ink {{ fill: #1f2328 }} .faint {{ fill: #59636e }} .grid {{ stroke: #d1d9e0 }} .one {{ stroke: #1a7f37; stroke-width: 2 }}
-  .motus {{ fill: #1a7f37 }} .bar {{ fill: #54708f }} text {{ font: 13px system-ui, -apple-system, "Segoe UI", sans-serif }} .head {{ font-weight: 600 }}
+  .motus {{ fill: #1a7f37 }} .bar {{ fill: #54708f }} text {{ font: 13px system-ui, -apple-system, "Segoe UI", sans-serif }} .head {{ font-weight: 600; paint-order: stroke; stroke: #ffffff; stroke-width: 6px }}
   @media (prefers-color-scheme: dark) {{
     .paper {{ fill: #0d1117 }} .ink {{ fill: #e6edf3 }} .faint {{ fill: #9198a1 }} .grid {{ stroke: #30363d }} .one {{ stroke: #3fb950 }}
-    .motus {{ fill: #3fb950 }} .bar {{ fill: #7d9cc0 }}
+    .motus {{ fill: #3fb950 }} .bar {{ fill: #7d9cc0 }} .head {{ stroke: #0d1117 }}
   }}
 </style>
 <rect class="paper" width="{WIDTH}" height="{height}" rx="6"/>
@@ -88,6 +88,7 @@ def draw(groups, machine):
         if power:
             print(f'<line class="grid" x1="{at(10**power):.1f}" x2="{at(10**power):.1f}" y1="56" y2="{bottom}"/>'
                   f'<text class="faint" x="{at(10**power):.1f}" y="48" text-anchor="middle">{10**power}×</text>')
+    print(f'<line class="one" x1="{at(1):.1f}" x2="{at(1):.1f}" y1="56" y2="{bottom}"/>')
     y = 56
     for title, rows in groups:
         y += HEAD
@@ -98,7 +99,6 @@ def draw(groups, machine):
                   f'<rect class="bar" x="{x:.1f}" y="{y + 3}" width="{max(end - x, 2):.1f}" height="{ROW - 7}" rx="2"/>'
                   f'<text class="ink" x="{end + 6:.1f}" y="{y + 13}">{times(value)}</text>')
             y += ROW
-    print(f'<line class="one" x1="{at(1):.1f}" x2="{at(1):.1f}" y1="56" y2="{bottom}"/>')
     print(f'<text class="faint" x="16" y="{height - 10}">{machine}</text>\n</svg>')
 
 
