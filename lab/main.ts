@@ -34,6 +34,13 @@ function stepTimes({ times, step, steps, every }: Track): Float64Array {
   return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
 }
 
+/** On a small screen the clock hides the foot of the picture: who plays, and looks at it, is to see all of it. */
+function bringIntoView(picture: Element | null): void {
+  const box = picture?.getBoundingClientRect();
+  if (!box || box.bottom < 0 || box.top > innerHeight) return;
+  picture?.scrollIntoView({ block: 'nearest', behavior: matchMedia('(prefers-reduced-motion: reduce)').matches ? 'auto' : 'smooth' });
+}
+
 async function start(): Promise<void> {
   const { state, problem } = startState(presets);
   const store = createStore(await createClient(), state);
@@ -45,6 +52,7 @@ async function start(): Promise<void> {
     onTime: (t) => { for (const panel of open) panel.at(t); },
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
+    onPlay: (playing) => { if (playing) bringIntoView(place('stage-figure').querySelector('.figure-picture')); },
   });
   const toasts = mountShell(store, closer.map(({ id, title }) => ({ id, title })), () => { for (const panel of open) panel.redraw(); });
   if (problem) toasts.say(problem);

@@ -32,7 +32,7 @@ const FAINT = 0.42, WIDTH = 1.75, EXACT = 5;
 /* Beyond so many times the picture's size a line is a band: thousands of dashes, which nobody sees, would cost most of a frame. */
 const BAND = 5;
 /* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */
-const MARKED_ROWS = 240, MARK_SPACING = 6, SPARSE = 9, LIVE_MARKS = 400;
+const MARKED_ROWS = 240, MARK_SPACING = 8, SPARSE = 9, LIVE_MARKS = 400;
 
 interface Drawn { readonly line: Line; readonly body: number; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean }
 interface Layout { readonly projection: Projection; readonly drawn: readonly Drawn[]; readonly truth: readonly Path[] }
