@@ -4,12 +4,12 @@
  */
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
+import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
 import { Refused } from './scene';
 
-export const STEPS_MAX = 1e7;
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
 const TRUTH_ROWS = 1200;
@@ -17,7 +17,7 @@ const REGION_MAX = 250_000;
 const EIGENVALUES_MAX = 64;
 
 function limit(message: string, hint: string): Refused {
-  return new Refused({ kind: 'limit', message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '' });
+  return new Refused(problem('limit', message, hint));
 }
 
 /** Column c of rows that lie one after the other. */
@@ -244,11 +244,6 @@ export function reply(answers: Answers, id: number, kind: Ask, ask: unknown): { 
     if (e instanceof Refused) return { id, problem: e.problem };
     // A trap: the stack or the memory of the module, or of the browser, was not enough.
     const message = `the page has not enough room for this (${e instanceof Error ? e.message : String(e)})`;
-    return {
-      id,
-      problem: {
-        kind: 'memory', message, hint: 'fewer brackets and definitions within one another, a smaller model, or the program motus', line: 0, column: 0, source: '', caret: '', time: null, variable: '',
-      },
-    };
+    return { id, problem: problem('memory', message, 'fewer brackets and definitions within one another, a smaller model, or the program motus') };
   }
 }

@@ -3,7 +3,7 @@
  * Invariant: each question is settled once: by an answer, by a problem, or by an AbortError. A worker that is busy with what nobody wants any more is
  * ended and replaced: the module imports nothing, so there is no other way to stop it.
  */
-import type { Ask, Problem, Question, Reply, Requests } from './protocol';
+import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
 import { coreModule, createWorker } from 'virtual:host';
 
@@ -18,10 +18,7 @@ const LATE = 250;
 /** Longer than this no quick answer may take: a model of somebody else's must not hang the page. */
 const QUICK_LIMIT = 20_000;
 
-const tooLong: Problem = {
-  kind: 'limit', message: `this takes longer than ${QUICK_LIMIT / 1000} seconds`, hint: 'a larger step, a nearer end, or the program motus',
-  line: 0, column: 0, source: '', caret: '', time: null, variable: '',
-};
+const tooLong = problem('limit', `this takes longer than ${QUICK_LIMIT / 1000} seconds`, 'a larger step, a nearer end, or the program motus');
 
 class Line {
   private worker: Worker | null = null;
@@ -94,7 +91,7 @@ class Line {
     const worker = createWorker();
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.settle(data);
     // A worker that cannot be started, or that broke down, leaves its question unanswered.
-    worker.onerror = ({ message }) => this.stop(new Refused({ ...tooLong, kind: 'memory', message: `the worker failed${message && `: ${message}`}`, hint: 'a smaller model' }));
+    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', `the worker failed${message && `: ${message}`}`, 'a smaller model')));
     worker.postMessage(this.module);
     return worker;
   }

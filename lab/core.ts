@@ -3,7 +3,7 @@
  * Invariant: every block that is taken from the module's memory is given back, and no view of that memory outlives the call that made it (the memory
  * may move when it grows).
  */
-import type { Comparison, Convergence, Description, Method, Model, Problem, TraceEntry } from './protocol';
+import { problem, type Comparison, type Convergence, type Description, type Method, type Model, type Problem, type TraceEntry } from './protocol';
 import { Refused } from './scene';
 
 /** The exports of core/*.c, as a module of 32-bit addresses shows them. */
@@ -42,9 +42,7 @@ export interface Progress {
 export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }
 
 const NaNs = (value: number | null): number => value ?? NaN;
-const noMemory: Problem = {
-  kind: 'memory', message: 'out of memory', hint: 'a smaller model, fewer steps', line: 0, column: 0, source: '', caret: '', time: null, variable: '',
-};
+const noMemory = problem('memory', 'out of memory', 'a smaller model, fewer steps');
 
 /** JSON has no infinities; the core writes them as texts. */
 function revive(_key: string, value: unknown): unknown {

@@ -18,7 +18,7 @@ import { timePanel } from './panel/time';
 import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
 import { startState } from './shell/address';
-import { place } from './shell/dom';
+import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
 import { mountShell } from './shell/shell';

@@ -29,6 +29,13 @@ export interface Statement { readonly kind: string; readonly line: number; reado
 
 export interface Admission { readonly method: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
 
+/** What the page itself has to say against something: no place in a text. */
+export function problem(kind: string, message: string, hint = ''): Problem {
+  return { kind, message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '' };
+}
+/** A run of more steps belongs to the program. */
+export const STEPS_MAX = 1e7;
+
 /** What the core understood of a model. */
 export interface Description {
   readonly statements: readonly Statement[];

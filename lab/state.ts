@@ -5,7 +5,7 @@
  * A state is looked at once per frame at most, so a dragged slider costs no more than the picture it makes.
  */
 import { looksOf } from './figure/ink';
-import type { Description, Method, Problem, Solution } from './protocol';
+import { STEPS_MAX, problem, type Description, type Method, type Problem, type Solution } from './protocol';
 import { Refused, type Client, type Scene, type State, type Store, type View } from './scene';
 import { normal, plain, short } from './shell/number';
 
@@ -35,16 +35,12 @@ export interface LiveStore extends Store {
   subscribe(listener: (what: Happening) => void): () => void;
 }
 
-/** Of the page: beyond this a run belongs to the program. */
-export const mostSteps = 1e7;
 const rows = 6000;
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
 
-const failure = (message: string): Problem => ({
-  kind: 'page', message, hint: '', line: 0, column: 0, source: '', caret: '', time: null, variable: '',
-});
+const failure = (message: string): Problem => problem('page', message);
 
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
 export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
@@ -119,7 +115,7 @@ export function createStore(client: Client, initial: State): LiveStore {
       const span = Math.abs(until - model.settings.start), steps = span / step;
       if (span === 0) {
         said.until = `The motion starts and ends at ${short(until)}: there is nothing to compute.`;
-      } else if (steps > mostSteps) {
+      } else if (steps > STEPS_MAX) {
         said.step = `That makes ${steps.toPrecision(2).replace('e+', ' × 10^')} steps; the page stops at 10 million. The program has no such limit.`;
       } else if (step > span) said.remark = `The step is longer than the whole motion: one step of ${short(span, 6)} is taken.`;
     }

@@ -17,6 +17,13 @@ const char **lab_list(const char *strings, size_t count)
     return list;
 }
 
+bool lab_no_memory(lab *l)
+{
+    l->error = motus_default_error();
+    l->error.status = MOTUS_MEMORY;
+    return false;
+}
+
 LAB_CALL(lab_create) lab *lab_create(void)
 {
     lab *l = malloc(sizeof *l);
@@ -53,7 +60,7 @@ LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length
     motus_text_def def = motus_default_text();
     const char **list = lab_list(set, sets);
     if (!list) {
-        l->error.status = MOTUS_MEMORY;
+        lab_no_memory(l);
         return MOTUS_MEMORY;
     }
     def.text = text;

@@ -28,6 +28,7 @@ void json_string(json *, const char *name, const char *value);      /* UTF-8; NU
 void json_part(json *, const char *name, const char *value, size_t length);
 void json_number(json *, const char *name, double value);           /* every bit; NaN is null, infinities are strings "inf", "-inf" */
 void json_bool(json *, const char *name, bool value);
+void json_numbers(json *, const char *name, const double *values, size_t count);      /* NULL is null */
 
 /* One model, and what is done with it. */
 typedef struct lab {
@@ -40,5 +41,7 @@ typedef struct lab {
 
 /* NUL-terminated strings one behind the other become an array of pointers, to be freed; NULL: no memory. */
 const char **lab_list(const char *strings, size_t count);
+/* Makes want of memory the last problem; false, for its callers to return. */
+bool lab_no_memory(lab *);
 
 #endif

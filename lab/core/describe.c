@@ -41,14 +41,6 @@ static void describe_columns(json *j, const motus_system *s)
     json_close(j, ']');
 }
 
-static void numbers(json *j, const double *values, size_t count)
-{
-    json_open(j, "values", '[');
-    for (size_t i = 0; i < count; i++)
-        json_number(j, NULL, values[i]);
-    json_close(j, ']');
-}
-
 /* More numbers than this are no sliders. */
 enum { NUMBERS_MAX = 64 };
 
@@ -67,7 +59,7 @@ static void describe_parameters(json *j, const motus_system *s)
         json_part(j, "text", p.text, p.length);
         json_string(j, "decides", p.decides);
         json_bool(j, "initial", false);
-        numbers(j, values, p.count);
+        json_numbers(j, "values", values, p.count);
         json_close(j, '}');
     }
     for (size_t k = 0; k < motus_initial_count(s); k++) {
@@ -83,7 +75,7 @@ static void describe_parameters(json *j, const motus_system *s)
         json_string(j, "text", "");
         json_string(j, "decides", NULL);
         json_bool(j, "initial", true);
-        numbers(j, values, i.count);
+        json_numbers(j, "values", values, i.count);
         json_close(j, '}');
     }
     json_close(j, ']');

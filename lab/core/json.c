@@ -117,3 +117,15 @@ void json_bool(json *j, const char *name, bool value)
     begin(j, name);
     say(j, value ? "true" : "false");
 }
+
+void json_numbers(json *j, const char *name, const double *values, size_t count)
+{
+    if (!values) {
+        json_string(j, name, NULL);
+        return;
+    }
+    json_open(j, name, '[');
+    for (size_t i = 0; i < count; i++)
+        json_number(j, NULL, values[i]);
+    json_close(j, ']');
+}

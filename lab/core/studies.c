@@ -5,14 +5,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+static motus_study_def study(double step, double until)
+{
+    motus_study_def def = motus_default_study();
+    def.step = step;
+    def.until = until;
+    return def;
+}
+
+/* The study's methods, `count` names one behind the other; the list is to be freed. False: no memory, which is the problem then. */
+static bool by(lab *l, motus_study_def *def, const char *methods, size_t count)
+{
+    def->methods = lab_list(methods, count);
+    def->method_count = count;
+    return def->methods || lab_no_memory(l);
+}
+
 /* The exact motion or a reference run, judged as a study at this step would be. */
 LAB_CALL(lab_reference) motus_status lab_reference(lab *l, double step, double until)
 {
     motus_reference_destroy(l->reference);
     l->reference = NULL;
-    motus_study_def def = motus_default_study();
-    def.step = step;
-    def.until = until;
+    motus_study_def def = study(step, until);
     return motus_reference_create(l->system, &def, &l->reference, &l->error);
 }
 LAB_CALL(lab_reference_name) const char *lab_reference_name(const lab *l) { return motus_reference_name(l->reference); }
@@ -22,18 +36,6 @@ LAB_CALL(lab_reference_error) double lab_reference_error(const lab *l) { return 
 LAB_CALL(lab_reference_at) motus_status lab_reference_at(lab *l, const double *times, size_t count, double *x, double *v)
 {
     return motus_reference_at(l->reference, times, count, x, v, &l->error);
-}
-
-static void numbers(json *j, const char *name, const double *values, size_t count)
-{
-    if (!values) {
-        json_string(j, name, NULL);
-        return;
-    }
-    json_open(j, name, '[');
-    for (size_t i = 0; i < count; i++)
-        json_number(j, NULL, values[i]);
-    json_close(j, ']');
 }
 
 /* The next step of the run, event by event (protocol.ts, TraceEntry). NULL: lab_problem. */
@@ -63,41 +65,30 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
         json_number(j, "coefficient", e->coefficient);
         json_number(j, "weight", e->weight);
         json_number(j, "weightX", e->weight_x);
-        numbers(j, "row", e->row, (size_t)e->stages);
-        numbers(j, "rowX", e->row_x, (size_t)e->stages);
-        numbers(j, "x", e->x, nx);
-        numbers(j, "v", e->v, nv);
-        numbers(j, "a", e->a, nv);
-        numbers(j, "beforeX", e->before_x, nx);
-        numbers(j, "beforeA", e->before_a, nv);
+        json_numbers(j, "row", e->row, (size_t)e->stages);
+        json_numbers(j, "rowX", e->row_x, (size_t)e->stages);
+        json_numbers(j, "x", e->x, nx);
+        json_numbers(j, "v", e->v, nv);
+        json_numbers(j, "a", e->a, nv);
+        json_numbers(j, "beforeX", e->before_x, nx);
+        json_numbers(j, "beforeA", e->before_a, nv);
         json_close(j, '}');
     }
     json_close(j, ']');
     return json_text(j);
 }
 
-static motus_study_def study(const char **methods, size_t count, double step, double until)
-{
-    motus_study_def def = motus_default_study();
-    def.methods = methods;
-    def.method_count = count;
-    def.step = step;
-    def.until = until;
-    return def;
-}
-
 /* Order, by slope (protocol.ts, Convergence). NULL: lab_problem. */
 LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, size_t count, double step, double until)
 {
-    const char **list = lab_list(methods, count);
-    motus_study_def def = study(list, count, step, until);
+    motus_study_def def = study(step, until);
     motus_convergence *c = NULL;
-    motus_status status = list ? motus_converge(l->system, &def, &c, &l->error) : MOTUS_MEMORY;
-    free(list);
-    if (!c) {
-        l->error.status = status;
+    if (!by(l, &def, methods, count))
         return NULL;
-    }
+    motus_converge(l->system, &def, &c, &l->error);
+    free((void *)def.methods);
+    if (!c)
+        return NULL;
     json *j = &l->json;
     json_clear(j);
     json_open(j, NULL, '{');
@@ -165,15 +156,14 @@ static void compare_row(json *j, const motus_compare_row *r)
 /* Every method side by side (protocol.ts, Comparison). NULL: lab_problem. */
 LAB_CALL(lab_compare) const char *lab_compare(lab *l, const char *methods, size_t count, double step, double until)
 {
-    const char **list = lab_list(methods, count);
-    motus_study_def def = study(list, count, step, until);
+    motus_study_def def = study(step, until);
     motus_comparison *c = NULL;
-    motus_status status = list ? motus_compare(l->system, &def, &c, &l->error) : MOTUS_MEMORY;
-    free(list);
-    if (!c) {
-        l->error.status = status;
+    if (!by(l, &def, methods, count))
         return NULL;
-    }
+    motus_compare(l->system, &def, &c, &l->error);
+    free((void *)def.methods);
+    if (!c)
+        return NULL;
     json *j = &l->json;
     json_clear(j);
     json_open(j, NULL, '{');

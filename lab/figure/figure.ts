@@ -2,7 +2,7 @@
  *
  * Invariant: nothing is drawn while it cannot be seen, and no layer more than once a frame; PNG and SVG are made by the functions that draw the screen.
  */
-import { button, element } from './dom';
+import { button, el as element } from '../dom';
 import { csv, download, downloadText, fileName } from './export';
 import { ink } from './ink';
 import { canvasPen, svgPen } from './pen';

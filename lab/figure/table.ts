@@ -3,7 +3,7 @@
  * Invariant: at most ROWS rows, evenly taken, the first and the last among them; numbers are shown to DIGITS digits (0.15, not
  * 0.15000000000000002); the file that can be saved has all of them.
  */
-import { element } from './dom';
+import { el as element } from '../dom';
 import { minus } from './number';
 import type { Table } from './types';
 

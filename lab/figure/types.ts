@@ -63,21 +63,3 @@ export interface AxisDefinition {
 /** A mapping from numbers to pixels. */
 export interface Scale { (value: number): number; invert(pixel: number): number; readonly ticks: readonly number[]; label(value: number): string }
 export interface Frame { readonly x: Scale; readonly y: Scale; readonly left: number; readonly top: number; readonly width: number; readonly height: number }
-/* figure/figure.ts:  export function figure(definition: FigureDefinition): Figure
- * figure/axes.ts:    export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, options?: AxesOptions): Frame
- *                            options: equal, region (a part of the pen), bare (no letters along x), margin (room on the left)
- *                            the bounds are kept as given: widen them first by padded(extent(columns)) where a curve should not touch the frame
- *                    export function extent(columns: Iterable<ArrayLike<number>>): [number, number]        finite numbers only
- *                    export function padded(bounds: readonly [number, number], share?: number): [number, number]
- * figure/thin.ts:    export function thin(x: ArrayLike<number>, y: ArrayLike<number>, fx: Scale, fy: Scale): Float64Array   -> xy for Pen.line: smallest and largest of each pixel column
- *                    export function thinPath(x, y, fx, fy, near?: number): Float64Array      the same for curves that turn back
- * figure/pen.ts:     export function canvasPen(context: CanvasRenderingContext2D, width: number, height: number): Pen
- * figure/svg.ts:     export function svgPen(width: number, height: number): Pen & { svg(title?: string, description?: string, background?: string): string }
- * figure/ink.ts:     export function ink(): Ink          from the custom properties --text, --quiet, … of the document
- *                    export function looksOf(methods: readonly string[], catalogue: readonly Method[]): Look[]
- * figure/legend.ts:  legendLayout, drawLegend, drawValues, drawSample
- * figure/number.ts:  readable(value, digits?), brief, raised, tenTo, minus     numbers as people read them
- * figure/export.ts:  nameExports(model)          what exported files are called after
- * figure/dom.ts:     element(tag, attributes, …children), button(label, act, attributes)
- * figure/figure.css  the looks of the frame; to be taken into the page's style
- */

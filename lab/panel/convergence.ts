@@ -3,7 +3,7 @@
  * Invariant: slopes are the core's; the line drawn is the one of that slope through the middle of the points that the core has used.
  */
 import { axes, extent, padded } from '../figure/axes';
-import { element } from '../figure/dom';
+import { el as element } from '../dom';
 import { figure } from '../figure/figure';
 import { drawLegend, legendLayout, lookEntry } from '../figure/legend';
 import { brief } from '../figure/number';

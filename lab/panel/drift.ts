@@ -11,7 +11,7 @@
 import type { Panel, PanelMaker, Scene } from '../scene';
 import { axes, extent } from '../figure/axes';
 import { cursor, drawHeading, heading } from '../figure/cursor';
-import { element } from '../figure/dom';
+import { el as element } from '../dom';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';

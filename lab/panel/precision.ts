@@ -4,7 +4,7 @@
  * Invariant: nothing is measured here; a method's line joins the points that the core has computed.
  */
 import { axes, extent, padded } from '../figure/axes';
-import { button, element } from '../figure/dom';
+import { button, el as element } from '../dom';
 import { figure } from '../figure/figure';
 import { drawLegend, legendLayout, lookEntry } from '../figure/legend';
 import { brief, readable, tenTo } from '../figure/number';

@@ -3,7 +3,7 @@
  * Invariant: at most one question of a kind is under way, and an answer is only ever shown as that to the question it belongs to: a newer state
  * makes an older answer `stale`. Cheap models are asked about as they change; dear ones when the reader says so.
  */
-import { button, element } from '../figure/dom';
+import { button, el as element } from '../dom';
 import { looksOf } from '../figure/ink';
 import { brief } from '../figure/number';
 import type { Model, Requests } from '../protocol';

@@ -5,7 +5,7 @@
  */
 import type { Problem } from '../protocol';
 import type { LiveStore } from '../state';
-import { el, say } from './dom';
+import { el, say } from '../dom';
 
 const fewest = 6, most = 9;                    // lines shown
 

@@ -6,7 +6,7 @@
 import { looksOf } from '../figure/ink';
 import type { Method } from '../protocol';
 import { admittedMethods, type LiveStore } from '../state';
-import { button, el, say } from './dom';
+import { button, el, say } from '../dom';
 import { sample } from './sample';
 
 const common = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'];

@@ -1,6 +1,6 @@
 /* Which panels are open. Invariant: view.panels names them, in the order in which they stand; the order is that of the page, not of the clicks. */
 import type { LiveStore } from '../state';
-import { button, el } from './dom';
+import { button, el } from '../dom';
 
 export interface PanelName { readonly id: string; readonly title: string }
 

@@ -7,7 +7,7 @@ import models from 'virtual:presets';
 import { presetState, type Presets } from '../share';
 import { notes } from '../theory/presets';
 import type { LiveStore } from '../state';
-import { button, el, say } from './dom';
+import { button, el, say } from '../dom';
 import type { Toasts } from './toasts';
 
 type Note = readonly (string | { readonly to: string; readonly label: string })[];

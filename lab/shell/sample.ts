@@ -1,7 +1,7 @@
 /* The line of a method, as every picture draws it: colour, dash and marker. Invariant: the shapes are those of the figures' pen. */
 import { svgPen } from '../figure/pen';
 import type { Look } from '../scene';
-import { el } from './dom';
+import { el } from '../dom';
 
 const width = 26, height = 14;
 

@@ -1,6 +1,6 @@
 /* Step and end. Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. */
 import type { LiveStore } from '../state';
-import { button, el, icon, say } from './dom';
+import { button, el, icon, say } from '../dom';
 import { compact, normal, short } from './number';
 import { logPosition, logValue } from './range';
 

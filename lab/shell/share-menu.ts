@@ -2,7 +2,7 @@
 import { command, type Presets } from '../share';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
-import { button, el, fresh, icon, say } from './dom';
+import { button, el, fresh, icon, say } from '../dom';
 import type { Toasts } from './toasts';
 
 /** The clipboard where the page may use it; else the field is selected, for the reader to copy. */

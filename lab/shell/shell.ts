@@ -1,7 +1,7 @@
 /* The controls of the page, put where index.html keeps room for them. Invariant: controls talk to the store, and to nothing else. */
 import type { LiveStore } from '../state';
 import { followAddress } from './address';
-import { place } from './dom';
+import { place } from '../dom';
 import { editor } from './editor';
 import { methods } from './methods';
 import { panelPicker, type PanelName } from './panels';

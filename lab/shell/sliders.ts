@@ -5,7 +5,7 @@
  */
 import type { Parameter } from '../protocol';
 import type { LiveStore } from '../state';
-import { button, el, fresh, icon, say } from './dom';
+import { button, el, fresh, icon, say } from '../dom';
 import { compact, normal, numberOf, short, tuple } from './number';
 import { reach, widen, type Reach } from './range';
 

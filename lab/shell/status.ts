@@ -1,6 +1,6 @@
 /* What the page is doing, where that takes long, and what stopped a motion. Invariant: long work can always be cancelled from here. */
 import type { LiveStore } from '../state';
-import { button, el, say } from './dom';
+import { button, el, say } from '../dom';
 
 /** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end; or why nothing could be computed. */
 function stopped(store: LiveStore): string {

@@ -1,6 +1,6 @@
 /* Light, dark, or as the system has it. Invariant: data-theme of the root says which was chosen; without it the system's choice holds. */
 import type { Theme } from '../scene';
-import { button, icon, svg } from './dom';
+import { button, icon, svg } from '../dom';
 import { forget, recall, remember } from './memory';
 
 const names: Readonly<Record<Theme, string>> = { auto: 'automatic', light: 'light', dark: 'dark' };

@@ -1,7 +1,7 @@
 /* Short messages, spoken as well as shown. Invariant: none is the only place where something is said for good; each goes by itself, but waits
  * while the reader points at it or is inside it.
  */
-import { button, el } from './dom';
+import { button, el } from '../dom';
 
 export interface Toasts { say(message: string, action?: { readonly label: string; act(): void }): void }
 

@@ -4,7 +4,7 @@
  */
 import type { Statement } from '../protocol';
 import type { LiveStore } from '../state';
-import { el } from './dom';
+import { el } from '../dom';
 
 const mathml = 'http://www.w3.org/1998/Math/MathML';
 
