@@ -31,15 +31,24 @@ static bool same(const char *a, size_t length, const char *b, size_t b_length)
     return true;
 }
 
-static bool called(const motus_method *card, const char *name, size_t length)
+static bool also_called(const motus_method *card, const char *name, size_t length)
 {
-    if (same(name, length, card->name, strlen(card->name))) return true;
     for (const char *word = card->aliases; *word;) {
         size_t n = strcspn(word, " ");
         if (same(name, length, word, n)) return true;
         word += n + (word[n] == ' ');
     }
     return false;
+}
+
+/* Names first: whoever knows them, and runs of a study do, should not wait for the aliases. */
+static const row *find(const char *name, size_t length)
+{
+    for (size_t k = 0; k < methods_count; k++)
+        if (same(name, length, methods_table[k].card.name, strlen(methods_table[k].card.name))) return &methods_table[k];
+    for (size_t k = 0; k < methods_count; k++)
+        if (also_called(&methods_table[k].card, name, length)) return &methods_table[k];
+    return NULL;
 }
 
 /* Number of insertions, deletions and changes that lead from a to b; both of at most MOTUS_NAME_MAX characters. */
@@ -167,8 +176,7 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
     const char *start = blanks(name);
     size_t length = strcspn(start, "( \t");
     const char *rest = blanks(start + length);
-    for (size_t k = 0; k < methods_count && !result.row; k++)
-        if (called(&methods_table[k].card, start, length)) result.row = &methods_table[k];
+    result.row = find(start, length);
     if (!result.row) {
         fail(err, MOTUS_METHOD, "there is no method called \"%.*s\"", (int)(length < MOTUS_NAME_MAX ? length : MOTUS_NAME_MAX), start);
         suggest(err, start, length);

@@ -35,7 +35,8 @@ export interface LiveStore extends Store {
   subscribe(listener: (what: Happening) => void): () => void;
 }
 
-const rows = 6000;
+/* Of one motion, at most: while a slider moves, as many as a picture has pixels; then all that a picture can use. */
+const rows = { moving: 1000, settled: 6000 };
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
@@ -124,11 +125,11 @@ export function createStore(client: Client, initial: State): LiveStore {
 
   const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
 
-  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, truth: boolean): Promise<Solution> {
+  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, truth: boolean): Promise<Solution> {
     running ??= new AbortController();
     const start = performance.now();
     const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
-    const solution = await client.ask('solve', { model: { text: of.text, set }, methods, ...how, columns: [], rows, truth }, { lane: 'quick', signal: running.signal });
+    const solution = await client.ask('solve', { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth }, { lane: 'quick', signal: running.signal });
     if (truth) truthTime = performance.now() - start;
     return solution;
   }
@@ -188,12 +189,15 @@ export function createStore(client: Client, initial: State): LiveStore {
     try {
       // A reference costs more than the methods: while the state still moves it is left out, unless it has proved cheap.
       const atOnce = model.hasExact || (truthTime > 0 && truthTime < patience.truth);
-      finish(await solve(of, methods, asked, atOnce));
-      if (!atOnce) {
-        if (truthTime > 0) await settled();
+      const moving = scene?.state.text === of.text;
+      const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce);
+      finish(first);
+      const thinned = moving && first.tracks.some(t => t.every > 1);
+      if (!atOnce || thinned) {
+        if (truthTime > 0 || thinned) await settled();
         if (!waiting) {
           refining = true;
-          finish(await solve(of, methods, asked, true));
+          finish(await solve(of, methods, asked, rows.settled, true));
         }
       }
     } catch (error) {

@@ -32,7 +32,7 @@ export function figure(definition: FigureDefinition): Figure {
     ...(definition.controls?.length ? [element('div', { class: 'figure-controls' }, ...definition.controls)] : []),
     picture, caption, data);
 
-  let width = 0, height = 0, scale = 1, colours: Ink | null = null;
+  let width = 0, height = 0, scale = 1, room = 0, colours: Ink | null = null;
   let visible = false, dirty = true, asked = 0, busy = false, again = false, told = '';
   let tableTimer = 0, sentenceTimer = 0;
 
@@ -40,9 +40,10 @@ export function figure(definition: FigureDefinition): Figure {
     const extra = definition.extra?.(w) ?? 0;
     return Math.round(Math.min(Math.max(LEAST, w * (definition.aspect ?? 0.62)), Math.max(LEAST, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
   };
-  /** The canvases get the size of the page's picture, in the pixels of the screen. */
+  /** The canvases get the size of the page's picture, in the pixels of the screen. Its width is what was last observed: to ask for it would have the
+   * browser lay out the page twice a frame while a slider is dragged. */
   function fit(): void {
-    const w = picture.clientWidth;
+    const w = room || picture.clientWidth;
     if (!w) return;
     const h = tall(w), s = Math.min(4, Math.max(1, window.devicePixelRatio || 1));
     if (w === width && h === height && s === scale) return;
@@ -152,7 +153,10 @@ export function figure(definition: FigureDefinition): Figure {
     redraw();
   }
 
-  new ResizeObserver(() => { if (picture.clientWidth !== width || tall(picture.clientWidth) !== height) redraw(); }).observe(picture);
+  new ResizeObserver(() => {
+    room = picture.clientWidth;
+    if (room !== width || tall(room) !== height) redraw();
+  }).observe(picture);
   new IntersectionObserver((entries) => {
     visible = entries[entries.length - 1]?.isIntersecting ?? false;
     if (visible && dirty) redraw();

@@ -24,7 +24,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
   const message = el('p', { class: 'message mild', role: 'status' });
   const element = el('fieldset', { class: 'methods' }, el('legend', {}, 'Methods'), list, message, fold);
 
-  let toggles: Toggle[] = [], shown = '', limitReached = false;
+  let toggles: Toggle[] = [], shown = '', limitReached = false, last: readonly unknown[] = [];
   /** What is drawn: the state's, or the model's own where the state names none. */
   const chosen = (): readonly string[] => {
     if (store.state.methods.length) return store.state.methods;
@@ -110,9 +110,17 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     say(found, wanted.length ? (count === 1 ? '1 method' : `${count} methods`) : '');
     reasons();
   }
+  /** While a slider is dragged nothing here changes, and dozens of toggles need not be asked. */
+  function changed(now: readonly string[]): boolean {
+    const seen = [store.description, store.catalogue, store.trouble.methods, limitReached, now.join()];
+    const same = seen.every((value, k) => value === last[k]);
+    last = seen;
+    return !same;
+  }
   function refresh(): void {
-    build();
     const now = chosen();
+    if (!changed(now)) return;
+    build();
     for (const t of toggles) t.refresh(now);
     reasons();
     const drawn = store.description ? admittedMethods({ ...store.state, methods: now }, store.description).methods : now;
