@@ -94,7 +94,7 @@ function watch() {
 
 /** A page, watched. address: with its fragment. `wrong` collects what should not be; call `clean` at the end. */
 export async function open(address = singleFile, options = {}) {
-  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true } = options;
+  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined } = options;
   const context = await (await launch()).newContext({
     viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB',
     ...(kept ? { storageState: kept } : {}),
@@ -104,6 +104,7 @@ export async function open(address = singleFile, options = {}) {
   page.wrong = [];
   page.asked = [];
   await page.addInitScript(watch);
+  if (before) await page.addInitScript(before);
   page.on('console', (message) => { if (message.type() === 'error' || message.type() === 'warning') page.wrong.push(`${message.type()}: ${message.text()}`); });
   page.on('pageerror', (error) => page.wrong.push(`thrown: ${error.message}`));
   page.on('request', (request) => page.asked.push(request.url()));
