@@ -26,9 +26,9 @@
 #define TEXT(a) TEXT_(a)
 #define OF_ISA(name) JOIN(name, ISA)
 
-/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DFUNCTIONS_ONCE), the copy of them all that
+/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy of them all that
  * operation.c has. The bits are the same. */
-#ifdef FUNCTIONS_ONCE
+#ifdef ONE_COPY
 #define CALLED(id, value) operation_value(OP_##id, a, b, 0)
 #else
 #define CALLED(id, value) (value)
