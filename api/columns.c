@@ -267,11 +267,12 @@ typedef struct column_name {         /* a name taken apart: [exact] base [indice
 
 static const char *read_integer(const char *p, int64_t *value)
 {
-    char *end;
-    if (!(isdigit((unsigned char)*p) || *p == '-'))
-        return NULL;
-    *value = strtoll(p, &end, 10);
-    return end == p ? NULL : end;
+    const bool minus = *p == '-';
+    const char *digit = p += minus;
+    for (*value = 0; isdigit((unsigned char)*p); p++)
+        *value = *value < INT32_MAX ? 10 * *value + (*p - '0') : *value;       /* no index is that far */
+    *value = minus ? -*value : *value;
+    return p == digit ? NULL : p;
 }
 
 static bool take_name(const char *p, column_name *n)

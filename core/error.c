@@ -100,7 +100,7 @@ char *decimal(double value, char out[DECIMAL_MAX])
         if (strtod(out, NULL) == value) break;
     }
     const char *point = localeconv()->decimal_point;
-    char *at = *point ? strstr(out, point) : NULL;
+    char *at = strchr(out, *point);
     if (at) {
         *at = '.';
         memmove(at + 1, at + strlen(point), strlen(at + strlen(point)) + 1);

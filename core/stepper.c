@@ -29,14 +29,17 @@ struct stepper {
 
 const stepper_body *stepper_best_body(void)
 {
-#if defined __x86_64__
+#if defined ONE_COPY            /* where size counts more: the one that could tell, too */
+    return &trace_body;
+#elif defined __x86_64__
     __builtin_cpu_init();
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
         return &stepper_body_avx512;
-    if (avx2) return &stepper_body_avx2;
-#endif
+    return avx2 ? &stepper_body_avx2 : &stepper_body_base;
+#else
     return &stepper_body_base;
+#endif
 }
 
 void stepper_use_body(stepper *s, const stepper_body *body) { s->body = body; }
@@ -305,6 +308,7 @@ static motus_status take_steps(stepper *s, const stepper_body *body, int64_t ste
     work *w = &s->work;
     w->finite = false;
     int bad = body->run(w, steps);
+    s->machine.tracing = NULL;          /* what recovery takes once more, it takes in silence */
     if (!bad && !w->check && !w->finite) bad = body->check(w);
     return bad ? recover(s, bad, err) : MOTUS_OK;
 }
@@ -320,16 +324,14 @@ motus_status stepper_advance(stepper *s, int64_t steps, motus_error *err)
     return status;
 }
 
-/* The body that tells is lent for this one step. What recovery takes once more is taken by the usual one, in silence. */
+/* The body that tells is lent for this one step. */
 motus_status stepper_trace(stepper *s, const tracer *to, motus_error *err)
 {
     const tracing tracing = {.to = to, .unit = stepper_plan(&s->problem, &s->method, 0, 1), .iterations = s->work.iterations};
     room_of(s);
     s->machine.tracing = &tracing;
     trace_begin(&s->work);
-    const motus_status status = take_steps(s, &trace_body, 1, err);
-    s->machine.tracing = NULL;
-    return status;
+    return take_steps(s, &trace_body, 1, err);
 }
 
 motus_status stepper_sync(stepper *s, double *x, double *v, double *a, motus_error *err)

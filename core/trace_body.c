@@ -5,15 +5,14 @@
  */
 #include "core/trace_body.h"
 
+static const tracing *tracing_of(const work *w) { return ((const stepper_host *)w->user)->tracing; }
 static void trace_stage(work *, int i);
 #undef TRACE
-#define TRACE(w, i) trace_stage(w, i)
+#define TRACE(w, i) (tracing_of(w) ? trace_stage(w, i) : (void)0)
 
 #include "core/stepper_texts.h"
 
 _Static_assert((int)STAGES_MAX <= (int)TRACE_ROW_MAX, "a row of a tableau is told whole");
-
-static const tracing *tracing_of(const work *w) { return ((const stepper_host *)w->user)->tracing; }
 
 static void tell(const work *w, trace_event e)
 {

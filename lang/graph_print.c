@@ -5,7 +5,6 @@
  * on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX: written as a tree, a shared graph may be endless.
  */
 #include "lang/graph_walk.h"
-#include "lang/number.h"
 #include "lang/operation.h"
 
 #include <math.h>
@@ -198,15 +197,14 @@ static void bound(printer *p, const subscript *s)
 
 static void number(printer *p, double value)
 {
-    char s[64];
+    char s[DECIMAL_MAX];
     bool late = p->last == '*';
     if (isnan(value)) {
         text(p, "0/0");
     } else if (isinf(value)) {
         text(p, "1/0");
     } else {
-        number_write(value, s, sizeof s);
-        text(p, s);
+        text(p, decimal(value, s));
     }
     p->tail = late ? TAIL_LATE_NUMBER : TAIL_NUMBER;
 }

@@ -94,7 +94,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
 static void place_error(lowering *l, const tree *t, const char *is)
 {
     COMPLAIN(l, t->at, "%s cannot depend on %s: %s is %s", l->what, is, t->name, is);
-    if (l->place == PLACE_CONSTANT && l->what && strstr(l->what, "initial"))
+    if (l->place == PLACE_CONSTANT && l->what && !strcmp(l->what, "an initial value"))
         HINT(l, "an initial value may use parameters and other initial values, such as %s(0)", t->name);
 }
 

@@ -48,20 +48,3 @@ bool number_read(const char *text, size_t length, double *value)
     *value = strtod(buffer, NULL);
     return isfinite(*value);
 }
-
-void number_write(double value, char *out, size_t size)
-{
-    char buffer[64];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-        if (strtod(buffer, NULL) == value)
-            break;
-    }
-    const char *p = point();
-    char *at = strcmp(p, ".") ? strstr(buffer, p) : NULL;
-    if (at) {
-        *at = '.';
-        memmove(at + 1, at + strlen(p), strlen(at + strlen(p)) + 1);
-    }
-    snprintf(out, size, "%s", buffer);
-}

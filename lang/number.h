@@ -7,7 +7,5 @@
 
 /* digits[.digits][e[+-]digits] to the nearest double; false if it overflows. The text need not end with 0. */
 bool number_read(const char *text, size_t length, double *value);
-/* The shortest of 15, 16 or 17 digits that reads back to the same double. */
-void number_write(double value, char *out, size_t size);
 
 #endif

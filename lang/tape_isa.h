@@ -26,6 +26,14 @@
 #define TEXT(a) TEXT_(a)
 #define OF_ISA(name) JOIN(name, ISA)
 
+/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy of them all that
+ * operation.c has. The bits are the same. */
+#ifdef ONE_COPY
+#define CALLED(id, value) operation_value(OP_##id, a, b, 0)
+#else
+#define CALLED(id, value) (value)
+#endif
+
 #define EACH_TAPE_MACHINE(X) X(avx512) X(avx2) X(base)
 #define X(isa) extern const tape_machine tape_run_##isa; extern block_kernel *const tape_kernels_##isa[OPERATIONS * 8];
 EACH_TAPE_MACHINE(X)

@@ -270,7 +270,7 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
     const double a = R[i->a], b = R[i->b];
     switch (i->code) {
 #define OP(...)
-#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative) case OP_##id: return value;
+#define FUNCTION(id, arity, spelling, degree, smooth, value, derivative) case OP_##id: return CALLED(id, value);
 #include "lang/operations.def"
 #undef OP
     default: return NAN;

@@ -106,7 +106,12 @@ static study_grid even_grid(const study *s, double until, size_t intervals)
 /* Down to 1, 2 or 5 times a power of ten: a duration that a reader can take in. */
 static double round_down(double duration)
 {
-    double power = pow(10, floor(log10(duration))), digit = duration / power;
+    double whole = 1, parts = 1;
+    while (10 * whole <= duration)
+        whole *= 10;
+    while (1 / parts > duration)
+        parts *= 10;
+    double power = whole / parts, digit = duration / power;
     return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
 

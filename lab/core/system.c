@@ -5,6 +5,7 @@
 
 #include <locale.h>
 #include <stddef.h>
+#include <string.h>
 
 __wasi_errno_t __wasi_environ_sizes_get(__wasi_size_t *count, __wasi_size_t *bytes)
 {
@@ -57,3 +58,15 @@ locale_t newlocale(int mask, const char *name, locale_t base)
 }
 locale_t uselocale(locale_t l) { return l; }
 void freelocale(locale_t l) { (void)l; }
+
+/* No error is of a system. */
+char *strerror(int error)
+{
+    (void)error;
+    return "";
+}
+
+/* The engine has instructions for these. */
+void *memcpy(void *restrict to, const void *restrict from, size_t n) { return __builtin_memcpy(to, from, n); }
+void *memmove(void *to, const void *from, size_t n) { return __builtin_memmove(to, from, n); }
+void *memset(void *to, int value, size_t n) { return __builtin_memset(to, value, n); }
