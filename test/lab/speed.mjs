@@ -68,7 +68,7 @@ function dragged({ low, high, value, frames }) {
 await attempt('figures', async () => {
   const page = await open(singleFile + '#v=1&p=driven-oscillator', { before: follow });
   const times = [];
-  for (let i = 0; i < 7; i++) {
+  for (let i = 0; i < 15; i++) {
     times.push(await page.evaluate(`(${redrawn.toString()})('#step', '${i % 2 ? '0.001' : '0.0010001'}')`));
     await settled(page, 250);
   }
@@ -98,7 +98,8 @@ await attempt('figures', async () => {
     await settled(page, 400, 60000);
     const [low, high, value] = await page.locator('#parameters input[type=range]').first().evaluate((s) => { s.id = 'dragged'; return [s.min, s.max, s.value].map(Number); });
     const { frames, redraws } = await page.evaluate(dragged, { low, high, value, frames: 60 });
-    console.log(`# a slider of ${preset} dragged for ${frames} frames: ${redraws.length} pictures, ${middle(redraws).toFixed(0)} ms from the event to the end of the frame that shows it`);
+    const late = redraws.length ? `${middle(redraws).toFixed(0)} ms from the event to the end of the frame that shows it` : 'the model admits no other value of it';
+    console.log(`# a slider of ${preset} dragged for ${frames} frames: ${redraws.length} pictures, ${late}`);
     judge(`a slider of ${preset} redraws`, redraws.length > 0);
     await settled(page, 300, 60000);
   }
