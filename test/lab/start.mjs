@@ -98,6 +98,8 @@ await attempt('motus lab', async () => {
 // --- sizes --------------------------------------------------------------------------------------------------------------------------
 const bytes = (file) => statSync(join(built, file)).size;
 judge('the single file is under 600 KB', bytes('motus-lab.html') < 600 * 1024, bytes('motus-lab.html'));
-console.log(`# the module: ${bytes('motus.wasm')} bytes, ${gzipSync(readFileSync(join(built, 'motus.wasm')), { level: 9 }).length} packed as servers send it`);
+const packed = gzipSync(readFileSync(join(built, 'motus.wasm')), { level: 9 }).length;
+console.log(`# the module: ${bytes('motus.wasm')} bytes, ${packed} as servers send it`);
+judge('the module is under 150 KB as servers send it', packed < 150 * 1024, packed);
 same('the module imports nothing', WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm')))), []);
 await finish();
