@@ -48,11 +48,13 @@ await attempt('speed and monitor', async () => {
 
 await attempt('the clock', async () => {
   const page = await open(singleFile + '#v=1&p=projectile&h=0.07&T=1');
+  // A busy machine may draw no frame for a while, and long gaps are not made up for: it is never ahead of the wall.
+  const began = Date.now();
   await press(page, 'Play (space)');
-  await page.waitForTimeout(500);
+  await page.waitForFunction(() => Number(document.querySelector('.transport-now').textContent.slice(4)) > 0.3);
   await press(page, 'Pause (space)');
-  const half = await now(page);
-  judge('Play plays, by the clock on the wall', half > 0.3 && half < 0.95, half);
+  const half = await now(page), passed = (Date.now() - began) / 1000;
+  judge('Play plays, by the clock on the wall', half > 0.3 && half < passed + 0.02, `${half} after ${passed} s`);
   await press(page, 'One step forward (right arrow)');
   judge('one step forward ends at a step', Math.abs(await now(page) / 0.07 - Math.round(await now(page) / 0.07)) < 0.02 && await now(page) > half - 1e-9, await now(page));
   await press(page, 'Back to the start (Home)');
