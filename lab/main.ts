@@ -34,6 +34,13 @@ function stepTimes({ times, step, steps, every }: Track): Float64Array {
   return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
 }
 
+/** One panel that fails is told of, and does not stop the others. */
+function each(panels: Iterable<Panel>, act: (panel: Panel) => void): void {
+  for (const panel of panels) {
+    try { act(panel); } catch (error) { reportError(error); }
+  }
+}
+
 /** On a small screen the clock hides the foot of the picture: who plays, and looks at it, is to see all of it. */
 function bringIntoView(picture: Element | null): void {
   const box = picture?.getBoundingClientRect();
@@ -49,12 +56,12 @@ async function start(): Promise<void> {
   const open = new Set<Panel>(always);
 
   const clock = transport({
-    onTime: (t) => { for (const panel of open) panel.at(t); },
+    onTime: (t) => each(open, (panel) => panel.at(t)),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
     onPlay: (playing) => { if (playing) bringIntoView(place('stage-figure').querySelector('.figure-picture')); },
   });
-  const toasts = mountShell(store, closer.map(({ id, title }) => ({ id, title })), () => { for (const panel of open) panel.redraw(); });
+  const toasts = mountShell(store, closer.map(({ id, title }) => ({ id, title })), () => each(open, (panel) => panel.redraw()));
   if (problem) toasts.say(problem);
   place('stage-figure').append(motion.element);
   place('step-view').append(steps.element);
@@ -104,12 +111,12 @@ async function start(): Promise<void> {
     const ends = scene.solution.tracks.map(({ times }) => times[times.length - 1] ?? store.numbers.start);
     const end = store.numbers.until ?? Math.max(...ends);
     nameExports(scene.state.preset || 'model');
-    for (const panel of open) panel.show(scene);
+    each(open, (panel) => panel.show(scene));
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // Another example begins at its beginning; a change of this one is seen at the time that one looks at.
     if (scene.state.preset !== preset) clock.seek(store.numbers.start);
     preset = scene.state.preset;
-    for (const panel of open) panel.at(clock.time());
+    each(open, (panel) => panel.at(clock.time()));
     showCard();
   }
   store.subscribe((what) => {
@@ -120,7 +127,8 @@ async function start(): Promise<void> {
     if (what !== 'view') return;
     arrange();
     clock.setSpeed(store.state.view.speed);
-    for (const panel of open) if (store.scene) panel.show(store.scene);
+    const scene = store.scene;
+    if (scene) each(open, (panel) => panel.show(scene));
   });
   arrange();
 }

@@ -9,6 +9,7 @@
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
  */
 import type { State, View } from './scene';
+import { normal, plain } from './shell/number';
 
 /** What the state is compared with: the models of the build and the methods each is shown with. */
 export interface Presets {
@@ -195,6 +196,9 @@ export function delimiter(text: string): string {
 
 export interface Command { readonly text: string; readonly problem: string }
 
+/** A number as the program reads it, whatever the reader's decimal sign; an expression as it is. */
+const number = (typed: string): string => (!lineControls.test(typed) && plain(normal(typed)) ? normal(typed) : typed);
+
 /** The command line that computes the same bits. methods: those in use, resolved; state.methods may be empty. */
 export function command(state: State, methods: readonly string[], presets: Presets): Command {
   const isPreset = state.preset !== '' && presets.text(state.preset) === state.text;
@@ -202,8 +206,8 @@ export function command(state: State, methods: readonly string[], presets: Prese
   words.push(isPreset ? `models/${state.preset}.motus` : '-');
   if (methods.length > 1) words.push('--methods', methods.join(','));
   else if (methods[0]) words.push('--method', methods[0]);
-  if (state.step) words.push('--step', state.step);
-  if (state.until) words.push('--until', state.until);
+  if (state.step) words.push('--step', number(state.step));
+  if (state.until) words.push('--until', number(state.until));
   for (const [name, expression] of Object.entries(state.set)) words.push('--set', `${name}=${expression}`);
   const text = state.text.endsWith('\n') || state.text === '' ? state.text : state.text + '\n';
   if (words.some(w => lineControls.test(w)) || (!isPreset && controls.test(text))) {

@@ -5,6 +5,7 @@
  * A state is looked at once per frame at most, so a dragged slider costs no more than the picture it makes.
  */
 import { looksOf } from './figure/ink';
+import { brief } from './figure/number';
 import { STEPS_MAX, problem, type Description, type Method, type Problem, type Solution } from './protocol';
 import { Refused, type Client, type Scene, type State, type Store, type View } from './scene';
 import { normal, plain, short } from './shell/number';
@@ -43,10 +44,18 @@ const well: Trouble = { model: null, run: null, step: '', until: '', methods: ''
 
 const failure = (message: string): Problem => problem('page', message);
 
+/** "newmark(1/4, 1/2)" is of the family newmark. */
+const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
+
+/** Where a text names its method: line and column, counted from 1. */
+function placeOfMethod(text: string): { line: number; column: number } {
+  const lines = text.split('\n'), line = lines.findIndex(l => /^\s*method\s/.test(l));
+  return { line: line + 1, column: line < 0 ? 0 : (/^\s*method\s+/.exec(lines[line] ?? '')?.[0].length ?? 0) + 1 };
+}
+
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
 export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
   const refused: string[] = [];
-  const family = (name: string): string => name.replace(/\(.*$/s, '');
   const methods = state.methods.filter(name => {
     const entry = description.admissions.find(a => a.method === name) ?? description.admissions.find(a => a.method === family(name));
     if (!entry?.admitted) refused.push(name);
@@ -87,7 +96,7 @@ export function createStore(client: Client, initial: State): LiveStore {
       const initial = read.parameters.find(p => p.initial);
       if (initial?.values.length === 1 && Number.isFinite(initial.values[0])) answer = initial.values[0] as number;
     } catch (error) {
-      if (error instanceof Refused) answer = `“${text}” is no number${error.problem.hint ? `: ${error.problem.hint}` : ''}.`;
+      if (error instanceof Refused) answer = `“${text}” is no number.`;
       else throw error;
     }
     if (constants.size > 500) constants.clear();
@@ -117,7 +126,8 @@ export function createStore(client: Client, initial: State): LiveStore {
       if (span === 0) {
         said.until = `The motion starts and ends at ${short(until)}: there is nothing to compute.`;
       } else if (steps > STEPS_MAX) {
-        said.step = `That makes ${steps.toPrecision(2).replace('e+', ' × 10^')} steps; the page stops at 10 million. The program has no such limit.`;
+        // Said where it was caused.
+        said[of.until && !of.step ? 'until' : 'step'] = `That makes ${brief(steps, 2)} steps; the page stops at 10 million. The program has no such limit.`;
       } else if (step > span) said.remark = `The step is longer than the whole motion: one step of ${short(span, 6)} is taken.`;
     }
     return { step, until, trouble: said };
@@ -154,16 +164,25 @@ export function createStore(client: Client, initial: State): LiveStore {
     const model = await read(of);
     if (!model) { tell('description'); return; }
     const own = model.settings.method;
-    if (ownMethod !== null && own && own !== ownMethod && state === of) {
-      state = of = { ...of, methods: [own, ...of.methods.filter(name => name !== own)] };
-      tell('state');
+    if (own && !model.admissions.some(a => a.method === family(own))) {
+      trouble = { ...well, model: { ...problem('method', `there is no method called “${own}”`, 'those there are stand under “All methods”'), ...placeOfMethod(of.text) } };
+      tell('description');
+      return;
     }
-    ownMethod = own;
+    // Where a newer text waits, it is that one's method which counts.
+    if (state === of) {
+      if (ownMethod !== null && own && own !== ownMethod) {
+        state = of = { ...of, methods: [own, ...of.methods.filter(name => name !== own)] };
+        tell('state');
+      }
+      ownMethod = own;
+    }
     // What the text no longer has is no longer set.
-    const kept = Object.entries(of.set).filter(([name]) => model.parameters.some(p => p.name === name));
+    const kept = Object.entries(of.set).map(([name, value]): [string, string] => [name.replace(/ /g, ''), value]).filter(([name]) => model.parameters.some(p => p.name === name));
     const set = Object.fromEntries(kept);
-    if (kept.length !== Object.keys(of.set).length && state === of) state = of = { ...of, set };
-    else of = { ...of, set };
+    const as = { ...of, set };
+    if (state === of && JSON.stringify(set) !== JSON.stringify(of.set)) state = as;
+    of = as;
     const measured = await measure(of, model);
     const { methods, refused } = admittedMethods(of, model);
     trouble = { ...well, ...measured.trouble, methods: refused.length ? `Not for this force: ${looksOf(refused, catalogue).map(l => l.label).join(', ')}.` : '' };

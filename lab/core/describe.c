@@ -98,6 +98,15 @@ static void describe_analysis(json *j, const motus_system *s)
     json_close(j, '}');
 }
 
+/* What a model calls its method, by the method's own name; what there is not, and what has arguments, as it is written. */
+static const char *method_of(const motus_settings *settings)
+{
+    const motus_method *found;
+    if (!settings->method)
+        return "";
+    return strchr(settings->method, '(') || motus_method_find(settings->method, &found, NULL) != MOTUS_OK ? settings->method : found->name;
+}
+
 /* The model that is open, as the page wants it (protocol.ts, Description). NULL: no memory. */
 LAB_CALL(lab_describe) const char *lab_describe(lab *l)
 {
@@ -130,7 +139,7 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     motus_settings settings;
     motus_settings_of(s, &settings);
     json_open(j, "settings", '{');
-    json_string(j, "method", settings.method ? settings.method : "");
+    json_string(j, "method", method_of(&settings));
     json_number(j, "step", settings.step);
     json_number(j, "until", settings.until);
     json_number(j, "start", settings.from);

@@ -75,7 +75,7 @@ export function looksOf(methods: readonly string[], catalogue: readonly Method[]
     const k = place(method, catalogue), round = Math.floor(k / 10);
     const pair = COLOURS[k % 10]!;
     return {
-      method: name, label: (SPOKEN[method] ?? method) + name.slice(bare.length), colour: dark ? pair[1] : pair[0],
+      method: name, label: ((Object.hasOwn(SPOKEN, method) ? SPOKEN[method] : undefined) ?? method) + name.slice(bare.length), colour: dark ? pair[1] : pair[0],
       // Each further ten meets its colour again with another dash and another marker.
       dash: DASHES[(k + 3 * round) % 10]!, marker: MARKERS[(k + 7 * round) % 10]!,
     };

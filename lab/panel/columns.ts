@@ -69,7 +69,8 @@ export function timeTable(scene: Scene, names: readonly string[], series?: (trac
       readers.push((t) => exactAt(scene, name, t));
     } else if (!series && solution.truth && fine?.length) {
       const read = atRow(solution.truth.times, fine);
-      if (times.some((t) => !Number.isNaN(read(t)))) {
+      // A reference has its own times: a column of it, where it has a number for every row.
+      if (times.every((t) => !Number.isNaN(read(t)))) {
         head.push(`${solution.truth.name} ${name}`);
         readers.push(read);
       }

@@ -75,7 +75,8 @@ export const convergence: PanelMaker = (store): Panel => {
   const list = element('ul', { class: 'found' });
   const note = element('p', { class: 'figure-caption' });
 
-  const rows = (): readonly ConvergeRow[] => study.answer?.rows ?? [];
+  // A panel that was never opened hears of the study as well: without a scene it has nothing to show.
+  const rows = (): readonly ConvergeRow[] => (scene ? study.answer?.rows ?? [] : []);
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
 
   function draw(pen: Pen, ink: Ink): void {

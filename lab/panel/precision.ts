@@ -52,7 +52,7 @@ function columnsOf(found: Comparison, labels: ReadonlyMap<string, string>): Colu
     { name: 'evaluations', about: 'of the force', value: (row) => row.evaluations, text: (row) => whole(row.evaluations) },
     { name: 'error', about: 'largest, of the positions', value: (row) => number(row.errorMaxX) },
     ...invariants.map((invariant, k): Column => ({
-      name: `drift of ${invariant.name}`, about: 'largest; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max ?? null),
+      name: `absolute drift of ${invariant.name}`, about: 'largest, in its own units; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max ?? null),
       text: (row) => { const drift = row.invariants[k]; return drift ? `${readable(drift.max, 2)}${drift.trending ? ' ↗' : ''}` : '–'; },
     })),
     { name: 'reversal', about: 'error after going back to the start', value: (row) => number(row.reversal) },
@@ -117,7 +117,8 @@ export const precision: PanelMaker = (store): Panel => {
   const study = convergenceStudy(store);
   const compared = new Study(store, 'compare', 'Comparing the methods', 'Compared', true);
   let scene: Scene | null = null;
-  const rows = (): readonly ConvergeRow[] => study.answer?.rows ?? [];
+  // A panel that was never opened hears of the study as well: without a scene it has nothing to show.
+  const rows = (): readonly ConvergeRow[] => (scene ? study.answer?.rows ?? [] : []);
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
 
   function draw(pen: Pen, ink: Ink): void {

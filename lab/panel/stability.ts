@@ -236,11 +236,18 @@ export const stability: PanelMaker = (store): Panel => {
 
   /* ---- saying ---- */
 
+  /** A method that turns the velocity about a field, on a model that has one: no single rate tells what it does. */
+  const turns = (): boolean => method()?.name === 'boris' && scene?.description.analysis.velocityDependent === true;
+
   function sentence(): string {
     const m = method(), h = step();
     if (!m || !plane) return '';
     const title = scene?.looks[0]?.label ?? methodTitle(m.name);
     const what = plane.full ? '' : ` Only the imaginary axis, oscillation without friction, has a meaning for ${title}: its force may hold no velocity.`;
+    if (turns()) {
+      return `${title} turns the velocity about the field by a rotation, which is stable at any step. The axis shows its other half, oscillation in position alone, stable while hω is below ${brief(m.stabilityLimit, 3)}; `
+        + 'the points hλ mix the two, and cannot be judged by it.';
+    }
     const points = upper();
     if (points.length === 0) return `${ratesTrouble ? `No points: ${ratesTrouble}` : 'The model’s rates λ are being computed.'}${what}`;
     const largest = Math.max(...points.map((rate) => Math.hypot(rate.re, rate.im)));
@@ -278,7 +285,7 @@ export const stability: PanelMaker = (store): Panel => {
       const h = step(), points = upper();
       return {
         head: ['time', 'Re λ', 'Im λ', 'Re hλ', 'Im hλ', 'growth per step'],
-        rows: points.map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, growth?.[k] ?? NaN]),
+        rows: points.map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, turns() ? NaN : growth?.[k] ?? NaN]),
         note: `${scene?.looks[0]?.label ?? ''}, h = ${h}. Of each pair of conjugate rates the upper one is listed.`,
       };
     },

@@ -30,6 +30,7 @@ export class Study<K extends Kind> {
   private timer = 0;
   private took = 0;
   private text = '';
+  private preset = '';
   private readonly listeners: (() => void)[] = [];
 
   constructor(private readonly store: Store, private readonly kind: K, private readonly doing: string, readonly done: string, private readonly withStep: boolean) {}
@@ -53,12 +54,13 @@ export class Study<K extends Kind> {
     };
     const key = JSON.stringify(ask);
     if (key === this.key) return;
-    // Another model's picture may stay for the moment until its own is there, but not longer.
+    // The picture before an edit may stay for the moment until the next is there, but not longer; another example's may not.
     if (state.text !== this.text) {
       this.took = 0;
-      if (!this.cheap(scene)) this.answer = null;
+      if (state.preset !== this.preset || !this.cheap(scene)) this.answer = null;
     }
     this.text = state.text;
+    this.preset = state.preset;
     this.key = key;
     this.ask = ask;
     this.stale = this.answer !== null;

@@ -50,6 +50,8 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
   };
   store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
+  // The page that was opened without a state is one to come back to.
+  if (!location.hash.includes('=')) write();
   window.addEventListener('pagehide', () => { if (timer) write(); });
   window.addEventListener('hashchange', () => {
     if (!location.hash.includes('=')) { write(); return; }          // a place in the page, none of our addresses

@@ -66,7 +66,11 @@ export function settings(store: LiveStore): HTMLElement {
   step.addEventListener('input', () => typed('step', step));
   until.addEventListener('input', () => typed('until', until));
   for (const [key, field] of [['step', step], ['until', until]] as const) {
-    field.addEventListener('focus', () => { if (!store.state[key]) field.value = own(key); });
+    field.addEventListener('focus', () => {
+      if (store.state[key]) return;
+      field.value = own(key);
+      field.select();          // as the browser had it before the value changed
+    });
     field.addEventListener('blur', () => refresh());
   }
   slider.addEventListener('input', () => {

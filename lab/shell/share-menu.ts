@@ -21,12 +21,13 @@ export function shareMenu(store: LiveStore, presets: Presets, toasts: Toasts): H
   const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command');
   const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
   const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
+  const commandLabel = el('label', { for: commandId });
   const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
   const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
   const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
-    el('label', { for: commandId }, 'The same bits from the program'), line, older, copyCommand, refusal);
+    commandLabel, line, older, copyCommand, refusal);
   const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
     icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
   const root = el('div', { class: 'share' }, opener, panel);
@@ -41,6 +42,7 @@ export function shareMenu(store: LiveStore, presets: Presets, toasts: Toasts): H
     const seen = store.scene?.state ?? store.state, { model, step, until, run } = store.trouble;
     const { text, problem } = command(seen, seen.methods, presets);
     line.value = text;
+    say(commandLabel, seen.methods.length > 1 ? 'The same runs, compared by the program' : 'The same bits from the program');
     say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');
     older.hidden = older.textContent === '';
     copyCommand.disabled = problem !== '';

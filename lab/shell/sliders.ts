@@ -98,7 +98,7 @@ const digits = (text: string): string => (text.length <= 9 ? text : compact(Numb
       write(k, normal(field.value));
       slider.value = String(number);
     };
-    field.addEventListener('focus', () => { if (field.getAttribute('aria-invalid') !== 'true') field.value = current()[k] ?? ''; });
+    field.addEventListener('focus', () => { if (field.getAttribute('aria-invalid') !== 'true') { field.value = current()[k] ?? ''; field.select(); } });
     field.addEventListener('input', commit);
     field.addEventListener('blur', () => { if (field.getAttribute('aria-invalid') !== 'true') refresh(); });
     field.addEventListener('keydown', event => { if (event.key === 'Escape') { field.blur(); refresh(); } });
@@ -116,7 +116,7 @@ export function sliders(store: LiveStore): HTMLElement {
   function build(): void {
     const description = store.description;
     if (!description || store.trouble.model) return;
-    const key = JSON.stringify(description.parameters.map(p => [p.name, p.text, p.list]));
+    const key = JSON.stringify(description.parameters.map(p => [p.name, p.initial ? p.values : p.text, p.list]));
     if (key === shown) return;
     shown = key;
     rows = [];

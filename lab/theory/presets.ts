@@ -5,13 +5,6 @@
 export interface Note { readonly title: string; readonly text: readonly string[] }
 
 export const notes: Readonly<Record<string, Note>> = {
-  projectile: {
-    title: 'A ball in constant gravity',
-    text: [
-      'The green parabola is exact. After three seconds with the step 0.05 explicit Euler is 0.7357 above it, symplectic Euler 0.7357 below; pull the step, and both errors grow in proportion.',
-      'Midpoint lies on the parabola, and Verlet too: they are exact here, since the acceleration never changes. So the parabola cannot tell which method is good; choose the spring to see where the two Eulers differ.',
-    ],
-  },
   spring: {
     title: 'A mass on a spring',
     text: [
@@ -38,13 +31,6 @@ export const notes: Readonly<Record<string, Note>> = {
     text: [
       'Set F to 1 and move omega towards omega0 = 2: the steady swing grows, and lags further behind the force.',
       'In the stability panel the points hλ now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
-    ],
-  },
-  'projectile-drag': {
-    title: 'A ball in air',
-    text: [
-      'Drag that grows with the square of the speed bends the parabola. Set k to 0, and the parabola is back; the more k, the steeper the ball comes down.',
-      'The force is not linear in the velocity, so Verlet solves a small equation at each step, and keeps its order 2.',
     ],
   },
   pendulum: {

@@ -50,6 +50,25 @@ await attempt('the model: undo, typeset, errors under the caret', async () => {
   same('mended: no message, not invalid', [await page.locator('#model-problem').textContent(), await area.getAttribute('aria-invalid')], ['', 'false']);
 });
 
+await attempt('the model names its method', async () => {
+  const area = page.locator('#model-text');
+  const model = (method, start = 1) => `x'' = -x\nx(0) = ${start}\nx'(0) = 0\nmethod ${method}\nstep 0.1\nuntil 5\n`;
+  const chosen = async () => (await fields(page)).a;
+  for (const [written, name] of [['verlet', 'verlet'], ['rk4', 'rk4'], ['Euler', 'explicit-euler']]) {
+    await area.fill(model(written));
+    await settled(page);
+    same(`method ${written}: it comes first`, (await chosen())?.split(',')[0], name);
+  }
+  const before = await chosen();
+  await area.fill(model('rk'));
+  await settled(page);
+  judge('no such method: told under the word', /Line 4, column 8: .*rk/.test(await page.locator('#model-problem').textContent()), await page.locator('#model-problem').textContent());
+  same('… and not chosen', [await page.locator('.mirror mark').textContent(), await chosen()], ['rk', before]);
+  await area.fill(model('rk4', 3));
+  await settled(page);
+  same('an initial value in the text moves its slider', await page.getByLabel('x(0), as a number', { exact: true }).inputValue(), '3');
+});
+
 await attempt('methods', async () => {
   await page.locator('#preset').selectOption('projectile');
   await settled(page);
@@ -170,6 +189,28 @@ await attempt('parameters and initial values', async () => {
   judge('gravity', Math.abs(last(await tableOf(page, 'Against time'), 'exact r.y') - (4.5 * 3 - 1.62 * 4.5)) < 1e-12);
 });
 
+await attempt('a slider is dragged', async () => {
+  await page.locator('#preset').selectOption('damped-spring');
+  await settled(page);
+  await page.locator('#parameters input[type=range]').first().evaluate((slider) => new Promise((done) => {
+    const from = slider.valueAsNumber, part = (Number(slider.max) - Number(slider.min)) / 100;
+    let moves = 0;
+    const move = () => {
+      slider.value = String(from + ++moves * part);
+      slider.dispatchEvent(new Event('input', { bubbles: true }));
+      if (moves < 20) requestAnimationFrame(move); else done();
+    };
+    move();
+  }));
+  await settled(page);
+  const dragged = await tableOf(page, 'Against time');
+  await page.waitForTimeout(500);          // the address follows
+  await page.reload();
+  await settled(page);
+  judge('in the end every step is kept', dragged.rows.length === 5001, dragged.rows.length);
+  same('and it is the motion of what the slider says', dragged, await tableOf(page, 'Against time'));
+});
+
 await attempt('the pictures’ own controls', async () => {
   await page.locator('#preset').selectOption('projectile');
   await settled(page);
@@ -262,6 +303,30 @@ await attempt('the links of the theory and of the notes', async () => {
   }
 });
 await clean('controls', page);
+
+await attempt('a panel by itself', async () => {
+  for (const id of ['convergence', 'precision', 'stability']) {
+    page = await open(`${singleFile}#v=1&p=spring&o=${id}`);
+    await settled(page, 800);
+    await page.locator('#panels figure').scrollIntoViewIfNeeded();
+    await settled(page, 800);
+    const text = await page.locator('#panels').textContent();
+    judge(`${id}: the picture is there`, await page.locator('#panels canvas.figure-still').isVisible() && !/Measuring|Comparing|Asking/.test(text), text.slice(0, 300));
+    await clean(`${id} by itself`, page);
+    await page.context().close();
+  }
+});
+await attempt('back to where one began', async () => {
+  page = await open(singleFile);
+  const title = await page.locator('#scene-title').textContent();
+  await page.locator('#preset').selectOption('spring');
+  await settled(page);
+  await page.waitForTimeout(600);          // the address follows
+  await page.goBack();
+  await settled(page);
+  same('Back shows the first example again', await page.locator('#scene-title').textContent(), title);
+  await clean('back', page);
+});
 
 // --- everything that can be pressed, in an order of its own: nothing breaks ----------------------------------------------------------
 await attempt('everything pressed', async () => {

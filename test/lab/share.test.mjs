@@ -100,6 +100,11 @@ test('the command says what the page computed', () => {
   }
 });
 
+test('a decimal comma is the reader’s, not the program’s', () => {
+  const { state } = share.decode('#v=1&p=spring&h=0,05&T=1,5', presets);
+  assert.equal(share.command(state, ['verlet'], presets).text, 'motus run models/spring.motus --method verlet --step 0.05 --until 1.5');
+});
+
 test('control characters are refused', () => {
   for (const c of ['\0', '\x1b', '\x7f', '\x9b', '\r']) {
     assert.equal(share.command({ ...start, text: `x${c}` }, ['rk4'], presets).text, '');
