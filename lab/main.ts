@@ -22,7 +22,7 @@ import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
 import { mountShell } from './shell/shell';
-import { createStore } from './state';
+import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
 
 const makers: readonly PanelMaker[] = [timePanel, errorPanel, driftPanel, phasePanel, convergence, precision, stability];
@@ -80,7 +80,7 @@ async function start(): Promise<void> {
   });
 
   function showCard(): void {
-    const name = store.scene?.solution.tracks[0]?.method.replace(/\(.*$/, '') ?? '';
+    const name = family(store.scene?.solution.tracks[0]?.method ?? '');
     const method = store.catalogue.find((m) => m.name === name);
     if (name === carded || !method) return;
     carded = name;

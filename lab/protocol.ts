@@ -21,7 +21,7 @@ export interface Variable { readonly name: string; readonly order: number; reado
 export interface Parameter {
   readonly name: string; readonly components: number; readonly list: boolean; readonly values: readonly number[];
   /** As the model writes it; a slider is offered where this is a number, or a tuple of numbers. */
-  readonly text: string; readonly initial: boolean; readonly line: number;
+  readonly text: string; readonly initial: boolean;
 }
 
 /** A statement of the model typeset: one <math> element, well-formed XML. */

@@ -45,7 +45,7 @@ const well: Trouble = { model: null, run: null, step: '', until: '', methods: ''
 const failure = (message: string): Problem => problem('page', message);
 
 /** "newmark(1/4, 1/2)" is of the family newmark. */
-const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
+export const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
 
 /** Where a text names its method: line and column, counted from 1. */
 function placeOfMethod(text: string): { line: number; column: number } {

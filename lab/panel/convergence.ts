@@ -10,7 +10,7 @@ import { brief } from '../figure/number';
 import type { Frame, Ink, Pen } from '../figure/types';
 import type { ConvergePoint, ConvergeRow, Convergence } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
-import { convergenceStudy, lookFor, sample, studyBar } from './study';
+import { convergenceStudy, lookFor, rowsFor, sample, studyBar } from './study';
 
 /** More triangles than this would hide the lines. */
 const TRIANGLES = 4;
@@ -75,8 +75,7 @@ export const convergence: PanelMaker = (store): Panel => {
   const list = element('ul', { class: 'found' });
   const note = element('p', { class: 'figure-caption' });
 
-  // A panel that was never opened hears of the study as well: without a scene it has nothing to show.
-  const rows = (): readonly ConvergeRow[] => (scene ? study.answer?.rows ?? [] : []);
+  const rows = (): readonly ConvergeRow[] => rowsFor(study, scene);
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
 
   function draw(pen: Pen, ink: Ink): void {

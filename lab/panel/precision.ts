@@ -12,7 +12,7 @@ import type { Ink, Pen } from '../figure/types';
 import type { CompareRow, Comparison, ConvergeRow } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
 import { CEILING, errorOf, judge, roomFor } from './convergence';
-import { convergenceStudy, lookFor, sample, Study, studyBar } from './study';
+import { convergenceStudy, lookFor, rowsFor, sample, Study, studyBar } from './study';
 
 const whole = (n: number): string => (n < 1e6 ? String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f') : readable(n, 2));
 
@@ -117,8 +117,7 @@ export const precision: PanelMaker = (store): Panel => {
   const study = convergenceStudy(store);
   const compared = new Study(store, 'compare', 'Comparing the methods', 'Compared', true);
   let scene: Scene | null = null;
-  // A panel that was never opened hears of the study as well: without a scene it has nothing to show.
-  const rows = (): readonly ConvergeRow[] => (scene ? study.answer?.rows ?? [] : []);
+  const rows = (): readonly ConvergeRow[] => rowsFor(study, scene);
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
 
   function draw(pen: Pen, ink: Ink): void {

@@ -6,7 +6,7 @@
 import { button, el as element } from '../dom';
 import { looksOf } from '../figure/ink';
 import { brief } from '../figure/number';
-import type { Model, Requests } from '../protocol';
+import type { ConvergeRow, Model, Requests } from '../protocol';
 import { Refused, type Look, type Scene, type Store } from '../scene';
 
 type Kind = 'converge' | 'compare';
@@ -140,6 +140,11 @@ export function convergenceStudy(store: Store): Study<'converge'> {
   let study = converging.get(store);
   if (!study) converging.set(store, study = new Study(store, 'converge', 'Measuring the error at many steps', 'Measured', false));
   return study;
+}
+
+/** What a panel shows of it: nothing before it has a scene, as one that was never opened hears of the study too. */
+export function rowsFor(study: Study<'converge'>, scene: Scene | null): readonly ConvergeRow[] {
+  return scene ? study.answer?.rows ?? [] : [];
 }
 
 /** What it is doing, and the button that begins it or calls it off. */

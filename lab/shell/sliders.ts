@@ -18,18 +18,11 @@ function partName(parameter: Parameter, k: number, count: number): string {
   return parameter.list || count > 3 ? `${parameter.name}[${k + 1}]` : `${parameter.name}.${axes[k] ?? k + 1}`;
 }
 
-/** What the model writes for it. Of an initial value only the line is known. */
-function written(parameter: Parameter, model: string): string {
-  if (parameter.text !== '') return parameter.text;
-  const line = model.split('\n')[parameter.line - 1] ?? '', at = line.indexOf('=');
-  return at < 0 ? '' : line.slice(at + 1).replace(/#.*$/s, '').trim();
-}
-
 /** A number of things rather than a size: an upper end of an index. */
 const counts = (text: string, name: string): boolean => /^[A-Za-z]\w*$/.test(name) && new RegExp(`\\.\\.[^:\\n]*\\b${name}\\b`).test(text);
 
 function rowsOf(store: LiveStore, parameter: Parameter, model: string): Row[] {
-  const literal = tuple(written(parameter, model));
+  const literal = tuple(parameter.text);
   const fits = literal !== null && literal.parts.length === parameter.values.length;
   // Numbers that the model computes follow its parameters; a single initial value may be moved all the same, and then stands for itself.
   if (!fits && !(parameter.initial && !parameter.list && parameter.values.length <= 3)) return [];
