@@ -2,8 +2,8 @@
 #include "api/ensemble.h"
 
 #include "api/choice.h"
-#include "run/parallel.h"
-#include "run/reduction.h"
+#include "machine/parallel.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <stdio.h>

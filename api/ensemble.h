@@ -6,7 +6,7 @@
 #define API_ENSEMBLE_H
 
 #include "api/run.h"
-#include "run/lanes.h"
+#include "machine/lanes.h"
 
 #include <stdatomic.h>
 

@@ -6,7 +6,7 @@
 #include "api/ensemble.h"
 
 #include "core/rows.h"
-#include "run/reduction.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <string.h>

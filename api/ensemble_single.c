@@ -5,7 +5,7 @@
  */
 #include "api/ensemble.h"
 
-#include "run/reduction.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <string.h>

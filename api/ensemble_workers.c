@@ -6,7 +6,7 @@
 
 #include "api/choice.h"
 
-#include "run/parallel.h"
+#include "machine/parallel.h"
 
 #include <math.h>
 

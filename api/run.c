@@ -3,7 +3,7 @@
 
 #include "api/choice.h"
 
-#include "run/cache.h"
+#include "machine/cache.h"
 
 #include <math.h>
 #include <stdio.h>

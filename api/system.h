@@ -6,7 +6,7 @@
 #ifndef API_SYSTEM_H
 #define API_SYSTEM_H
 
-#include "run/compiled.h"
+#include "machine/compiled.h"
 
 typedef struct column_group {        /* columns of one name */
     motus_column_kind kind;

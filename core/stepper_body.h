@@ -8,7 +8,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "step/scalar.h"
+#include "core/scalar.h"
 #include "step/work.h"
 
 /* work.user points to it. tracing: of core/trace.h, while a step is traced. */

@@ -21,7 +21,7 @@ while IFS='|' read -r _ folder _ may _; do
 done <HOUSE.md
 
 grants[lab/core]=${grants[lab]-}
-for folder in step core lang run api study cli lab/core; do
+for folder in step core lang machine api study cli lab/core; do
     if [ -z "${grants[$folder]+x}" ]; then not_ok "HOUSE.md says who $folder/ may include"; continue; fi
     complaints=
     for file in "$folder"/*.[ch] "$folder"/*.def; do
@@ -55,10 +55,10 @@ declare -A also=(
     [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
     [lang/derivative.c]='graph_'                    # a part of lang/graph.h
     [lang/words.c]='parse_'                         # the words that lang/tree.h asks for
-    [run/interpreter.c]='machine_'                  # a machine is a file; run/run.h names them
-    [run/callback.c]='machine_'
-    [run/compiled.c]='machine_'
-    [run/nowhere.c]='compiled_ machine_'            # stands in for run/compiled.c
+    [machine/interpreter.c]='machine_'                  # a machine is a file; machine/machine.h names them
+    [machine/callback.c]='machine_'
+    [machine/compiled.c]='machine_'
+    [machine/nowhere.c]='compiled_ machine_'            # stands in for machine/compiled.c
     [api/columns.c]='system_'                       # parts of api/system.h
     [api/explain.c]='system_'
     [lang/tape_regions.c]='plan_'                   # the plan of a tape, lang/tape_regions.h
@@ -69,11 +69,11 @@ if [ ! -f "$archive" ]; then
 else
     # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
     judge "no two files of the library have the same name" \
-        "$(for f in core lang run api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
+        "$(for f in core lang machine api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
     complaints=
     while read -r member symbol; do
         file=${member%.o}
-        path=$(ls {core,lang,run,api,study}/"$file" 2>/dev/null | head -n 1)
+        path=$(ls {core,lang,machine,api,study}/"$file" 2>/dev/null | head -n 1)
         prefix=${file%%[_.]*}
         case $symbol in
         motus_*|"$prefix"|"${prefix}"_*) continue ;;
@@ -89,7 +89,7 @@ else
     # Constants and functions only: a writable global is state that two threads would share. .data.rel.ro is constant once loaded.
     judge "no globals that change" "$(
         for object in $(find "$build/CMakeFiles" -name '*.o' -path '*/CMakeFiles/*' ! -path '*/motus_program.dir/*' \
-                \( -path '*/core/*' -o -path '*/lang/*' -o -path '*/run/*' -o -path '*/api/*' -o -path '*/study/*' \)); do
+                \( -path '*/core/*' -o -path '*/lang/*' -o -path '*/machine/*' -o -path '*/api/*' -o -path '*/study/*' \)); do
             objdump -t "$object" | awk -v file="${object##*.dir/}" '
                 NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / { print file ": " $NF }'
         done | sort -u)"
@@ -112,7 +112,7 @@ else
 fi
 
 # --- files ----------------------------------------------------------------------------------------------------------------
-ours() { find include step core lang run api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
+ours() { find include step core lang machine api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
 judge "every file opens with a comment that says what it is" "$(
     for file in $(ours); do
         case $file in
@@ -124,7 +124,7 @@ judge "no flag lets the compiler change results" "$(
     grep -nE -- '-(ffast-math|fassociative-math|funsafe-math-optimizations|freciprocal-math|ffinite-math-only|Ofast)|ffp-contract=(on|fast)' \
         CMakeLists.txt CMakePresets.json cmake/*.cmake Makefile)"
 judge "no pragma lets the compiler change results" "$(
-    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include step core lang run api study cli)"
+    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include step core lang machine api study cli)"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

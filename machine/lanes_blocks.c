@@ -4,9 +4,9 @@
  * chunks of steps, so that what depends on time alone is computed once for all of them; a block in which a number stopped being finite is
  * taken through its chunk again, step by step, to see when.
  */
-#include "run/lanes_parts.h"
+#include "machine/lanes_parts.h"
 
-#include "run/parallel.h"
+#include "machine/parallel.h"
 
 #include <math.h>
 #include <stdatomic.h>

@@ -1,5 +1,5 @@
 /* The library's stepper in an engine's clothes. See stepping.h. */
-#include "run/stepping.h"
+#include "machine/stepping.h"
 
 static stepper *of(engine *e) { return (stepper *)e; }
 static const stepper *seen(const engine *e) { return (const stepper *)e; }

@@ -1,8 +1,8 @@
 /* The interpreter: the portable machine. A model's programs as tapes, and the library's stepper over them. */
-#include "run/run.h"
+#include "machine/machine.h"
 
 #include "lang/tape.h"
-#include "run/stepping.h"
+#include "machine/stepping.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
  * Two things are asked of every machine: a `problem` it can evaluate (acceleration, directional derivative, exact motion), and an engine that
  * advances one trajectory of that problem by a row. The bits of both are fixed by the graph's normal form and the texts in step/.
  */
-#ifndef RUN_RUN_H
-#define RUN_RUN_H
+#ifndef MACHINE_MACHINE_H
+#define MACHINE_MACHINE_H
 
 #include "core/stepper.h"
 #include "lang/model.h"

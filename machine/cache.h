@@ -1,8 +1,8 @@
 /* Compiled objects kept between runs, as far as they can be trusted. */
-#ifndef RUN_CACHE_H
-#define RUN_CACHE_H
+#ifndef MACHINE_CACHE_H
+#define MACHINE_CACHE_H
 
-#include "run/compiler.h"
+#include "machine/compiler.h"
 
 /* A shared object for the C text, loaded: from the cache if a sound one is there, else compiled. NULL: `why` says why. The handle is for
  * dlsym and dlclose. FAST: compiled with what --fast allows; KEPT: never compiled. */

@@ -1,8 +1,8 @@
 /* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for the model, the method and what
  * varies. Explicit methods only: what needs a solver goes one trajectory at a time.
  */
-#ifndef RUN_LANES_H
-#define RUN_LANES_H
+#ifndef MACHINE_LANES_H
+#define MACHINE_LANES_H
 
 #include "core/methods.h"
 #include "lang/vary.h"
@@ -13,7 +13,7 @@ typedef struct lanes_source {        /* a number that is recorded: time, x[place
     enum { SOURCE_TIME, SOURCE_X, SOURCE_V, SOURCE_DEFINITION } kind;
     const model_definition *definition;
     size_t place;
-    int how;                         /* REDUCE_ of step/reduce.h */
+    int how;                         /* REDUCE_ of machine/text/reduce.h */
 } lanes_source;
 
 typedef struct lanes_def {

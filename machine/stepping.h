@@ -1,8 +1,8 @@
 /* An engine that is the library's stepper: what the interpreter and the callback machine share. */
-#ifndef RUN_STEPPING_H
-#define RUN_STEPPING_H
+#ifndef MACHINE_STEPPING_H
+#define MACHINE_STEPPING_H
 
-#include "run/run.h"
+#include "machine/machine.h"
 
 motus_status stepping_open(const problem *, const chosen *, double t0, double h, const double *x, const double *v, const motus_allocator *, engine **,
                            motus_error *);

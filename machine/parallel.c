@@ -4,7 +4,7 @@
  * processors cost time only while they hold an item; a barrier, such as those of OpenMP, would wait for them at every call. (OpenMP's threads
  * also wait awake, for milliseconds: on a computer that is busy otherwise, sums over a thousand pairs took ten times as long with two of them.)
  */
-#include "run/parallel.h"
+#include "machine/parallel.h"
 
 #include "core/system.h"
 

@@ -3,14 +3,14 @@
  * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart and looking are the library's
  * own, and the bits are the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
  */
-#include "run/compiled.h"
+#include "machine/compiled.h"
 
 #include "core/stepper_body.h"
-#include "run/cache.h"
-#include "run/compose.h"
-#include "run/parallel.h"
-#include "run/stepping.h"
-#include "run/tiles.h"
+#include "machine/cache.h"
+#include "machine/compose.h"
+#include "machine/parallel.h"
+#include "machine/stepping.h"
+#include "machine/tiles.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@
 
 enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 
-#include "step/host.h"
+#include "machine/text/host.h"
 
 typedef struct object { const row *row; void *handle; stepper_body body; } object;
 
@@ -105,7 +105,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (m->arena->failed)
         return false;
     const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
-    static const char *const last[] = {"step/compiled_run.h", NULL};
+    static const char *const last[] = {"machine/text/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
                                      .locality = &c->locality, .last = last});
 }

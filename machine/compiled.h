@@ -1,8 +1,8 @@
 /* The compiled machine's problem: the interpreter's, with the acceleration and the steps in machine code. */
-#ifndef RUN_COMPILED_H
-#define RUN_COMPILED_H
+#ifndef MACHINE_COMPILED_H
+#define MACHINE_COMPILED_H
 
-#include "run/run.h"
+#include "machine/machine.h"
 
 extern const machine machine_compiled;
 

@@ -3,8 +3,8 @@
  * Invariant: a piece is done once, by one thread, in the caller's floating-point modes; which thread does it, and when, is left to chance. So
  * whoever writes only to what belongs to a piece, or to a thread, gets the same bits from any number of threads.
  */
-#ifndef RUN_PARALLEL_H
-#define RUN_PARALLEL_H
+#ifndef MACHINE_PARALLEL_H
+#define MACHINE_PARALLEL_H
 
 #include "motus.h"
 

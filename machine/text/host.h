@@ -1,4 +1,4 @@
-/* What a compiled model is given by the library; run/compiled.c fills it, and the workspace's `user` leads to it.
+/* What a compiled model is given by the library; machine/compiled.c fills it, and the workspace's `user` leads to it.
  *
  * pool, q, u: parameters; sizes, strides and bounds; numbers that depend on parameters alone.
  */

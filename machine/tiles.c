@@ -1,5 +1,5 @@
 /* See tiles.h. */
-#include "run/tiles.h"
+#include "machine/tiles.h"
 
 enum { LINE = 8 };                   /* numbers in a cache line: where windows of a chain begin and end */
 

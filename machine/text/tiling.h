@@ -1,4 +1,4 @@
-/* How the state of a model of neighbours lies in memory, by outer index; run/tiles.c fills it, window.h and tiled.h read it.
+/* How the state of a model of neighbours lies in memory, by outer index; machine/tiles.c fills it, window.h and tiled.h read it.
  *
  * A part is one component of one family: the numbers of outer index i are base + (i - first) stride … + stride - 1, for `cells` indices.
  * Parts follow one another in memory and cover the state; those with positions come first. `still` lists, in order, the stretches of numbers

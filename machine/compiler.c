@@ -3,7 +3,7 @@
  * Invariant: no shell sees any of it; the child has limits of time and memory, and is killed with us (Linux) or by the terminal's signal,
  * since it stays in our process group.
  */
-#include "run/compiler.h"
+#include "machine/compiler.h"
 
 #include <errno.h>
 #include <fcntl.h>

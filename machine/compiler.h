@@ -1,6 +1,6 @@
 /* The system's C compiler as a tool: found, described and run without a shell. */
-#ifndef RUN_COMPILER_H
-#define RUN_COMPILER_H
+#ifndef MACHINE_COMPILER_H
+#define MACHINE_COMPILER_H
 
 #include "core/system.h"
 

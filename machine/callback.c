@@ -1,7 +1,7 @@
 /* The callback machine: the acceleration is the user's C function. */
-#include "run/run.h"
+#include "machine/machine.h"
 
-#include "run/stepping.h"
+#include "machine/stepping.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for lanes, are made here. */
-#ifndef RUN_COMPOSE_H
-#define RUN_COMPOSE_H
+#ifndef MACHINE_COMPOSE_H
+#define MACHINE_COMPOSE_H
 
 #include "lang/emit.h"
 #include "lang/emit_local.h"

@@ -2,9 +2,9 @@
  *
  * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and of threads are not in it.
  */
-#include "run/lanes_parts.h"
+#include "machine/lanes_parts.h"
 
-#include "run/cache.h"
+#include "machine/cache.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -158,7 +158,7 @@ static bool write_text(lanes *l)
         programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count), names + n * PROGRAM_NAME, false};
         n++;
     }
-    static const char *const last[] = {"step/lanes_ways.h", "step/look.h", "step/reduce.h", "step/lanes.h", NULL};
+    static const char *const last[] = {"machine/text/lanes_ways.h", "step/look.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
                            .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};

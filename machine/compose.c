@@ -3,11 +3,11 @@
  * Invariant: only what the model, the row and the problem's traits use is in the text, since a compiler's time is what a first run waits for; no
  * system header is read, and what is known when the text is written stands there as a constant, so that nothing else is translated.
  */
-#include "run/compose.h"
+#include "machine/compose.h"
 
 #include "core/stepper_body.h"
 #include "lang/operation.h"
-#include "run/texts.h"
+#include "machine/texts.h"
 
 #include <string.h>
 
@@ -135,10 +135,10 @@ static void add_functions(emit_text *t, uint64_t used)
                           exponential = OPERATION_BIT(EXP) | power | hyperbolic | error,
                           plain = ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN);
     const struct { uint64_t needed_by; const char *text; } texts[] = {
-        {~(uint64_t)0, "step/functions_core.h"}, {plain, "step/functions_plain.h"}, {exponential, "step/functions_exponential.h"},
-        {logarithm, "step/functions_logarithm.h"}, {power, "step/functions_power.h"}, {hyperbolic, "step/functions_hyperbolic.h"},
-        {circular, "step/functions_circular.h"}, {inverse, "step/functions_inverse.h"}, {root, "step/functions_root.h"},
-        {error, "step/functions_error.h"}, {~(uint64_t)0, "step/functions_end.h"}};
+        {~(uint64_t)0, "step/functions/core.h"}, {plain, "step/functions/plain.h"}, {exponential, "step/functions/exponential.h"},
+        {logarithm, "step/functions/logarithm.h"}, {power, "step/functions/power.h"}, {hyperbolic, "step/functions/hyperbolic.h"},
+        {circular, "step/functions/circular.h"}, {inverse, "step/functions/inverse.h"}, {root, "step/functions/root.h"},
+        {error, "step/functions/error.h"}, {~(uint64_t)0, "step/functions/end.h"}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (used & texts[i].needed_by)
             add_text(t, texts[i].text);
@@ -158,7 +158,7 @@ static void add_operations(emit *e, int width)
                     "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
     if (width > 1) {
         emit_add(t, "#define LANES %d\n", width);
-        add_text(t, "step/functions_lanes.h");
+        add_text(t, "step/functions/lanes.h");
         add_functions(t, e->used_lanes);
         emit_add(t, "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
                     "#define OF_LANES(f) motus_##f##_x%d\n#define CHOOSE(m, a, b) motus_select_x%d(m, MANY(a), MANY(b))\n"
@@ -182,15 +182,15 @@ static bool by_number(const row *r, const traits *t)
 static void add_windows(emit *e)
 {
     emit_text *t = &e->text;
-    add_text(t, "step/tiling.h");
-    add_text(t, "step/window.h");
+    add_text(t, "machine/text/tiling.h");
+    add_text(t, "machine/text/window.h");
     emit_add(t, "#define NUMBER double\n#define NUMBER_OF(x) (x)\n#define NUMBER_AT(array, k) (array)[k]\n#define window_number window_keep\n");
-    add_text(t, "step/window_put.h");
+    add_text(t, "machine/text/window_put.h");
     if (!e->uses_vectors)
         return;
     emit_add(t, "#define NUMBER reals\n#define NUMBER_OF(x) MANY(x)\n#define NUMBER_AT(array, k) (*(reals_anywhere *)&(array)[k])\n"
                 "#define window_number window_keep_many\n#undef FMA\n#define FMA(a, b, c) MANY_FUSED(a, b, c)\n");
-    add_text(t, "step/window_put.h");
+    add_text(t, "machine/text/window_put.h");
     emit_add(t, "#undef FMA\n#define FMA(a, b, c) fma(a, b, c)\n");
 }
 
@@ -216,7 +216,7 @@ bool compose(emit *e, const composition *c)
     *t = (emit_text){.arena = bodies.arena};
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
                 "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
-    add_text(t, "step/freestanding.h");
+    add_text(t, "machine/text/freestanding.h");
     add_text(t, "step/row.h");
     add_facts(t, c, structure);
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
@@ -232,35 +232,35 @@ bool compose(emit *e, const composition *c)
     if (e->terms)
         emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
     if (!lanes)
-        add_text(t, "step/scalar.h");
+        add_text(t, "core/scalar.h");
     add_operations(e, width);
     if (lanes)
-        add_text(t, "step/lanes_scalar.h");
+        add_text(t, "machine/text/lanes_scalar.h");
     add_text(t, "step/work.h");
-    add_text(t, "step/host.h");
+    add_text(t, "machine/text/host.h");
     if (e->wraps)
         emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"
                     "static inline int64_t wrapped(int64_t k, int64_t n) { return (uint64_t)k < (uint64_t)n ? k : (k %% n + n) %% n; }\n");
     if (e->uses_vectors) {
         emit_add(t, "#define WIDTH %d\n", width);
-        add_text(t, "step/index_lanes.h");
+        add_text(t, "machine/text/index_lanes.h");
     }
     if (windowed)
         add_windows(e);
     emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
-    add_text(t, "step/compiled.h");
+    add_text(t, "machine/text/compiled.h");
     if (lanes) {
-        add_text(t, "step/lanes_job.h");
+        add_text(t, "machine/text/lanes_job.h");
         emit_add(t, "%s", c->glue);
     }
     if (windowed)
-        add_text(t, "step/pass.h");
+        add_text(t, "machine/text/pass.h");
     add_family(t, c);
     add_text(t, "step/advance.h");
     if (!lanes)
         add_text(t, "step/loop.h");
     if (local)
-        add_text(t, "step/tiled.h");
+        add_text(t, "machine/text/tiled.h");
     for (const char *const *last = c->last; *last; last++)
         add_text(t, *last);
     return !t->arena->failed;

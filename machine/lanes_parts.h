@@ -1,13 +1,13 @@
 /* What lanes.c (text and object) and lanes_blocks.c (blocks of trajectories) share. */
-#ifndef RUN_LANES_PARTS_H
-#define RUN_LANES_PARTS_H
+#ifndef MACHINE_LANES_PARTS_H
+#define MACHINE_LANES_PARTS_H
 
-#include "run/compose.h"
-#include "run/lanes.h"
-#include "run/reduction.h"
+#include "machine/compose.h"
+#include "machine/lanes.h"
+#include "machine/reduction.h"
 
-#include "step/host.h"
-#include "step/lanes_job.h"
+#include "machine/text/host.h"
+#include "machine/text/lanes_job.h"
 
 struct lanes {
     lanes_def def;

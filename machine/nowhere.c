@@ -1,7 +1,7 @@
-/* The compiled machine where there is no compiler: in a browser. It stands in for run/compiled.c (and all that it needs) in the page's module;
+/* The compiled machine where there is no compiler: in a browser. It stands in for machine/compiled.c (and all that it needs) in the page's module;
  * whoever asks for machine code is told, and the interpreter serves.
  */
-#include "run/compiled.h"
+#include "machine/compiled.h"
 
 const machine machine_compiled = {.name = "compiled"};
 

@@ -7,7 +7,7 @@
  * Invariant: nothing is loaded that has not been opened without following links, found to be a regular file that is ours and that nobody
  * else may write, in a directory that is ours and that nobody else may write, and whose seal holds.
  */
-#include "run/cache.h"
+#include "machine/cache.h"
 
 #include <dirent.h>
 #include <dlfcn.h>
