@@ -42,6 +42,7 @@ typedef struct emit {
     bool separate;                   /* the next program is compiled once, and called */
     bool windowed;                   /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     uint32_t terms;                  /* values of time alone: T[0 … terms) */
+    int moments;                     /* at how many different times a step evaluates them */
 } emit;
 
 /* Appends

@@ -1,8 +1,6 @@
 /* The callback machine: the acceleration is the user's C function. */
 #include "machine/machine.h"
 
-#include "machine/stepping.h"
-
 #include <stdio.h>
 #include <string.h>
 
@@ -65,5 +63,3 @@ problem callback_block(const calling *c, const problem *one)
     p.jvp = NULL;                    /* a derivative that the user wrote knows of one trajectory only */
     return p;
 }
-
-const machine machine_callback = {.name = "callback", STEPPING};

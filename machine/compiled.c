@@ -9,7 +9,6 @@
 #include "machine/cache.h"
 #include "machine/compose.h"
 #include "machine/parallel.h"
-#include "machine/stepping.h"
 #include "machine/tiles.h"
 
 #include <dlfcn.h>
@@ -20,12 +19,13 @@ enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 
 #include "machine/text/host.h"
 
-typedef struct object { const row *row; void *handle; stepper_body body; } object;
+typedef struct object { const row *row; double argument[2]; void *handle; stepper_body body; } object;
 
 struct compiled {
-    compiled_host host;              /* first: the object finds it through problem.ctx */
+    compiled_host host;              /* what the objects read */
     model *model;
-    problem interpreted;
+    const problem *interpreted;      /* the interpreter's */
+    problem problem;                 /* and the one that the objects serve */
     object objects[OBJECTS_MAX];
     int count;
     program *force, *boundary;
@@ -40,7 +40,7 @@ struct compiled {
 
 /* ---- the problem, for everything that is not a step ---- */
 
-static const problem *of(void *ctx) { return &((compiled *)ctx)->interpreted; }
+static const problem *of(void *ctx) { return ((compiled *)ctx)->interpreted; }
 
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
@@ -60,17 +60,17 @@ static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refres
 static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size) { of(ctx)->name(of(ctx)->ctx, in_v, k, out, size); }
 
-motus_status compiled_create(model *m, const problem *interpreted, compiled **out, problem *p, motus_error *err)
+motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
     compiled *c = arena_grow(m->arena, NULL, 0, sizeof *c);
     if (!c)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(c, 0, sizeof *c);
     c->model = m;
-    c->interpreted = *interpreted;
-    *p = (problem){.ctx = c, .nx = m->nx, .nv = m->nv, .traits = interpreted->traits, .accel = accel, .jvp = interpreted->jvp ? jvp : NULL,
-                   .prepare = interpreted->prepare ? prepare : NULL, .pattern = interpreted->pattern ? pattern : NULL,
-                   .refresh = interpreted->refresh ? refresh : NULL, .exact = interpreted->exact ? exact : NULL, .name = name};
+    c->interpreted = interpreted;
+    c->problem = (problem){.ctx = c, .nx = m->nx, .nv = m->nv, .accel = accel, .jvp = interpreted->jvp ? jvp : NULL,
+                           .prepare = interpreted->prepare ? prepare : NULL, .pattern = interpreted->pattern ? pattern : NULL,
+                           .refresh = interpreted->refresh ? refresh : NULL, .exact = interpreted->exact ? exact : NULL, .name = name};
     *out = c;
     return MOTUS_OK;
 }
@@ -106,7 +106,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
         return false;
     const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
-    return compose(e, &(composition){.model = m, .problem = &c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
+    return compose(e, &(composition){.model = m, .problem = c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
                                      .locality = &c->locality, .last = last});
 }
 
@@ -119,7 +119,7 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
     return e.text.bytes;
 }
 
-/* ---- engines ---- */
+/* ---- objects ---- */
 
 /* The numbers that the text reads: bounds, strides, and what depends on parameters alone. The same for every row. */
 static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
@@ -140,7 +140,7 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
 static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
     for (int i = 0; i < c->count; i++)
-        if (c->objects[i].row == chosen->row)
+        if (c->objects[i].row == chosen->row && !memcmp(c->objects[i].argument, chosen->argument, sizeof chosen->argument))
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
@@ -159,7 +159,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
         return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row, .handle = handle, .body = *stepper_best_body()};
+    *o = (object){.row = chosen->row, .argument = {chosen->argument[0], chosen->argument[1]}, .handle = handle, .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();
     o->body.name = "compiled";
     /* POSIX promises that a function's address survives the way through void *. */
@@ -189,22 +189,16 @@ void compiled_rebind(compiled *c)
 
 const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept) { return body_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note; }
 
-static motus_status open_engine(const problem *p, const chosen *chosen, double t0, double h, const double *x, const double *v, const motus_allocator *a,
-                                engine **out, motus_error *err)
+motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, motus_error *err)
 {
-    const stepper_body *body = body_of(p->ctx, chosen, 0);
+    const stepper_body *body = body_of(c, chosen, 0);
     if (!body)
-        return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", ((compiled *)p->ctx)->note);
-    motus_status status = stepping_open(p, chosen, t0, h, x, v, a, out, err);
-    if (status != MOTUS_OK)
-        return status;
-    stepper_use_body((stepper *)*out, body);
+        return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
     /* One crew for all runs of the model, large enough for any: more threads than processors bring nothing. */
-    compiled *c = p->ctx;
     const int processors = parallel_processors();
     if (chosen->threads > 1 && c->tiling && !c->host.crew)
         c->host.crew = parallel_hire(chosen->threads > processors ? chosen->threads : processors, &c->model->arena->allocator);
+    c->problem.traits = c->interpreted->traits;
+    *out = (machine){.name = "compiled", .problem = &c->problem, .body = body, .host = &c->host};
     return MOTUS_OK;
 }
-
-const machine machine_compiled = {.name = "compiled", STEPPING_BUT_OPEN, .open = open_engine};

@@ -20,8 +20,11 @@ enum {
 static void add_text(emit_text *t, const char *which)
 {
     for (const embedded_text *e = texts_table; e->name; e++)
-        if (!strcmp(e->name, which))
+        if (!strcmp(e->name, which)) {
             emit_add(t, "%s\n", e->text);
+            return;
+        }
+    emit_add(t, "#error \"%s is not among the embedded texts\"\n", which);
 }
 
 /* Scalar models have as many numbers in every run; families do not. */
@@ -41,70 +44,118 @@ static void add_numbers(emit_text *t, const char *name, const double *numbers, i
     emit_add(t, "static const double %s[] = {", name);
     for (int i = 0; i < count; i++)
         emit_add(t, "%s%s", i ? ", " : "", emit_number(numbers[i], number));
-    emit_add(t, "};\n");
+    emit_add(t, count ? "};\n" : "0};\n");
 }
 
-/* The constants that ROW and FACT lead to: the same that work_plan finds. */
-static void add_facts(emit_text *t, const composition *c, bool structure)
+/* The times at which a step evaluates the force, each once: at[m] in steps; stage i is at moment[i], which may be `count`: the first moment of the
+ * next step, which is the end of this one. Tables of what depends on time alone have a place for each. */
+typedef struct moments { int count, *moment; double *at; } moments;
+
+/* False: no memory. */
+static bool find_moments(const work *w, arena *a, moments *m)
 {
-    static const char *const families[] = {[SPLITTING] = "SPLITTING", [RUNGE_KUTTA] = "RUNGE_KUTTA", [TWO_STEP] = "TWO_STEP", [IMPLICIT] = "IMPLICIT",
-                                           [EXACT] = "EXACT"};
-    static const char *const recurrences[] = {[VERLET] = "VERLET", [VERLET_LITERAL] = "VERLET_LITERAL", [BEEMAN] = "BEEMAN"};
+    const size_t room = (size_t)w->stages + 1;
+    *m = (moments){0, arena_grow(a, NULL, 0, room * sizeof *m->moment), arena_grow(a, NULL, 0, room * sizeof *m->at)};
+    if (!m->moment || !m->at)
+        return false;
+    memset(m->moment, 0, room * sizeof *m->moment);
+    const int stages = w->stages - w->fsal;
+    for (int start = 1; start >= 0; start--)               /* the start of the step first, where the force is evaluated there */
+        for (int i = 0; i < stages; i++) {
+            if ((w->c[i] == 0) != start || (w->row->family == SPLITTING && w->unit[i] == 0))
+                continue;
+            int k = 0;
+            while (k < m->count && m->at[k] != w->c[i])
+                k++;
+            if (w->c[i] == 1 && m->count && m->at[0] == 0)
+                k = -1;
+            m->moment[i] = k;
+            if (k == m->count)
+                m->at[m->count++] = w->c[i];
+        }
+    for (int i = 0; i < stages; i++)
+        if (m->moment[i] < 0)
+            m->moment[i] = m->count;
+    return true;
+}
+
+/* The functions of families.def that a compiled model calls. */
+static void add_family_names(emit_text *t, const char *name)
+{
+    static const char *const functions[] = {"place", "step", "accept", "observe", "sync", "carry"};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        emit_add(t, "#define family_%s %s_%s\n", functions[i], name, functions[i]);
+}
+
+static const char *const family_names[] = {
+#define NAME_OF(NAME, name, shared) [NAME] = #name,
+    FAMILIES(NAME_OF)
+};
+
+/* The constants that ROW and FACT lead to: the same that the plan finds. */
+static bool add_facts(emit *e, const composition *c, bool structure)
+{
+    emit_text *t = &e->text;
     const row *r = c->chosen->row;
-    const work w = stepper_plan(c->problem, c->chosen, 0, 1);
-    const int stages = w.stages ? w.stages : 1;
-    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_family %s\n#define ROW_two_step %s\n#define ROW_compensated %d\n#define ROW_gyroscopic %d\n"
-                "#define ROW_newmark %d\n",
-             families[r->family], recurrences[r->two_step], r->compensated, r->gyroscopic, r->newmark);
+    work w = stepper_plan(c->problem, c->chosen, NULL);
+    coef *memory = arena_grow(t->arena, NULL, 0, (work_plan_size(&w) + 1) * sizeof *memory);
+    if (!memory)
+        return false;
+    w = stepper_plan(c->problem, c->chosen, memory);
+    moments m;
+    if (!find_moments(&w, t->arena, &m))
+        return false;
+    const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
+    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n", r->compensated, r->adaptive);
     emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define FACT_constant %d\n", w.velocity, w.linear, w.constant);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
-    emit_add(t, "#define FACT_stages %d\n#define FACT_known %d\n#define FACT_merged %d\n#define FACT_kicks 0x%xu\n#define FACT_drifts 0x%xu\n"
-                "#define FACT_weights 0x%xu\n", stages, w.known, w.merged, w.kicks, w.drifts, w.weights);
-    emit_add(t, "#define FACT_terms fact_terms\n#define FACT_moment fact_moment\n#define FACT_c fact_c\n#define FACT_at fact_at\n");
-    emit_add(t, "static const unsigned fact_terms[] = {0x%xu, 0x%xu, 0x%xu, 0x%xu};\n", w.terms[0], w.terms[1], w.terms[2], w.terms[3]);
-    emit_add(t, "static const int fact_moment[] = {%d", w.moment[0]);
+    emit_add(t, "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
+                "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define DRIFTS_FIRST %d\n",
+             w.carried, stages, w.known, w.fsal, w.waits, w.solves, w.solves_x, w.direct, w.order, r->family == SPLITTING && w.unit[0] == 0);
+    emit_add(t, "#define FACT_unit fact_unit\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d", m.moment[0]);
     for (int i = 1; i < stages; i++)
-        emit_add(t, ", %d", w.moment[i]);
+        emit_add(t, ", %d", m.moment[i]);
     emit_add(t, "};\n");
-    add_numbers(t, "fact_c", w.c, stages);
-    add_numbers(t, "fact_at", w.at, w.moments ? w.moments : 1);
-    double *list[CARRY_MAX];
-    emit_add(t, "#define CARRIED %d\n", work_carry(&w, list));
-    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", w.moments,
+    add_numbers(t, "fact_unit", w.unit, constants);
+    add_numbers(t, "fact_c", w.c, w.stages);
+    add_numbers(t, "fact_at", m.at, m.count);
+    e->moments = m.count;
+    emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants ? constants : 1);
+    emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
              stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX),
              structure ? w.nv : 0);
     if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
+    add_family_names(t, family_names[r->family]);
+    return true;
 }
 
 /* ---- the family ---- */
 
-/* The family's text, and for the others what lets the loop's text compile without them. */
+/* The row's family, the text that it shares with others, and Newton's method where an equation is solved. */
 static void add_family(emit_text *t, const composition *c)
 {
-    static const struct { family family; const char *text, *without; } families[] = {
-        {SPLITTING, "step/splitting.h", "#define splitting_step(w) STEP_OK\n#define splitting_sync(w, v) ((void)0)\n#define splitting_look(w) STEP_OK\n"},
-        {RUNGE_KUTTA, "step/runge_kutta.h", "#define runge_kutta_step(w) STEP_OK\n"},
-        {TWO_STEP, "step/two_step.h", "#define verlet_step(w) STEP_OK\n#define beeman_step(w) STEP_OK\n#define literal_step(w) STEP_OK\n"
-                                      "#define verlet_look(w) STEP_OK\n#define beeman_look(w) STEP_OK\n#define literal_look(w) STEP_OK\n"
-                                      "#define verlet_sync(w, v) ((void)0)\n#define beeman_sync(w, v) ((void)0)\n#define literal_sync(w, v) ((void)0)\n"},
-        {IMPLICIT, "step/implicit.h", "#define implicit_step(w) STEP_OK\n"}};
+    static const struct { const char *text, *shared; } families[] = {
+#define TEXT_OF(NAME, name, shared) [NAME] = {"step/" #name ".h", shared},
+        FAMILIES(TEXT_OF)
+    };
     const row *r = c->chosen->row;
-    if (r->family == IMPLICIT || r->gyroscopic || (r->family == TWO_STEP && r->two_step != BEEMAN && c->problem->traits.velocity))
+    if (stepper_plan(c->problem, c->chosen, NULL).solves)
         add_text(t, "step/newton.h");
     else
-        emit_add(t, "#define increment(w, g, s, u, t) STEP_OK\n#define solve_factor(w, s, ax, av, t, x, v) STEP_OK\n#define solve_back(w, r) ((void)0)\n"
-                    "#define solve_apply(w, c, y, out) ((void)0)\n");
-    if (r->family == IMPLICIT)
-        add_text(t, "step/runge_kutta.h");             /* its stages are summed the same way */
-    for (size_t i = 0; i < sizeof families / sizeof *families; i++)
-        if (families[i].family == r->family)
-            add_text(t, families[i].text);
-        else if (!(r->family == IMPLICIT && families[i].family == RUNGE_KUTTA))
-            emit_add(t, "%s", families[i].without);
+        emit_add(t, "#define newton_increment(w, g, s, u, t) STEP_OK\n#define solve_factor(w, s, ax, av, t, x, v) STEP_OK\n"
+                    "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
+    if (*families[r->family].shared)
+        add_text(t, families[r->family].shared);
+    add_text(t, families[r->family].text);
+    add_text(t, "step/plan.h");
+    if (r->adaptive)
+        add_text(t, "step/control.h");
+    else
+        emit_add(t, "#define control_size(w) (w)->h\n#define control_judge(w) EVERY\n");
 }
 
 /* ---- functions and operations ---- */
@@ -173,10 +224,10 @@ static void add_operations(emit *e, int width)
 
 /* ---- windows ---- */
 
-/* Whether every text of the row moves numbers one by one, so that a window of them can go ahead of the others. */
-static bool by_number(const row *r, const traits *t)
+/* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved, and steps have one size. */
+static bool by_number(const composition *c)
 {
-    return (r->family == SPLITTING && !r->gyroscopic) || r->family == RUNGE_KUTTA || (r->family == TWO_STEP && !t->velocity);
+    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !stepper_plan(c->problem, c->chosen, NULL).solves;
 }
 
 static void add_windows(emit *e)
@@ -200,7 +251,7 @@ bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
     const bool structure = sizes_are_structure(c->model), lanes = c->width > 0, windowed = c->locality && c->locality->divisible;
-    const bool local = windowed && c->locality->local && !c->model->driven && by_number(c->chosen->row, &c->problem->traits);
+    const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
     e->literal = structure;
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
@@ -215,10 +266,10 @@ bool compose(emit *e, const composition *c)
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};
     emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "typedef double coef;\ntypedef struct row row;\n#define ROW_CARD\n");
+                "typedef double coef;\ntypedef struct row row;\n");
     add_text(t, "machine/text/freestanding.h");
-    add_text(t, "step/row.h");
-    add_facts(t, c, structure);
+    if (!add_facts(e, c, structure))
+        return false;
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {

@@ -25,7 +25,7 @@ typedef struct composition {
 
 /* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
 int compose_width(void);
-/* Writes into e->text; e->lanes and e->varied must be set. False: the arena failed. */
+/* Writes into e->text, and e->moments; e->lanes and e->varied must be set. False: the arena failed. */
 bool compose(emit *e, const composition *);
 
 #endif

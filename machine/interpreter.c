@@ -2,7 +2,6 @@
 #include "machine/machine.h"
 
 #include "lang/tape.h"
-#include "machine/stepping.h"
 
 #include <string.h>
 
@@ -220,5 +219,3 @@ bool interpreter_rebind(interpreter *in)
         tape_run(in->boundary, m->start, base);
     return true;
 }
-
-const machine machine_interpreter = {.name = "interpreter", STEPPING};

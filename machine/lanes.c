@@ -18,7 +18,7 @@ enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one is company enough for
  * itself, and a compiler has enough to do. */
-static int best_groups(const lanes_def *d)
+static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
     size_t operations = 4 * d->model->nv;
@@ -26,17 +26,14 @@ static int best_groups(const lanes_def *d)
         operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
     for (size_t k = 0; k < d->source_count; k++)
         operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
-    const work plan = stepper_plan(d->problem, d->chosen, 0, 1);
-    const size_t step = (size_t)(d->chosen->row->family == TWO_STEP ? 1 : plan.merged ? plan.stages - 1 : plan.stages) * operations;
+    const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
 
 const char *lanes_refuse(const lanes_def *d)
 {
-    const row *r = d->chosen->row;
-    const traits *t = &d->problem->traits;
-    if (r->family == IMPLICIT || r->family == EXACT || r->gyroscopic || (r->family == TWO_STEP && t->velocity))
+    if (d->chosen->row->family == EXACT || stepper_plan(d->problem, d->chosen, NULL).solves)
         return "this method solves an equation at every step, one trajectory at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
@@ -158,7 +155,7 @@ static bool write_text(lanes *l)
         programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count), names + n * PROGRAM_NAME, false};
         n++;
     }
-    static const char *const last[] = {"machine/text/lanes_ways.h", "step/look.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
+    static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
                            .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
@@ -199,16 +196,12 @@ static bool prepare(lanes *l)
             l->from_v[s->base + k] = affected[second] ? (int64_t)second : -1;
         }
     }
-    const work plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
-    l->moments = (size_t)plan.moments;
-    work probe = plan;
-    double *list[CARRY_MAX];
-    l->carried = (size_t)work_carry(&probe, list) * m->nv;
+    l->carried = stepper_carried(l->plan) * m->nv;
     l->own_size = lines(l, d->place_count ? m->pool_count : 0);
     l->bound_size = lines(l, l->e.fixed_lanes);
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
-    l->work_size = lines(l, stepper_arrays(plan) * m->nv);
+    l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
     l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
     return true;
 }
@@ -226,9 +219,14 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
         snprintf(note, size, "more than %d quantities are recorded", LOOKS_MAX);
         return MOTUS_TOOL;
     }
+    l->plan = stepper_plan(d->problem, d->chosen, NULL);
+    coef *constants = arena_grow(m->arena, NULL, 0, (work_plan_size(&l->plan) + 1) * sizeof *constants);
+    if (!constants)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    l->plan = stepper_plan(d->problem, d->chosen, constants);
     if (d->lanes && d->lanes < l->width)
         l->width = d->lanes;
-    l->groups = d->lanes ? d->lanes / l->width : best_groups(d);
+    l->groups = d->lanes ? d->lanes / l->width : best_groups(d, &l->plan);
     l->block = l->width * l->groups;
     if (!write_text(l))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");

@@ -6,6 +6,7 @@
  */
 #include "machine/lanes_parts.h"
 
+#include "core/course.h"
 #include "machine/parallel.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ typedef struct crowd {               /* all trajectories of a call */
     const double *const *values;
     double *const *results, *stopped;
     double *memory;                  /* of every thread: blocks, scratch, table */
-    size_t block_size, scratch_size, thread_size;
+    size_t block_size, scratch_size, scaled_size, thread_size;
     atomic_size_t done;              /* items */
     atomic_bool cancelled;
 } crowd;
@@ -35,7 +36,7 @@ typedef struct batch {               /* blocks that go through time together, in
     size_t first, count, blocks;     /* trajectories; lanes too many in the last block repeat the last one */
     const double *const *values;
     double *const *results, *stopped;
-    double *memory, *scratch, *table;        /* of blocks; of whichever block is at work; of time */
+    double *memory, *scratch, *table, *scaled;       /* of blocks; of whichever block is at work; of time; of the step */
     size_t block_size;
     work plan;                       /* of the present leg; n: steps taken */
     int64_t first_row, steps, every; /* the present chunk */
@@ -135,8 +136,8 @@ static void stop_lanes(const lanes *l, const double *numbers, size_t elements, d
 /* The state as one sees it may be infinite a step before the main line is. */
 static void stop_looked(const lanes *l, const lanes_job *j, double *stopped)
 {
-    stop_lanes(l, j->x, l->def.model->nx, time_of(j->plan, j->plan->n), stopped);
-    stop_lanes(l, j->v, l->def.model->nv, time_of(j->plan, j->plan->n), stopped);
+    stop_lanes(l, j->x, l->def.model->nx, time_now(j->plan), stopped);
+    stop_lanes(l, j->v, l->def.model->nv, time_now(j->plan), stopped);
 }
 
 /* The chunk once more, step by step: when did which lane stop being finite? */
@@ -147,7 +148,7 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
     j.plan = &plan;
     j.carry = before;
     j.record_count = 0;
-    stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
+    stop_lanes(l, before, l->carried, time_now(&plan), stopped);
     for (int64_t n = 0; n < b->steps; n++) {
         if (b->looking && plan.n % l->def.every == 0) {
             l->look(&j);
@@ -158,7 +159,7 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
         else
             l->run(&j, 1, 0);
         plan.n++;
-        stop_lanes(l, before, l->carried, time_of(&plan, plan.n), stopped);
+        stop_lanes(l, before, l->carried, time_now(&plan), stopped);
     }
 }
 
@@ -267,52 +268,83 @@ static void next_chunk(batch *b)
     b->every = every;
 }
 
-static void through_time(batch *b)
+/* The present leg begins at t0, with steps of h. */
+static void new_leg(batch *b, double t0, double h)
 {
-    lanes *l = b->l;
-    const lanes_def *d = &l->def;
-    b->looking = false;
-    for (size_t r = 0; r < d->source_count; r++)
-        b->looking |= d->sources[r].how != REDUCE_FINAL;
-    b->plan = stepper_plan(d->problem, d->chosen, d->t0, d->h);
+    b->plan = b->l->plan;
     b->plan.stride = b->plan.nv;
-    b->looks = 0;
-    b->ends = false;
-    each_block(b, begin_block);
-    if (b->looking && (d->whole > 0 || d->last != 0)) {
-        fill_table(b, 0);
-        each_block(b, look_at_block);
-        b->looks++;
-    }
+    b->plan.scaled = b->scaled;
+    b->plan.t0 = t0;
+    work_scale(&b->plan, h);
+}
+
+static motus_status observe(void *ctx, motus_error *err)
+{
+    batch *b = ctx;
+    (void)err;
+    fill_table(b, 0);
+    each_block(b, look_at_block);
+    b->looks++;
+    return MOTUS_OK;
+}
+
+/* The first step is a chunk of its own; an observation that falls between two chunks is made here, one within them by the object. */
+static motus_status whole_steps(batch *b)
+{
+    const lanes_def *d = &b->l->def;
     while (b->plan.n < d->whole) {
         next_chunk(b);
         fill_table(b, b->steps);
         each_block(b, run_block);
         b->plan.n += b->steps;
         b->looks += b->every ? b->steps / b->every : 0;
-        if (b->plan.n == 1 && b->looking && d->every == 1 && (d->whole > 1 || d->last != 0)) {
-            fill_table(b, 0);
-            each_block(b, look_at_block);
-            b->looks++;
-        }
+        if (b->plan.n == 1 && b->looking && d->every == 1 && (d->whole > 1 || d->last != 0))
+            observe(b, NULL);
         if (b->told && tell(b, (double)b->plan.n / (double)(d->whole + 1)))
-            return;
+            return MOTUS_CANCELLED;
     }
-    if (d->last != 0) {
-        fill_table(b, 0);
-        each_block(b, turn_block);
-        b->plan = stepper_plan(d->problem, d->chosen, time_of(&b->plan, b->plan.n), d->last);
-        b->plan.stride = b->plan.nv;
-        b->steps = 1;
-        b->every = 0;
-        fill_table(b, 1);
-        each_block(b, run_block);
-        b->plan.n = 1;
-    }
-    b->ends = true;
+    return MOTUS_OK;
+}
+
+/* The shorter last step, a leg of its own. */
+static void short_step(batch *b)
+{
     fill_table(b, 0);
-    each_block(b, look_at_block);
-    b->looks++;
+    each_block(b, turn_block);
+    new_leg(b, time_now(&b->plan), b->l->def.last);
+    b->steps = 1;
+    b->every = 0;
+    fill_table(b, 1);
+    each_block(b, run_block);
+    b->plan.n = 1;
+}
+
+/* All the way, or nothing: the object observes on its way. */
+static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    batch *b = ctx;
+    const lanes_def *d = &b->l->def;
+    (void)err;
+    const motus_status status = limit.steps > 0 ? whole_steps(b) : MOTUS_OK;
+    if (limit.steps > 0 && status == MOTUS_OK && d->last != 0)
+        short_step(b);
+    b->ends = limit.steps > 0 || (d->whole == 0 && d->last == 0);
+    *why = b->ends ? STOP_UNTIL : STOP_STEPS;
+    return status;
+}
+
+static void through_time(batch *b)
+{
+    const lanes_def *d = &b->l->def;
+    b->looking = false;
+    for (size_t r = 0; r < d->source_count; r++)
+        b->looking |= d->sources[r].how != REDUCE_FINAL;
+    new_leg(b, d->t0, d->h);
+    b->looks = 0;
+    each_block(b, begin_block);
+    const course course = {.ctx = b, .until = d->until, .every = b->looking ? d->every : 0, .observes = true, .advance = advance, .observe = observe};
+    if (course_run(&course, NULL) != MOTUS_OK)
+        return;
     for (size_t k = 0; k < b->blocks; k++)
         end_block(b, k);
 }
@@ -332,7 +364,8 @@ static void run_item(void *ctx, size_t item, int thread)
     b.count = c->count - b.first < b.blocks * block ? c->count - b.first : b.blocks * block;
     b.memory = c->memory + (size_t)thread * c->thread_size;
     b.scratch = b.memory + c->most * c->block_size;
-    b.table = b.scratch + c->scratch_size;
+    b.scaled = b.scratch + c->scratch_size;
+    b.table = b.scaled + c->scaled_size;
     b.told = thread == 0 && l->def.progress;         /* the caller's hook is called by the caller's thread */
     through_time(&b);
     atomic_fetch_add(&c->done, 1);
@@ -355,7 +388,8 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
         c.most = (c.blocks + 4 * threads - 1) / (4 * threads);
     if (c.most == 0)
         c.most = 1;
-    c.thread_size = c.most * c.block_size + c.scratch_size + (l->moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c.scaled_size = (work_constants(&l->plan) + 7) / 8 * 8;
+    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
     c.items = (c.blocks + c.most - 1) / c.most;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)

@@ -11,6 +11,7 @@
 
 struct lanes {
     lanes_def def;
+    work plan;                       /* of the row, for no particular step */
     int width, groups, block;        /* block: trajectories in one */
     emit e;
     void *handle;
@@ -23,7 +24,7 @@ struct lanes {
     void (*run)(const lanes_job *, whole, whole);
     double *u;
     int64_t *q, *places, *from_x, *from_v;
-    size_t outs, moments;            /* numbers of the definitions that are looked at */
+    size_t outs;                     /* numbers of the definitions that are looked at */
     bool wants_a;
     size_t carried;                  /* elements of a group's carry */
     size_t own_size, bound_size, carry_size, kept_size, work_size, look_size;      /* of one block, in doubles, whole cache lines */

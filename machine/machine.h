@@ -1,32 +1,11 @@
-/* What a machine supplies, and what a run needs of it. A machine is one file; this header is the whole of what it must bring.
- *
- * Two things are asked of every machine: a `problem` it can evaluate (acceleration, directional derivative, exact motion), and an engine that
- * advances one trajectory of that problem by a row. The bits of both are fixed by the graph's normal form and the texts in step/.
+/* The machines: each supplies a problem that it can evaluate (acceleration, directional derivative, exact motion) and, if it has a faster one than the
+ * library, the loop that advances a trajectory: `machine` of core/stepper.h. A machine is one file.
  */
 #ifndef MACHINE_MACHINE_H
 #define MACHINE_MACHINE_H
 
 #include "core/stepper.h"
 #include "lang/model.h"
-
-typedef struct engine engine;
-
-typedef struct machine {
-    const char *name;
-    /* Contracts as in core/stepper.h. */
-    motus_status (*open)(const problem *, const chosen *, double t0, double h, const double *x, const double *v, const motus_allocator *,
-                         engine **, motus_error *);
-    void (*close)(engine *);
-    motus_status (*advance)(engine *, int64_t steps, motus_error *);
-    motus_status (*trace)(engine *, const tracer *, motus_error *);
-    motus_status (*sync)(engine *, double *x, double *v, double *a, motus_error *);
-    int64_t (*steps)(const engine *), (*evaluations)(const engine *), (*iterations)(const engine *);
-    size_t (*carry)(const engine *);
-    void (*save)(const engine *, double *carry);
-    motus_status (*load)(engine *, int64_t step, int64_t evaluations, int64_t iterations, const double *carry, motus_error *);
-} machine;
-
-extern const machine machine_interpreter, machine_callback;
 
 /* The interpreter's problem for a model; everything lies in the model's arena. */
 typedef struct interpreter interpreter;

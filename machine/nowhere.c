@@ -3,14 +3,17 @@
  */
 #include "machine/compiled.h"
 
-const machine machine_compiled = {.name = "compiled"};
-
-motus_status compiled_create(model *m, const problem *interpreted, compiled **out, problem *problem, motus_error *err)
+motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
-    (void)m, (void)err;
+    (void)m, (void)interpreted, (void)err;
     *out = NULL;
-    *problem = *interpreted;
     return MOTUS_OK;
+}
+
+motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, motus_error *err)
+{
+    (void)c, (void)chosen, (void)out;
+    return fail(err, MOTUS_TOOL, "there is no compiler here");
 }
 
 const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)

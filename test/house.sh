@@ -33,6 +33,8 @@ for folder in step core lang machine api study cli lab/core; do
                 [[ $target == */* || $target == motus.h ]] || target=$folder/$target
                 good=no
                 [[ $target == "$folder"/* && $folder != step ]] && good=yes
+                # The list of the families is the one text of step/ that reads others: the families.
+                [[ $file == step/families.def && $target == step/* ]] && good=yes
                 # motus.h is the vocabulary of the whole house but of step/, which knows nothing.
                 [[ $target == motus.h && $folder != step ]] && good=yes
                 for grant in ${grants[$folder]}; do

@@ -1,17 +1,11 @@
 /* The text of a compiled model that joins the generated acceleration to the texts of step/; compiled_run.h or lanes.h comes last.
  *
- * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), row.h, work.h, host.h with their
+ * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), work.h, host.h with their
  * vocabulary, the functions and operations that the model uses, `compiled_force`, and `compiled_boundary` where the boundary is driven.
  *
  * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in w->table. They are the
  * values that one evaluation would compute.
  */
-#ifdef GROUPS
-static inline const compiled_host *host_of(const work *w) { return w->user; }
-#else
-static inline const compiled_host *host_of(const work *w) { return **(const compiled_host *const *const *)w->user; }
-#endif
-
 #define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
 #if WINDOWED                         /* pass.h: of all outer indices, and of those that are the workspace's turn */
 static void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
@@ -20,7 +14,7 @@ static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *
 #define FORCE_OF(w, t, T, x, v, a) pass_force(w, t, T, x, v, a)
 #else
 #define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
-#define FORCE_OF(w, t, T, x, v, a) FORCE(host_of(w), t, T, x, v, a)
+#define FORCE_OF(w, t, T, x, v, a) FORCE(w->host, t, T, x, v, a)
 #endif
 
 /* The values of time alone, now; T is room for them. */
@@ -49,7 +43,7 @@ static inline int accel_with(work *w, clock t, const clock *T, real *x, real *v,
 {
     w->evaluations++;
 #if DRIVEN
-    BOUNDARY(host_of(w), t, x, v, a);
+    BOUNDARY(w->host, t, x, v, a);
 #endif
     FORCE_OF(w, t, T, x, v, a);
     return STEP_OK;
@@ -58,7 +52,7 @@ static inline int accel_with(work *w, clock t, const clock *T, real *x, real *v,
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
     clock T[TERMS + 1];
-    return accel_with(w, t, compiled_terms(host_of(w), t, T), x, v, a);
+    return accel_with(w, t, compiled_terms(w->host, t, T), x, v, a);
 }
 
 #if TERMS
@@ -67,13 +61,13 @@ static inline const clock *compiled_table(const work *w, int moment) { return w-
 /* Within a step there always is a table. */
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
 {
-    return accel_with(w, time_in(w, FACT(w, c)[i]), compiled_table(w, FACT(w, moment)[i]), x, v, a);
+    return accel_with(w, time_in(w, FACT(w, c)[i]), compiled_table(w, fact_moment[i]), x, v, a);
 }
 
 static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
 {
-    if (FACT(w, at)[0] != 0) return accel(w, time_of(w, w->n), x, v, a);
-    return accel_with(w, time_of(w, w->n), compiled_table(w, 0), x, v, a);
+    if (fact_at[0] != 0) return accel(w, time_now(w), x, v, a);
+    return accel_with(w, time_now(w), compiled_table(w, 0), x, v, a);
 }
 
 /* The table of LANES_OF_TIME steps from number `n` on. It is given time and step alone, so that a workspace may stay in registers. */
@@ -85,7 +79,7 @@ static inline void compiled_fill_some(const compiled_host *host, clock t0, clock
     step += (clock)n;
     for (int m = 0; m < MOMENTS; m++) {
         reals many[TERMS];
-        compiled_force_terms(host->pool, host->q, host->u, TIME_IN(w, step, FACT(w, at)[m]), many);
+        compiled_force_terms(host->pool, host->q, host->u, TIME_FIXED(w, step, fact_at[m]), many);
         for (int k = 0; k < TERMS; k++)
             for (int l = 0; l < LANES_OF_TIME; l++) table[(l * MOMENTS + m) * TERMS + k] = LANE_OF(many[k], l);
     }
@@ -98,12 +92,17 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 }
 #endif
 
-/* Lanes have no way back: what needs one is run one trajectory at a time. */
+/* Who asks for the exact motion asks the library. */
+#define exact_at(w, t, x, v) STEP_OK
+
+/* Lanes cannot call back: what needs a solver is run one trajectory at a time. */
 #ifndef GROUPS
+/* One equation in v alone: its diagonal, where it is constant, is fetched once. */
+#define ONE_SLOPE (FACT(w, solves) == 1 && !FACT(w, solves_x))
 static inline int solve_factor(work *w, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
-    const compiled_host *host = host_of(w);
-    if (ROW(w, family) != TWO_STEP) return host->factor(w, s, ax, av, t, x, v);
+    const compiled_host *host = w->host;
+    if (!ONE_SLOPE) return host->factor(w, s, ax, av, t, x, v);
     if (w->diagonal && w->slope == *av) return STEP_OK;
     int bad = host->factor(w, s, ax, av, t, x, v);
     w->diagonal = bad ? NULL : host->diagonal(w);
@@ -112,8 +111,8 @@ static inline int solve_factor(work *w, int s, const clock *ax, const clock *av,
 }
 static inline void solve_back(work *w, real *r)
 {
-    if (ROW(w, family) == TWO_STEP && w->diagonal) EACHV(k) r[k] /= w->diagonal[k];
-    else host_of(w)->back(w, r);
+    if (ONE_SLOPE && w->diagonal) EACHV(k) r[k] /= w->diagonal[k];
+    else w->host->back(w, r);
 }
-static inline void solve_apply(work *w, clock c, const real *y, real *out) { host_of(w)->apply(w, c, y, out); }
+static inline void solve_apply(work *w, clock c, const real *y, real *out) { w->host->apply(w, c, y, out); }
 #endif

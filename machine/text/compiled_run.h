@@ -9,7 +9,7 @@
 static inline int compiled_steps(work *w, whole steps)
 {
     enum { HALF = LANES_OF_TIME * MOMENTS * TERMS };
-    const compiled_host *host = host_of(w);
+    const compiled_host *host = w->host;
     clock table[2 * HALF];
     int bad = STEP_OK;
     w->table = table;
@@ -41,12 +41,16 @@ int motus_run(work *given, whole steps)
 #if SMALL
         some = steps < SPAN ? steps : SPAN;
         real room[ARRAYS * STRIDE];
+        clock scaled[CONSTANTS];
         w->check = false;
         w->stride = STRIDE;
-        w->ex = w->ev = w->old = w->next = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
+        w->moved = 0;
+        for (int i = 0; i < w->linears + w->squares; i++) scaled[i] = given->scaled[i];
+        w->scaled = scaled;
+        w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
         work_place(w, room);
         work_move(w, given, NUMBERS);
-        if (compiled_steps(w, some) || !advance_finite(w)) return host_of(given)->run(given, some);
+        if (compiled_steps(w, some) || !advance_finite(w)) return given->host->run(given, some);
         work_move(given, w, NUMBERS);
         given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = w->fresh;
 #else

@@ -2,7 +2,7 @@
  *
  * pool, q, u: parameters; sizes, strides and bounds; numbers that depend on parameters alone.
  */
-typedef struct compiled_host {
+struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
     real *own, *bound;               /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
@@ -14,4 +14,5 @@ typedef struct compiled_host {
     const struct tiling *tiling;     /* of families whose outer indices can be taken apart; NULL */
     struct parallel_crew *crew;      /* and its parallel_by */
     void (*parallel)(struct parallel_crew *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);
-} compiled_host;
+};
+typedef struct compiled_host compiled_host;

@@ -27,22 +27,22 @@ static inline compiled_host lanes_host(const lanes_job *job, size_t group)
 
 static inline void lanes_place(work *w, const compiled_host *host, real *room)
 {
-    w->user = (void *)host;
-    w->ex = w->ev = w->old = w->next = w->delta = w->r = w->xs = w->vs = w->ks = (real *)0;
+    w->host = host;
+    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = (real *)0;
     work_place(w, room);
 }
 
 static inline void lanes_load(work *w, const real *carry)
 {
     real *list[CARRY_MAX];
-    int count = work_carry(w, list);
+    int count = family_carry(w, list);
     for (int i = 0; i < count; i++) EACHV(k) list[i][k] = carry[(size_t)i * FACT(w, nv) + k];
 }
 
 static inline void lanes_store(work *w, real *carry)
 {
     real *list[CARRY_MAX];
-    int count = work_carry(w, list);
+    int count = family_carry(w, list);
     for (int i = 0; i < count; i++) EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = list[i][k];
 }
 
@@ -100,8 +100,8 @@ void motus_lanes_first(const lanes_job *job)
     for (size_t group = 0; group < GROUPS; group++) {
         const compiled_host host = lanes_host(job, group);
         LANES_WORKSPACE(w, &host, 0);
-        advance_step(w);
-        w->n++;
+        family_step(w);
+        time_tick(w, EVERY);
         lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
     }
 }
@@ -125,7 +125,7 @@ static inline void lanes_see(const lanes_job *job, work *w, const compiled_host 
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
     real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
     advance_sync(w, x, v, (real *)0);
-    if (t != time_of(w, w->n)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
+    if (t != time_now(w)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
     if (a) accel(w, t, x, v, a);
     lanes_looks(host, t, x, v, a, out);
 }
@@ -133,7 +133,7 @@ static inline void lanes_see(const lanes_job *job, work *w, const compiled_host 
 /* A look from outside the loop, at the present step of the plan; records nothing where record_count is 0. */
 void motus_lanes_look(const lanes_job *job)
 {
-    const clock t = job->ends ? job->until : time_of(job->plan, job->plan->n);
+    const clock t = job->ends ? job->until : time_now(job->plan);
     for (size_t group = 0; group < GROUPS; group++) {
         const compiled_host host = lanes_host(job, group);
         LANES_WORKSPACE(w, &host, job->plan->n);
@@ -162,14 +162,15 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 #endif
 #define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g);
 #define LANES_LOAD(g) lanes_place(w, &host_##g, room_##g); lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_STEP(g) lanes_place(w, &host_##g, room_##g); w->fresh = fresh; advance_step(w);
-#define LANES_LOOK(g) lanes_place(w, &host_##g, room_##g); w->fresh = false; lanes_look_within(job, w, &host_##g, time_of(w, w->n), g);
+#define LANES_STEP(g) lanes_place(w, &host_##g, room_##g); w->fresh = fresh; family_step(w);
+#define LANES_LOOK(g) lanes_place(w, &host_##g, room_##g); w->fresh = false; lanes_look_within(job, w, &host_##g, time_now(w), g);
 #define LANES_STORE(g) lanes_place(w, &host_##g, room_##g); lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
 
 /* `steps` more, not the first one, and a look after every `every` of them; every = 0: none. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
+    clock scaled[CONSTANTS];
     bool fresh = false;              /* the accelerations of all groups are known, because somebody looked */
 #if LANES_LOCAL
     w->stride = NUMBERS;
@@ -179,19 +180,22 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     EVERY_GROUP(LANES_LOAD)
     w->table = job->table;
     w->first = job->first;
+    w->moved = 0;
+    for (int i = 0; i < w->linears + w->squares; i++) scaled[i] = job->plan->scaled[i];
+    w->scaled = scaled;
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {
             if (w->n < 1) __builtin_unreachable();
             EVERY_GROUP(LANES_STEP)
-            w->n++;
+            time_tick(w, EVERY);
             fresh = false;
         }
         steps -= some;
 #if LOOKING
         if (every) {
             EVERY_GROUP(LANES_LOOK)
-            fresh = SEES_VELOCITY && (ROW(w, family) == TWO_STEP || (ROW(w, family) == SPLITTING && FACT(w, merged)));
+            fresh = SEES_VELOCITY && FACT(w, waits);
         }
 #endif
     }

@@ -1,7 +1,6 @@
 /* What look.h and reduce.h need of lanes. */
-#define exact_at(w, t, x, v) STEP_OK
 #if DRIVEN
-#define refresh_at(w, t, x, v) BOUNDARY(host_of(w), t, x, v, (real *)0)
+#define refresh_at(w, t, x, v) BOUNDARY(w->host, t, x, v, (real *)0)
 #else
 #define refresh_at(w, t, x, v) ((void)0)
 #endif

@@ -24,7 +24,7 @@ static void pass_all(const compiled_host *host, clock t, const clock *T, real *x
 /* The numbers in the window that no equation moves: their acceleration is 0. */
 __attribute__((noinline)) static void pass_still(const work *w, real *x, real *v, real *a, const window_put *move)
 {
-    const tiling *in = host_of(w)->tiling;
+    const tiling *in = w->host->tiling;
     for (int p = 0; p < in->parts; p++) {
         const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
         size_t low = 0, high = in->stills;                        /* the first stretch that ends behind `begin` */
@@ -41,10 +41,10 @@ __attribute__((noinline)) static void pass_still(const work *w, real *x, real *v
 
 __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
-    window_move(w, host_of(w)->tiling->around);
+    window_move(w, w->host->tiling->around);
     pass_still(w, x, v, a, &(window_put){.pass = false});
-    pass_keep(host_of(w), t, T, x, v, a, &w->window);
-    window_move(w, host_of(w)->tiling->around);
+    pass_keep(w->host, t, T, x, v, a, &w->window);
+    window_move(w, w->host->tiling->around);
 }
 
 #if !COMPANIONS
@@ -57,37 +57,28 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
 PASS_MOVE(pass_move, false)
 PASS_MOVE(pass_move_twice, true)
 
-/* Stage i: v += b a, x += c v. */
+/* Stage i: v += b a, x += c v; and the drift that the next step begins with, where it begins with one and is in the same tile. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
-#define PASSED(w, i) pass_passed(w)
-#define PASS_DRIFTS_FIRST (ROW_family == SPLITTING && !(FACT_kicks & 1))
 __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 {
-    const bool twice = PASS_DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
-    const window_put move = {true, twice, b, c, w->drift[0], w->ex, w->ev};
+    const bool twice = DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
+    const window_put move = {true, twice, b, c, DRIFTS_FIRST ? w->scaled[FACT(w, stages)] : 0, w->ex, w->ev};
     const clock t = time_in(w, FACT(w, c)[i]);
     real *x = w->x, *next = w->a;
     clock room[TERMS + 1];
 #if TERMS
-    const clock *T = w->table ? compiled_table(w, FACT(w, moment)[i]) : compiled_terms(host_of(w), t, room);
+    const clock *T = w->table ? compiled_table(w, fact_moment[i]) : compiled_terms(w->host, t, room);
 #else
     const clock *T = room;
 #endif
     w->evaluations++;
-    window_move(w, host_of(w)->tiling->pass);
+    window_move(w, w->host->tiling->pass);
     pass_still(w, x, w->v, next, &move);
-    if (twice) pass_move_twice(host_of(w), t, T, x, w->v, next, &w->window, &move);
-    else pass_move(host_of(w), t, T, x, w->v, next, &w->window, &move);
-    w->window.ahead = twice;
+    if (twice) pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
+    else pass_move(w->host, t, T, x, w->v, next, &w->window, &move);
+    w->moved += twice ? 2 : 1;
     w->x = next;
     w->a = x;
-}
-
-static inline bool pass_passed(work *w)
-{
-    const bool passed = w->window.ahead;
-    w->window.ahead = false;
-    return passed;
 }
 #endif
 
@@ -109,7 +100,7 @@ enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to ev
 
 __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
-    const compiled_host *host = host_of(w);
+    const compiled_host *host = w->host;
     const whole most = (host->tiling->last - host->tiling->first + 1) / PASS_CELLS_MIN;
     if (w->threads == 1 || most < 2) {
         pass_all(host, t, T, x, v, a);

@@ -29,12 +29,11 @@ __attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)
     for (whole s = 0; s < job->steps; s++) {
         w->window.more = s + 1 < job->steps;
         (void)advance_step(w);                 /* nothing here can fail: no solver, no callback */
-        w->n++;
     }
     if (job->last && !advance_finite(w)) __atomic_store_n(&job->lost, true, __ATOMIC_RELAXED);
 }
 
-static whole tiled_border(const tiled_job *job, int k) { return host_of(job->begin)->tiling->first + k * job->block; }
+static whole tiled_border(const tiled_job *job, int k) { return job->begin->host->tiling->first + k * job->block; }
 
 static void tiled_block(void *ctx, size_t block, int thread)
 {
@@ -42,7 +41,7 @@ static void tiled_block(void *ctx, size_t block, int thread)
     tiled_job *job = ctx;
     const int k = (int)block;
     const bool lowest = k == 0, highest = k == job->blocks - 1;
-    const whole low = tiled_border(job, k), high = highest ? host_of(job->begin)->tiling->last + 1 : tiled_border(job, k + 1);
+    const whole low = tiled_border(job, k), high = highest ? job->begin->host->tiling->last + 1 : tiled_border(job, k + 1);
     bool last = false;
     for (whole from = low; !last; from += job->strip) {
         last = from + job->strip >= high;
@@ -69,7 +68,7 @@ static void tiled_seam(void *ctx, size_t k, int thread)
 
 static inline void tiled_run(work *w, whole steps)
 {
-    const compiled_host *host = host_of(w);
+    const compiled_host *host = w->host;
     const tiling *in = host->tiling;
     const whole cells = in->last - in->first + 1, row = (whole)(in->numbers * ARRAYS * sizeof(real));
     const whole way = (w->stages > 1 ? w->stages : 1) * window_later(in->pass, 2 * in->around);      /* of a window in a step, at most */

@@ -20,12 +20,12 @@ static inline size_t window_place(const tiling_part *p, whole index)
 
 #if LOCAL
 #define WINDOW(k, count)                                                                                                    \
-    for (const tiling_part *p_ = host_of(w)->tiling->part, *end_ = p_ + (count); p_ < end_; p_++)                         \
+    for (const tiling_part *p_ = w->host->tiling->part, *end_ = p_ + (count); p_ < end_; p_++)                         \
         for (size_t k = window_place(p_, w->window.from), to_ = window_place(p_, w->window.to); k < to_; k++)
 #undef EACH
 #undef EACHV
-#define EACH(k) WINDOW(k, host_of(w)->tiling->positions)
-#define EACHV(k) WINDOW(k, host_of(w)->tiling->parts)
+#define EACH(k) WINDOW(k, w->host->tiling->positions)
+#define EACHV(k) WINDOW(k, w->host->tiling->parts)
 #endif
 
 #define WINDOW_ALL ((whole)1 << 61)

@@ -10,9 +10,9 @@ static inline void window_number(const window_put *how, real *restrict x, real *
     NUMBER at = NUMBER_AT(x, k), speed = NUMBER_AT(v, k);
     if (ROW(how, compensated)) {
         NUMBER speed_error = NUMBER_AT(how->ev, k), error = NUMBER_AT(how->ex, k);
-        ADVANCE_EXACTLY(speed, speed_error, NUMBER_OF(how->b), value);
-        ADVANCE_EXACTLY(at, error, NUMBER_OF(how->c), speed);
-        if (how->twice) ADVANCE_EXACTLY(at, error, NUMBER_OF(how->next), speed);
+        ADVANCE_COMPENSATED(speed, speed_error, NUMBER_OF(how->b), value);
+        ADVANCE_COMPENSATED(at, error, NUMBER_OF(how->c), speed);
+        if (how->twice) ADVANCE_COMPENSATED(at, error, NUMBER_OF(how->next), speed);
         NUMBER_AT(how->ev, k) = speed_error;
         NUMBER_AT(how->ex, k) = error;
     } else {
