@@ -8,12 +8,15 @@
 #endif
 ADVANCE_STEP int advance_step(work *w)
 {
-    mask good = EVERY;
     if (ROW(w, adaptive)) work_scale(w, control_size(w));
     int bad = family_step(w);
     if (bad) return bad;
-    if (ROW(w, adaptive)) good = control_judge(w);
+    if (!ROW(w, adaptive)) {
+        time_tick(w, EVERY);
+        return STEP_OK;
+    }
+    const mask good = control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
-    return ROW(w, adaptive) && w->stalled ? STEP_STALLED : STEP_OK;
+    return w->stalled ? STEP_STALLED : STEP_OK;
 }

@@ -6,6 +6,8 @@
  */
 static inline coef kick_unit(const work *w, int i) { return FACT(w, unit)[i]; }
 static inline coef drift_unit(const work *w, int i) { return FACT(w, unit)[FACT(w, stages) + i]; }
+static inline bool kicks(const work *w, int i) { return LIVE(w, i); }
+static inline bool drifts(const work *w, int i) { return LIVE(w, FACT(w, stages) + i); }
 static inline clock kick_size(const work *w, int i) { return w->scaled[i]; }
 static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, stages) + i]; }
 static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }          /* closing and opening kick in one */
@@ -23,17 +25,17 @@ static int kick_implicit(work *w, int i)
 
 static inline bool kick_drifts(const work *w, int i)
 {
-    return kick_unit(w, i) != 0 && drift_unit(w, i) != 0 && !ROW(w, compensated) && !FACT(w, solves) && FACT(w, nv) == FACT(w, nx);
+    return FACT(w, fused) && kicks(w, i) && drifts(w, i);
 }
 
-static int kick(work *w, int i)
+static inline int kick(work *w, int i)
 {
-    if (kick_unit(w, i) == 0) return STEP_OK;
+    if (!kicks(w, i)) return STEP_OK;
     if (FACT(w, solves)) return kick_implicit(w, i);
     const bool known = i == 0 && work_reuse(w);
     const clock b = i == 0 && FACT(w, fsal) && !FIRST(w) ? kick_joint(w) : kick_size(w, i), c = drift_size(w, i);
 #ifdef PASS                      /* a machine's own: acceleration, kick and drift of stage i in one pass over memory */
-    if (!known && drift_unit(w, i) != 0) {
+    if (!known && drifts(w, i)) {
         PASS(w, i, b, c);
         return STEP_OK;
     }
@@ -57,7 +59,7 @@ static int kick(work *w, int i)
 
 static inline void drift(work *w, int i)
 {
-    if (drift_unit(w, i) == 0) return;
+    if (!drifts(w, i)) return;
 #ifdef PASS
     if (w->moved) {
         w->moved--;

@@ -6,11 +6,15 @@ static void work_plan(work *w, const double argument[2], coef *memory)
     w->carried = w->row->adaptive;
     family_plan(w, argument, NULL, NULL);
     if (!memory) return;
-    coef *c = memory + work_constants(w);
+    const size_t constants = work_constants(w);
+    coef *c = memory + constants;
+    unsigned char *live = (unsigned char *)(c + w->stages);
     family_plan(w, argument, memory, c);
+    for (size_t k = 0; k < constants; k++) live[k] = memory[k] != 0;
     w->unit = memory;
     w->c = c;
-    w->scaled = c + w->stages;
+    w->live = live;
+    w->scaled = c + w->stages + work_live_size(w);
     w->matrix = w->scaled + work_constants(w);
 }
 #endif

@@ -49,6 +49,7 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     w->stages = last + 1;
     w->linears = 2 * w->stages + 1;
     w->solves = m->gyroscopic;
+    w->fused = !m->compensated && !w->solves && w->nv == w->nx;
     w->fsal = w->waits = !count && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
     if (!unit) return;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
@@ -77,8 +78,8 @@ static trace_room splitting_room(const work *w)
 {
     trace_room room = {0};
     for (int i = 0; i < w->stages; i++) {
-        room.v += 2 * (kick_unit(w, i) != 0);
-        room.x += drift_unit(w, i) != 0;
+        room.v += 2 * kicks(w, i);
+        room.x += drifts(w, i);
     }
     room.events = room.v / 2 + room.x;
     return room;
@@ -90,7 +91,7 @@ static void splitting_trace(work *w, int i)
     if (i < 0) return;
     const tracer *to = tracer_of(w);
     const int last = w->stages - 1;
-    if (kick_unit(w, i) != 0) {
+    if (kicks(w, i)) {
         const real *a = w->a;
         if (w->solves) {                               /* the slope that solves the implicit kick: the increment is b h a */
             EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
@@ -98,7 +99,7 @@ static void splitting_trace(work *w, int i)
         }
         tell(w, (trace_event){.kind = MOTUS_EVENT_KICK, .stage = i + 1, .time = time_in(w, w->c[i]), .coefficient = kick_unit(w, i), .v = w->v, .a = a});
     }
-    if (drift_unit(w, i) != 0)
+    if (drifts(w, i))
         tell(w, (trace_event){.kind = MOTUS_EVENT_DRIFT, .stage = i + 1, .time = time_in(w, i < last ? w->c[i + 1] : 1),
                               .coefficient = drift_unit(w, i), .x = w->x});
     if (w->fsal && i == last - 1)

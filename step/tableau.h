@@ -13,7 +13,7 @@ static inline real tableau_sum(const work *w, int from, bool sparse, const real 
     real sum = {0};
     bool first = true;
     EACH_STAGE(j, count) {
-        if (sparse && FACT(w, unit)[from + j] == 0) continue;
+        if (sparse && !LIVE(w, from + j)) continue;
         real term = y[(size_t)j * w->stride + k];
         if (first) sum = w->scaled[from + j] * term;
         else sum = FMA(w->scaled[from + j], term, sum);

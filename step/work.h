@@ -24,6 +24,7 @@
 #ifndef ROW
 #define ROW(w, member) ((w)->row->member)
 #define FACT(w, member) ((w)->member)
+#define LIVE(w, k) ((w)->live[k])      /* constant k of the plan is not 0 */
 #endif
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
@@ -69,6 +70,7 @@ typedef struct work {
      * c: times of the stages. `scaled` are the same for the present h. */
     int stages, linears, squares;
     const coef *unit, *c;
+    const unsigned char *live;
     clock *scaled, hh, half_hh, per_h;
     clock *matrix;                 /* room for the coefficients of the coupled stages: 2 solves² */
     int known;                     /* implicit stages that are explicit after all (newmark's first) */
@@ -76,6 +78,7 @@ typedef struct work {
     bool solves_x;                 /* that equation contains da/dx */
     bool direct;                   /* it is linear in the unknowns, or none: one solve is exact */
     bool fsal;                     /* first same as last: the closing kick of a step waits for the opening kick of the next */
+    bool fused;                    /* a kick and the drift after it are made in one pass over memory */
     bool waits;                    /* the state between two steps lacks something that an evaluation supplies */
 
     bool fresh;                    /* the acceleration of the present state is known already, because it was observed */
@@ -174,10 +177,11 @@ static inline bool work_reuse(work *w)
 
 /* Constants ------------------------------------------------------------------------------------------------------- */
 
-/* The numbers that a plan needs memory for: unit and c; then `scaled` and `matrix`, which belong to a step size. */
+/* The numbers that a plan needs memory for: unit, c and live; then `scaled` and `matrix`, which belong to a step size. */
 static inline size_t work_constants(const work *w) { return (size_t)(w->linears + w->squares); }
 static inline size_t work_scaled_size(const work *w) { return work_constants(w) + 2 * (size_t)w->solves * (size_t)w->solves; }
-static inline size_t work_plan_size(const work *w) { return work_constants(w) + (size_t)w->stages + work_scaled_size(w); }
+static inline size_t work_live_size(const work *w) { return (work_constants(w) + sizeof(coef) - 1) / sizeof(coef); }
+static inline size_t work_plan_size(const work *w) { return work_constants(w) + (size_t)w->stages + work_live_size(w) + work_scaled_size(w); }
 
 /* The step is h from now on. */
 static inline void work_scale(work *w, clock h)
