@@ -4,8 +4,8 @@
  * (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the closing kick of a step waits and becomes one with the
  * opening kick of the next, which has the same acceleration. A kick whose acceleration is known from an observation does not evaluate it again.
  */
-static inline coef kick_unit(const work *w, int i) { return FACT(w, unit)[i]; }
-static inline coef drift_unit(const work *w, int i) { return FACT(w, unit)[FACT(w, stages) + i]; }
+static inline coef kick_unit(const work *w, int i) { return w->unit[i]; }
+static inline coef drift_unit(const work *w, int i) { return w->unit[FACT(w, stages) + i]; }
 static inline bool kicks(const work *w, int i) { return LIVE(w, i); }
 static inline bool drifts(const work *w, int i) { return LIVE(w, FACT(w, stages) + i); }
 static inline clock kick_size(const work *w, int i) { return w->scaled[i]; }
