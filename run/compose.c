@@ -6,7 +6,7 @@
 #include "run/compose.h"
 
 #include "core/stepper_body.h"
-#include "lang/operation.h"
+#include "lang/base/operation.h"
 #include "run/texts.h"
 
 #include <string.h>

@@ -7,7 +7,7 @@
 #define RUN_RUN_H
 
 #include "core/stepper.h"
-#include "lang/model.h"
+#include "lang/model/model.h"
 
 typedef struct engine engine;
 

@@ -24,7 +24,7 @@ grants[lab/core]=${grants[lab]-}
 for folder in step core lang run api study cli lab/core; do
     if [ -z "${grants[$folder]+x}" ]; then not_ok "HOUSE.md says who $folder/ may include"; continue; fi
     complaints=
-    for file in "$folder"/*.[ch] "$folder"/*.def; do
+    for file in "$folder"/*.[ch] "$folder"/*/*.[ch] "$folder"/*/*.def; do
         [ -f "$file" ] || continue
         while IFS=: read -r line text; do
             if [[ $text =~ \"([^\"]+)\" ]]; then
@@ -53,15 +53,14 @@ judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:s
 # word, because it is the word of the house for the thing:
 declare -A also=(
     [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
-    [lang/derivative.c]='graph_'                    # a part of lang/graph.h
-    [lang/words.c]='parse_'                         # the words that lang/tree.h asks for
+    [lang/text/words.c]='parse_'                    # the words that lang/tree/tree.h asks for
+    [lang/read/read.c]='model_'                     # lang/model/model.h
     [run/interpreter.c]='machine_'                  # a machine is a file; run/run.h names them
     [run/callback.c]='machine_'
     [run/compiled.c]='machine_'
     [run/nowhere.c]='compiled_ machine_'            # stands in for run/compiled.c
     [api/columns.c]='system_'                       # parts of api/system.h
     [api/explain.c]='system_'
-    [lang/tape_regions.c]='plan_'                   # the plan of a tape, lang/tape_regions.h
 )
 archive=$build/libmotus.a
 if [ ! -f "$archive" ]; then
@@ -69,11 +68,11 @@ if [ ! -f "$archive" ]; then
 else
     # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
     judge "no two files of the library have the same name" \
-        "$(for f in core lang run api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
+        "$(for f in core lang/* run api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
     complaints=
     while read -r member symbol; do
         file=${member%.o}
-        path=$(ls {core,lang,run,api,study}/"$file" 2>/dev/null | head -n 1)
+        path=$(ls {core,lang/*,run,api,study}/"$file" 2>/dev/null | head -n 1)
         prefix=${file%%[_.]*}
         case $symbol in
         motus_*|"$prefix"|"${prefix}"_*) continue ;;
