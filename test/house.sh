@@ -53,7 +53,6 @@ judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:s
 # word, because it is the word of the house for the thing:
 declare -A also=(
     [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
-    [lang/text/words.c]='parse_'                    # the words that lang/tree/tree.h asks for
     [lang/read/read.c]='model_'                     # lang/model/model.h
     [run/interpreter.c]='machine_'                  # a machine is a file; run/run.h names them
     [run/callback.c]='machine_'

@@ -1,9 +1,8 @@
-/* What an operation is: its row, and its value.
+/* The rows of the operations and their values.
  *
- * Invariant: operation_value is the same C expression as every kernel's, so a folded constant has the bits that running would give.
+ * Invariant: operation_value and every kernel evaluate the same C expression, so the graph folds constants to the bits of a run.
  */
 #include "lang/base/operation.h"
-#include "lang/tape/tape.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -4,8 +4,7 @@
  * identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node 0 and the caller sees
  * arena->failed or too_large.
  */
-#include "lang/base/operation.h"
-#include "lang/tape/tape.h"
+#include "lang/graph/graph.h"
 
 #include <string.h>
 

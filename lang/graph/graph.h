@@ -8,9 +8,10 @@
 #define LANG_GRAPH_GRAPH_H
 
 #include "lang/base/arena.h"
+#include "lang/base/limits.h"
+#include "lang/base/operation.h"
 
 typedef uint32_t node;
-enum { MAX_DIMS = 4, MAX_LEVELS = 8 };
 
 /* Value of a subscript: base = (level >= 0 ? index[level] : 0) + literal + (slot >= 0 ? ints[slot] : 0);
  * if modulus >= 0: 1 + (base mod ints[modulus]), the mathematical mod (never negative). */
@@ -33,17 +34,6 @@ typedef struct array {
 bool graph_marked(const array *, const uint8_t *marks);
 
 typedef struct reference { uint16_t array; uint8_t dims; subscript at[MAX_DIMS]; } reference;
-
-typedef enum operation {
-#define OP(id, ...) OP_##id,
-#include "lang/base/operations.def"
-#undef OP
-    OPERATIONS
-} operation;
-/* Operations are the rows of operations.def: leaves CONST TIME PARAM INDEX LOAD; SUM; NEG ADD SUB MUL DIV; FMA = a*b+c, FMS = a*b-c,
- * FNMA = c-a*b, and the leaf TOTAL (these four made by the normal form only: see program.c); LT LE GT GE EQ NE (1.0 or 0.0);
- * AND OR NOT; SELECT(c, a, b); POW; and the functions
- * SIN COS TAN ASIN ACOS ATAN ATAN2 SINH COSH TANH EXP LOG SQRT CBRT HYPOT ABS MIN MAX FLOOR MOD SIGN ERF. */
 
 /* What a node depends on, transitively. Bits 0 … MAX_LEVELS-1: loop variables bound outside the node. */
 enum {

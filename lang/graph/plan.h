@@ -1,4 +1,4 @@
-/* Where each value of a program is computed: the plan that tape_code.c writes out.
+/* Where each value of a program is computed: the plan that lang/tape/ and lang/emit/ follow.
  *
  * Regions form a tree. Region 0 runs once, when parameters are bound; region 1, its child, at every evaluation; below them a region is the
  * inside of a loop, over a family's index or over a sum's. A value is computed in the outermost region, on the path to where it is
@@ -7,9 +7,10 @@
 #ifndef LANG_GRAPH_PLAN_H
 #define LANG_GRAPH_PLAN_H
 
-#include "lang/tape/tape_code.h"
+#include "lang/graph/graph.h"
 
 enum { AT_BIND = 0, AT_RUN = 1 };
+#define NONE UINT32_MAX          /* no region, no item, no output */
 #define LIST(T) struct { T *at; uint32_t count, capacity; }
 
 typedef struct plan_region {
@@ -23,7 +24,7 @@ typedef struct plan_region {
     uint32_t items, item_count;          /* in plan.order */
     uint32_t outputs;                    /* outputs whose value is computed further out */
     uint32_t sums;                       /* items of region `parent` that this loop totals */
-    uint32_t begin, end;                 /* instructions LOOP and NEXT */
+    uint32_t begin, end;                 /* tape_code.c: its instructions LOOP and NEXT */
 } plan_region;
 
 typedef struct plan_item {
@@ -35,7 +36,7 @@ typedef struct plan_item {
     uint32_t inside;                     /* SUM: the region of its loop */
     uint32_t next_sum;                   /* SUM: the next one in the same loop */
     uint32_t outputs;                    /* outputs written as soon as it is known */
-    uint32_t reg, total;                 /* tape_code.c */
+    uint32_t reg, total;                 /* for the writer: tape_code.c keeps its registers here; of a SUM, NONE until its loop is written */
 } plan_item;
 
 typedef struct plan {

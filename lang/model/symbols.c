@@ -262,7 +262,7 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
         source_hint(&m->source, "did you mean %s?", best);
     else if (!strcmp(name, "v") && symbols_find(m, "x").state)
         source_hint(&m->source, "the velocity is x'");
-    else if (parse_function(name) >= 0)
+    else if (words_function(name) >= 0)
         source_hint(&m->source, "write %s(…)", name);
     else
         source_hint(&m->source, "define it: %s = …", name);

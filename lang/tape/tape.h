@@ -20,7 +20,5 @@ tape *tape_create(arena *, const program *);                 /* NULL: arena fail
 bool tape_bind(tape *, const binding *);
 /* Runs: base[s] is the start of space s (SPACE_POOL is taken from the binding). */
 void tape_run(tape *, double t, double *const base[SPACES]);
-/* The value of one folded operation: what every machine computes. */
-double operation_value(operation, double a, double b, double c);
 
 #endif

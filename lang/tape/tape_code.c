@@ -3,8 +3,7 @@
  * Invariant: instructions are written in the order they run, loops nested by position; until the end registers are virtual, each made by
  * one instruction, and afterwards they are the numbers that tape_registers.c chose.
  */
-#include "lang/graph/plan.h"
-#include "lang/base/operation.h"
+#include "lang/tape/tape_code.h"
 
 #include <string.h>
 

@@ -7,10 +7,10 @@
 #ifndef LANG_TAPE_TAPE_CODE_H
 #define LANG_TAPE_TAPE_CODE_H
 
+#include "lang/graph/plan.h"
 #include "lang/tape/tape.h"
 
 enum { PARTS = 8, IN_ORDER_MAX = 16 };
-#define NONE UINT32_MAX
 #define BLOCK_BIT (1u << 31)     /* in an operand: a block register, not a scalar */
 
 /* Codes below OPERATIONS are the scalar operations themselves. */

@@ -1,7 +1,7 @@
 /* Words, and "did you mean". See words.h. */
 #include "lang/text/words.h"
 
-#include "lang/tree/tree.h"
+#include "lang/base/operation.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static const struct { const char *name; int operation; } functions[] = {
 static const char *const statements_words[] = {"method", "step", "tolerance", "from", "until", "every", "exact", "invariant", "when"};
 static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"};
 
-int parse_function(const char *name)
+int words_function(const char *name)
 {
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         if (!strcmp(functions[i].name, name))
@@ -24,7 +24,7 @@ int parse_function(const char *name)
     return -1;
 }
 
-bool parse_reserved(const char *name)
+bool words_reserved(const char *name)
 {
     for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
         if (!strcmp(statements_words[i], name))

@@ -1,9 +1,15 @@
-/* The words of the language, and the nearest word to a mistaken one. */
+/* The words of the language, and the distance between two names, for hints about a misspelt one. */
 #ifndef LANG_TEXT_WORDS_H
 #define LANG_TEXT_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+
+/* Functions that are no operations of the graph; their numbers lie above all operations'. */
+enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF };
+
+int words_function(const char *name);        /* operation, CALL_… or -1 */
+bool words_reserved(const char *name);
 
 /* Edits (insert, delete, replace, swap neighbours) between two names, at most `limit` + 1; letter case and look-alikes (µ and μ) count
  * as less than an edit. In half edits. */

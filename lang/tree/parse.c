@@ -24,7 +24,7 @@ bool parse_loop(parser *p, loop *l)
     }
     l->at = p->token.at;
     l->name = copy_name(p, p->token.at);
-    if (parse_reserved(l->name) || parse_function(l->name) >= 0) {
+    if (words_reserved(l->name) || words_function(l->name) >= 0) {
         COMPLAIN(p, l->at, "%s is a word of the language and cannot be an index", l->name);
         HINT(p, "take i, j, k …");
         return false;
@@ -130,7 +130,7 @@ static int arity(int operation)
 static tree *parse_call(parser *p, span name)
 {
     const char *text = copy_name(p, name);
-    int operation = parse_function(text);
+    int operation = words_function(text);
     char argument[80];
     if (failed(p))
         return nothing(p);
@@ -371,12 +371,12 @@ static tree *parse_factor(parser *p)
         span at = p->token.at;
         char text[MOTUS_NAME_MAX + 1];
         snprintf(text, sizeof text, "%.*s", (int)(at.to - at.from), p->source->texts[at.text].bytes + at.from);
-        if (parse_function(text) >= 0 || !strcmp(text, "sum")) {
+        if (words_function(text) >= 0 || !strcmp(text, "sum")) {
             advance(p);
             tree *t = parse_call(p, at);
             return failed(p) ? t : parse_components(p, t);
         }
-        if (parse_reserved(text) && strcmp(text, "t") && strcmp(text, "pi")) {
+        if (words_reserved(text) && strcmp(text, "t") && strcmp(text, "pi")) {
             if (left_open(p))
                 return nothing(p);
             COMPLAIN(p, at, "%s is a word of the language and cannot stand here", text);

@@ -2,9 +2,10 @@
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
+#include "lang/base/limits.h"
+#include "lang/base/operation.h"
 #include "lang/text/lex.h"
 #include "lang/tree/tree.h"
-#include "lang/text/words.h"
 
 #include <stdio.h>
 #include <string.h>

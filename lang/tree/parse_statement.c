@@ -152,7 +152,7 @@ static void parse_left(parser *p, statement *s)
     tree name = {.at = p->token.at};
     s->name_at = p->token.at;
     s->name = copy_name(p, p->token.at);
-    if (parse_reserved(s->name) || parse_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
+    if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
         if (!strcmp(s->name, "t"))
             COMPLAIN(p, s->name_at, "t is the time and cannot be defined");
         else

@@ -1,9 +1,9 @@
-/* What the parser understood, before anyone asks what the names mean. */
+/* The tree of a model's text, as the parser makes it; names are not resolved yet. */
 #ifndef LANG_TREE_TREE_H
 #define LANG_TREE_TREE_H
 
-#include "lang/graph/graph.h"
 #include "lang/text/source.h"
+#include "lang/text/words.h"
 
 typedef enum tree_kind {
     TREE_NUMBER,                     /* number */
@@ -18,9 +18,6 @@ typedef enum tree_kind {
     TREE_NORM,                       /* |item[0]| */
     TREE_SUM                         /* loops, items: conditions, then the body last */
 } tree_kind;
-
-/* Calls that are not operations of the graph. */
-enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF };
 
 typedef struct loop { const char *name; struct tree *first, *last; span at; } loop;
 
@@ -67,9 +64,5 @@ typedef struct statements { statement *item; uint32_t count, capacity; } stateme
 
 /* Parses text number `text` and appends its statements. False: complained or no memory. */
 bool parse_text(source *, uint32_t text, statements *);
-
-/* The words of the language. */
-int parse_function(const char *name);        /* operation, CALL_… or -1 */
-bool parse_reserved(const char *name);
 
 #endif
