@@ -1,5 +1,6 @@
 /* Systems: from a text or from a callback, and back to nothing. */
 #include "api/system.h"
+#include "lang/read/read.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,7 +43,7 @@ static bool keep_text(motus_system *s, motus_text_def *def)
 {
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (n > SOURCE_BYTES_MAX)
-        return true;                 /* refused in a moment, by model_create */
+        return true;                 /* refused in a moment, by read_model */
     char *copy = arena_grow(&s->arena, NULL, 0, n + 1);
     const char **set = arena_grow(&s->arena, NULL, 0, (def->set_count + 1) * sizeof *set);
     if (!copy || !set)
@@ -78,7 +79,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    motus_status status = keep_text(s, &def) ? model_create(&s->arena, &def, &s->model, err) : fail(err, MOTUS_MEMORY, "no memory for the model");
+    motus_status status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err) : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {

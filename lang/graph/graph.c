@@ -328,6 +328,19 @@ node graph_total(graph *g, const node *terms, size_t count)
     return p[0];
 }
 
+size_t graph_shape(array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])
+{
+    size_t count = 1;
+    *a = (array){.space = space, .dims = dims, .base = base};
+    for (int d = dims - 1; d >= 0; d--) {
+        a->first[d] = first[d];
+        a->last[d] = last[d];
+        a->stride[d] = (int64_t)count;
+        count *= (size_t)(last[d] - first[d] + 1);
+    }
+    return count;
+}
+
 bool graph_marked(const array *a, const uint8_t *marks)
 {
     size_t last = a->base;

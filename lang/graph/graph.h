@@ -30,6 +30,8 @@ typedef struct array {
     int64_t first[MAX_DIMS], last[MAX_DIMS], stride[MAX_DIMS];
 } array;
 
+/* Lays an array out from `base` on over [first, last], the last index contiguous; returns how many places it has. */
+size_t graph_shape(array *, space, size_t base, int dims, const int64_t first[], const int64_t last[]);
 /* Whether any of an array's places, from its first to its last, is marked. */
 bool graph_marked(const array *, const uint8_t *marks);
 

@@ -2,6 +2,8 @@
  * the parser allowed. */
 #include "lang/lower/lower_parts.h"
 
+#include "lang/model/symbols.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -40,12 +40,7 @@ node lower_scalar(lowering *, const tree *, const char *what);
 bool lower_target(lowering *, const statement *, output *);
 bool lower_subscript(lowering *, const tree *, subscript *, int64_t *first, int64_t *last);
 
-/* resolve.c, for start.c: room in the pool; an array's shape, returning its count; the hull of a left side; a statement's components run
- * into the pool as an array of that hull; the cells of a left side in a map over the hull, raised to `as`, or once only. */
-bool resolve_pool(model *, size_t count, size_t *first);
-size_t resolve_shape(array *, space, size_t base, int dims, const int64_t first[], const int64_t last[]);
-void resolve_target(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);
-bool resolve_into_pool(model *, const output *, value, size_t base, const int64_t first[], const int64_t last[], size_t hull);
-bool resolve_mark(model *, const model_state *, const statement *, const int64_t first[], const int64_t last[], uint8_t *map, uint8_t as, bool once);
+/* Where a left side that lower_target has read ranges. */
+void lower_extent(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);
 
 #endif

@@ -1,6 +1,9 @@
 /* Indices: what an index name stands for, subscripts i + c and mod(i + c, N) + 1, and what a left side runs over [11]. See lower.h. */
 #include "lang/lower/lower_parts.h"
 
+#include "lang/model/evaluate.h"
+#include "lang/model/symbols.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +43,7 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
     if (!lower_subscript(l, t->item[0], &a->inner, &low, &high))
         return;
     node n = lower_scalar(l, t->item[1], "the second argument of mod");
-    int slot = failed(l) ? -1 : resolve_int(l->model, n, t->item[1]->at, &a->modulus);
+    int slot = failed(l) ? -1 : evaluate_int(l->model, n, t->item[1]->at, &a->modulus);
     if (slot < 0)
         return;
     if (a->modulus < 1) {
@@ -151,14 +154,14 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     int64_t shift = a.literal;
     if (a.constant) {
         int64_t value;
-        int slot = resolve_int(l->model, a.constant, t->at, &value);
+        int slot = evaluate_int(l->model, a.constant, t->at, &value);
         if (slot < 0)
             return false;
         out->slot = (int16_t)slot;
         shift += value;
         if (a.name && a.name->constant) {            /* first and last count it already */
             int64_t before;
-            if (resolve_int(l->model, a.name->constant, t->at, &before) < 0)
+            if (evaluate_int(l->model, a.name->constant, t->at, &before) < 0)
                 return false;
             shift -= before;
         }
@@ -276,4 +279,17 @@ bool lower_target(lowering *l, const statement *s, output *out)
         return false;
     }
     return !failed(l);
+}
+
+void lower_extent(const model *m, const lowering *l, const output *o, int64_t first[], int64_t last[])
+{
+    for (int d = 0; d < o->to.dims; d++) {
+        const subscript *s = &o->to.at[d];
+        if (s->level >= 0) {
+            first[d] = l->low[s->level];
+            last[d] = l->high[s->level];
+        } else {
+            first[d] = last[d] = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
+        }
+    }
 }

@@ -1,6 +1,12 @@
 /* Names: states, parameters, lists, quantities and initial values become places or expressions [4, 10]. See lower.h. */
 #include "lang/lower/lower_parts.h"
 
+#include "lang/lower/hull.h"
+#include "lang/lower/resolve.h"
+#include "lang/lower/start.h"
+#include "lang/model/evaluate.h"
+#include "lang/model/symbols.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,7 +88,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
     }
     node n = lower_scalar(l, number, "the number of a component");
     double k;
-    if (failed(l) || !resolve_number(l->model, n, number->at, NULL, &k))
+    if (failed(l) || !evaluate_number(l->model, n, number->at, NULL, &k))
         return v;
     if (k != floor(k) || k < 1 || k > v.count) {
         COMPLAIN(l, number->at, "this vector has the components 1 to %d, not %g", v.count, k);
@@ -353,7 +359,7 @@ value lower_initial(lowering *l, const tree *t)
         return wrong(l);
     }
     double at;
-    if (!resolve_start_time(l->model) || !resolve_number(l->model, n, bracket->at, "the start", &at))
+    if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, bracket->at, "the start", &at))
         return wrong(l);
     if (at != l->model->start) {
         COMPLAIN(l, t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
@@ -363,10 +369,10 @@ value lower_initial(lowering *l, const tree *t)
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
     if ((int)name->index_count != s.state->dims) {
-        resolve_indices_wrong(l->model, s.state, name->at);
+        hull_indices_wrong(l->model, s.state, name->at);
         return wrong(l);
     }
-    if (!resolve_hull(l->model, s.state) || !subscripts(l, name, s.state->dims, &r, low, high) ||
+    if (!hull_find(l->model, s.state) || !subscripts(l, name, s.state->dims, &r, low, high) ||
         (s.state->dims && !covered(l, s.state, name, low, high)) || !start_cells(l->model, s.state, name->primes, low, high))
         return wrong(l);
     return load(l, s.state->start_array[name->primes], s.state->components, &r);

@@ -3,8 +3,13 @@
  * Invariant: each line is computed once, when it is first needed; a cell keeps the value of the line with the highest rank, whichever is
  * computed first: a family's, then a cell's own, then one of --set.
  */
+#include "lang/lower/start.h"
+
+#include "lang/lower/hull.h"
 #include "lang/lower/lower.h"
-#include "lang/model/vary.h"
+#include "lang/lower/resolve.h"
+#include "lang/model/evaluate.h"
+#include "lang/model/vary_record.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,10 +31,10 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
         return false;
     }
     for (int d = 0; d < s->order; d++) {
-        if (!resolve_pool(m, s->hull * (size_t)parts, &base) || !resolve_arrays(m, parts, &s->start_array[d]))
+        if (!model_take_numbers(m, s->hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &s->start_array[d]))
             return false;
         for (int k = 0; k < parts; k++)
-            resolve_shape(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
+            graph_shape(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
     }
     return true;
 }
@@ -43,7 +48,7 @@ static bool run_line(model *m, model_state *s, const statement *one, const outpu
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
     if (!known)
-        return resolve_into_pool(m, o, v, base, s->first, s->last, s->hull);
+        return evaluate_into_pool(m, o, v.item, v.count ? v.count : 1, base, s->first, s->last, s->hull);
     for (int d = 0; d < s->dims; d++) {
         at = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
         cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at - s->first[d]);
@@ -108,7 +113,7 @@ static bool start_line(model *m, model_state *s, statement *one)
         return false;
     }
     if ((int)one->index_count != s->dims)
-        return resolve_indices_wrong(m, s, one->at);
+        return hull_indices_wrong(m, s, one->at);
     one->progress = 1;
     m->start_depth++;
     lowering l;
@@ -118,7 +123,7 @@ static bool start_line(model *m, model_state *s, statement *one)
         return false;
     m->start_depth--;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
-    resolve_target(m, &l, &o, first, last);
+    lower_extent(m, &l, &o, first, last);
     size_t cell = 0;
     for (int d = 0; d < s->dims; d++) {
         if (first[d] < s->first[d] || last[d] > s->last[d]) {
@@ -143,14 +148,14 @@ static bool start_line(model *m, model_state *s, statement *one)
                      &s->log_array[one->primes]))
         return false;
     if (s->dims > 0)
-        return resolve_mark(m, s, one, first, last, map, rank, false);
+        return hull_mark(m, s, one, first, last, map, rank, false);
     map[0] = rank;
     return true;
 }
 
 static bool start_maps(model *m, model_state *s)
 {
-    if (!resolve_start_time(m) || !resolve_hull(m, s))
+    if (!resolve_start_time(m) || !hull_find(m, s))
         return false;
     for (int primes = 0; primes < s->order; primes++) {
         if (s->start_map[primes])
@@ -203,7 +208,7 @@ static bool own_lines(model *m, model_state *s, int primes)
         lower_start(&l, m, PLACE_CONSTANT, "an index");
         if (!lower_target(&l, one, &o))
             return false;
-        resolve_target(m, &l, &o, first, last);
+        lower_extent(m, &l, &o, first, last);
         size_t cell = 0;
         bool inside = true;
         for (int d = 0; d < s->dims; d++) {

@@ -76,6 +76,8 @@ typedef struct model_definition {
     size_t numbers;
 } model_definition;
 
+typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
+
 typedef struct model {
     arena *arena;
     source source;
@@ -111,52 +113,18 @@ typedef struct model {
     const char *method;
 } model;
 
-/* Reads a model. On failure the error says what and where, and *out is NULL; the arena holds whatever was taken. */
-motus_status model_create(arena *, const motus_text_def *, model **out, motus_error *);
-
 /* Name of x[k] (in_v: v[k]): "r[3].y", "x'". */
 void model_name(const model *, bool in_v, size_t k, char *out, size_t size);
 void model_state_name(const model_state *, size_t cell, int component, bool prime, char *out, size_t size);
 /* Equation k as text, in normal form; returns false past the last. */
 bool model_equation(const model *, size_t k, char *out, size_t size);
-/* Text of a node with the model's names. */
+/* Text of a node with the names of the model. */
 void model_print(const model *, node, char *out, size_t size);
 
-/* ---- within lang/ ---- */
-
-typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
-
-/* resolve.c: constants, layout, initial values */
-bool resolve_all(model *);
-bool resolve_definition(model *, model_definition *);
-/* The complaint that a line has not the indices that its state has; false. */
-bool resolve_indices_wrong(model *, const model_state *, span at);
-bool resolve_hull(model *, model_state *);       /* where its indices range, and which cells have equations */
-bool resolve_start_time(model *);
-/* what: "step", "the start" …, or NULL: a size or an index; must outlive the model */
-bool resolve_number(model *, node, span at, const char *what, double *value);
-int resolve_int(model *, node, span at, int64_t *value);        /* the int slot, or -1 */
-/* Room for arrays, zeroed; their numbers begin at *first. */
-bool resolve_arrays(model *, int count, uint16_t *first);
-/* x0 and v0 from the initial values, wherever those changed. */
-void resolve_start_state(model *);
-bool resolve_run(model *, const output *, size_t count, double t, double *const base[SPACES]);
-
-/* start.c: initial values */
-bool start_state(model *, model_state *);
-/* x(0) (primes 0) or x'(0) (1) at the cells [low, high]: afterwards in start_array. */
-bool start_cells(model *, model_state *, int primes, const int64_t low[], const int64_t high[]);
-
-/* equations.c */
-bool equations_all(model *);
-/* analysis.c */
-void analysis_all(model *);
-
-/* symbols.c: names */
-typedef struct symbol { model_state *state; model_definition *definition; } symbol;
-bool symbols_collect(model *, const motus_text_def *);
-symbol symbols_find(const model *, const char *name);
-void symbols_suggest(model *, const char *name, const char *const *more, uint32_t more_count);
-bool symbols_classify(model *);
+/* model_storage.c. Room for `count` numbers in the pool, and for arrays, zeroed; they begin at *first. False: no memory, or complained. */
+bool model_take_numbers(model *, size_t count, size_t *first);
+bool model_take_arrays(model *, int count, uint16_t *first);
+/* Copies the initial values from the pool into x0 and v0; due after every change of them. */
+void model_start_state(model *);
 
 #endif

@@ -1,6 +1,8 @@
 /* What can be read off the equations: what they depend on, whether velocity enters linearly, whether the exact motion is known and
  * true. What needs sampled states (gradient, gyroscopic) is found by the machine that can evaluate them. */
-#include "lang/lower/lower.h"
+#include "lang/read/read_steps.h"
+
+#include "lang/model/evaluate.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -126,7 +128,7 @@ static bool verify_exact(model *m)
         memset(a, 0, n * sizeof *a);
         memset(e, 0, n * sizeof *e);
         double *motion[SPACES] = {[SPACE_X] = x, [SPACE_V] = v}, *truth[SPACES] = {[SPACE_A] = e}, *force[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
-        if (!resolve_run(m, m->exact, m->exact_count, t, motion))
+        if (!evaluate_outputs(m, m->exact, m->exact_count, t, motion))
             return false;
         if (k == 0) {
             double big = 0;
@@ -151,9 +153,9 @@ static bool verify_exact(model *m)
                 return false;
             }
         }
-        if (m->boundary_count && !resolve_run(m, m->boundary, m->boundary_count, t, motion))
+        if (m->boundary_count && !evaluate_outputs(m, m->boundary, m->boundary_count, t, motion))
             return false;
-        if (!resolve_run(m, second, count, t, truth) || !resolve_run(m, m->accel, m->accel_count, t, force))
+        if (!evaluate_outputs(m, second, count, t, truth) || !evaluate_outputs(m, m->accel, m->accel_count, t, force))
             return false;
         double big = 0;
         for (size_t i = 0; i < m->nv; i++)

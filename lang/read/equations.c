@@ -1,5 +1,10 @@
 /* Equations, boundary lines, quantities, invariants and exact motions, as outputs over the graph. */
+#include "lang/read/read_steps.h"
+
+#include "lang/lower/hull.h"
 #include "lang/lower/lower.h"
+#include "lang/model/evaluate.h"
+#include "lang/model/symbols.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -70,7 +75,7 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     output o = {0};
     lower_start(&l, m, place, what);
     if ((int)s->index_count != state->dims) {
-        return resolve_indices_wrong(m, state, s->at);
+        return hull_indices_wrong(m, state, s->at);
     }
     if (!lower_target(&l, s, &o))
         return false;
@@ -132,7 +137,7 @@ static bool looked_at(model *m, model_definition *d)
         return false;
     }
     d->outputs = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *d->outputs);
-    if (!d->outputs || !resolve_arrays(m, parts, &d->array))
+    if (!d->outputs || !model_take_arrays(m, parts, &d->array))
         return false;
     for (int k = 0; k < parts; k++) {
         shape.base = hull * (size_t)k;
@@ -203,5 +208,5 @@ bool equations_all(model *m)
             return false;
     }
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
-    return m->boundary_count == 0 || resolve_run(m, m->boundary, m->boundary_count, m->start, base);
+    return m->boundary_count == 0 || evaluate_outputs(m, m->boundary, m->boundary_count, m->start, base);
 }

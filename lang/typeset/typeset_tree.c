@@ -5,6 +5,8 @@
  */
 #include "lang/typeset/typeset_parts.h"
 
+#include "lang/model/symbols.h"
+
 /* Shapes ------------------------------------------------------------------------------------------------------------- */
 
 /* Functions whose name is written; the others have a shape. */
