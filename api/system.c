@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const motus_allocator *motus_system_allocator(const motus_system *s);
-const motus_allocator *motus_system_allocator(const motus_system *s) { return &s->allocator; }
-
 static motus_system *begin(const motus_allocator *a)
 {
     motus_system *s = take(a, 1, sizeof *s);
@@ -167,6 +164,7 @@ motus_status system_again(const motus_system *s, motus_system **out, motus_error
     return status;
 }
 
+const motus_allocator *motus_system_allocator(const motus_system *s) { return s ? &s->allocator : NULL; }
 size_t motus_positions(const motus_system *s) { return s ? s->positions : 0; }
 size_t motus_velocities(const motus_system *s) { return s ? s->velocities : 0; }
 size_t motus_variable_count(const motus_system *s) { return s ? s->state_count : 0; }
