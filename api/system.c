@@ -76,7 +76,8 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    motus_status status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err) : fail(err, MOTUS_MEMORY, "no memory for the model");
+    motus_status status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
+                                             : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {

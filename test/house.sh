@@ -1,6 +1,6 @@
 #!/bin/bash
-# The order of the house: who may use whom (read from the tables in HOUSE.md) by includes and by symbols, how symbols are named, and that the
-# shared library shows exactly what motus.h declares.
+# The order of the house: who may use whom (the tables in HOUSE.md) by includes and by symbols, how symbols are named,
+# and that the shared library shows exactly what motus.h declares.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C
@@ -11,9 +11,9 @@ not_ok() { failed=$((failed + 1)); echo "not ok - $1"; shift; [ $# -gt 0 ] && pr
 # name, complaints (one a line; none: the case passes)
 judge() { if [ -z "$2" ]; then ok "$1"; else not_ok "$1"; sed 's/^/    /' <<<"$2"; fi; }
 
-# --- the tables of HOUSE.md ------------------------------------------------------------------------------------------------
-# Rows: | `core/` | what it is | `step/`, `motus.h` |. A row that grants nothing and does not say so is not a law. Folders are ranked in the order
-# of their rows, a sub-folder within its folder.
+# --- the tables of HOUSE.md ---------------------------------------------------------------------------------------
+# Rows: | `core/` | what it is | `step/`, `motus.h` |. A row that grants nothing and does not say so is not a law. Folders
+# are ranked in the order of their rows, a sub-folder within its folder.
 declare -A grants rank
 folders=()
 while IFS='|' read -r _ folder _ may _; do
@@ -35,8 +35,9 @@ find_folder() {
 granted() { echo ${grants[$1]} ${grants[${1%/*}]-}; }
 
 judge "HOUSE.md says what every folder may use" "$(
-    find * \( -name build -o -name out -o -name node_modules -o -name include -o -name test -o -name bench \) -prune -o -name '*.[ch]' -printf '%h\n' |
-        sort -u | while read -r folder; do [ -n "${rank[$folder]-}" ] || echo "$folder/ has no row"; done)"
+    find * -name node_modules -prune -o -name '*.[ch]' -printf '%h\n' | sort -u |
+        grep -vE '^(build|out|include|test|bench)(/|$)' |
+        while read -r folder; do [ -n "${rank[$folder]-}" ] || echo "$folder/ has no row"; done)"
 judge "HOUSE.md grants each folder only what stands above it" "$(
     for folder in "${folders[@]}"; do
         for grant in ${grants[$folder]}; do
@@ -94,26 +95,36 @@ else
     scratch=$(mktemp -d)
     trap 'rm -rf "$scratch"' EXIT
     # The texts of step/ are written by the build, and declared in one of the folders.
-    sources=$(for folder in "${folders[@]}"; do [[ $folder == cli || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null; done
+    sources=$(
+        for folder in "${folders[@]}"; do
+            [[ $folder == cli || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
+        done
         ls */texts.h | sed 's/h$/c/')
     # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
     judge "no two files of the library have the same name" "$(sed 's:.*/::' <<<"$sources" | sort | uniq -d)"
-    # The page's module is made for WebAssembly; its own files are compiled here once more for their symbols alone. What needs WASI uses
-    # nothing of ours.
+    # The page's module is made for WebAssembly; its own files are compiled here once more for their symbols alone. What
+    # needs WASI uses nothing of ours.
     mkdir -p "$scratch/lab/core"
     unread=$(for file in lab/core/*.c; do
-        grep -q '#include <wasi/' "$file" || cc -std=c17 -w -D_GNU_SOURCE -I. -Iinclude -c "$file" -o "$scratch/$file.o" 2>&1
+        grep -q '#include <wasi/' "$file" ||
+            cc -std=c17 -w -D_GNU_SOURCE -I. -Iinclude -c "$file" -o "$scratch/$file.o" 2>&1
     done)
     judge "lab/core/ is compiled for its symbols" "$unread"
     # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
     {
         nm -A "$archive" 2>/dev/null | sed 's/^[^:]*://'
-        for file in cli/*.c; do [ -f "$program/$file.o" ] && nm -A "$program/$file.o" | sed "s:^[^ ]*\.o:$file.o:"; done
-        for file in lab/core/*.c; do [ -f "$scratch/$file.o" ] && nm -A "$scratch/$file.o" | sed "s:^[^ ]*\.o:$file.o:"; done
+        for file in cli/*.c lab/core/*.c; do
+            object=$scratch/$file.o
+            [[ $file == cli/* ]] && object=$program/$file.o
+            [ -f "$object" ] && nm -A "$object" | sed "s:^[^ ]*\.o:$file.o:"
+        done
     } | awk -v sources="$sources" '
-        BEGIN { n = split(sources, path, "\n"); for (k = 1; k <= n; k++) { file = path[k]; sub(/.*\//, "", file); of[file] = path[k] } }
+        BEGIN {
+            for (k = split(sources, path, "\n"); k > 0; k--) { file = path[k]; sub(/.*\//, "", file); of[file] = path[k] }
+        }
         { file = $1; sub(/\.o:.*/, "", file); type = $(NF - 1) }
-        type ~ /^[UA-TV-Z]$/ && type != "A" { print (file in of ? of[file] : file), $NF, type == "U" ? "U" : "D" }' | sort -u >"$scratch/symbols"
+        type ~ /^[A-Z]$/ { print (file in of ? of[file] : file), $NF, type == "U" ? "U" : "D" }' |
+        sort -u >"$scratch/symbols"
 
     judge "every symbol starts with its file's name" "$(
         while read -r path symbol kind; do
@@ -131,11 +142,15 @@ else
         done <"$scratch/symbols")"
 
     # Who uses whose: user, symbol, file of the library. What a program defines is its own.
-    awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2] = 1; else from[$2] = $1 } $3 == "U" { uses[$1 " " $2] }
-        END { for (use in uses) { split(use, u, " "); if (u[2] in from && !((substr(u[1], 1, 3) u[2]) in own)) print use, from[u[2]] } }' \
+    awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2]; else from[$2] = $1 }
+        $3 == "U" { use[++n] = $1; symbol[n] = $2 }
+        END {
+            for (; n > 0; n--)
+                if (symbol[n] in from && !((substr(use[n], 1, 3) symbol[n]) in own)) print use[n], symbol[n], from[symbol[n]]
+        }' \
         "$scratch/symbols" | sort >"$scratch/uses"
-    # A folder granted to another shows it all its symbols; a header, those that it declares. Symbols, too, come from above alone.
-    declared() { tr '\n' ' ' <"$1" | sed -E 's:/\*([^*]|\*+[^*/])*\*+/: :g' | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u; }
+    # A folder grants all its symbols; a header, those that it declares. In both cases they are defined above.
+    declared() { tr '\n' ' ' <"$1" | sed -E 's:/\*([^*]|\*+[^*/])*\*+/: :g' | grep -oE '[A-Za-z_]\w*' | sort -u; }
     declare -A may_use names complaint
     for folder in "${folders[@]}"; do
         complaint[$folder]=
@@ -155,14 +170,16 @@ else
         [ "$good" = no ] && complaint[$folder]+="$user uses $symbol of $path"$'\n'
     done <"$scratch/uses"
     for folder in "${folders[@]}"; do
-        [ "$folder" = step ] || judge "$folder/ uses only the symbols that HOUSE.md grants it" "${complaint[$folder]%$'\n'}"
+        [ "$folder" = step ] && continue        # texts without objects
+        judge "$folder/ uses only the symbols that HOUSE.md grants it" "${complaint[$folder]%$'\n'}"
     done
 
     # Constants and functions only: a writable global is state that two threads would share. .data.rel.ro is constant once loaded.
     judge "no globals that change" "$(
         objdump -t "$archive" | awk '
             / file format / { file = $1; sub(/:$/, "", file) }
-            NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / { print file " " $NF }' | sort -u)"
+            NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / {
+                print file " " $NF }' | sort -u)"
 fi
 
 shared=$build/libmotus.so
@@ -182,7 +199,10 @@ else
 fi
 
 # --- files ----------------------------------------------------------------------------------------------------------------
-ours() { find include $(printf '%s\n' "${folders[@]%%/*}" | grep -vx lab | sort -u) test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
+ours() {
+    find include $(printf '%s\n' "${folders[@]%%/*}" | grep -vx lab | sort -u) test ! -path 'test/corpus/*' \
+        \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort
+}
 judge "every file opens with a comment that says what it is" "$(
     for file in $(ours); do
         case $file in

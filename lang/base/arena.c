@@ -30,7 +30,7 @@ void arena_release(arena *a)
     a->failed = false;
 }
 
-/* The hooks promise no more than malloc's alignment, so it is the address that is rounded up, not the offset. */
+/* The hooks promise only malloc's alignment, so the address is rounded up, not the offset. */
 static char *carve(arena_block *b, size_t bytes, size_t align)
 {
     char *start = (char *)(b + 1);
@@ -65,7 +65,7 @@ void *arena_take(arena *a, size_t bytes)
     size_t size = a->blocks ? a->blocks->size * 2 : FIRST_BLOCK;
     if (size > LARGEST_BLOCK)
         size = LARGEST_BLOCK;
-    bool alone = bytes > size / 2;   /* a big piece gets its own block and leaves the open one open */
+    bool alone = bytes > size / 2;   /* a big piece gets its own block; the open block stays open */
     if (alone)
         size = bytes + LINE;
     arena_block *b = take(&a->allocator, 1, sizeof *b + size);
@@ -85,7 +85,7 @@ void *arena_take(arena *a, size_t bytes)
 void *arena_grow(arena *a, void *old, size_t old_bytes, size_t new_bytes)
 {
     void *p = arena_take(a, new_bytes);
-    if (!p || p == a->spare) {       /* the spare is no place for what must last */
+    if (!p || p == a->spare) {       /* the next failed request would overwrite the spare */
         a->failed = true;
         return NULL;
     }

@@ -1,8 +1,8 @@
 /* Memory of one model: taken piece by piece, released at once.
  *
- * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory is gone it sets `failed` and returns the spare
- * block, so that callers may write before they look; whoever loops or recurses looks at `failed` first. Larger requests return
- * NULL and set `failed`. (No longjmp: the lab's WebAssembly has none.)
+ * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory has run out it sets `failed` and
+ * returns the spare block, so callers may write before they check; code that loops or recurses checks `failed` first.
+ * Larger requests return NULL and set `failed`. (There is no longjmp because WebAssembly has none.)
  */
 #ifndef LANG_BASE_ARENA_H
 #define LANG_BASE_ARENA_H
@@ -15,7 +15,7 @@ typedef struct arena {
     motus_allocator allocator;
     struct arena_block *blocks;
     bool failed;
-    _Alignas(max_align_t) char spare[ARENA_SPARE];   /* no stricter: an arena lies in blocks from the hooks, aligned as malloc's */
+    _Alignas(max_align_t) char spare[ARENA_SPARE];   /* a block from the hooks is aligned no more strictly */
 } arena;
 
 void arena_init(arena *, const motus_allocator *);

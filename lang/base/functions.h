@@ -1,4 +1,5 @@
-/* The texts of the elementary functions in their order, for one vocabulary (step/functions_core.h); included once for each. */
+/* The elementary functions over one kind of number (step/functions_core.h says how it is named); included once for each
+ * kind. */
 #include "step/functions_core.h"
 #include "step/functions_plain.h"
 #include "step/functions_exponential.h"

@@ -1,4 +1,4 @@
-/* How far the indices of a model go: the parser refuses more, and the graph's structures have room for this many. */
+/* Limits on indices: the parser refuses more, and the graph has room for this many. */
 #ifndef LANG_BASE_LIMITS_H
 #define LANG_BASE_LIMITS_H
 

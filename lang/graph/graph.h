@@ -21,8 +21,9 @@ typedef struct range { subscript first, last; } range;       /* empty if last < 
 /* Where numbers live. X, V: the state (A: the acceleration there). DX, DV: a direction. POOL: parameters, initial values. */
 typedef enum space { SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV, SPACE_POOL, SPACE_OUT, SPACES } space;
 
-/* One component of one state, list or quantity, as an array over its indices. Addresses are run-time values (lang/read/read.c binds
- * them): element = base + sum over d of (index[d] - first[d]) * stride[d]; the last dimension has stride 1. */
+/* One component of one state, list or quantity, as an array over its indices. Addresses are run-time values
+ * (a machine binds them): element = base + sum over d of (index[d] - first[d]) * stride[d]; the last dimension
+ * has stride 1. */
 typedef struct array {
     space space;
     int dims;
@@ -61,7 +62,7 @@ typedef struct graph {
     const array *arrays;      /* owned by the model; index = reference.array */
     node *table; uint32_t table_size;       /* hash-consing */
     uint32_t *place;          /* scratch of graph_order */
-    bool simplify;            /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise (DESIGN rule 15) */
+    bool simplify;            /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
     bool too_large;           /* more than GRAPH_NODES_MAX: building stops, node 0 is returned */
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };

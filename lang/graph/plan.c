@@ -1,7 +1,7 @@
 /* The plan of a program: see plan.h.
  *
- * Invariant: ordered by rank, then key, the items of a region come after all they need; sums over the same range, of the same rank, share
- * one loop, for neither can need the other.
+ * Invariant: in the order of rank, then key, each item of a region comes after the items that it needs. Sums over the
+ * same range and of the same rank share one loop, because neither can need the other.
  */
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
@@ -115,7 +115,7 @@ static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t ho
     p->regions.at[k].rank = rank;
     p->regions.at[k].sum = true;
     p->regions.at[home].holds_sums = true;
-    /* Lanes would differ in length: the loop that decides the bounds runs one value at a time. */
+    /* The bounds would differ from lane to lane, so the loop that they depend on runs one value at a time. */
     for (uint32_t up = home; p->regions.at[up].level >= 0; up = p->regions.at[up].parent)
         if (p->regions.at[up].level == r.first.level || p->regions.at[up].level == r.last.level)
             p->regions.at[up].serial = true;

@@ -1,8 +1,8 @@
 /* Where each value of a program is computed: the plan that lang/tape/ and lang/emit/ follow.
  *
- * Regions form a tree. Region 0 runs once, when parameters are bound; region 1, its child, at every evaluation; below them a region is the
- * inside of a loop, over a family's index or over a sum's. A value is computed in the outermost region, on the path to where it is
- * needed, that knows all the indices it depends on.
+ * Regions form a tree. Region 0 runs once, when parameters are bound; region 1, its child, at every evaluation; below
+ * them a region is the inside of a loop, over a family's index or over a sum's. A value is computed in the outermost
+ * region on the path to its use in which all the indices that it depends on are bound.
  */
 #ifndef LANG_GRAPH_PLAN_H
 #define LANG_GRAPH_PLAN_H
@@ -36,7 +36,7 @@ typedef struct plan_item {
     uint32_t inside;                     /* SUM: the region of its loop */
     uint32_t next_sum;                   /* SUM: the next one in the same loop */
     uint32_t outputs;                    /* outputs written as soon as it is known */
-    uint32_t reg, total;                 /* for the writer: tape_code.c keeps its registers here; of a SUM, NONE until its loop is written */
+    uint32_t reg, total;                 /* the writer's; of a SUM, reg is NONE until its loop is written */
 } plan_item;
 
 typedef struct plan {

@@ -1,4 +1,4 @@
-/* The normal form: which additions are fused with a multiplication, and how a sum runs. It defines the bits (DESIGN, rule 15).
+/* The normal form: which additions are fused with a multiplication, and how a sum runs. It defines the bits.
  *
  * Fusing. Uses are counted over the whole program: one for every operand that is this node, one for every output. A product p*q is
  * MUL(p, q), or NEG of it; it can be fused if it (and the NEG) is used once.

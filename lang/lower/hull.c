@@ -1,4 +1,4 @@
-/* The hull of a state's indices, and which of its cells have an equation or a boundary line. See hull.h. */
+/* The hull of a state's indices, and its cells with an equation or a boundary line. See hull.h. */
 #include "lang/lower/hull.h"
 
 #include "lang/lower/lower.h"
@@ -21,7 +21,8 @@ bool hull_indices_wrong(model *m, const model_state *s, span at)
     for (const statement *one = (s)->line ? &(m)->statements.item[(s)->line - 1] : NULL; one; \
          one = one->next ? &(m)->statements.item[one->next - 1] : NULL)
 
-bool hull_mark(model *m, const model_state *s, const statement *from, const int64_t first[], const int64_t last[], uint8_t *map, uint8_t as, bool once)
+bool hull_mark(model *m, const model_state *s, const statement *from, const int64_t first[],
+               const int64_t last[], uint8_t *map, uint8_t as, bool once)
 {
     int64_t at[MAX_DIMS];
     for (int d = 0; d < s->dims; d++)

@@ -1,5 +1,5 @@
-/* From trees to nodes. See lower.h. Long chains of operators lean left and are walked in a loop; everything else recurses as deep as
- * the parser allowed. */
+/* Expressions: operators, calls and sums to nodes. See lower.h. Chains of operators may be long and lean left, so a
+ * loop walks them; the rest recurses, as deep as the parser has allowed. */
 #include "lang/lower/lower_parts.h"
 
 #include "lang/model/symbols.h"
@@ -88,7 +88,8 @@ static value lower_quotient(lowering *l, const tree *t, const tree *a, value va,
     }
     if (!va.count)
         return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
-    node once = binary(l, OP_DIV, graph_const(l->model->graph, 1), vb.item[0]);     /* v/s is v*(1/s), the quotient once [15] */
+    /* v/s is v*(1/s), so it divides once */
+    node once = binary(l, OP_DIV, graph_const(l->model->graph, 1), vb.item[0]);
     value v = vector(l, va.count);
     for (int k = 0; k < v.count; k++)
         v.item[k] = binary(l, OP_MUL, va.item[k], once);
@@ -103,7 +104,7 @@ static node dot(lowering *l, value a, value b)
     return graph_total(l->model->graph, products.item, (size_t)products.count);
 }
 
-/* A literal whole exponent with |n| <= 64 [15]; 0 otherwise. */
+/* Whether an exponent is a literal whole number with |n| <= 64, which becomes products. */
 static bool literal_exponent(const tree *t, int *n)
 {
     int sign = 1;
@@ -117,7 +118,7 @@ static bool literal_exponent(const tree *t, int *n)
     return true;
 }
 
-/* |v|^n by way of d = dot(v, v): d^(n/2), times sqrt(d) where n is odd [15] */
+/* |v|^n from d = dot(v, v): d^(n/2), times sqrt(d) where n is odd */
 static node norm_power(lowering *l, value of, int n)
 {
     graph *g = l->model->graph;
@@ -133,7 +134,8 @@ static node norm_power(lowering *l, value of, int n)
     return n < 0 ? binary(l, OP_DIV, graph_const(g, 1), p) : p;
 }
 
-/* a[i] b[j] - a[j] b[i]. The order in which nodes are made is the graph's, not a compiler's choice. */
+/* a[i] b[j] - a[j] b[i]. The products are made in two statements, because C leaves the order of arguments to the
+ * compiler. */
 static node area(lowering *l, const node *a, const node *b, int i, int j)
 {
     node minus = binary(l, OP_MUL, a[j], b[i]), plus = binary(l, OP_MUL, a[i], b[j]);
@@ -227,7 +229,7 @@ static value lower_call(lowering *l, const tree *t)
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
 }
 
-/* sum(j = a..b, condition, …: body) [12]: each index is a loop; the conditions and the body stand in the innermost */
+/* sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the body. */
 static value lower_sum(lowering *l, const tree *t)
 {
     lowering inner = *l;
@@ -254,7 +256,7 @@ static value lower_sum(lowering *l, const tree *t)
         return wrong(l);
     }
     node mask = 0;
-    bool masked = false, never = false;              /* a condition that is false whatever happens leaves nothing to sum */
+    bool masked = false, never = false;              /* never: a condition is the constant false, so the sum is empty */
     for (uint32_t i = 0; i + 1 < t->count; i++) {
         value c = lower_expression(&inner, t->item[i]);
         if (failed(l))
@@ -306,7 +308,7 @@ static value lower_vector(lowering *l, const tree *t)
     return v;
 }
 
-/* One operator with the left operand done. */
+/* One operator whose left operand is lowered already. */
 static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
@@ -331,7 +333,7 @@ static bool operator_kind(tree_kind kind)
     return kind == TREE_ADD || kind == TREE_SUBTRACT || kind == TREE_MULTIPLY || kind == TREE_DIVIDE || kind == TREE_AND || kind == TREE_OR;
 }
 
-/* a op b op c …: down the left side, then up again. */
+/* a op b op c …: collects the operators down the left side, then lowers them from the innermost outward. */
 static value lower_chain(lowering *l, const tree *t)
 {
     size_t depth = 0;

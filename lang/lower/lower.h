@@ -1,4 +1,10 @@
-/* From trees to nodes: shapes are checked here, vectors become components, names become places. */
+/* Lowering: trees to nodes. It checks shapes, splits vectors into components and resolves names.
+ *
+ * Lowering, parameters (resolve.h), hulls (hull.h) and initial values (start.h) call one another: an expression may
+ * need a parameter's value or a state's shape, which comes from another expression. Each is computed when it is first
+ * needed; model.h bounds the depth. Numbers in brackets are the rules of the language as test/language_test.c numbers
+ * them.
+ */
 #ifndef LANG_LOWER_LOWER_H
 #define LANG_LOWER_LOWER_H
 
@@ -10,11 +16,11 @@ typedef struct value {
     bool boolean;
 } value;
 
-/* An index name in sight: the subscript it stands for, the same as a number, and where it ranges. */
+/* A name of an index that may be used here: as a subscript, as a number, and its range. */
 typedef struct index_name {
     const char *name;
     subscript at;
-    node constant;                   /* node of the slot part of `at`; 0 if there is none */
+    node constant;                   /* the int slot of `at` as a node; 0 if it has none */
     node number;
     int64_t first, last;
 } index_name;
@@ -27,20 +33,21 @@ typedef struct lowering {
     const char *what;                /* "a parameter", "an initial value", "a boundary line": for messages */
     index_name names[2 * MAX_LEVELS];
     int name_count, levels;
-    int64_t low[MAX_LEVELS], high[MAX_LEVELS];       /* where each level ranges */
-    double terms;                    /* how often the present expression is evaluated */
+    int64_t low[MAX_LEVELS], high[MAX_LEVELS];       /* the range of each level */
+    double terms;                    /* how often the expression is evaluated in one evaluation of the model */
     int chain;
 } lowering;
 
 void lower_start(lowering *, model *, lower_place, const char *what);
 value lower_expression(lowering *, const tree *);
-/* A scalar that is not a condition. */
+/* The same for a tree that must be a number, neither vector nor condition. */
 node lower_scalar(lowering *, const tree *, const char *what);
-/* `name[indices] … for loops`: fills to->dims, to->at, the output's loops, and puts the indices in sight. */
+/* A left side, `name[indices] … for loops`: fills to->dims, to->at and the loops of the output, and makes the indices
+ * known to the lowering. */
 bool lower_target(lowering *, const statement *, output *);
 bool lower_subscript(lowering *, const tree *, subscript *, int64_t *first, int64_t *last);
 
-/* Where a left side that lower_target has read ranges. */
+/* The range of each index of a left side that lower_target has read. */
 void lower_extent(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);
 
 #endif

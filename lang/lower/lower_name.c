@@ -1,4 +1,5 @@
-/* Names: states, parameters, lists, quantities and initial values become places or expressions [4, 10]. See lower.h. */
+/* Names [4, 10]: states, parameters, lists and initial values become loads, quantities their expressions. See lower.h.
+ * */
 #include "lang/lower/lower_parts.h"
 
 #include "lang/lower/hull.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Loads one component each of `count` arrays from number `first` on. */
+/* One load for each component; their arrays are numbered from `first` on. */
 static value load(lowering *l, uint16_t first, int components, const reference *at)
 {
     value v = vector(l, components);
@@ -33,7 +34,8 @@ static bool subscripts(lowering *l, const tree *t, int dims, reference *r, int64
     return true;
 }
 
-/* Every index that a state is read at has an equation or a boundary line; its highest derivative, an equation. */
+/* Complains where a state is read at an index without an equation or a boundary line, or its highest derivative without
+ * an equation. */
 static bool covered(lowering *l, const model_state *s, const tree *t, const int64_t low[], const int64_t high[])
 {
     bool derivative = t->primes == s->order;
@@ -141,7 +143,8 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     }
     if (!select && (!subscripts(l, t, s->dims, &r, low, high) || (s->dims > 0 && !covered(l, s, t, low, high))))
         return wrong(l);
-    /* A companion's value lies in V and its derivative in A; a position in X, then V, then A. */
+    /* A companion lies in V and its derivative in A; a position, its velocity and its acceleration lie in X, V and A.
+     * */
     int block = t->primes + (s->order == 1 ? BLOCK_V : BLOCK_X);
     value v = load(l, (uint16_t)(l->model->block[block] + s->array), s->components, &r);
     return select ? lower_component(l, v, t->item[0], t) : v;
@@ -167,7 +170,7 @@ static value lower_list(lowering *l, const tree *t, model_definition *d)
     return load(l, d->array, d->components, &r);
 }
 
-/* A quantity of a family is its expression with other indices put in. */
+/* A quantity with indices is its expression with the subscripts in place of its own indices. */
 static value lower_quantity_family(lowering *l, const tree *t, model_definition *d)
 {
     const statement *s = d->statement;
@@ -238,7 +241,8 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
             return wrong(l);
         return lower_quantity_family(l, t, d);
     }
-    if (d->kind != DEFINED_PARAMETER) {              /* its expression, in its place: what it may depend on is decided by who uses it */
+    /* A quantity is lowered where it is used, because the place of its use decides what it may depend on. */
+    if (d->kind != DEFINED_PARAMETER) {
         lowering inner = *l;
         inner.name_count = 0;
         inner.chain++;

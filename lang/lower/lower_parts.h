@@ -1,4 +1,4 @@
-/* Small tools that the files of lang/lower*.c share. */
+/* Helpers that lower.c, lower_index.c and lower_name.c share. */
 #ifndef LANG_LOWER_LOWER_PARTS_H
 #define LANG_LOWER_LOWER_PARTS_H
 
@@ -67,7 +67,7 @@ const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
 bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
 
-/* lower_name.c: what a name stands for, and initial values, x(0) */
+/* lower_name.c: names, and initial values x(0) */
 value lower_name(lowering *, const tree *);
 value lower_initial(lowering *, const tree *);
 value lower_component(lowering *, value, const tree *number, const tree *whole);

@@ -1,4 +1,5 @@
-/* Parameters and the start, computed when they are first needed: one that is needed while it is being computed is defined in a circle. */
+/* Parameters and the start, computed when they are first needed. One that is needed while it is being computed depends
+ * on itself, which is an error. */
 #include "lang/lower/resolve.h"
 
 #include "lang/lower/lower.h"
@@ -115,7 +116,7 @@ static bool resolve_family(model *m, model_definition *d)
     lower_extent(m, &l, &o, d->first, d->last);
     d->dims = o.to.dims;
     if (d->kind != DEFINED_PARAMETER)
-        return true;                 /* its expression is put in where it is used */
+        return true;                 /* each use lowers its expression (lower_name.c) */
     value v = lower_expression(&l, d->statement->value);
     if (failed(m))
         return false;
@@ -134,7 +135,8 @@ static bool resolve_family(model *m, model_definition *d)
     d->array = at;
     for (int k = 0; k < parts; k++)
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
-    return evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) && finite_values(m, d, m->pool + base, hull * (size_t)parts) &&
+    return evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) &&
+           finite_values(m, d, m->pool + base, hull * (size_t)parts) &&
            vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, NULL, 0, &d->log_array);
 }
 
@@ -194,7 +196,7 @@ bool resolve_start_time(model *m)
             continue;
         double at;
         const tree *t = from ? s->value : s->start_at;
-        m->start_known = true;       /* an initial value in here would be a circle; it meets a start that is not a number */
+        m->start_known = true;       /* an initial value in this expression is then compared with NaN */
         if (!any)
             m->start = NAN;
         if (!resolve_constant(m, t, "the start", &at))

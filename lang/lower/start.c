@@ -1,7 +1,8 @@
-/* Initial values: x(0), x'(0), x[i](0), by lines that may use one another in any order. See lang/model/model.h.
+/* Initial values: x(0), x'(0), x[i](0), from lines that may use one another in any order. See start.h.
  *
- * Invariant: each line is computed once, when it is first needed; a cell keeps the value of the line with the highest rank, whichever is
- * computed first: a family's, then a cell's own, then one of --set.
+ * Invariant: each line is computed once, when it is first needed. A cell keeps the value of the line with the highest
+ * rank, in whichever order they are computed: lines of --set rank above lines for a single cell, and these above lines
+ * for a family.
  */
 #include "lang/lower/start.h"
 
@@ -19,7 +20,7 @@ static bool failed(const model *m) { return source_failed(&m->source); }
 
 enum { START_OF_FAMILY = 1, START_OF_CELL, START_OF_SET };
 
-/* The first line of initial values gives the state its shape and its room. */
+/* The first line that is computed decides the state's components; room in the pool follows. */
 static bool give_shape(model *m, model_state *s, const statement *one, int components)
 {
     int parts = components ? components : 1;
@@ -34,12 +35,13 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
         if (!model_take_numbers(m, s->hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &s->start_array[d]))
             return false;
         for (int k = 0; k < parts; k++)
-            graph_shape(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first, s->last);
+            graph_shape(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first,
+                        s->last);
     }
     return true;
 }
 
-/* Runs a line into the pool, or puts its numbers there where they are known. */
+/* Evaluates a line into the pool; constants are copied. */
 static bool run_line(model *m, model_state *s, const statement *one, const output *o, value v)
 {
     size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
@@ -58,7 +60,7 @@ static bool run_line(model *m, model_state *s, const statement *one, const outpu
     return true;
 }
 
-/* The value of a line, its shape checked; what it uses comes first. */
+/* Lowers a line, which computes the initial values that it uses, and checks its shape. */
 static bool line_value(model *m, model_state *s, const statement *one, lowering *l, output *o, value *v)
 {
     lower_start(l, m, PLACE_CONSTANT, "an initial value");
@@ -78,7 +80,7 @@ static bool line_value(model *m, model_state *s, const statement *one, lowering 
     return s->shaped || give_shape(m, s, one, v->count);
 }
 
-/* Runs a line; cells whose values have precedence keep them. */
+/* Evaluates a line; cells with values of higher rank keep them. */
 static bool run_start(model *m, model_state *s, const statement *one, const output *o, value v, uint8_t rank)
 {
     const uint8_t *map = s->start_map[one->primes];
@@ -99,7 +101,7 @@ static bool run_start(model *m, model_state *s, const statement *one, const outp
     return true;
 }
 
-/* One line x(0) = …, x'(0) = …, x[i](0) = … for …; lines that it uses come first. */
+/* Computes one line, x(0) = …, x'(0) = … or x[i](0) = … for …, once. */
 static bool start_line(model *m, model_state *s, statement *one)
 {
     if (one->progress == 2)
@@ -168,7 +170,7 @@ static bool start_maps(model *m, model_state *s)
     return true;
 }
 
-/* Families first; `cells` adds the lines of single cells. */
+/* Computes the lines for families and then, with `cells`, those for single cells. */
 static bool start_lines(model *m, model_state *s, int primes, bool cells)
 {
     for (int pass = 0; pass <= (int)cells; pass++)
@@ -189,7 +191,7 @@ static bool start_missing(model *m, const model_state *s, int primes, size_t cel
     return false;
 }
 
-/* Which line is about which single cell; made once, so that long lists of such lines stay cheap. */
+/* Fills in start_own, once: otherwise every use of a cell would search all lines. */
 static bool own_lines(model *m, model_state *s, int primes)
 {
     if (s->start_own[primes])
@@ -236,7 +238,7 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
     if (!single)
         return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
     for (uint32_t i = m->source.count > 1 ? s->line : 0; i; i = m->statements.item[i - 1].next) {
-        statement *one = &m->statements.item[i - 1];         /* families of --set, unless this is what they ask for */
+        statement *one = &m->statements.item[i - 1];         /* families of --set, but not one that is being computed */
         if (one->kind == STATEMENT_START && one->primes == primes && one->at.text > 0 && one->loop_count > 0 && one->progress == 0 &&
             !start_line(m, s, one))
             return false;
@@ -251,7 +253,7 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
     return s->start_map[primes][cell] != 0 || start_missing(m, s, primes, cell);
 }
 
-/* The line that gave a cell its value, as far as one can tell; else the equation. */
+/* The first line of the kind that a cell has its value from; without one, the equation. */
 static span start_span(const model *m, const model_state *s, int primes, bool own)
 {
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {

@@ -1,5 +1,5 @@
-/* Evaluation while a model is read. The tape computes constants as it computes everything else, so a parameter has the value that
- * every machine would compute. */
+/* Evaluation while a model is read. The tape computes constants as it computes everything else, so a parameter has the
+ * value that every machine would compute. */
 #include "lang/model/evaluate.h"
 
 #include "lang/model/vary_record.h"
@@ -20,7 +20,8 @@ bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, d
     return true;
 }
 
-bool evaluate_into_pool(model *m, const output *target, const node *values, int parts, size_t base, const int64_t first[], const int64_t last[], size_t hull)
+bool evaluate_into_pool(model *m, const output *target, const node *values, int parts, size_t base,
+                        const int64_t first[], const int64_t last[], size_t hull)
 {
     uint32_t arrays = m->array_count;
     uint16_t at;

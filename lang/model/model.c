@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-/* "r[3,4]'.y"; component -1: of the whole vector, without one */
+/* "r[3,4]'.y"; component -1: the whole vector, without ".y" */
 void model_state_name(const model_state *s, size_t cell, int component, bool prime, char *out, size_t size)
 {
     size_t n = (size_t)snprintf(out, size, "%s", s->name);

@@ -1,9 +1,10 @@
-/* A model: what a text means. Names are resolved, parameters are numbers, states have places in x and v, and the equations, boundary lines,
- * quantities, invariants and exact motions are outputs over one graph.
+/* A model: the meaning of a text. Names are resolved, parameters are numbers, states have places in x and v, and the
+ * equations, boundary lines, quantities, invariants and exact motions are outputs over one graph. lang/read/ makes it.
  *
- * Layout. A state (a variable with its indices and components) is stored component by component, each an array over the hull of its
- * indices, boundary cells included, last index contiguous. Second-order states lie in x, in the order of their first statement, and
- * their velocities at the same places of v; first-order states follow in v.
+ * Layout. A state (a variable with its indices and components) is stored component by component. Each component is an
+ * array over the hull of the state's indices, which is the smallest box that holds its equations and boundary lines;
+ * the last index is contiguous. x holds the second-order states in the order of their first statements; v holds their
+ * velocities at the same places, then the first-order states.
  */
 #ifndef LANG_MODEL_MODEL_H
 #define LANG_MODEL_MODEL_H
@@ -15,12 +16,12 @@ enum {
     MODEL_NUMBERS_MAX = 50000000,    /* state, all components and boundary cells */
     MODEL_LIST_MAX = 50000000,       /* numbers in parameters' lists and families */
     MODEL_COMPONENTS_MAX = 4096,     /* length of a vector */
-    MODEL_CHAIN_MAX = 400,           /* definitions that use definitions that use … */
-    MODEL_DEPTH_MAX = 2000           /* brackets and definitions within one another, all counted: what the C stack must bear */
+    MODEL_CHAIN_MAX = 400,           /* definitions that use one another, one behind the other */
+    MODEL_DEPTH_MAX = 2000           /* brackets and definitions within one another, together: it bounds the C stack */
 };
-#define MODEL_LOWERED_MAX 50000000u  /* trees lowered, all uses of quantities counted */
+#define MODEL_LOWERED_MAX 50000000u  /* trees lowered; a quantity counts at every use */
 #define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
-#define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together: they are computed while the model is read */
+#define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together, which are computed while the model is read */
 
 typedef struct model_cells {         /* the cells of a family that have an equation, in the order of their indices */
     size_t count;
@@ -43,13 +44,13 @@ typedef struct model_state {
     uint16_t start_array[2];         /* POOL arrays of x(0) and x'(0), component 0 */
     uint32_t line, last_line;        /* 1 + number of the first and last statement about it */
     uint8_t progress;
-    bool shaped, start_done;         /* components are known; every initial value is */
-    uint16_t log_array[2];           /* vary.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
-    uint8_t *start_map[2];           /* per hull cell: has x(0), x'(0) a value, and from what kind of line */
-    uint32_t *start_own[2];          /* per hull cell: 1 + number of the line about it alone, 0 none; NULL until asked for */
+    bool shaped, start_done;         /* its components are known; all its initial values are */
+    uint16_t log_array[2];           /* vary_record.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
+    uint8_t *start_map[2];           /* per hull cell: the kind of line that gave x(0), x'(0), 0 none */
+    uint32_t *start_own[2];          /* per hull cell: 1 + number of the line about it alone, 0 none; or NULL */
 } model_state;
 
-/* What was computed from parameters while the model was read: see vary.h. */
+/* What was computed from parameters while the model was read: see vary_record.h. */
 typedef struct vary_entry vary_entry;
 typedef struct vary_log {
     vary_entry *entries; uint32_t count, room;
@@ -63,15 +64,15 @@ typedef struct model_definition {
     const char *name;
     const statement *statement;
     definition_kind kind;
-    uint8_t progress;                /* 0 not yet, 1 on the way (seeing it again is a cycle), 2 done */
+    uint8_t progress;                /* 0 not computed, 1 being computed (met again, it uses itself), 2 done */
     int components;                  /* 0: scalar */
     bool list;                       /* list or family: an array over indices */
     int dims;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
-    uint16_t log_array;              /* vary.h: 1 + its array over the pool, 0 none */
+    uint16_t log_array;              /* vary_record.h: 1 + its array over the pool, 0 none */
     uint32_t slot;                   /* parameter without indices: its first pool slot */
     uint16_t array;                  /* list: POOL array of component 0; quantity or invariant: OUT array */
-    struct value **known;            /* quantity without indices: its nodes, by place and level where it is used */
+    struct value **known;            /* quantity without indices: its nodes, by place and level of use */
     output *outputs; size_t output_count;            /* quantity, invariant: into OUT from 0 */
     size_t numbers;
 } model_definition;
@@ -86,13 +87,13 @@ typedef struct model {
     array *arrays; uint32_t array_count, array_capacity;
     int64_t *ints; node *int_nodes; uint32_t int_count, int_capacity;
     double *pool; size_t pool_count, pool_capacity;
-    uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors, whatever N is */
+    uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors */
 
     vary_log log;
     double constant_terms;           /* of sums in constants so far */
     int depth;                       /* expressions within expressions, at present */
-    int start_depth;                 /* initial values that use one another */
-    uint64_t lowered;                /* trees lowered so far: bounds what quantities of quantities can cost */
+    int start_depth;                 /* initial values that use one another, at present */
+    uint64_t lowered;                /* trees lowered so far, which bounds the cost of quantities of quantities */
     model_state *states; uint32_t state_count;
     model_definition *definitions; uint32_t definition_count;
     uint32_t *symbols; uint32_t symbol_size;         /* hash table: name → state or definition */
@@ -121,7 +122,8 @@ bool model_equation(const model *, size_t k, char *out, size_t size);
 /* Text of a node with the names of the model. */
 void model_print(const model *, node, char *out, size_t size);
 
-/* model_storage.c. Room for `count` numbers in the pool, and for arrays, zeroed; they begin at *first. False: no memory, or complained. */
+/* model_storage.c. Room for `count` numbers in the pool, and for arrays, zeroed; they begin at *first. False: no
+ * memory, or complained. */
 bool model_take_numbers(model *, size_t count, size_t *first);
 bool model_take_arrays(model *, int count, uint16_t *first);
 /* Copies the initial values from the pool into x0 and v0; due after every change of them. */

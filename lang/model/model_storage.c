@@ -1,4 +1,5 @@
-/* Room for a model's numbers and arrays. Arrays and pool move while they grow, so nobody keeps a pointer into them while a model is read. */
+/* Room for a model's numbers and arrays. Pool and arrays move when they grow, so code that reads a model keeps no
+ * pointer into them. */
 #include "lang/model/model.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The hash table from names to states and definitions. See symbols.h. */
+/* The symbol table, a hash table with open addressing. See symbols.h. */
 #include "lang/model/symbols.h"
 
 #include "lang/text/words.h"
@@ -52,7 +52,7 @@ static bool known(const model *m, const char *name, const char *const *more, uin
     return s.state || s.definition || !strcmp(name, "t") || !strcmp(name, "pi");
 }
 
-/* mg where m and g are names: a product wants a blank [1]. */
+/* mg where m and g are names: the product needs a blank [1]. */
 static bool product_of_two(model *m, const char *name, const char *const *more, uint32_t more_count)
 {
     char left[MOTUS_NAME_MAX];

@@ -1,4 +1,4 @@
-/* See vary.h. */
+/* Which log entries follow from a change, and running them again. See vary.h. */
 #include "lang/model/vary.h"
 
 #include "lang/tape/tape.h"
@@ -11,12 +11,12 @@ struct vary {
     uint8_t *affected;
     vary_active *active;
     uint32_t active_count;
-    double *kept;                    /* room for the cells that an entry must not touch */
+    double *kept;                    /* copies of cells that an entry overwrites though other lines set them */
 };
 
 /* ---- what is affected ---- */
 
-/* Marks every node whose value changes. Operands stand before what uses them. */
+/* Marks every node whose value changes, in one pass, because operands come before the nodes that use them. */
 static void mark_nodes(const vary *v, uint8_t *changed)
 {
     const graph *g = v->model->graph;
@@ -43,7 +43,7 @@ static bool entry_changes(const vary_entry *e, const uint8_t *changed)
     return false;
 }
 
-/* The places an entry writes: all of its hull where it runs over an index, else its cell. */
+/* Marks the places that an entry writes: its whole hull where it has loops, else its cell. */
 static void mark_places(vary *v, const vary_entry *e)
 {
     const model *m = v->model;
@@ -58,7 +58,8 @@ static void mark_places(vary *v, const vary_entry *e)
     }
 }
 
-/* From the places that are affected to all that follows from them; the entries among it to `active`, where there is one. */
+/* Extends `affected` to all places that follow from those marked so far, and collects the entries that compute them in
+ * `active`, if it is not NULL. */
 static void follow(vary *v, uint8_t *changed)
 {
     const vary_log *log = &v->model->log;
@@ -150,7 +151,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     return MOTUS_OK;
 }
 
-/* ---- doing it ---- */
+/* ---- computing again ---- */
 
 static void put_values(const vary *v, const double *values)
 {

@@ -1,4 +1,4 @@
-/* What a model computes from parameters while it is read, noted in the model's log. See vary_record.h. */
+/* Entries of a model's log. See vary_record.h. */
 #include "lang/model/vary_record.h"
 
 static vary_entry *new_entry(model *m)

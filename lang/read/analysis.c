@@ -1,5 +1,6 @@
-/* What can be read off the equations: what they depend on, whether velocity enters linearly, whether the exact motion is known and
- * true. What needs sampled states (gradient, gyroscopic) is found by the machine that can evaluate them. */
+/* Traits of the equations that follow from their form: what they depend on, whether velocity enters linearly, whether
+ * the exact motion is known; and the check of an exact line. Traits that need sampled states (gradient, gyroscopic) are
+ * found elsewhere, by evaluation. */
 #include "lang/read/read_steps.h"
 
 #include "lang/model/evaluate.h"
@@ -8,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The constant-velocity-Jacobian test: the derivative along a direction of v depends on nothing but the direction. */
+/* Differentiates along a direction of v; da/dv is constant where the result depends on the direction alone. */
 static node seed_velocity(graph *g, node leaf, void *shift)
 {
     const graph_node *n = graph_at(g, leaf);
@@ -40,7 +41,8 @@ static void read_traits(model *m)
     t->constant_jv &= t->linear_v;
 }
 
-/* x = x(0) + x'(0) τ + a τ²/2 where a is constant, τ = t - start: Newton's own example needs no exact line. */
+/* Under a constant acceleration a the exact motion is x = x(0) + x'(0) τ + a τ²/2 with τ = t - start, so no exact line
+ * is needed. */
 static bool recognise_constant(model *m)
 {
     graph *g = m->graph;
@@ -73,10 +75,11 @@ static bool recognise_constant(model *m)
     return !source_failed(&m->source);
 }
 
-/* ---- is the exact line true? [13] ---- */
+/* ---- the check of exact lines [13] ---- */
 
 enum { SAMPLES = 16 };
-/* Rounding separates two ways to compute the same number by a few hundred ulps at most; a wrong formula is off in the first digits. */
+/* Two ways to compute the same number differ by a few hundred ulps of rounding at most; a wrong formula differs in the
+ * first digits. */
 #define SAME 1e-8
 
 static const statement *exact_line(const model *m)
@@ -87,7 +90,7 @@ static const statement *exact_line(const model *m)
     return NULL;
 }
 
-/* The first place where two arrays over the equations' cells differ. */
+/* Finds the first place where two arrays of the state's numbers differ. */
 static bool differs(const model *m, const double *a, const double *b, size_t n, bool in_v, const double *scale, char *name, size_t size, size_t *where)
 {
     for (size_t k = 0; k < n; k++) {

@@ -1,4 +1,5 @@
-/* Which definitions are parameters and which are quantities [10]: a quantity depends on a state or on time. Then lines without a state. */
+/* Divides definitions into parameters and quantities, which depend on a state or on time; then checks that lines about
+ * states have one. */
 #include "lang/read/read_steps.h"
 
 #include "lang/model/symbols.h"
@@ -39,7 +40,7 @@ static bool definition_moves(model *m, model_definition *d, span at, int chain, 
     return true;
 }
 
-/* The left side of a long chain of operators is followed in the loop: trees lean left. */
+/* Chains of operators lean left and may be long, so a loop follows the left side. */
 static bool moves_inside(model *m, const tree *t, int chain, bool *yes)
 {
     for (;;) {
@@ -100,7 +101,8 @@ static bool classify_definitions(model *m)
     return true;
 }
 
-/* Lines that no state claims: x(0) without an equation, an index on something that is no family. */
+/* Complains about initial values and exact motions without an equation of motion, and about a companion's derivative at
+ * the start. */
 static bool check_orphans(model *m)
 {
     for (uint32_t i = 0; i < m->statements.count; i++) {

@@ -1,4 +1,5 @@
-/* The statements of a model: the text's, with those of --set in their places; and the states and definitions that they name. */
+/* Collects the statements of the text, puts those of --set in their places, and enters states and definitions in the
+ * symbol table. */
 #include "lang/read/read_steps.h"
 
 #include "lang/model/symbols.h"
@@ -56,7 +57,7 @@ static bool add_definition(model *m, const statement *s)
     return true;
 }
 
-/* --set name=expression: a statement of its own text that takes the place of the model's. */
+/* --set name=expression: a statement in a text of its own, which replaces the model's. */
 static bool replace(model *m, uint32_t text)
 {
     statements set = {0};
@@ -90,7 +91,7 @@ static bool replace(model *m, uint32_t text)
         else
             same = same && old->index_count == one->index_count;
         if (same && found++)
-            continue;                /* the first has taken the place of all */
+            continue;                /* it replaces the first and removes the others */
         if (same) {
             tree *replaced = old->replaced ? old->replaced : old->value;
             span stood = old->replaced ? old->stood : old->at;

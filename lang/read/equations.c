@@ -1,4 +1,4 @@
-/* Equations, boundary lines, quantities, invariants and exact motions, as outputs over the graph. */
+/* Lowers equations, boundary lines, quantities, invariants and exact motions to outputs over the graph. */
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/hull.h"
@@ -67,7 +67,7 @@ static bool equation(model *m, const statement *s, outputs *into)
     return true;
 }
 
-/* A motion given as a function of time: its value into x (or v, for a companion), its derivative into v. */
+/* A motion that is given as a function of time: its value goes into x (a companion's into v), its derivative into v. */
 static bool given_motion(model *m, const statement *s, lower_place place, const char *what, outputs *into, bool *timed)
 {
     const model_state *state = symbols_find(m, s->name).state;
@@ -110,7 +110,7 @@ static bool looked_at(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_SHAPE, s->at, "%s[…] needs an index that runs", d->name);
         return false;
     }
-    d->progress = 1;                 /* seeing it again is a circle */
+    d->progress = 1;                 /* met again, it uses itself */
     value v = lower_expression(&l, s->value);
     if (source_failed(&m->source))
         return false;
@@ -150,7 +150,7 @@ static bool looked_at(model *m, model_definition *d)
     return true;
 }
 
-/* Every cell of every state has an exact line, or none has. */
+/* Complains where some cells have an exact line and others have none. */
 static bool exact_complete(model *m)
 {
     for (uint32_t i = 0; i < m->state_count; i++) {

@@ -1,4 +1,4 @@
-/* The places of the states in x and v, and the five blocks of arrays over them. */
+/* Lays the states out in x and v, and makes the five blocks of arrays over them (model.h). */
 #include "lang/read/read_steps.h"
 
 #include <string.h>
@@ -38,7 +38,8 @@ bool layout_all(model *m)
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];
             for (int k = 0; k < (s->components ? s->components : 1); k++)
-                graph_shape(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims, s->first, s->last);
+                graph_shape(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims,
+                            s->first, s->last);
         }
     }
     m->x0 = arena_grow(m->arena, NULL, 0, (m->nx + 1) * sizeof *m->x0);

@@ -1,4 +1,4 @@
-/* A model from its text, in the steps of read_steps.h. */
+/* A model from its text: the steps of read_steps.h, one after the other. */
 #include "lang/read/read.h"
 
 #include "lang/lower/resolve.h"
@@ -9,7 +9,8 @@
 
 static bool constants(model *m)
 {
-    /* Parameters get their slots before their shapes are known: one for each name, and two for each comma, which may stand in a vector. */
+    /* Parameters get their slots before their shapes are known: one for each name, and two for each comma, which may
+     * stand in a vector. */
     m->scalar_slots = m->definition_count + 8;
     for (uint32_t t = 0; t < m->source.count; t++)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
@@ -67,7 +68,7 @@ motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_
     motus_status status = build(m, def);
     if (status != MOTUS_OK)
         return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
-    m->source.error = NULL;          /* the caller's, and gone after this call */
+    m->source.error = NULL;          /* it is the caller's and does not outlive this call */
     *out = m;
     return MOTUS_OK;
 }

@@ -1,4 +1,4 @@
-/* The settings of a model: method, step, tolerance, until, every. */
+/* Reads the settings of a model: method, step, tolerance, until, every. */
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/resolve.h"

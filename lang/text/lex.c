@@ -143,7 +143,7 @@ static token lex_primes(lexer *l, bool blank)
     return t;
 }
 
-/* Brackets are matched here, because line ends inside them do not count (rule 8). */
+/* The lexer matches brackets because line ends inside them are blanks. */
 static bool bracket(lexer *l, char c, uint32_t from)
 {
     span at = {l->text, from, from + 1};

@@ -1,4 +1,4 @@
-/* Characters to tokens. Rules 1, 6 and 8 of the language: maximal names, exact numbers, primes, line ends. */
+/* The lexer: characters to tokens. It applies the rules for maximal names, exact numbers, primes and line ends. */
 #ifndef LANG_TEXT_LEX_H
 #define LANG_TEXT_LEX_H
 

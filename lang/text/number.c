@@ -1,4 +1,5 @@
-/* Numbers as text. strtod and printf follow the process's locale, whose decimal point may be a comma: it is translated on the way. */
+/* Numbers from text. strtod follows the process's locale, whose decimal point may be a comma, so the point is
+ * translated first. */
 #include "lang/text/number.h"
 
 #include <locale.h>

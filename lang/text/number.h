@@ -1,4 +1,4 @@
-/* Numbers as text, exactly and independent of the locale. */
+/* Numbers from text, correctly rounded and independent of the locale. */
 #ifndef LANG_TEXT_NUMBER_H
 #define LANG_TEXT_NUMBER_H
 

@@ -86,7 +86,7 @@ static void point(source *s, span at, motus_error *e)
 
 void source_complain(source *s, motus_status status, span at, const char *format, ...)
 {
-    if (source_failed(s))            /* what seems wrong after memory ran out is not the text's fault */
+    if (source_failed(s))            /* want of memory is no fault of the text */
         return;
     s->failed = true;
     s->status = status;

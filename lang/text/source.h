@@ -1,6 +1,7 @@
-/* The text of a model, and the one way to complain about it.
+/* The text of a model, and errors with a place in it.
  *
- * Invariant: the first complaint wins; after it `failed` is set, the lexer delivers only END, and everybody winds down.
+ * Invariant: only the first complaint is kept. It sets `failed`; the lexer then returns only END, and all callers
+ * return.
  */
 #ifndef LANG_TEXT_SOURCE_H
 #define LANG_TEXT_SOURCE_H
@@ -23,7 +24,7 @@ typedef struct source {
     uint32_t count;
     motus_status status;             /* of the first complaint */
     bool failed;
-    struct { uint32_t text, at; int line; } known;   /* the last place whose line was asked for: places are asked for in order */
+    struct { uint32_t text, at; int line; } known;   /* cache: the last place whose line was counted */
 } source;
 
 bool source_failed(const source *);  /* a complaint, or no memory */

@@ -1,4 +1,4 @@
-/* Words, and "did you mean". See words.h. */
+/* Words of the language and the nearest of them. See words.h. */
 #include "lang/text/words.h"
 
 #include "lang/base/operation.h"
@@ -51,7 +51,7 @@ static int letters(const char *text, uint32_t out[LETTERS])
     return n;
 }
 
-/* Characters that look alike are one character here. */
+/* One representative for characters that look alike. */
 static uint32_t face(uint32_t c)
 {
     static const uint32_t twins[][2] = {{0xB5, 0x3BC}, {0x2126, 0x3A9}, {0x212B, 0xC5}, {0x3B5, 0x3F5}, {0x3D5, 0x3C6},

@@ -1,10 +1,11 @@
-/* Tokens to trees: recursive descent, each function headed by its grammar rule. Numbers in brackets are the rules of the language
- * (doc/manual.md). Nesting is bounded by the lexer's brackets and by `deeper` here, so that no text exhausts the C stack. */
+/* Expressions: tokens to trees by recursive descent, each function headed by its grammar rule. Numbers in brackets are
+ * the rules of the language as test/language_test.c numbers them. The lexer bounds brackets and `deeper` bounds the
+ * rest, so no text exhausts the C stack. */
 #include "lang/tree/parse_parts.h"
 
 /* ---- expressions ---- */
 
-/* An expression in a bracket of its own, where other bars are counted [7]. */
+/* An expression inside brackets; bars | outside do not pair with bars inside [7]. */
 tree *parse_inside(parser *p)
 {
     int bars = p->bars;
@@ -61,7 +62,7 @@ void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l)
     more[(*count)++] = *l;
 }
 
-/* A loop begins here: a name, and "=" (not "==") behind it. */
+/* Whether a loop begins here: a name, then "=" (not "=="). */
 static bool at_loop(parser *p)
 {
     if (p->token.kind != TOKEN_NAME)
@@ -442,7 +443,7 @@ static bool juxtaposes(const parser *p)
     return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) || p->token.kind == TOKEN_NUMBER;
 }
 
-/* What juxtaposition cannot mean: x 2, 2 3, (a)2. */
+/* Complains about products that juxtaposition cannot write: x 2, 2 3, (a)2. */
 static bool wrong_juxtaposition(parser *p, const tree *left)
 {
     char a[80], b[80];

@@ -1,4 +1,4 @@
-/* The parser's state and small tools, shared by parse.c (expressions) and parse_statement.c. */
+/* The parser's state and helpers, shared by parse.c (expressions) and parse_statement.c (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -97,7 +97,7 @@ static inline bool deeper(parser *p)
     return false;
 }
 
-/* Says what stands where something else was due. */
+/* Complains that the present token is not what was expected. */
 static inline void unexpected(parser *p, const char *wanted)
 {
     char text[80];
@@ -107,7 +107,8 @@ static inline void unexpected(parser *p, const char *wanted)
         COMPLAIN(p, p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
 }
 
-/* A bracket left open runs on into the next statement, because line ends inside it do not count [8]: that is told where the bracket is. */
+/* Line ends inside a bracket do not count [8], so an open bracket swallows the next statement: complains at that
+ * bracket, if there is one. */
 static inline bool left_open(parser *p)
 {
     if (p->lexer.depth == 0 || failed(p))

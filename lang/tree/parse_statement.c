@@ -1,4 +1,5 @@
-/* Statements: what stands on a line. Each function is headed by its grammar rule; see parse.c for expressions. */
+/* Statements: tokens to trees, one statement a line. Each function is headed by its grammar rule; parse.c has the
+ * expressions. */
 #include "lang/tree/parse_parts.h"
 
 /* for = "for" loop { "," loop } */
@@ -111,7 +112,7 @@ static void parse_setting(parser *p, statement *s)
     end_of_statement(p, source_line(p->source, s->at));
 }
 
-/* The usual ways to write a derivative that are not ours. */
+/* Hints for usual ways to write a derivative that the language does not have. */
 static bool parse_leibniz(parser *p, const statement *s)
 {
     if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^')))

@@ -45,18 +45,18 @@ typedef enum statement_kind {
 
 typedef struct statement {
     statement_kind kind;
-    span at, name_at, value_at;      /* value_at: what stands behind =, without the indices' ranges */
+    span at, name_at, value_at;      /* value_at: the right side, without the indices' ranges */
     const char *name;
     tree **index; uint32_t index_count;
     int primes;
     tree *start_at;                  /* START: the c of x(c) */
-    tree *value;                     /* what stands behind =, or the setting's expression */
+    tree *value;                     /* the right side, or the setting's expression */
     bool steps;                      /* every n steps */
     const char *text;                /* METHOD */
     loop *loops; uint32_t loop_count;
-    tree *replaced;                  /* by --set: the model's expression whose place it took, */
-    span stood;                      /*   and where that statement begins */
-    uint8_t progress;                /* START: 0 not yet, 1 on the way (seeing it again is a circle), 2 done */
+    tree *replaced;                  /* by --set: the model's expression that it replaces, */
+    span stood;                      /*   and the place of that statement */
+    uint8_t progress;                /* START: 0 not computed, 1 being computed (met again, it uses itself), 2 done */
     uint32_t next;                   /* 1 + number of the next line about the same state; 0: none */
 } statement;
 

@@ -1,7 +1,9 @@
-/* The typesetter's state and small tools, shared by typeset.c (statements), typeset_tree.c (expressions) and typeset_text.c (characters).
+/* The typesetter's state, shared by typeset.c (statements), typeset_tree.c, typeset_script.c and typeset_fence.c
+ * (expressions), typeset_text.c (characters) and typeset_task.c (tasks).
  *
- * What is still to be written waits as tasks on a stack of their own, not on the C stack. A task is either done by writing, or by
- * putting others in its place, which `typeset_then` and its neighbours note in reading order.
+ * What is still to be written waits as tasks on a stack of their own, so that deep expressions do not exhaust the C
+ * stack. A task writes, or it replaces itself by other tasks: `typeset_then` and its neighbours push these in reading
+ * order.
  */
 #ifndef LANG_TYPESET_TYPESET_PARTS_H
 #define LANG_TYPESET_TYPESET_PARTS_H
@@ -59,7 +61,7 @@ typedef struct typesetter {
     bool full, failed;
 } typesetter;
 
-/* typeset_text.c: what is written at once */
+/* typeset_text.c: writes at once */
 void typeset_put(typesetter *, const char *text);
 void typeset_name(typesetter *, const char *name);
 void typeset_tail(typesetter *, const char *name);
@@ -69,7 +71,7 @@ void typeset_number(typesetter *, const tree *);
 bool typeset_has_exponent(const source *, const tree *);
 void typeset_plain(typesetter *, const char *text);        /* of the model: escaped */
 
-/* typeset.c: what is put off */
+/* typeset_task.c: pushes a task */
 void typeset_tag(typesetter *, const char *);
 void typeset_sign(typesetter *, const char *);
 void typeset_then(typesetter *, const tree *, place);
