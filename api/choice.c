@@ -27,19 +27,20 @@ motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled,
     return MOTUS_ARGUMENT;
 }
 
-motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bool kept, const char **why, motus_error *err)
+motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bool kept, machine *out, const char **why, motus_error *err)
 {
     *why = NULL;
     if (!s->compiled) {
-        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, &s->compiled_problem, err);
+        motus_status status = compiled_create(s->model, &s->problem, &s->compiled, err);
         if (status != MOTUS_OK)
             return status;
     }
-    s->compiled_problem.traits = s->problem.traits;
     *why = compiled_prepare(s->compiled, chosen, kept);
     if (*why && s->arena.failed)
         return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
-    if (!*why || !must)
+    if (!*why)
+        return compiled_machine(s->compiled, chosen, out, err);
+    if (!must)
         return MOTUS_OK;
     fail(err, MOTUS_TOOL, "the model could not be compiled: %s", *why);
     hint(err, "--machine interpreter needs no compiler");

@@ -8,9 +8,9 @@
 motus_status choice_method(motus_system *, const char *name, chosen *, const motus_method **card, motus_error *);
 /* "auto" (or NULL), "interpreter" or "compiled"? */
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *);
-/* Compiles the model for a method, or finds it compiled; with `kept`, only finds. *why: NULL, or why there is no object; where it was asked for by
- * name (`must`), that is an error. */
-motus_status choice_compile(motus_system *, const chosen *, bool must, bool kept, const char **why, motus_error *);
+/* Compiles the model for a method, or finds it compiled; with `kept`, only finds. *why: NULL, and *out is the machine; or why there is none: where it
+ * was asked for by name (`must`), that is an error. */
+motus_status choice_compile(motus_system *, const chosen *, bool must, bool kept, machine *out, const char **why, motus_error *);
 /* Whether so many steps of a model are worth a compiler's time: 1 and more; from CHOICE_LOOK on it is worth a look whether that was done before. */
 double choice_worth(const motus_system *, const motus_method *, double steps);
 #define CHOICE_LOOK 0.01

@@ -2,8 +2,8 @@
 #include "api/ensemble.h"
 
 #include "api/choice.h"
-#include "run/parallel.h"
-#include "run/reduction.h"
+#include "machine/parallel.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ enum { ENSEMBLE_LANES_MAX = 64 };
 int ensemble_watched(void *context, double fraction)
 {
     motus_ensemble *e = context;
-    const double t = e->progress ? run_now() : 0;
+    const double t = e->progress ? pace_now() : 0;
     if (!e->progress || t - e->told < 0.01)
         return 0;
     e->told = t;
@@ -118,11 +118,10 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
     if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
         return MOTUS_OK;
     const char *why;
-    motus_status status = choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &why, err);
+    motus_status status = choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
     if (status != MOTUS_OK)
         return status;
     if (!why) {
-        e->machine = &machine_compiled;
         return MOTUS_OK;
     }
     snprintf(e->note, sizeof e->note, "%s", why);
@@ -203,14 +202,14 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (!count)
         return MOTUS_OK;
     modes m = modes_enter();
-    double began = run_now();
+    double began = pace_now();
     places p = {values, results, stopped, false};
     for (size_t r = 0; r < e->record_count; r++)
         p.looks |= e->records[r].how != MOTUS_FINAL;
     e->count = count;
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
                           : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
-    e->seconds += run_now() - began;
+    e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
 }
@@ -229,7 +228,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
 
 int64_t motus_ensemble_steps(const motus_ensemble *e) { return e ? e->timing.total : 0; }
 const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
-const char *motus_ensemble_machine(const motus_ensemble *e) { return !e ? "" : e->lanes ? "compiled" : e->machine->name; }
+const char *motus_ensemble_machine(const motus_ensemble *e) { return !e ? "" : e->lanes ? "compiled" : e->machine.name; }
 const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
 int motus_ensemble_lanes(const motus_ensemble *e) { return e && e->lanes ? lanes_in_block(e->lanes) : 1; }
 int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }

@@ -6,7 +6,7 @@
 #define API_ENSEMBLE_H
 
 #include "api/run.h"
-#include "run/lanes.h"
+#include "machine/lanes.h"
 
 #include <stdatomic.h>
 
@@ -16,9 +16,11 @@ typedef struct worker {
     motus_ensemble *e;
     motus_system *system;
     vary *vary;
-    const problem *problem;
+    machine machine;
+    stepper *stepper;                /* made for the first trajectory, and started again for the others; NULL */
     int number;
-    int64_t piece;                   /* steps between two looks at the clock */
+    pace pace;
+    size_t trajectories;             /* that are computed at present */
     size_t failed_at;                /* item, where status is not OK */
     motus_status status;
     motus_error why;
@@ -35,7 +37,7 @@ struct motus_ensemble {
     motus_record *records;
     vary *vary;
     lanes *lanes;                    /* NULL: one trajectory after the other */
-    const machine *machine;          /* then */
+    machine machine;                 /* then, of the first worker */
     worker *workers;                 /* `threads` of them, made when they are first needed; those not made yet are zero */
     size_t count, block;             /* trajectories of this run; of a block: 1 but for callbacks of blocks */
     atomic_size_t done;
@@ -64,8 +66,8 @@ size_t ensemble_block_size(const motus_system *, const chosen *);
 
 /* ensemble_workers.c: one(worker, item, ctx) for every item by the ensemble's threads. The first item that fails decides. */
 motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
-/* `steps` of an engine that has taken n and computes `count` trajectories; where somebody watches, in pieces of some milliseconds. */
-motus_status ensemble_advance(worker *, engine *, int64_t n, int64_t steps, size_t count, motus_error *);
+/* As stepper_advance, of the worker's stepper; where somebody watches, in pieces of some milliseconds. */
+motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
 void ensemble_dismiss(motus_ensemble *);         /* the workers */
 
 #endif

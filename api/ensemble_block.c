@@ -5,8 +5,8 @@
  */
 #include "api/ensemble.h"
 
-#include "core/rows.h"
-#include "run/reduction.h"
+#include "core/course.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,9 +15,8 @@ enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };      /* of one array: all arrays
 
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
-    const row *r = c->row;
     /* What solves an equation solves one trajectory's. */
-    if (r->family == IMPLICIT || r->family == EXACT || r->gyroscopic || (r->family == TWO_STEP && s->problem.traits.velocity))
+    if (c->row->family == EXACT || stepper_plan(&s->problem, c, NULL).solves)
         return 1;
     const size_t fits = BLOCK_NUMBERS / s->problem.nv;
     return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
@@ -31,7 +30,6 @@ typedef struct group {
     size_t first, count;
     double *x, *v, *kept, *one_x, *one_v;      /* the last two: a single trajectory, to look at */
     int64_t looks;
-    engine *engine;
 } group;
 
 /* ---- looking ---- */
@@ -58,10 +56,12 @@ static motus_status computed(group *b, size_t column, size_t j, double t, double
     return system_values(b->w->system, t, b->one_x, b->one_v, &column, 1, out, err);
 }
 
-static motus_status look(group *b, double t, motus_error *err)
+static motus_status observe(void *ctx, motus_error *err)
 {
+    group *b = ctx;
     const motus_ensemble *e = b->w->e;
-    motus_status status = e->machine->sync(b->engine, b->x, b->v, NULL, err);
+    const double t = stepper_time(b->w->stepper);
+    motus_status status = stepper_sync(b->w->stepper, b->x, b->v, NULL, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++) {
         const double *numbers = row_of(b, e->records[r].column);
         double *kept = b->kept + r * b->count * REDUCE_KEPT;
@@ -103,48 +103,26 @@ static motus_status start(group *b, motus_error *err)
     return bad ? MOTUS_DIVERGED : MOTUS_OK;
 }
 
-static motus_status open(group *b, double t, double h, motus_error *err)
+static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    const motus_ensemble *e = b->w->e;
-    if (b->engine)
-        e->machine->close(b->engine);
-    b->engine = NULL;
-    return e->machine->open(&b->problem, &e->chosen, t, h, b->x, b->v, &e->allocator, &b->engine, err);
-}
-
-static motus_status whole_steps(group *b, motus_error *err)
-{
-    const motus_ensemble *e = b->w->e;
-    const timing *t = &e->timing;
-    const bool looks = b->places->looks;
-    motus_status status = looks && t->total > 0 ? look(b, t->t0, err) : MOTUS_OK;
-    for (int64_t n = 0; n < t->whole && status == MOTUS_OK;) {
-        int64_t some = looks && e->every < t->whole - n ? e->every : t->whole - n;
-        status = ensemble_advance(b->w, b->engine, n, some, b->count, err);
-        n += some;
-        if (status == MOTUS_OK && looks && n % e->every == 0 && (n < t->whole || t->last != 0))
-            status = look(b, t->t0 + (double)n * t->h, err);
-    }
-    return status;
+    group *b = ctx;
+    return ensemble_advance(b->w, limit, why, err);
 }
 
 static motus_status travel(group *b, motus_error *err)
 {
     const motus_ensemble *e = b->w->e;
     const timing *t = &e->timing;
+    const machine m = {.name = b->w->machine.name, .problem = &b->problem};
     motus_status status = start(b, err);
     if (status == MOTUS_OK)
-        status = open(b, t->t0, t->h, err);
+        status = stepper_create(&m, &e->chosen, t->t0, t->h, b->x, b->v, &e->allocator, &b->w->stepper, err);
+    const course course = {.ctx = b, .until = t->until, .every = b->places->looks ? e->every : 0, .advance = advance, .observe = observe};
     if (status == MOTUS_OK)
-        status = whole_steps(b, err);
-    if (status == MOTUS_OK && t->last != 0) {
-        status = e->machine->sync(b->engine, b->x, b->v, NULL, err);
-        if (status == MOTUS_OK)
-            status = open(b, t->t0 + (double)t->whole * t->h, t->last, err);
-        if (status == MOTUS_OK)
-            status = e->machine->advance(b->engine, 1, err);
-    }
-    return status == MOTUS_OK ? look(b, t->until, err) : status;
+        status = course_run(&course, err);
+    stepper_destroy(b->w->stepper);
+    b->w->stepper = NULL;
+    return status;
 }
 
 static void write_down(const group *b, bool lost, double when)
@@ -168,9 +146,8 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
     b.kept = b.v + nv * count;
     b.calling = (calling){.def = &w->system->callback, .first = first, .count = count};
     b.problem = callback_block(&b.calling, &w->system->problem);
+    w->trajectories = count;
     motus_status status = travel(&b, &w->why);
-    if (b.engine)
-        e->machine->close(b.engine);
     const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
     if (status != MOTUS_OK && !lost)
         return status;

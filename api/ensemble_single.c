@@ -5,7 +5,8 @@
  */
 #include "api/ensemble.h"
 
-#include "run/reduction.h"
+#include "core/course.h"
+#include "machine/reduction.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,13 +16,14 @@ typedef struct single {
     double *x, *v, *kept, *now;
     size_t *columns;
     int64_t looks;
-    engine *engine;
 } single;
 
-static motus_status look(single *s, double t, motus_error *err)
+static motus_status observe(void *ctx, motus_error *err)
 {
+    single *s = ctx;
     const motus_ensemble *e = s->w->e;
-    motus_status status = e->machine->sync(s->engine, s->x, s->v, NULL, err);
+    const double t = stepper_time(s->w->stepper);
+    motus_status status = stepper_sync(s->w->stepper, s->x, s->v, NULL, err);
     if (status == MOTUS_OK)
         status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
@@ -81,7 +83,6 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
             motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
             if (status != MOTUS_OK)
                 return status;
-            y->compiled_problem.traits = y->problem.traits;
         }
     }
     if (y->problem.nx)
@@ -97,54 +98,31 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
     return MOTUS_OK;
 }
 
-static motus_status open(single *s, double t, double h, motus_error *err)
+static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    motus_ensemble *e = s->w->e;
-    if (s->engine)
-        e->machine->close(s->engine);
-    s->engine = NULL;
-    return e->machine->open(s->w->problem, &e->chosen, t, h, s->x, s->v, &e->allocator, &s->engine, err);
-}
-
-static motus_status whole_steps(single *s, bool looks, motus_error *err)
-{
-    const motus_ensemble *e = s->w->e;
-    const timing *t = &e->timing;
-    motus_status status = looks && t->total > 0 ? look(s, t->t0, err) : MOTUS_OK;
-    for (int64_t n = 0; n < t->whole && status == MOTUS_OK;) {
-        int64_t some = looks && e->every < t->whole - n ? e->every : t->whole - n;
-        status = ensemble_advance(s->w, s->engine, n, some, 1, err);
-        n += some;
-        if (status == MOTUS_OK && looks && n % e->every == 0 && (n < t->whole || t->last != 0))
-            status = look(s, t->t0 + (double)n * t->h, err);
-    }
-    return status;
+    single *s = ctx;
+    return ensemble_advance(s->w, limit, why, err);
 }
 
 static motus_status travel(single *s, const places *p, size_t k, motus_error *err)
 {
-    const motus_ensemble *e = s->w->e;
+    worker *w = s->w;
+    const motus_ensemble *e = w->e;
     const timing *t = &e->timing;
     motus_status status = start(s, p->values, k, err);
-    if (status == MOTUS_OK)
-        status = open(s, t->t0, t->h, err);
-    if (status == MOTUS_OK)
-        status = whole_steps(s, p->looks, err);
-    if (status == MOTUS_OK && t->last != 0) {
-        status = e->machine->sync(s->engine, s->x, s->v, NULL, err);
-        if (status == MOTUS_OK)
-            status = open(s, t->t0 + (double)t->whole * t->h, t->last, err);
-        if (status == MOTUS_OK)
-            status = e->machine->advance(s->engine, 1, err);
-    }
-    return status == MOTUS_OK ? look(s, t->until, err) : status;
+    if (status != MOTUS_OK)
+        return status;
+    status = w->stepper ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
+                        : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
+    const course course = {.ctx = s, .until = t->until, .every = p->looks ? e->every : 0, .advance = advance, .observe = observe};
+    return status == MOTUS_OK ? course_run(&course, err) : status;
 }
 
 static motus_status trajectory(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
-    const size_t nx = w->problem->nx + 1, nv = w->problem->nv + 1, records = e->record_count + 1, room = records > e->vary_count ? records : e->vary_count;
+    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1, room = records > e->vary_count ? records : e->vary_count;
     double *memory = take(&e->allocator, nx + nv + records * REDUCE_KEPT + room + records, sizeof(double));
     if (!memory)
         return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
@@ -153,6 +131,7 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
     for (size_t r = 0; r < e->record_count; r++)
         s.columns[r] = e->records[r].column;
+    w->trajectories = 1;
     motus_status status = travel(&s, p, k, &w->why);
     const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
     if (lost || status == MOTUS_OK) {
@@ -165,8 +144,6 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
         if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
             status = MOTUS_CANCELLED;
     }
-    if (s.engine)
-        e->machine->close(s.engine);
     give(&e->allocator, memory);
     return status;
 }

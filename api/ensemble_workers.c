@@ -6,11 +6,25 @@
 
 #include "api/choice.h"
 
-#include "run/parallel.h"
+#include "machine/parallel.h"
 
 #include <math.h>
 
 /* ---- who works ---- */
+
+/* Only the caller's own thread tells; whoever finds that enough is enough stops all. */
+static int tell(void *ctx, double now)
+{
+    const worker *w = ctx;
+    motus_ensemble *e = w->e;
+    (void)now;
+    const timing *t = &e->timing;
+    const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
+    const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
+    if (w->number == 0 && ensemble_watched(e, done / (double)e->count))
+        atomic_store(&e->stop, true);
+    return atomic_load(&e->stop);
+}
 
 static motus_status hire(motus_ensemble *e, int number, motus_error *err)
 {
@@ -25,27 +39,31 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
         if (status == MOTUS_OK && !system_sample_gyroscopic(s))
             status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
         const char *why;
-        if (status == MOTUS_OK && e->machine == &machine_compiled)
-            status = choice_compile(s, &e->chosen, true, false, &why, err);
+        w->machine = s->machine;
+        if (status == MOTUS_OK && e->machine.body)
+            status = choice_compile(s, &e->chosen, true, false, &w->machine, &why, err);
         if (status != MOTUS_OK) {
             motus_system_destroy(s == e->system ? NULL : s);
             return status;
         }
     } else {
         w->vary = e->vary;
+        w->machine = e->machine;
     }
     w->e = e;
     w->system = s;
-    w->problem = e->machine == &machine_compiled ? &s->compiled_problem : &s->problem;
     w->number = number;
-    w->piece = 1;
+    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? tell : NULL, .ctx = w};
     return MOTUS_OK;
 }
 
 void ensemble_dismiss(motus_ensemble *e)
 {
-    for (int i = 1; e->workers && i < e->threads; i++)
-        motus_system_destroy(e->workers[i].system);
+    for (int i = 0; e->workers && i < e->threads; i++) {
+        stepper_destroy(e->workers[i].stepper);
+        if (i > 0)
+            motus_system_destroy(e->workers[i].system);
+    }
     give(&e->allocator, e->workers);
     e->workers = NULL;
 }
@@ -103,29 +121,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
     return first->status;
 }
 
-motus_status ensemble_advance(worker *w, engine *engine, int64_t n, int64_t steps, size_t count, motus_error *err)
+motus_status ensemble_advance(worker *w, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    motus_ensemble *e = w->e;
-    motus_status status = MOTUS_OK;
-    while (steps > 0 && status == MOTUS_OK) {
-        const int64_t piece = !e->progress || steps < w->piece ? steps : w->piece;
-        const double began = e->progress ? run_now() : 0;
-        status = e->machine->advance(engine, piece, err);
-        n += piece;
-        steps -= piece;
-        if (!e->progress || status != MOTUS_OK)
-            continue;
-        const double took = run_now() - began;
-        if (took < 0.005 && piece == w->piece && piece < INT64_MAX / 4)
-            w->piece *= 2;
-        else if (took > 0.02 && w->piece > 1)
-            w->piece /= 2;
-        /* Only the caller's own thread tells; whoever finds that enough is enough stops all. */
-        const double done = (double)atomic_load(&e->done) + (double)count * (double)n / (double)e->timing.total;
-        if (w->number == 0 && ensemble_watched(e, done / (double)e->count))
-            atomic_store(&e->stop, true);
-        if (atomic_load(&e->stop))
-            status = MOTUS_CANCELLED;
-    }
-    return status;
+    return pace_advance(&w->pace, w->stepper, limit, why, err);
 }

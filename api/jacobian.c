@@ -101,7 +101,7 @@ motus_status motus_run_jacobian(motus_run *r, double *da_dx, double *da_dv, motu
     if (!room)
         return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
     _Static_assert(sizeof(size_t) <= sizeof(double), "a row's place lies in the room of a number");
-    jacobian j = {.run = r, .problem = &s->problem, .t = run_time(r), .x = r->x, .v = r->v, .direction = room, .image = room + n, .base = room + 2 * n,
+    jacobian j = {.run = r, .problem = &s->problem, .t = stepper_time(r->stepper), .x = r->x, .v = r->v, .direction = room, .image = room + n, .base = room + 2 * n,
                   .shifted = room + 3 * n, .row = (size_t *)(void *)(room + 4 * n)};
     modes m = modes_enter();
     motus_status status = jacobian_now(&j, da_dx, da_dv, err);

@@ -1,17 +1,16 @@
-/* A run: an engine on its way from the start to `until`.
+/* A run: a stepper on its way from the start to `until`.
  *
- * Invariant: the engine only ever takes whole steps of size h. The shorter last step is taken by an engine of its own from the synchronised
- * state, so the main line stays what it would be in a longer run, and a saved state can go on beyond `until`.
+ * Invariant: what happened to the motion is the stepper's to know (time, steps, whether it has arrived); the run keeps what was read of it.
  */
 #ifndef API_RUN_H
 #define API_RUN_H
 
+#include "api/pace.h"
 #include "api/system.h"
 
 struct motus_run {
     motus_system *system;
-    const machine *machine;
-    const problem *problem;          /* the system's, or the compiled machine's */
+    machine machine;
     const char *note;
     motus_allocator allocator;
     chosen chosen;
@@ -19,17 +18,15 @@ struct motus_run {
     double t0, h, until;
     int64_t whole, total;            /* whole steps up to `until`, and with the short one */
     double last;                     /* size of the short one, 0: none */
-    engine *engine, *tail;           /* tail: after the short step */
-    int64_t tail_evaluations, tail_iterations;
+    stepper *stepper;
+    bool arrived;
     double *x, *v, *a;               /* the synchronised state, valid while `synchronised` */
     bool synchronised, with_a;
-    double before_t, *before_x, *before_v, *before_a;     /* for reading between steps */
-    bool before;
-    double *mid_x, *mid_v;
+    double *mid_x, *mid_v;           /* a state between two steps */
     int (*progress)(void *context, double fraction);
     void *context;
-    int64_t piece;                   /* steps between two looks at the clock, and when the hook was last called */
-    double told;
+    pace pace;
+    double told;                     /* when `progress` was last called */
     char *saved; size_t saved_room;
     struct trace *trace;             /* of the last step that was traced; NULL */
 };
@@ -37,10 +34,8 @@ struct motus_run {
 /* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
 typedef struct timing { double t0, h, until, last; int64_t whole, total; } timing;
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *, motus_error *);
-double run_now(void);                  /* seconds of a clock that never goes back */
-double run_time(const motus_run *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
-/* One more step, whole or the short last one, told to the tracer; not past the end. */
-motus_status run_trace(motus_run *, const tracer *, motus_error *);
+/* The stepper stands elsewhere: what was read of it no longer holds, and it may stand at the end. */
+motus_status run_moved(motus_run *, motus_error *);
 
 #endif

@@ -99,9 +99,9 @@ static motus_status walk(plane *p, const traits *traits, matrix *first, matrix *
     }
     p->used = 0;
     stepper *s = NULL;
-    motus_status status = stepper_create(&problem, &p->chosen, 0, 1, x, v, &p->allocator, &s, err);
+    motus_status status = stepper_create(&(machine){.problem = &problem}, &p->chosen, 0, 1, x, v, &p->allocator, &s, err);
     for (matrix *out = first; out && status == MOTUS_OK; out = out == first ? next : NULL) {
-        status = stepper_advance(s, 1, err);
+        status = stepper_advance(s, (stepper_limit){1, NAN}, NULL, err);
         if (status == MOTUS_OK)
             status = stepper_sync(s, x, v, NULL, err);
         for (size_t k = 0; k < p->count && status == MOTUS_OK; k++)

@@ -138,8 +138,7 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
 {
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
-    const machine *m = r->machine;
-    size_t n = m->carry(r->engine), room = HEAD_ROOM + n * NUMBER_ROOM;
+    size_t n = stepper_carry(r->stepper), room = HEAD_ROOM + n * NUMBER_ROOM;
     double *carry = take(&r->allocator, n + 1, sizeof *carry);
     if (room > r->saved_room) {
         char *more = take(&r->allocator, 1, room);
@@ -153,13 +152,12 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
         give(&r->allocator, carry);
         return fail(err, MOTUS_MEMORY, "no memory for the restart state");
     }
-    m->save(r->engine, carry);
+    const stepper_count now = stepper_save(r->stepper, carry);
     char start[NUMBER_ROOM], h[NUMBER_ROOM];
     write_hex(start, sizeof start, r->t0);
     write_hex(h, sizeof h, r->h);
     size_t at = (size_t)snprintf(r->saved, room, "motus-state 1\nsystem %016" PRIx64 "\nmethod %s\nstart %s\nstep %s\nat %" PRId64 " %" PRId64 " %" PRId64 "\ncarry %zu\n",
-                                 fingerprint(r->system), r->chosen.name, start, h, m->steps(r->engine), m->evaluations(r->engine),
-                                 m->iterations(r->engine), n);
+                                 fingerprint(r->system), r->chosen.name, start, h, now.steps, now.evaluations, now.iterations, n);
     for (size_t k = 0; k < n; k++) {
         at += (size_t)write_hex(r->saved + at, room - at, carry[k]);
         r->saved[at++] = '\n';
@@ -250,7 +248,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
         return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
     if (steps > r->whole)
         return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", start + (double)steps * h, r->until);
-    if ((size_t)n != r->machine->carry(r->engine))
+    if ((size_t)n != stepper_carry(r->stepper))
         return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
     if (!carry)
@@ -262,16 +260,11 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     if (!ok || in.at != in.end)
         status = unreadable(err);
     else
-        status = r->machine->load(r->engine, steps, evaluations, iterations, carry, err);
+        status = stepper_load(r->stepper, (stepper_count){steps, evaluations, iterations}, carry, err);
     give(&r->allocator, carry);
     if (status != MOTUS_OK)
         return status;               /* and the run is where it was */
-    if (r->tail)
-        r->machine->close(r->tail);
-    r->tail = NULL;
-    r->tail_evaluations = r->tail_iterations = 0;
-    r->synchronised = r->before = false;
-    return MOTUS_OK;
+    return run_moved(r, err);
 }
 
 motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)

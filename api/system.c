@@ -82,7 +82,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
         s->text = def;
-        s->machine = &machine_interpreter;
+        s->machine = (machine){.name = "interpreter", .problem = &s->problem};
         s->start = s->model->start;
         s->x0 = s->model->x0;
         s->v0 = s->model->v0;
@@ -124,7 +124,7 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     motus_status status = callback_problem(&s->calling, &s->problem, err);
     if (status == MOTUS_OK) {
         size_t nx = s->problem.nx, nv = s->problem.nv;
-        s->machine = &machine_callback;
+        s->machine = (machine){.name = "callback", .problem = &s->problem};
         s->start = def.start;
         s->x0 = arena_grow(&s->arena, NULL, 0, (nx + 1) * sizeof(double));
         s->v0 = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));

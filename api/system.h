@@ -6,7 +6,7 @@
 #ifndef API_SYSTEM_H
 #define API_SYSTEM_H
 
-#include "run/compiled.h"
+#include "machine/compiled.h"
 
 typedef struct column_group {        /* columns of one name */
     motus_column_kind kind;
@@ -24,9 +24,8 @@ struct motus_system {
     motus_callback_def callback;
     calling calling;
     problem problem;
-    const machine *machine;
+    machine machine;                 /* the interpreter, or the callback */
     compiled *compiled;              /* once a run asks for it */
-    problem compiled_problem;
     double start;
     double *x0, *v0;
     model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's x and s */

@@ -21,9 +21,9 @@ enum { TRACE_ENDS = 2 };
 static trace *make(motus_run *r)
 {
     const motus_system *s = r->system;
-    const trace_room room = trace_room_of(r->problem, &r->chosen);
+    const trace_room room = trace_room_of(r->stepper);
     const size_t events = room.events + TRACE_ENDS;
-    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions + (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + 2 * TRACE_ROW_MAX * events;
+    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions + (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + room.rows;
     const uint64_t bytes = sizeof(trace) + events * sizeof(motus_trace_entry) + numbers * sizeof(double);
     if (!r->trace && bytes <= SIZE_MAX)
         r->trace = take(&r->allocator, 1, (size_t)bytes);
@@ -97,7 +97,7 @@ static motus_status look(motus_run *r, motus_event kind, motus_error *err)
     motus_status status = with_a ? MOTUS_OK : run_sync(r, false, err);
     if (status != MOTUS_OK)
         return status;
-    t->entry[t->count++] = (motus_trace_entry){.kind = kind, .time = run_time(r), .step = t->step, .x = keep_x(t, r->x), .v = keep_v(t, r->v),
+    t->entry[t->count++] = (motus_trace_entry){.kind = kind, .time = stepper_time(r->stepper), .step = t->step, .x = keep_x(t, r->x), .v = keep_v(t, r->v),
                                                .a = with_a ? keep_v(t, r->a) : NULL};
     return MOTUS_OK;
 }
@@ -126,7 +126,9 @@ static motus_status walk(motus_run *r, motus_error *err)
     t->step = motus_run_steps(r) < r->whole ? r->h : r->last;
     motus_status status = look(r, MOTUS_EVENT_START, err);
     if (status == MOTUS_OK)
-        status = run_trace(r, &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
+        status = stepper_trace(r->stepper, r->until, &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
+    if (status == MOTUS_OK)
+        status = run_moved(r, err);
     if (status == MOTUS_OK)
         status = look(r, MOTUS_EVENT_END, err);
     if (status == MOTUS_OK)

@@ -14,22 +14,22 @@
 
 #include "lang/base/functions.h"
 #define LANES 4
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #ifdef __AVX512F__
 #define LANES 8
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #define REGISTER 8
 #else
 #define LANES 8
 #define LANES_PART 4
-#include "step/functions_wide.h"
+#include "step/functions/wide.h"
 #define REGISTER 4
 #endif
 #define LANES 16
 #define LANES_PART REGISTER
-#include "step/functions_wide.h"
+#include "step/functions/wide.h"
 
 enum { COUNT = 1024, ROUNDS = 40, REPEATS = 25 };
 

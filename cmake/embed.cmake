@@ -1,7 +1,8 @@
-# The texts of step/ as C strings, for the machine that compiles them anew: cmake -DOUT=… -DROOT=… -P embed.cmake
-file(GLOB texts RELATIVE ${ROOT} ${ROOT}/step/*.h)
+# The texts that compiled models are made of, as C strings: cmake -DOUT=… -DROOT=… -P embed.cmake
+file(GLOB texts RELATIVE ${ROOT} ${ROOT}/step/*.h ${ROOT}/step/*.def ${ROOT}/step/functions/*.h ${ROOT}/machine/text/*.h)
+list(APPEND texts core/scalar.h)
 set(rows "")
-set(body "/* Made by cmake/embed.cmake from step/. */\n#include \"run/texts.h\"\n\n")
+set(body "/* Made by cmake/embed.cmake from step/ and machine/text/. */\n#include \"machine/texts.h\"\n\n")
 set(number 0)
 foreach(path IN LISTS texts)
   file(READ ${ROOT}/${path} hex HEX)

@@ -4,12 +4,14 @@
 set(kernels core/stepper_body.c lang/tape/tape_kernels.c lang/tape/tape_run.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  core/*.c lang/*/*.c run/*.c api/*.c study/*.c)
-# The page's module takes run/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
-list(REMOVE_ITEM library_sources ${kernels} run/nowhere.c)
+  core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
+# The page's module takes machine/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
+list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 
-# The texts of step/ travel in the library: the compiled machine compiles them again, with a model between them.
-file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h)
+# The texts of step/ and machine/text/ travel in the library: the compiled machine compiles them again, with a model between them.
+file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h ${PROJECT_SOURCE_DIR}/step/*.def
+  ${PROJECT_SOURCE_DIR}/step/functions/*.h ${PROJECT_SOURCE_DIR}/machine/text/*.h)
+list(APPEND step_texts ${PROJECT_SOURCE_DIR}/core/scalar.h)
 set(texts ${PROJECT_BINARY_DIR}/texts.c)
 add_custom_command(OUTPUT ${texts} DEPENDS ${step_texts} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
   COMMAND ${CMAKE_COMMAND} -DOUT=${texts} -DROOT=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
@@ -41,7 +43,7 @@ endforeach()
 
 # The other files whose loops grow with the state. (The stepper's loops are in its kernel.)
 foreach(source IN LISTS library_sources)
-  if(source MATCHES "^(core/solver|lang/tape/|run/)")
+  if(source MATCHES "^(core/solver|lang/tape/|machine/)")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${hot})
   endif()
 endforeach()

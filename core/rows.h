@@ -14,6 +14,7 @@ typedef double coef;
 #define K(x) x
 #endif
 
+#include "step/families.def"
 #define ROW_CARD motus_method card;
 #include "step/row.h"
 

@@ -19,8 +19,10 @@ struct solver {
     uint32_t *place, *pivot;
     double *matrix, *b;                   /* matrix: band storage, or one diagonal */
     double *direction, *image, *base, *shifted;   /* scratch: nv each; the last two for difference quotients only */
-    double ax[16], av[16];                /* of the factorisation at hand */
+    double *ax, *av;                      /* of the factorisation at hand: stages × stages each */
 };
+
+void solver_forget(solver *s) { s->derived = s->factored = false; }
 
 static bool diagonal(const solver *s) { return s->lower + s->upper == 0; }
 
@@ -36,6 +38,7 @@ void solver_destroy(solver *s)
     give(&allocator, s->b);
     give(&allocator, s->direction);
     give(&allocator, s->base);
+    give(&allocator, s->ax);
     give(&allocator, s);
 }
 
@@ -96,7 +99,10 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
             s->base = take(&s->allocator, nv, 2 * sizeof *s->base);
             if (s->base) s->shifted = s->base + nv;
         }
-        ok = ok && s->matrix && s->pivot && s->b && s->direction && (p->jvp || s->base);
+        const size_t coupled = (size_t)stages * (size_t)stages;
+        s->ax = take(&s->allocator, 2 * coupled, sizeof *s->ax);
+        if (s->ax) s->av = s->ax + coupled;
+        ok = ok && s->matrix && s->pivot && s->b && s->direction && s->ax && (p->jvp || s->base);
         if (!ok) status = no_memory(err);
     }
     if (status) {

@@ -16,6 +16,8 @@ typedef struct solver solver;
 motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, bool constant, size_t stride, const motus_allocator *,
                            solver **, motus_error *);
 void solver_destroy(solver *);
+/* What was derived and factored holds no longer: the parameters have changed, or another motion begins. */
+void solver_forget(solver *);
 /* By how much y, one of numbers as large as `size`, is shifted for a difference quotient. A linear dependence has no truncation error, so there
  * the shift is as large as the numbers. */
 double solver_shift(double y, double size, bool linear);

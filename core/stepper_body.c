@@ -14,7 +14,7 @@
 #error "compile with -DISA=base, avx2 or avx512"
 #endif
 
-#include "core/stepper_texts.h"
+#include "core/stepper_host.h"
 
 #define PASTE(a, b) a##b
 #define NAMED(isa) PASTE(stepper_body_, isa)

@@ -1,4 +1,4 @@
-/* What core/stepper_body.c compiles to, once per instruction set, and the workspace it works on: step/work.h with real = double. */
+/* What core/stepper_body.c compiles to, once per instruction set, and the workspace that it works on: step/work.h with real = double. */
 #ifndef CORE_STEPPER_BODY_H
 #define CORE_STEPPER_BODY_H
 
@@ -8,17 +8,22 @@
 #include <float.h>
 #include <math.h>
 
-#include "step/scalar.h"
+#include "core/scalar.h"
+#define ROWS
 #include "step/work.h"
 
-/* work.user points to it. tracing: of core/trace.h, while a step is traced. */
-typedef struct stepper_host { const problem *problem; solver *solver; const struct tracing *tracing; } stepper_host;
+/* What the library's own bodies work with, found through work.library. tracing: of core/trace_body.h, while a step is traced. */
+struct stepper_host { const problem *problem; solver *solver; const struct tracing *tracing; };
 
 typedef struct stepper_body {
     const char *name;
+    void (*plan)(work *, const double argument[2], coef *memory);
+    size_t (*place)(work *, real *memory);
+    int (*carry)(const work *, real *list[CARRY_MAX]);
     int (*run)(work *, whole steps);                         /* advance_run */
     int (*sync)(work *, real *x, real *v, real *a);          /* advance_sync */
     int (*check)(work *);                                    /* advance_check */
+    void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
     /* What a compiled body calls back for. */
     int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
@@ -33,12 +38,11 @@ extern const stepper_body stepper_body_base;
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 #endif
 
-/* A workspace without memory: sizes, traits, and what follows from the row, its arguments and the step. */
-work stepper_plan(const problem *, const chosen *, double t0, double h);
-size_t stepper_arrays(work plan);       /* how many arrays it needs */
-
-/* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */
-struct stepper;
-void stepper_use_body(struct stepper *, const stepper_body *);
+/* A workspace without memory: what follows from the row, its arguments and the problem. With memory for work_plan_size numbers, which must stay, its
+ * constants too. */
+work stepper_plan(const problem *, const chosen *, coef *memory);
+/* How many arrays a planned workspace needs, and how many of them lead from a step to the next. */
+size_t stepper_arrays(work plan);
+size_t stepper_carried(work plan);
 
 #endif

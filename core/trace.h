@@ -7,8 +7,6 @@
 
 #include "core/methods.h"
 
-enum { TRACE_ROW_MAX = 4 };                      /* the stages of a tableau */
-
 typedef struct trace_event {
     motus_event kind;                            /* START and END are the caller's, who can look at the state there */
     int stage, stages;                           /* from 1 */
@@ -28,8 +26,9 @@ typedef struct tracer {
     double *x, *v;                               /* room for nx and nv numbers */
 } tracer;
 
-/* The most that one step can tell: events, and numbers in them like x and like v. */
-typedef struct trace_room { size_t events, x, v; } trace_room;
-trace_room trace_room_of(const problem *, const chosen *);
+/* The most that one step can tell: events, arrays like x and like v in them, and numbers in the rows of stages. */
+typedef struct trace_room { size_t events, x, v, rows; } trace_room;
+struct stepper;
+trace_room trace_room_of(const struct stepper *);
 
 #endif

@@ -7,12 +7,11 @@
 
 typedef struct tracing {
     const tracer *to;
-    work unit;                 /* the plan of the same row with step 1: its constants are the row's coefficients */
     int64_t iterations;        /* before the step */
 } tracing;
 
 extern const stepper_body trace_body;
-/* Before the step: what it will have overwritten when it is told. */
-void trace_begin(const work *);
+/* Before the step: keeps what the step will have overwritten when it is told. */
+void trace_begin(work *);
 
 #endif

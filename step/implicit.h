@@ -1,35 +1,36 @@
 /* IMPLICIT: stages K[i] = a(X[i], V[i], t + c[i] h), X[i] = x + c[i] h v + h² Σ aa[i][j] K[j], V[i] = v + h Σ a[i][j] K[j]: collocation at the
- * Gauss nodes, and Newmark, whose one implicit stage is the end of the step [HLW06, II.1; Newmark59].
+ * Gauss nodes, and Newmark's method, whose one implicit stage is the end of the step [HLW06, II.1; Newmark59].
  *
- * Invariant: the unknowns are the stages' accelerations, so round-off in solving reaches the state multiplied by h; they are iterated
- * until they stand still. Simplified Newton: one matrix a step, taken in the middle of the stages, renewed where it does not contract.
+ * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state multiplied by h; they are iterated
+ * until they no longer change. Simplified Newton: one matrix a step, evaluated in the middle of the stages, and again where it does not contract.
  */
 static void implicit_stage(work *w, int i)
 {
     real *restrict X = w->xs, *restrict V = w->vs;
-    const real *restrict x = w->x, *restrict v = w->v, *restrict A = w->ks;
-    clock ch = w->c[i] * w->h;
-    EACH(k) X[k] = x[k] + FMA(ch, v[k], runge_kutta_sum(w->hha[i], ALL_TERMS, A, w->stride, k, FACT(w, stages)));
-    EACHV(k) V[k] = v[k] + runge_kutta_sum(w->ha[i], ALL_TERMS, A, w->stride, k, FACT(w, stages));
+    const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
+    const int s = FACT(w, stages), a = tableau_a(w, i), aa = tableau_aa(w, i);
+    const clock ch = w->c[i] * w->h;
+    EACH(k) X[k] = x[k] + FMA(ch, v[k], tableau_sum(w, aa, false, K, k, s));
+    EACHV(k) V[k] = v[k] + tableau_sum(w, a, false, K, k, s);
 }
 
 /* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first iteration. */
 static int implicit_matrix(work *w)
 {
-    int first = FACT(w, known), s = FACT(w, stages) - first;
-    clock ax[STAGES_MAX * STAGES_MAX], av[STAGES_MAX * STAGES_MAX], c = 0;
+    const int first = FACT(w, known), all = FACT(w, stages), s = all - first;
+    clock *ax = w->matrix, *av = ax + s * s, c = 0;
     for (int i = 0; i < s; i++) {
         c += w->c[first + i] / s;
         for (int j = 0; j < s; j++) {
-            ax[i * s + j] = w->hha[first + i][first + j];
-            av[i * s + j] = w->ha[first + i][first + j];
+            ax[i * s + j] = w->scaled[tableau_aa(w, first + i) + first + j];
+            av[i * s + j] = w->scaled[tableau_a(w, first + i) + first + j];
         }
     }
-    clock ch = c * w->h;
+    const clock ch = c * w->h;
     const real *K = w->ks + (size_t)first * w->stride;
     EACH(k) w->xs[k] = FMA(ch, FMA(ch / 2, K[k], w->v[k]), w->x[k]);
     EACHV(k) w->vs[k] = FMA(ch, K[k], w->v[k]);
-    return solve_factor(w, s, ax, av, time_of(w, w->n) + ch, w->xs, w->vs);
+    return solve_factor(w, s, ax, av, time_now(w) + ch, w->xs, w->vs);
 }
 
 static int implicit_iterate(work *w)
@@ -52,7 +53,7 @@ static int implicit_iterate(work *w)
         for (int i = 0; i < s; i++) EACHV(k) K[(size_t)i * stride + k] += w->r[(size_t)i * stride + k];
         int judged = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
         if (judged == NEWTON_LOST) return m == 0 ? STEP_DIVERGED : STEP_SOLVE;
-        if (judged == NEWTON_DONE || w->direct) return STEP_OK;
+        if (judged == NEWTON_DONE || FACT(w, direct)) return STEP_OK;
         bool slow = judged == NEWTON_STUCK || m % PATIENCE == PATIENCE - 1;
         if (slow && renewed++ < RENEWALS) bad = implicit_matrix(w);
         else if (judged == NEWTON_STUCK) return STEP_SOLVE;
@@ -63,11 +64,11 @@ static int implicit_iterate(work *w)
 static int implicit_step(work *w)
 {
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    const real *restrict A = w->ks;
-    size_t stride = w->stride;
-    clock h = w->h;
-    int s = FACT(w, stages);
-    if (!FACT(w, known) || w->n == 0) {              /* newmark's last stage is the next step's first */
+    const real *restrict K = w->ks;
+    const size_t stride = w->stride;
+    const clock h = w->h;
+    const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
+    if (!FACT(w, known) || FIRST(w)) {               /* newmark's last stage is the next step's first */
         EACH(k) w->xs[k] = x[k];
         EACHV(k) w->vs[k] = v[k];
         int bad = accel_now(w, w->xs, w->vs, w->a);
@@ -78,12 +79,76 @@ static int implicit_step(work *w)
     if (bad) return bad;
     TRACE(w, s - 1);
     if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, FMA(h, v[k], runge_kutta_sum(w->hhb, ALL_TERMS, A, stride, k, s)));
-        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s));
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, false, K, k, s)));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, false, K, k, s));
     } else {
-        EACH(k) x[k] += FMA(h, v[k], runge_kutta_sum(w->hhb, ALL_TERMS, A, stride, k, s));
-        EACHV(k) v[k] += runge_kutta_sum(w->hb, ALL_TERMS, A, stride, k, s);
+        EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, false, K, k, s));
+        EACHV(k) v[k] += tableau_sum(w, b, false, K, k, s);
     }
-    if (FACT(w, known)) EACHV(k) w->a[k] = A[(size_t)(s - 1) * stride + k];
+    if (FACT(w, known)) EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
     return STEP_OK;
 }
+#define implicit_accept step_is_final
+#define implicit_observe state_is_complete
+#define implicit_sync work_sync_main
+#define implicit_dense dense_hermite
+
+static int implicit_carry(const work *w, real *list[CARRY_MAX])
+{
+    int count = work_carry_main(w, list);
+    if (FACT(w, known)) list[count++] = w->a;
+    return count;
+}
+
+static inline void implicit_place(work *w, placing *p)
+{
+    w->xs = work_array(p, 1);
+    w->vs = work_array(p, 1);
+    w->ks = work_array(p, FACT(w, stages));
+    w->r = work_array(p, FACT(w, stages));
+}
+
+#ifdef ROWS
+/* Newmark: x + h v + h² ((1/2 - β) K0 + β K1), v + h ((1 - γ) K0 + γ K1); the second stage is the end of the step. */
+static void implicit_newmark(work *w, coef beta, coef gamma, coef *unit, coef *c)
+{
+    const coef rates[] = {1 - gamma, gamma}, squares[] = {(coef)0.5 - beta, beta};
+    for (int i = 0; i < w->linears + w->squares; i++) unit[i] = 0;
+    for (int j = 0; j < 2; j++) {
+        unit[tableau_a(w, 1) + j] = unit[tableau_b(w) + j] = rates[j];
+        unit[tableau_aa(w, 1) + j] = unit[tableau_bb(w) + j] = squares[j];
+    }
+    c[0] = 0;
+    c[1] = 1;
+}
+
+static void implicit_plan(work *w, const double argument[2], coef *unit, coef *c)
+{
+    const row *m = w->row;
+    tableau_sizes(w, m->newmark ? 2 : m->tableau.stages);
+    w->known = m->newmark;
+    w->solves = w->stages - w->known;
+    w->solves_x = !m->newmark || argument[0] != 0;
+    w->direct = !w->solves_x && (!w->velocity || w->linear);
+    if (!unit) return;
+    if (m->newmark) {
+        implicit_newmark(w, (coef)argument[0], (coef)argument[1], unit, c);
+        return;
+    }
+    for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
+    tableau_fill(w, false, m->tableau.a, m->tableau.b, unit);
+}
+#endif
+
+#ifdef TRACING
+#define implicit_room tableau_room
+static void implicit_trace(work *w, int i)
+{
+    if (i < 0) return;
+    tell(w, (trace_event){.kind = MOTUS_EVENT_SOLVE, .time = time_now(w)});
+    for (int j = 0; j < w->stages; j++) {
+        implicit_stage(w, j);
+        tableau_tell(w, j, w->xs, w->vs, w->ks + (size_t)j * w->stride);
+    }
+}
+#endif

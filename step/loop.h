@@ -2,10 +2,10 @@
  *
  * Invariant: n counts the steps that were finished.
  */
-/* Whether the main line is finite; of a small system in as few operations as may be. */
+/* Whether the main line is finite; of a small system in as few operations as possible. */
 static inline bool advance_finite(const work *w)
 {
-    const real *restrict x = w->x, *restrict v = ROW(w, two_step) == VERLET_LITERAL ? w->x : w->v;
+    const real *restrict x = w->x, *restrict v = w->v;
     if (SMALL) {
         real none = 0;
         EACH(k) none += x[k] - x[k];
@@ -21,7 +21,7 @@ static inline bool advance_finite(const work *w)
 /* STEP_DIVERGED where the main line holds an infinity or a NaN; w->which, w->in_v say where. */
 static inline int advance_check(work *w)
 {
-    const real *restrict x = w->x, *restrict v = ROW(w, two_step) == VERLET_LITERAL ? w->x : w->v;
+    const real *restrict x = w->x, *restrict v = w->v;
     if (advance_finite(w)) return STEP_OK;
     w->in_v = false;
     EACH(k) if (!FINITE(x[k])) {
@@ -36,13 +36,14 @@ static inline int advance_check(work *w)
     return STEP_DIVERGED;
 }
 
-/* `steps` more; stops in the middle of a step that fails. Where a number is no longer finite, advance_check says afterwards. */
+/* `steps` more, or up to w->until where time is carried; stops in the middle of a step that fails. Where a number is no longer finite,
+ * advance_check says afterwards. */
 static int advance_run(work *w, whole steps)
 {
-    for (; steps > 0; steps--) {
+    for (const whole end = w->n + steps; w->n < end;) {
+        if (FACT(w, carried) && w->t == w->until) break;
         int bad = advance_step(w);
         if (bad) return bad;
-        w->n++;
         if (w->check && !advance_finite(w)) return STEP_DIVERGED;
     }
     return STEP_OK;

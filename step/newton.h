@@ -1,7 +1,7 @@
-/* NEWTON: what implicit kicks and implicit stages share, and the implicit kick itself.
+/* NEWTON'S METHOD for implicit kicks and implicit stages, and the implicit kick itself.
  *
- * Invariant: an equation is solved to round-off or reported. "Round-off" is when the next correction could no longer be seen beside
- * the numbers it goes to, or when corrections have stopped to shrink at a size that only rounding explains.
+ * Invariant: an equation is solved to round-off or reported. The iteration ends when the next correction would be lost beside the numbers that it
+ * goes to, or when the corrections no longer shrink at a size that rounding alone explains.
  */
 enum { NEWTON_GO_ON, NEWTON_DONE, NEWTON_STUCK, NEWTON_LOST, NEWTON_MAX = 100 };
 
@@ -40,7 +40,7 @@ static int newton_judge(work *w, const real *r, const real *value, int count, co
 
 /* w->delta solves delta = g a(x, s (u + delta/2), t). Where a is linear in v that is one evaluation and one linear system,
  * (I - (g s/2) da/dv) delta = g a(x, s u, t); else Newton's method with that matrix at every iterate. */
-static int increment(work *w, clock g, clock s, const real *u, clock t)
+static int newton_increment(work *w, clock g, clock s, const real *u, clock t)
 {
     real *restrict delta = w->delta, *restrict r = w->r, *restrict V = w->vs;
     const clock none = 0, slope = g * s / 2;

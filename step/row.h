@@ -1,31 +1,31 @@
-/* What a row is: a method's family and its coefficients.
+/* A row: a method's family and its coefficients.
  *
- * Before this text the includer defines coef, a number, and ROW_CARD, the members that come first (or nothing), and declares `row`.
+ * Before this text the includer defines coef, a number, and ROW_CARD, the members that come first, and declares `row`; step/families.def stands
+ * before it. The coefficients are lists of any length, so no row is larger than its method.
  */
-typedef enum family { SPLITTING, RUNGE_KUTTA, TWO_STEP, IMPLICIT, EXACT } family;
-typedef enum two_step { VERLET, VERLET_LITERAL, BEEMAN } two_step;
-
-enum { KICKS_MAX = 18, WEIGHTS_MAX = 9, STAGES_MAX = 4 };
+#define FAMILY_NAME(NAME, name, shared) NAME,
+typedef enum family { FAMILIES(FAMILY_NAME) } family;
+#undef FAMILY_NAME
 
 struct row {
-    ROW_CARD                  /* what people see; a machine that only steps leaves it out */
+    ROW_CARD                  /* what people see */
     family family;
     int arguments;            /* newmark takes two */
     bool compensated;         /* x and v carry error words: where truncation is so small that round-off would rule */
     bool uniform;             /* every step must have the same size: no shorter last one */
+    bool adaptive;            /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool gyroscopic;          /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
     struct {                  /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
         int stages;
-        coef kick[KICKS_MAX], drift[KICKS_MAX];
+        const coef *kick, *drift;
     } splitting;
-    struct {                  /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, …, symmetric: w[count-1-i] = w[i] */
+    struct {                  /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, … w[count-1] h, symmetric: the first half is given */
         int count;
-        coef weight[WEIGHTS_MAX];
+        const coef *weight;
     } composition;
-    struct {                  /* RUNGE_KUTTA; a is strictly lower. IMPLICIT: collocation, a is full. c: times of the stages */
+    struct {                  /* c: abscissae. a, row by row: RUNGE_KUTTA below the diagonal, 1 + 2 + … numbers; IMPLICIT all stages × stages */
         int stages;
-        coef c[STAGES_MAX], a[STAGES_MAX][STAGES_MAX], b[STAGES_MAX];
+        const coef *c, *a, *b;
     } tableau;
-    two_step two_step;        /* TWO_STEP: which recurrence */
     bool newmark;             /* IMPLICIT: the tableau follows from the arguments */
 };

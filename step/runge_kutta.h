@@ -2,45 +2,66 @@
  *
  * Invariant: sums of increments are formed first, the smallest numbers among themselves, and added to the state once.
  */
-#define ALL_TERMS (~0u)
-static inline real runge_kutta_sum(const clock *c, unsigned terms, const real *restrict y, size_t stride, size_t k, int count)
-{
-    real sum = {0};
-    bool first = true;
-    EACH_STAGE(j, count) {
-        if (!(terms >> j & 1)) continue;
-        real term = y[(size_t)j * stride + k];
-        if (first) sum = c[j] * term;
-        else sum = FMA(c[j], term, sum);
-        first = false;
-    }
-    return sum;
-}
-
 static int runge_kutta_step(work *w)
 {
-    size_t stride = w->stride;
+    const size_t stride = w->stride;
+    const int s = FACT(w, stages), b = tableau_b(w);
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
-    real *restrict X = w->xs, *restrict V = w->vs, *restrict A = w->ks;
-    EACH_STAGE(i, FACT(w, stages)) {
-        real *Vi = V + (size_t)i * stride;
+    real *restrict X = w->xs, *restrict V = w->vs, *restrict K = w->ks;
+    EACH_STAGE(i, s) {
+        const int a = tableau_a(w, i);
+        real *Vi = V + (size_t)i * stride, *Ki = K + (size_t)i * stride;
         if (i == 0) {
             EACH(k) X[k] = x[k];
             EACHV(k) Vi[k] = v[k];
         } else {
-            EACH(k) X[k] = x[k] + runge_kutta_sum(w->ha[i], FACT(w, terms)[i], V, stride, k, i);
-            EACHV(k) Vi[k] = v[k] + runge_kutta_sum(w->ha[i], FACT(w, terms)[i], A, stride, k, i);
+            EACH(k) X[k] = x[k] + tableau_sum(w, a, true, V, k, i);
+            EACHV(k) Vi[k] = v[k] + tableau_sum(w, a, true, K, k, i);
         }
-        int bad = accel_in(w, i, X, Vi, A + (size_t)i * stride);
+        int bad = accel_in(w, i, X, Vi, Ki);
         if (bad) return bad;
         TRACE(w, i);
     }
     if (ROW(w, compensated)) {
-        EACH(k) ADVANCE_EXACTLY(x[k], ex[k], 1, runge_kutta_sum(w->hb, FACT(w, weights), V, stride, k, FACT(w, stages)));
-        EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], 1, runge_kutta_sum(w->hb, FACT(w, weights), A, stride, k, FACT(w, stages)));
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, tableau_sum(w, b, true, V, k, s));
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], 1, tableau_sum(w, b, true, K, k, s));
     } else {
-        EACH(k) x[k] += runge_kutta_sum(w->hb, FACT(w, weights), V, stride, k, FACT(w, stages));
-        EACHV(k) v[k] += runge_kutta_sum(w->hb, FACT(w, weights), A, stride, k, FACT(w, stages));
+        EACH(k) x[k] += tableau_sum(w, b, true, V, k, s);
+        EACHV(k) v[k] += tableau_sum(w, b, true, K, k, s);
     }
     return STEP_OK;
 }
+#define runge_kutta_accept step_is_final
+#define runge_kutta_observe state_is_complete
+#define runge_kutta_sync work_sync_main
+#define runge_kutta_carry work_carry_main
+#define runge_kutta_dense dense_hermite
+
+static inline void runge_kutta_place(work *w, placing *p)
+{
+    w->xs = work_array(p, 1);
+    w->vs = work_array(p, FACT(w, stages));
+    w->ks = work_array(p, FACT(w, stages));
+}
+
+#ifdef ROWS
+static void runge_kutta_plan(work *w, const double argument[2], coef *unit, coef *c)
+{
+    const row *m = w->row;
+    (void)argument;
+    tableau_sizes(w, m->tableau.stages);
+    if (!unit) return;
+    for (int i = 0; i < w->stages; i++) c[i] = m->tableau.c[i];
+    tableau_fill(w, true, m->tableau.a, m->tableau.b, unit);
+}
+#endif
+
+#ifdef TRACING
+#define runge_kutta_room tableau_room
+static void runge_kutta_trace(work *w, int i)
+{
+    if (i < 0) return;
+    const size_t stage = (size_t)i * w->stride;
+    tableau_tell(w, i, w->xs, w->vs + stage, w->ks + stage);
+}
+#endif

@@ -1,101 +1,107 @@
-/* SPLITTING: every method of kicks v += b h a(x, t) and drifts x += c h v, once [HLW06, II.5].
+/* SPLITTING: every method of kicks v += b h a(x, t) and drifts x += d h v, once [HLW06, II.5]. operators.h makes them.
  *
- * Invariant: a row that begins and ends with a kick keeps its closing kick waiting: `v` lacks it until the next step, which merges it
- * with its opening kick (the same acceleration), and splitting_sync forms it on the side. So looking changes no bit.
+ * Invariant: in a row that begins and ends with a kick, `v` lacks the closing kick between steps; splitting_sync forms it aside, so observing
+ * changes no bit.
  */
-
-/* Operators: a machine may bring its own, fused or tiled. */
-#ifndef KICK
-#define KICK splitting_kick
-#define DRIFT splitting_drift
-#define KICK_DRIFT splitting_kick_drift
-
-static inline void splitting_kick(work *w, clock b)
-{
-    real *restrict v = w->v, *restrict ev = w->ev;
-    const real *restrict a = w->a;
-    if (ROW(w, compensated)) EACHV(k) ADVANCE_EXACTLY(v[k], ev[k], b, a[k]);
-    else EACHV(k) ADVANCE(v[k], b, a[k]);
-}
-
-static inline void splitting_drift(work *w, clock c)
-{
-    real *restrict x = w->x, *restrict ex = w->ex;
-    const real *restrict v = w->v;
-    if (ROW(w, compensated)) EACH(k) ADVANCE_EXACTLY(x[k], ex[k], c, v[k]);
-    else EACH(k) ADVANCE(x[k], c, v[k]);
-}
-
-/* Both in one pass over memory; companions (k >= nx) have no position to move. */
-static inline void splitting_kick_drift(work *w, clock b, clock c)
-{
-    real *restrict x = w->x, *restrict v = w->v;
-    const real *restrict a = w->a;
-    if (ROW(w, compensated) || FACT(w, nv) > FACT(w, nx)) {
-        splitting_kick(w, b);
-        splitting_drift(w, c);
-        return;
-    }
-    EACH(k) {
-        ADVANCE(v[k], b, a[k]);
-        ADVANCE(x[k], c, v[k]);
-    }
-}
-#endif
-
-/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' method, whose rotation is the Cayley form
- * of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
-static int splitting_turn(work *w, clock b, clock t)
-{
-    int bad = increment(w, b, 1, w->v, t);
-    if (bad) return bad;
-    EACHV(k) w->v[k] += w->delta[k];
-    return STEP_OK;
-}
-
-/* A machine may have its own PASS(w, i, b, c), acceleration, kick b and drift c of stage i in one pass over memory; PASSED(w, i): it made the drift
- * of stage i, the first of this step, too. */
-#ifndef PASS
-#define PASSED(w, i) false
-#endif
-
 static int splitting_step(work *w)
 {
-    EACH_STAGE(i, FACT(w, merged) ? FACT(w, stages) - 1 : FACT(w, stages)) {
-        int bad = STEP_OK;
-        if (!(FACT(w, kicks) >> i & 1)) {
-            if (!PASSED(w, i)) DRIFT(w, w->drift[i]);
-        } else if (ROW(w, gyroscopic)) {
-            bad = splitting_turn(w, w->kick[i], time_in(w, FACT(w, c)[i]));
-            DRIFT(w, w->drift[i]);
-        } else {
-            bool known = i == 0 && work_reuse(w);
-            clock b = i == 0 && FACT(w, merged) && w->n > 0 ? w->joint : w->kick[i];
-#ifdef PASS
-            if (!known && (FACT(w, drifts) >> i & 1)) {
-                PASS(w, i, b, w->drift[i]);
-                TRACE(w, i);
-                continue;
-            }
-#endif
-            if (!known) bad = accel_in(w, i, w->x, w->v, w->a);
-            if (bad) return bad;
-            if (!(FACT(w, drifts) >> i & 1)) KICK(w, b);
-            else KICK_DRIFT(w, b, w->drift[i]);
-        }
+    EACH_STAGE(i, FACT(w, stages) - FACT(w, fsal)) {
+        int bad = kick(w, i);
         if (bad) return bad;
+        drift(w, i);
         TRACE(w, i);
     }
     return STEP_OK;
 }
+#define splitting_accept step_is_final
 
-/* The acceleration that the next step begins with; known beforehand to work_reuse. */
-static int splitting_look(work *w) { return accel_now(w, w->x, w->v, w->a); }
+static int splitting_observe(work *w) { return accel_now(w, w->x, w->v, w->a); }
 
-static void splitting_sync(const work *w, real *v)
+static int splitting_sync(work *w, real *x, real *v)
 {
-    bool waiting = FACT(w, merged) && w->n > 0;
-    if (waiting && ROW(w, compensated)) EACHV(k) v[k] = w->v[k] + FMA(w->closing, w->a[k], w->ev[k]);
-    else if (waiting) EACHV(k) v[k] = FMA(w->closing, w->a[k], w->v[k]);
+    const clock b = kick_closing(w);
+    const bool waiting = FACT(w, fsal) && !FIRST(w);
+    EACH(k) x[k] = w->x[k];
+    if (waiting && ROW(w, compensated)) EACHV(k) v[k] = w->v[k] + FMA(b, w->a[k], w->ev[k]);
+    else if (waiting) EACHV(k) v[k] = FMA(b, w->a[k], w->v[k]);
     else EACHV(k) v[k] = w->v[k];
+    return STEP_OK;
 }
+
+#define splitting_carry work_carry_main
+#define splitting_dense dense_hermite
+
+static inline void splitting_place(work *w, placing *p)
+{
+    if (!FACT(w, solves)) return;
+    w->vs = work_array(p, 1);
+    w->delta = work_array(p, 1);
+    w->r = work_array(p, 1);
+}
+
+#ifdef ROWS
+/* unit: kicks, drifts, and the joint kick of a row that begins and ends with one. */
+static void splitting_plan(work *w, const double argument[2], coef *unit, coef *c)
+{
+    const row *m = w->row;
+    const int count = m->composition.count, last = count ? count : m->splitting.stages - 1;
+    (void)argument;
+    w->stages = last + 1;
+    w->linears = 2 * w->stages + 1;
+    w->solves = m->gyroscopic;
+    w->fsal = w->waits = !count && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
+    if (!unit) return;
+    coef *kick = unit, *drift = unit + w->stages, time = 0;
+    for (int i = 0; i <= last; i++) {
+        kick[i] = count ? 0 : m->splitting.kick[i];
+        drift[i] = count ? 0 : m->splitting.drift[i];
+    }
+    for (int i = 0; i < count; i++) {                      /* neighbouring half drifts are one */
+        const coef weight = m->composition.weight[i < count - 1 - i ? i : count - 1 - i];
+        drift[i] += weight / 2;
+        kick[i + 1] = weight;
+        drift[i + 1] += weight / 2;
+    }
+    for (int i = 0; i <= last; i++) {                      /* a kick happens at the time to which the drifts have come */
+        bool over = true;
+        for (int j = i; j <= last; j++) over = over && drift[j] == 0;
+        c[i] = over ? 1 : time;
+        time += drift[i];
+    }
+    unit[2 * w->stages] = kick[0] + kick[last];
+}
+#endif
+
+#ifdef TRACING
+static trace_room splitting_room(const work *w)
+{
+    trace_room room = {0};
+    for (int i = 0; i < w->stages; i++) {
+        room.v += 2 * (kick_unit(w, i) != 0);
+        room.x += drift_unit(w, i) != 0;
+    }
+    room.events = room.v / 2 + room.x;
+    return room;
+}
+
+/* Kick and drift may have been made in one pass: who sees the kick without positions knows that they still are what they were. */
+static void splitting_trace(work *w, int i)
+{
+    if (i < 0) return;
+    const tracer *to = tracer_of(w);
+    const int last = w->stages - 1;
+    if (kick_unit(w, i) != 0) {
+        const real *a = w->a;
+        if (w->solves) {                               /* the slope that solves the implicit kick: the increment is b h a */
+            EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
+            a = to->v;
+        }
+        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK, .stage = i + 1, .time = time_in(w, w->c[i]), .coefficient = kick_unit(w, i), .v = w->v, .a = a});
+    }
+    if (drift_unit(w, i) != 0)
+        tell(w, (trace_event){.kind = MOTUS_EVENT_DRIFT, .stage = i + 1, .time = time_in(w, i < last ? w->c[i + 1] : 1),
+                              .coefficient = drift_unit(w, i), .x = w->x});
+    if (w->fsal && i == last - 1)
+        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK, .stage = last + 1, .time = time_in(w, 1), .coefficient = kick_unit(w, last)});
+}
+#endif

@@ -19,20 +19,20 @@
 
 #include "lang/base/functions.h"
 #define LANES 2
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #define LANES 4
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #define LANES 8
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #define LANES 16
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #define LANES 32
 #define LANES_PART 4
-#include "step/functions_wide.h"
+#include "step/functions/wide.h"
 
 /* name, arguments, usual range of each, law, committed error in ulp, hash of the results for 1e5 arguments */
 #define EACH_FUNCTION(X)                                                                                              \

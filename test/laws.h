@@ -22,7 +22,7 @@ __extension__ typedef __float128 quad;
  * looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside and outside of laws_quad.c.) */
 typedef size_t method;
 
-enum { DIMENSIONS = 4 };
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40 };      /* SPLITTING_MAX: stages of a splitting row */
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, so that no library function limits the digits. */
 typedef struct quad_problem {

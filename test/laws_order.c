@@ -85,10 +85,10 @@ static void conditions(const forest *f, method m)
 static void consistency(method m)
 {
     const motus_method *card = row_card(m);
-    quad kick[KICKS_MAX], drift[KICKS_MAX], skew = 0;
+    quad kick[SPLITTING_MAX], drift[SPLITTING_MAX], skew = 0;
     const int n = quad_splitting_of(m, kick, drift);
     if (!n) return;
-    quad sequence[2 * KICKS_MAX];
+    quad sequence[2 * SPLITTING_MAX];
     int length = 0;
     for (int i = 0; i < n; i++) {
         sequence[length++] = kick[i];

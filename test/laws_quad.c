@@ -11,6 +11,7 @@ typedef quad coef;
 #define methods_newmark_damped quad_methods_newmark_damped
 #include "core/methods.c"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define clock quad_clock
@@ -25,25 +26,27 @@ typedef int64_t whole;
 #define EACH(k) for (size_t k = 0; k < w->nx; k++)
 #define EACHV(k) for (size_t k = 0; k < w->nv; k++)
 #define TRACE(w, i) ((void)(w), (void)(i))
+#define ROWS
 #include "step/work.h"
 
 enum { UNKNOWNS = 4 * DIMENSIONS };
-typedef struct dense {
+struct stepper_host {
     const quad_problem *problem;
     int n, stages;
     quad matrix[UNKNOWNS][UNKNOWNS], jv[DIMENSIONS][DIMENSIONS];
-} dense;
+};
+typedef struct stepper_host dense;
 
 static int accel(work *w, quad t, quad *x, quad *v, quad *a)
 {
     w->evaluations++;
-    ((dense *)w->user)->problem->accel(t, x, v, a);
+    w->library->problem->accel(t, x, v, a);
     return STEP_OK;
 }
 
 static int solve_factor(work *w, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
 {
-    dense *d = w->user;
+    dense *d = w->library;
     const int nv = (int)w->nv;
     d->n = s * nv;
     d->stages = s;
@@ -66,7 +69,7 @@ static int solve_factor(work *w, int s, const quad *ax, const quad *av, quad t, 
 /* Gauss-Jordan with row pivoting on a copy; systems are tiny. */
 static void solve_back(work *w, quad *r)
 {
-    const dense *d = w->user;
+    const dense *d = w->library;
     quad m[UNKNOWNS][UNKNOWNS + 1];
     const int nv = (int)w->nv, n = d->n;
     for (int i = 0; i < n; i++) {
@@ -93,7 +96,7 @@ static void solve_back(work *w, quad *r)
 
 static void solve_apply(work *w, quad c, const quad *y, quad *out)
 {
-    const dense *d = w->user;
+    const dense *d = w->library;
     EACHV(k) {
         out[k] = y[k];
         for (size_t j = 0; j < w->nv; j++) out[k] += c * d->jv[k][j] * y[j];
@@ -103,14 +106,7 @@ static void solve_apply(work *w, quad c, const quad *y, quad *out)
 static int exact_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; return STEP_CALLBACK; }
 static void refresh_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; }
 
-#include "step/newton.h"
-#include "step/splitting.h"
-#include "step/runge_kutta.h"
-#include "step/two_step.h"
-#include "step/implicit.h"
-#include "step/advance.h"
-#include "step/loop.h"
-#include "step/look.h"
+#include "core/texts.h"
 
 traits quad_traits(const quad_problem *p)
 {
@@ -126,14 +122,17 @@ bool quad_admits(method k, const quad_problem *p)
     return methods_table[k].family != EXACT && !row_choose(methods_table[k].card.name, &c, NULL, NULL) && !row_admits(&c, &t, NULL);
 }
 
-enum { ARRAYS_MAX = 20 };
+enum { ARRAYS_MAX = 20, CONSTANTS_MAX = 256 };
 static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0, quad h)
 {
     static const double trapezoid[2] = {0.25, 0.5};
-    *w = (work){.row = m, .nx = p->nx, .nv = p->nv, .stride = DIMENSIONS, .t0 = t0, .h = h, .user = d,
+    *w = (work){.row = m, .nx = p->nx, .nv = p->nv, .stride = DIMENSIONS, .t0 = t0, .library = d,
                 .velocity = p->velocity, .linear = p->linear};
     d->problem = p;
-    work_plan(w, argument ? argument : trapezoid);
+    work_plan(w, argument ? argument : trapezoid, NULL);
+    if (work_plan_size(w) > CONSTANTS_MAX) abort();
+    work_plan(w, argument ? argument : trapezoid, memory + ARRAYS_MAX * DIMENSIONS);
+    work_scale(w, h);
     memset(memory, 0, ARRAYS_MAX * DIMENSIONS * sizeof *memory);
     work_place(w, memory);
 }
@@ -142,7 +141,7 @@ quad_count quad_run(method k, const double *argument, const quad_problem *p, qua
 {
     work w;
     dense d;
-    quad memory[ARRAYS_MAX * DIMENSIONS];
+    quad memory[ARRAYS_MAX * DIMENSIONS + CONSTANTS_MAX];
     begin(&w, &d, memory, &methods_table[k], argument, p, t0, h);
     memcpy(w.x, state->x, p->nx * sizeof *w.x);
     memcpy(w.v, state->v, p->nv * sizeof *w.v);
@@ -157,7 +156,7 @@ void quad_recursion(const quad_problem *p, quad t, quad h, const quad *before, c
 {
     work w;
     dense d;
-    quad memory[ARRAYS_MAX * DIMENSIONS];
+    quad memory[ARRAYS_MAX * DIMENSIONS + CONSTANTS_MAX];
     begin(&w, &d, memory, &methods_table[0], NULL, p, t - h, h);
     w.n = 1;
     for (size_t k = 0; k < p->nx; k++) {
@@ -172,10 +171,15 @@ bool quad_tableau_of(method k, quad_tableau *out)
 {
     const row *m = &methods_table[k];
     if (m->family != RUNGE_KUTTA && (m->family != IMPLICIT || m->newmark)) return false;
-    out->stages = m->tableau.stages;
-    memcpy(out->c, m->tableau.c, sizeof out->c);
-    memcpy(out->a, m->tableau.a, sizeof out->a);
-    memcpy(out->b, m->tableau.b, sizeof out->b);
+    work w = {.row = m};
+    quad memory[CONSTANTS_MAX];
+    work_plan(&w, NULL, memory);
+    out->stages = w.stages;
+    for (int i = 0; i < w.stages; i++) {
+        out->c[i] = w.c[i];
+        out->b[i] = w.unit[tableau_b(&w) + i];
+        for (int j = 0; j < w.stages; j++) out->a[i][j] = w.unit[tableau_a(&w, i) + j];
+    }
     return true;
 }
 
@@ -183,18 +187,19 @@ int quad_splitting_of(method k, quad *kick, quad *drift)
 {
     const row *m = &methods_table[k];
     if (m->family != SPLITTING) return 0;
-    work w = {.row = m, .h = 1, .hh = 1};
-    work_plan(&w, NULL);
+    work w = {.row = m};
+    quad memory[CONSTANTS_MAX];
+    work_plan(&w, NULL, memory);
     for (int i = 0; i < w.stages; i++) {
-        kick[i] = w.kick[i];
-        drift[i] = w.drift[i];
+        kick[i] = kick_unit(&w, i);
+        drift[i] = drift_unit(&w, i);
     }
     return w.stages;
 }
 
 quad quad_looseness(method k)
 {
-    quad kick[KICKS_MAX], drift[KICKS_MAX], kicks = -1, drifts = -1;
+    quad kick[SPLITTING_MAX], drift[SPLITTING_MAX], kicks = -1, drifts = -1;
     const int n = quad_splitting_of(k, kick, drift);
     if (!n) return 0;
     for (int i = 0; i < n; i++) {

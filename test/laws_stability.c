@@ -35,14 +35,14 @@ static bool explodes(method m, quad z)
 
 static bool unstable(method m, quad z)
 {
-    const bool one_step = !(methods_table[m].family == TWO_STEP && methods_table[m].two_step == BEEMAN);
+    const bool one_step = methods_table[m].family != BEEMAN;
     return one_step ? excess(m, z) > Q(1e-12) : explodes(m, z);
 }
 
 static void limit(method m)
 {
     const motus_method *card = row_card(m);
-    const bool coarse = methods_table[m].family == TWO_STEP && methods_table[m].two_step == BEEMAN;
+    const bool coarse = methods_table[m].family == BEEMAN;
     if (isinf(card->stability_limit)) {
         double worst = 0;
         for (double z = 0.01; z < 1e5; z *= 1.7) worst = fmax(worst, (double)excess(m, (quad)z));
@@ -98,7 +98,7 @@ static void energy(method m)
     const int samples = (int)(60 * 2 * M_PI / h);
     chosen c;
     stepper *s = NULL;
-    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&p, &c, 0, h, start_x, start_v, NULL, &s, NULL)) {
+    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&(machine){.problem = &p}, &c, 0, h, start_x, start_v, NULL, &s, NULL)) {
         judge(false, card->name, "energy", "no stepper");
         return;
     }
@@ -107,7 +107,7 @@ static void energy(method m)
     for (int w = 0; w < WINDOWS && !lost; w++)
         for (int i = 0; i < samples; i++) {
             double x[2], v[2];
-            if (stepper_advance(s, 1, NULL) || stepper_sync(s, x, v, NULL, NULL)) {
+            if (stepper_advance(s, (stepper_limit){1, NAN}, NULL, NULL) || stepper_sync(s, x, v, NULL, NULL)) {
                 lost = true;
                 break;
             }
@@ -157,8 +157,8 @@ static void compensation(method m)
     double x = 0, v = 0;
     chosen c;
     stepper *s = NULL;
-    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&p, &c, 0, h, &zero, &zero, NULL, &s, NULL)) return;
-    const bool ran = !stepper_advance(s, 200000, NULL) && !stepper_sync(s, &x, &v, NULL, NULL);
+    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&(machine){.problem = &p}, &c, 0, h, &zero, &zero, NULL, &s, NULL)) return;
+    const bool ran = !stepper_advance(s, (stepper_limit){200000, NAN}, NULL, NULL) && !stepper_sync(s, &x, &v, NULL, NULL);
     stepper_destroy(s);
     const double miss = fabs(v + speed) / speed, bound = (card->stages + 2) * DBL_EPSILON;
     const bool words = methods_table[m].compensated;

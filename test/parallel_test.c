@@ -1,5 +1,5 @@
 /* Work in pieces: every piece once, by nobody who is at another, in the caller's modes; whether threads come at once or have slept, or never come. */
-#include "run/parallel.h"
+#include "machine/parallel.h"
 
 #include <fenv.h>
 #include <setjmp.h>

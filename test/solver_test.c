@@ -63,7 +63,7 @@ static void structure_does_not_change_the_motion(void **state)
             if (how < 2) p.jvp = ring_jvp;
             if (how == 0) p.pattern = ring_pattern;       /* else dense, and then by difference quotients */
             stepper *s = begin(&p, method, 0, 0.05, x0, v0);
-            assert_int_equal(stepper_advance(s, 20, NULL), MOTUS_OK);
+            assert_int_equal(stepper_advance(s, (stepper_limit){20, NAN}, NULL, NULL), MOTUS_OK);
             assert_int_equal(stepper_sync(s, x[how], v[how], NULL, NULL), MOTUS_OK);
             if (how < 2) jvps[how] = r.jvps;
             stepper_destroy(s);
@@ -159,15 +159,15 @@ static void a_million_damped_masses(void **state)
     const motus_allocator hooks = {metered, unmetered, &m};
     stepper *s = NULL;
     motus_error err = {0};
-    assert_int_equal(stepper_create(&p, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_OK);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_OK);
     assert_true(m.most < n * 32 * sizeof(double));         /* a fixed number of numbers for each mass */
-    assert_int_equal(stepper_advance(s, 3, &err), MOTUS_OK);
+    assert_int_equal(stepper_advance(s, (stepper_limit){3, NAN}, NULL, &err), MOTUS_OK);
     stepper_destroy(s);
     assert_int_equal(m.now, 0);
 
     p.pattern = NULL;                                      /* dense: refused before anything of that size is taken */
     m = (meter){0};
-    assert_int_equal(stepper_create(&p, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_LIMIT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_LIMIT);
     assert_true(m.most < n * 16 * sizeof(double));
     assert_int_equal(m.now, 0);
     assert_non_null(strstr(err.message, "256 MiB"));
@@ -182,7 +182,7 @@ static void singular_matrix(void **state)
     const double one = 1;
     stepper *s = begin(&p, "verlet", 0, -2, &one, &one);   /* a = -v: q = 1 - h/2 (-1) = 1 + h/2 = 0 */
     motus_error err = {0};
-    assert_int_equal(stepper_advance(s, 5, &err), MOTUS_SOLVE);
+    assert_int_equal(stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err), MOTUS_SOLVE);
     assert_int_equal(stepper_steps(s), 1);
     stepper_destroy(s);
 }
@@ -204,10 +204,10 @@ static void allocation_failures(void **state)
             const motus_allocator hooks = {metered, unmetered, &m};
             stepper *s = NULL;
             motus_error err = {0};
-            const motus_status status = stepper_create(&p, &c, 0, 0.01, start, start, &hooks, &s, &err);
+            const motus_status status = stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, start, start, &hooks, &s, &err);
             if (!status) {
                 const size_t taken = m.count;
-                assert_int_equal(stepper_advance(s, 20, &err), MOTUS_OK);
+                assert_int_equal(stepper_advance(s, (stepper_limit){20, NAN}, NULL, &err), MOTUS_OK);
                 assert_int_equal(m.count, taken);          /* nothing is taken on the way */
                 stepper_destroy(s);
                 assert_int_equal(m.now, 0);

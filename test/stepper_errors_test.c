@@ -38,7 +38,7 @@ static void divergence(const char *method, size_t n, int64_t chunk)
     stepper *s = begin(&p, method, 0, 0.01, x, v);
     motus_error err = {0};
     motus_status status = MOTUS_OK;
-    while (!status && stepper_steps(s) < 1000) status = stepper_advance(s, chunk, &err);
+    while (!status && stepper_steps(s) < 1000) status = stepper_advance(s, (stepper_limit){chunk, NAN}, NULL, &err);
     assert_int_equal(status, MOTUS_DIVERGED);
     assert_true(err.time > 0.9 && err.time < 1.2);
     char expected[64];
@@ -51,13 +51,13 @@ static void divergence(const char *method, size_t n, int64_t chunk)
     memset(x, 0, 2 * n * sizeof *x);
     x[b.hot] = v[b.hot] = 1;
     stepper *again = begin(&p, method, 0, 0.01, x, v);
-    assert_int_equal(stepper_advance(again, at, NULL), MOTUS_OK);
+    assert_int_equal(stepper_advance(again, (stepper_limit){at, NAN}, NULL, NULL), MOTUS_OK);
     double *carry = calloc(2 * stepper_carry(s), sizeof *carry);
     stepper_save(s, carry);
     stepper_save(again, carry + stepper_carry(s));
     assert_memory_equal(carry, carry + stepper_carry(s), stepper_carry(s) * sizeof *carry);
     assert_int_equal(stepper_evaluations(s), stepper_evaluations(again));
-    assert_int_equal(stepper_advance(again, 1, &err), MOTUS_DIVERGED);
+    assert_int_equal(stepper_advance(again, (stepper_limit){1, NAN}, NULL, &err), MOTUS_DIVERGED);
     assert_int_equal(stepper_steps(again), at);
     stepper_destroy(again);
     stepper_destroy(s);
@@ -88,13 +88,13 @@ static void failing_callback(void **state)
         stepper *s = begin(&p, row_card(k)->name, 2, 0.01, &x, &v);
         b.fail_at = 200;
         motus_error err = {0};
-        assert_int_equal(stepper_advance(s, 400, &err), MOTUS_CALLBACK);
+        assert_int_equal(stepper_advance(s, (stepper_limit){400, NAN}, NULL, &err), MOTUS_CALLBACK);
         assert_true(isfinite(err.time) && err.time >= 2 && err.time <= 4);
         assert_true(stepper_time(s) == err.time);          /* it stands where the failing step began */
         /* Once the callback works again the run goes on as if nothing had happened. */
         stepper *whole = begin(&p, row_card(k)->name, 2, 0.01, &x, &v);
-        assert_int_equal(stepper_advance(s, 400 - stepper_steps(s), &err), MOTUS_OK);
-        assert_int_equal(stepper_advance(whole, 400, &err), MOTUS_OK);
+        assert_int_equal(stepper_advance(s, (stepper_limit){400 - stepper_steps(s), NAN}, NULL, &err), MOTUS_OK);
+        assert_int_equal(stepper_advance(whole, (stepper_limit){400, NAN}, NULL, &err), MOTUS_OK);
         const outcome one = finish(s), other = finish(whole);
         assert_memory_equal(&one, &other, sizeof one);
     }
@@ -117,7 +117,7 @@ static void failed_solve_names_time_and_variable(void **state)
         const double zero = 0;
         stepper *s = begin(&p, methods[i], 3, 0.25, &zero, &zero);
         motus_error err = {0};
-        assert_int_equal(stepper_advance(s, 5, &err), MOTUS_SOLVE);
+        assert_int_equal(stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err), MOTUS_SOLVE);
         assert_string_equal(err.variable, "y[1]'");
         assert_true(err.time >= 3 && err.time < 5);
         assert_true(strlen(err.hint) > 0);
@@ -173,14 +173,14 @@ static void refused_requests(void **state)
     const double zero = 0, nan_value = NAN;
     stepper *s = NULL;
     row_choose("verlet", &c, NULL, NULL);
-    assert_int_equal(stepper_create(&p, &c, 0, 0, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&p, &c, 1e20, 1, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&p, &c, 0, NAN, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&p, &c, 0, 1, &nan_value, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 1e20, 1, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, NAN, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 1, &nan_value, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
     s = begin(&p, "verlet", 0, 0.1, &zero, &zero);
     const double carry[2] = {1, NAN};
-    assert_int_equal(stepper_load(s, 1, 1, 0, carry, &err), MOTUS_STATE);
-    assert_int_equal(stepper_load(s, -1, 1, 0, carry, &err), MOTUS_STATE);
+    assert_int_equal(stepper_load(s, (stepper_count){1, 1, 0}, carry, &err), MOTUS_STATE);
+    assert_int_equal(stepper_load(s, (stepper_count){-1, 1, 0}, carry, &err), MOTUS_STATE);
     stepper_destroy(s);
 }
 

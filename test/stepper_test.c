@@ -75,7 +75,7 @@ static void looking_and_restarting_change_no_bit(void **state)
             if (!admitted(p, k)) continue;
             rows++;
             stepper *plain = begin(p, name, 0.5, 0.05, start_x, start_v);
-            assert_int_equal(stepper_advance(plain, 45, NULL), MOTUS_OK);
+            assert_int_equal(stepper_advance(plain, (stepper_limit){45, NAN}, NULL, NULL), MOTUS_OK);
 
             stepper *watched = begin(p, name, 0.5, 0.05, start_x, start_v);
             double x[3], v[3], a[3], carry[32];
@@ -83,14 +83,13 @@ static void looking_and_restarting_change_no_bit(void **state)
                 assert_int_equal(stepper_sync(watched, x, v, i % 2 ? a : NULL, NULL), MOTUS_OK);
                 if (i == 0 || i == 21) {          /* on to another stepper, made alike */
                     assert_in_range(stepper_carry(watched), 0, 32);
-                    stepper_save(watched, carry);
+                    const stepper_count at = stepper_save(watched, carry);
                     stepper *next = begin(p, name, 0.5, 0.05, start_x, start_v);
-                    assert_int_equal(stepper_load(next, stepper_steps(watched), stepper_evaluations(watched), stepper_iterations(watched),
-                                                  carry, NULL), MOTUS_OK);
+                    assert_int_equal(stepper_load(next, at, carry, NULL), MOTUS_OK);
                     stepper_destroy(watched);
                     watched = next;
                 }
-                assert_int_equal(stepper_advance(watched, 1, NULL), MOTUS_OK);
+                assert_int_equal(stepper_advance(watched, (stepper_limit){1, NAN}, NULL, NULL), MOTUS_OK);
             }
             const outcome one = finish(plain), other = finish(watched);
             if (memcmp(&one, &other, sizeof one)) explain("%s on problem %d: looking or restarting changed the result", name, q);
@@ -116,7 +115,7 @@ static void instruction_sets_agree(void **state)
             for (int b = 0; b < count; b++) {
                 stepper *s = begin(&problems[q], row_card(k)->name, 0, 0.05, start_x, start_v);
                 stepper_use_body(s, bodies[b]);
-                assert_int_equal(stepper_advance(s, 100, NULL), MOTUS_OK);
+                assert_int_equal(stepper_advance(s, (stepper_limit){100, NAN}, NULL, NULL), MOTUS_OK);
                 o[b] = finish(s);
                 if (memcmp(&o[0], &o[b], sizeof *o)) explain("%s on problem %d: %s differs", row_card(k)->name, q, bodies[b]->name);
             }
@@ -128,7 +127,7 @@ static double run(const problem *p, const char *method, double h, int64_t steps,
     const double zero = 0;
     stepper *s = begin(p, method, 0, h, &x0, &zero);
     double x, v;
-    assert_int_equal(stepper_advance(s, steps, NULL), MOTUS_OK);
+    assert_int_equal(stepper_advance(s, (stepper_limit){steps, NAN}, NULL, NULL), MOTUS_OK);
     assert_int_equal(stepper_sync(s, &x, &v, NULL, NULL), MOTUS_OK);
     assert_true(stepper_time(s) == (double)steps * h);
     assert_int_equal(stepper_evaluations(s), steps);
@@ -189,8 +188,8 @@ static void driven_boundaries(void **state)
             stepper *b = begin(&none, row_card(k)->name, 0, 0.0625, x0 + 1, v0 + 1);
             double x[2], v[2], y, w;
             for (int i = 0; i < 40; i++) {
-                assert_int_equal(stepper_advance(a, 1, NULL), MOTUS_OK);
-                assert_int_equal(stepper_advance(b, 1, NULL), MOTUS_OK);
+                assert_int_equal(stepper_advance(a, (stepper_limit){1, NAN}, NULL, NULL), MOTUS_OK);
+                assert_int_equal(stepper_advance(b, (stepper_limit){1, NAN}, NULL, NULL), MOTUS_OK);
                 assert_int_equal(stepper_sync(a, x, v, NULL, NULL), MOTUS_OK);
                 assert_int_equal(stepper_sync(b, &y, &w, NULL, NULL), MOTUS_OK);
                 assert_true(x[0] == sin(stepper_time(a)) && v[0] == cos(stepper_time(a)));
@@ -228,7 +227,7 @@ static void exact_motion(void **state)
     const problem falling = {.nx = 2, .nv = 2, .accel = fall, .traits = {.constant = true}};
     const double x0[2] = {0, 1}, v0[2] = {1, 4.5};
     stepper *s = begin(&falling, "exact", 1, 0.125, x0, v0);
-    assert_int_equal(stepper_advance(s, 16, NULL), MOTUS_OK);
+    assert_int_equal(stepper_advance(s, (stepper_limit){16, NAN}, NULL, NULL), MOTUS_OK);
     double x[2], v[2], a[2];
     assert_int_equal(stepper_sync(s, x, v, a, NULL), MOTUS_OK);
     assert_near(x[0], 2.0, 1e-15);
@@ -242,12 +241,12 @@ static void exact_motion(void **state)
     row_choose("exact", &c, NULL, NULL);
     const double one = 1, zero = 0;
     s = begin(&swinging, "exact", 0, 0.5, &one, &zero);
-    assert_int_equal(stepper_advance(s, 7, NULL), MOTUS_OK);
+    assert_int_equal(stepper_advance(s, (stepper_limit){7, NAN}, NULL, NULL), MOTUS_OK);
     assert_int_equal(stepper_sync(s, x, v, NULL, NULL), MOTUS_OK);
     assert_true(x[0] == cos(3.5) && v[0] == -sin(3.5));
     stepper_destroy(s);
     motus_error err = {0};
-    assert_int_equal(stepper_create(&swinging, &c, 0, 0.5, &zero, &zero, NULL, &s, &err), MOTUS_METHOD);
+    assert_int_equal(stepper_create(&(machine){.problem = &swinging}, &c, 0, 0.5, &zero, &zero, NULL, &s, &err), MOTUS_METHOD);
 }
 
 int main(void)

@@ -23,7 +23,7 @@ static inline stepper *begin(const problem *p, const char *method, double t0, do
     stepper *s = NULL;
     motus_error err = {0};
     assert_int_equal(row_choose(method, &c, NULL, &err), MOTUS_OK);
-    if (stepper_create(p, &c, t0, h, x, v, NULL, &s, &err)) explain("%s: %s", method, err.message);
+    if (stepper_create(&(machine){.problem = p}, &c, t0, h, x, v, NULL, &s, &err)) explain("%s: %s", method, err.message);
     return s;
 }
 

@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdint.h>
-#include "step/functions_core.h"
-#include "step/functions_circular.h"
-#include "step/functions_end.h"
+#include "step/functions/core.h"
+#include "step/functions/circular.h"
+#include "step/functions/end.h"
 
 void hand_cosines(double step, int64_t steps, double *whole, double *half)
 {

@@ -37,18 +37,19 @@ typedef struct emit {
     uint32_t fixed, fixed_lanes;     /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
     uint64_t used, used_lanes;       /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
     bool wraps;                      /* they call `wrapped` */
-    bool vectors;                    /* loops may take several values of their index at once, by step/index_lanes.h */
+    bool vectors;                    /* loops may take several values of their index at once, by machine/text/index_lanes.h */
     bool uses_vectors;               /* and some do */
     bool separate;                   /* the next program is compiled once, and called */
     bool windowed;                   /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     uint32_t terms;                  /* values of time alone: T[0 … terms) */
+    int moments;                     /* at how many different times a step evaluates them */
 } emit;
 
 /* Appends
  *     NAME_bind(pool, q, u)                             u: what depends on parameters alone
  *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are lanes
  *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with `terms`, and where e->terms > 0
- *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of step/window.h
+ *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of machine/text/window.h
  * The text around it defines real, reals, MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how many doubles reals has.
  * False: the arena failed. */
 bool emit_program(emit *, const program *, const char *name, bool terms);

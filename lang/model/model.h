@@ -106,7 +106,7 @@ typedef struct model {
     bool driven;                     /* a boundary line depends on t */
     output *exact; size_t exact_count;               /* into X and V */
     bool exact_given, exact_recognised;
-    traits traits;                   /* gyroscopic and gradient are found on demand (run/) */
+    traits traits;                   /* gyroscopic and gradient are found on demand (machine/) */
 
     double start, step, tolerance, until, every_time;
     bool start_known;

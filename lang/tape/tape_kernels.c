@@ -16,7 +16,7 @@
 #define LANES 4
 #endif
 #ifdef WIDTH
-#include "step/functions_lanes.h"
+#include "step/functions/lanes.h"
 #include "lang/base/functions.h"
 #endif
 

@@ -1,0 +1,42 @@
+/* What the texts of step/ ask of their includer, for a problem, with real = double; and after it the texts.
+ *
+ * Included by the files that become a stepper_body, and by nothing else; such a file may define a TRACE of its own first.
+ */
+static inline int accel(work *w, clock t, real *x, real *v, real *a)
+{
+    const problem *p = w->library->problem;
+    w->evaluations++;
+    return p->accel(p->ctx, t, x, v, a) ? STEP_CALLBACK : STEP_OK;
+}
+
+static inline int solve_factor(work *w, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
+{
+    (void)s;                              /* the solver was made for this number of stages */
+    switch (solver_factor(w->library->solver, ax, av, t, x, v, &w->evaluations)) {
+    case 0: return STEP_OK;
+    case 1: return STEP_CALLBACK;
+    default: w->in_v = true; w->which = 0; return STEP_SOLVE;
+    }
+}
+
+static inline void solve_back(work *w, real *r) { solver_back(w->library->solver, r); }
+static inline void solve_apply(work *w, clock c, const real *y, real *out) { solver_apply(w->library->solver, c, y, out); }
+static const real *solve_diagonal(const work *w) { return solver_diagonal(w->library->solver); }
+
+static inline int exact_at(work *w, clock t, real *x, real *v)
+{
+    const problem *p = w->library->problem;
+    return p->exact(p->ctx, t, x, v) ? STEP_CALLBACK : STEP_OK;
+}
+
+static inline void refresh_at(work *w, clock t, real *x, real *v)
+{
+    const problem *p = w->library->problem;
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+}
+
+#include "core/texts.h"
+
+#define STEPPER_BODY(name)                                                                                                                      \
+    {name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, family_dense, solve_factor, solve_back, solve_apply, \
+     solve_diagonal}

@@ -1,0 +1,113 @@
+/* Legs: where a stepper starts, and what is refused as a start. See stepper.h. */
+#include "core/stepper_parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Errors ---------------------------------------------------------------------------------------------------------- */
+
+static const char *name_of(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
+{
+    out[0] = 0;
+    if (s->problem.name) s->problem.name(s->problem.ctx, in_v, k, out, MOTUS_NAME_MAX);
+    if (!out[0]) snprintf(out, MOTUS_NAME_MAX, "%s[%zu]", in_v ? "v" : "x", k);
+    return out;
+}
+
+motus_status stepper_report(const stepper *s, int bad, double t, motus_error *err)
+{
+    const work *w = &s->work;
+    char time[DECIMAL_MAX], name[MOTUS_NAME_MAX], step[DECIMAL_MAX];
+    decimal(t, time);
+    decimal(w->h, step);
+    name_of(s, w->in_v, w->which, name);
+    motus_status status = MOTUS_CALLBACK;
+    if (bad == STEP_DIVERGED) {
+        status = fail(err, MOTUS_DIVERGED, "the motion left the finite numbers at t = %s: %s is no longer finite", time, name);
+        hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name, step);
+    } else if (bad == STEP_SOLVE) {
+        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not settle", s->method.name, time, name);
+        hint(err, "the step is %s; a smaller one brings the solution nearer to the starting guess", step);
+    } else if (bad == STEP_STALLED) {
+        status = fail(err, MOTUS_DIVERGED, "the step that the tolerance asks for no longer moves time on at t = %s", time);
+        hint(err, "the motion may have a singularity there; otherwise allow a larger error");
+    } else {
+        fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s", time);
+    }
+    if (!err) return status;
+    err->time = t;
+    if (bad != STEP_CALLBACK && bad != STEP_STALLED) snprintf(err->variable, sizeof err->variable, "%s", name);
+    return status;
+}
+
+/* Starts ---------------------------------------------------------------------------------------------------------- */
+
+static motus_status check_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
+{
+    char name[MOTUS_NAME_MAX];
+    if (!isfinite(t0) || !isfinite(h) || h == 0 || t0 + h == t0) {
+        fail(err, MOTUS_ARGUMENT, "the step must be a finite number that moves time on");
+        hint(err, "choose a step that is not too small beside the time itself");
+        return MOTUS_ARGUMENT;
+    }
+    for (size_t k = 0; k < s->problem.nx; k++)
+        if (!isfinite(x[k])) return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number", name_of(s, false, k, name));
+    for (size_t k = 0; k < s->problem.nv; k++)
+        if (!isfinite(v[k])) return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number", name_of(s, true, k, name));
+    return MOTUS_OK;
+}
+
+/* The exact line describes one motion; a run that starts elsewhere is not it. */
+static motus_status check_exact(stepper *s, double t0, const double *x, const double *v, motus_error *err)
+{
+    const problem *p = &s->problem;
+    if (s->method.row->family != EXACT || p->traits.constant) return MOTUS_OK;
+    if (!p->exact) return fail(err, MOTUS_METHOD, "exact does not admit this model: its exact motion is not known");
+    double *there = take(&s->allocator, p->nx + p->nv, sizeof *there), size = 0, miss = 0;
+    if (!there) return fail(err, MOTUS_MEMORY, "out of memory");
+    memcpy(there, x, p->nx * sizeof *x);
+    memcpy(there + p->nx, v, p->nv * sizeof *v);
+    int bad = p->exact(p->ctx, t0, there, there + p->nx);
+    for (size_t k = 0; k < p->nx + p->nv; k++) {
+        const double start = k < p->nx ? x[k] : v[k - p->nx], off = fabs(there[k] - start);
+        size = fmax(size, fabs(start));
+        if (!(off <= miss)) miss = off;
+    }
+    give(&s->allocator, there);
+    if (bad) return stepper_report(s, STEP_CALLBACK, t0, err);
+    if (miss <= 1e-9 * (1 + size)) return MOTUS_OK;
+    fail(err, MOTUS_METHOD, "exact does not admit this start: the exact motion is elsewhere at that time");
+    hint(err, "start on it, or choose another method");
+    return MOTUS_METHOD;
+}
+
+void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
+{
+    work *w = &s->work;
+    double *list[CARRY_MAX];
+    w->n = 0;
+    for (int i = s->body->carry(w, list); i-- > 0;) memset(list[i], 0, w->nv * sizeof(double));
+    memcpy(w->x, x, w->nx * sizeof *x);
+    memcpy(w->v, v, w->nv * sizeof *v);
+    w->t0 = w->t = t0;
+    w->lost = 0;
+    w->next = h;
+    w->fresh = w->stalled = w->ends = false;
+    w->moved = 0;
+    work_scale(w, h);
+    if (s->library.solver) solver_forget(s->library.solver);
+}
+
+motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
+{
+    motus_status status = check_start(s, t0, h, x, v, err);
+    if (!status) status = check_exact(s, t0, x, v, err);
+    if (status) return status;
+    s->leg_h = h;
+    s->main_t0 = t0;
+    s->at.steps = -1;
+    s->shortened = s->arrived = s->left = s->right = false;
+    s->left_steps = -1;
+    stepper_begin(s, t0, h, x, v);
+    return MOTUS_OK;
+}

@@ -1,0 +1,156 @@
+/* What a stepper's state is: time and counters, the numbers that lead on, observation, dense output. See stepper.h. */
+#include "core/stepper_parts.h"
+
+#include <string.h>
+
+double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
+double stepper_step(const stepper *s) { return s->leg_h; }
+int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
+int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
+int64_t stepper_iterations(const stepper *s) { return s->work.iterations; }
+
+/* Carry ----------------------------------------------------------------------------------------------------------- */
+
+static size_t clocks(const work *w) { return w->carried ? STEPPER_CLOCKS : 0; }
+
+size_t stepper_carry(const stepper *s)
+{
+    double *list[CARRY_MAX];
+    return (size_t)s->body->carry(&s->work, list) * s->work.nv + clocks(&s->work);
+}
+
+stepper_count stepper_get(const stepper *s, double *carry)
+{
+    double *list[CARRY_MAX];
+    const work *w = &s->work;
+    const int count = s->body->carry(w, list);
+    for (int i = 0; i < count; i++) memcpy(carry + (size_t)i * w->nv, list[i], w->nv * sizeof *carry);
+    const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next};
+    memcpy(carry + (size_t)count * w->nv, time, clocks(w) * sizeof *time);
+    return (stepper_count){w->n, w->evaluations, w->iterations};
+}
+
+void stepper_put(stepper *s, stepper_count at, const double *carry)
+{
+    double *list[CARRY_MAX];
+    work *w = &s->work;
+    w->n = at.steps;                   /* first: what is carried depends on it */
+    w->evaluations = at.evaluations;
+    w->iterations = at.iterations;
+    w->fresh = w->stalled = false;
+    w->moved = 0;
+    const int count = s->body->carry(w, list);
+    for (int i = 0; i < count; i++) memcpy(list[i], carry + (size_t)i * w->nv, w->nv * sizeof *carry);
+    if (!w->carried) return;
+    const double *time = carry + (size_t)count * w->nv;
+    w->t = time[0];
+    w->lost = time[1];
+    w->next = time[2];
+}
+
+stepper_count stepper_save(const stepper *s, double *carry)
+{
+    if (!s->shortened) return stepper_get(s, carry);
+    memcpy(carry, s->snapshot, stepper_carry(s) * sizeof *carry);
+    return s->at;
+}
+
+motus_status stepper_load(stepper *s, stepper_count at, const double *carry, motus_error *err)
+{
+    if (at.steps < 0 || at.evaluations < 0 || at.iterations < 0) return fail(err, MOTUS_STATE, "the restart state has a negative counter");
+    const size_t count = stepper_carry(s);
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(carry[k])) return fail(err, MOTUS_STATE, "number %zu of the restart state is not finite", k + 1);
+    if (s->shortened) {
+        s->work.t0 = s->main_t0;
+        work_scale(&s->work, s->leg_h);
+        if (s->library.solver) solver_forget(s->library.solver);
+    }
+    stepper_put(s, at, carry);
+    s->shortened = s->arrived = s->left = s->right = false;
+    s->left_steps = -1;
+    s->at.steps = -1;
+    return MOTUS_OK;
+}
+
+/* Observation ----------------------------------------------------------------------------------------------------- */
+
+motus_status stepper_sync(stepper *s, double *x, double *v, double *a, motus_error *err)
+{
+    work *w = &s->work;
+    const int bad = s->body->sync(w, x, v, a);
+    if (bad) return stepper_report(s, bad, time_now(w), err);
+    for (size_t k = 0; k < w->nx + w->nv; k++) {
+        const bool in_v = k >= w->nx;
+        const size_t at = in_v ? k - w->nx : k;
+        if (isfinite(in_v ? v[at] : x[at])) continue;
+        w->in_v = in_v;
+        w->which = at;
+        return stepper_report(s, STEP_DIVERGED, time_now(w), err);
+    }
+    return MOTUS_OK;
+}
+
+/* Dense output ---------------------------------------------------------------------------------------------------- */
+
+bool stepper_ends(stepper *s)
+{
+    if (!s->ends) s->ends = take(&s->allocator, 2 * (s->work.nx + 2 * s->work.nv), sizeof *s->ends);
+    return s->ends != NULL;
+}
+
+static motus_status keep_end(stepper *s, int which, motus_error *err)
+{
+    if (!stepper_ends(s)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
+    const size_t nx = s->work.nx, nv = s->work.nv;
+    double *x = s->ends + (size_t)which * (nx + 2 * nv);
+    return stepper_sync(s, x, x + nx, x + nx + nv, err);
+}
+
+motus_status stepper_mark(stepper *s, motus_error *err)
+{
+    const motus_status status = keep_end(s, 0, err);
+    s->left = !status;
+    s->right = false;
+    s->left_t = stepper_time(s);
+    s->left_steps = stepper_steps(s);
+    return status;
+}
+
+/* Whether t lies between the mark and the present time. */
+static bool marked(const stepper *s, double t)
+{
+    const double way = s->leg_h < 0 ? -1 : 1;
+    return s->left && way * (t - s->left_t) >= 0 && way * (stepper_time(s) - t) >= 0;
+}
+
+int64_t stepper_steps_before(const stepper *s, double t)
+{
+    const work *w = &s->work;
+    const stepper_way way = stepper_way_of(w->t0, w->h, s->until);
+    if (w->carried || s->arrived) return 0;
+    const double q = floor((t - w->t0) / w->h), sign = w->h < 0 ? -1 : 1;
+    int64_t n = q >= (double)way.whole ? way.whole : (int64_t)q;
+    if (sign * (w->t0 + (double)n * w->h - t) > 0) n--;      /* the quotient was rounded up */
+    return n > w->n ? n - w->n : 0;
+}
+
+motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
+{
+    motus_status status = marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
+    if (status) return status;
+    if (!marked(s, t)) {
+        fail(err, MOTUS_ARGUMENT, "the time %g lies behind the run, which is at %g", t, stepper_time(s));
+        hint(err, "a run looks back within its last step, no further");
+        return MOTUS_ARGUMENT;
+    }
+    status = s->right ? MOTUS_OK : keep_end(s, 1, err);
+    if (status) return status;
+    s->right = true;
+    const size_t nx = s->work.nx, nv = s->work.nv, apart = nx + 2 * nv;
+    const double *e = s->ends;
+    const dense_end ends[2] = {{s->left_t, e, e + nx, e + nx + nv}, {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}};
+    s->body->dense(&s->work, ends, t, x, v);
+    if (s->problem.refresh) s->problem.refresh(s->problem.ctx, t, x, v);
+    return MOTUS_OK;
+}

@@ -1,0 +1,16 @@
+/* The texts of step/ in their order, with every family, for an includer that has defined their vocabulary (work.h says which) and the functions that
+ * they ask for. Nothing here decides an operation on the state, so all includers get the same bits.
+ */
+#include "step/dense.h"
+#include "step/newton.h"
+#include "step/operators.h"
+#include "step/tableau.h"
+#define FAMILY_TEXTS
+#include "step/families.def"
+#undef FAMILY_TEXTS
+#include "core/family.h"
+#include "step/plan.h"
+#include "step/control.h"
+#include "step/advance.h"
+#include "step/loop.h"
+#include "step/observe.h"

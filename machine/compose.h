@@ -1,0 +1,31 @@
+/* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for lanes, are made here. */
+#ifndef MACHINE_COMPOSE_H
+#define MACHINE_COMPOSE_H
+
+#include "lang/emit/emit.h"
+#include "lang/emit/emit_local.h"
+#include "lang/model/model.h"
+#include "core/methods.h"
+
+enum { OPERATIONS_MAX = 20000 };         /* of a graph, in one text: compilers take more than linear time, and minutes beyond this */
+
+typedef struct composed_program { const program *program; const char *name; bool terms; } composed_program;
+
+typedef struct composition {
+    const model *model;
+    const problem *problem;
+    const chosen *chosen;
+    const composed_program *programs;    /* "compiled_force" first */
+    size_t program_count;
+    const locality *locality;            /* of the first program, where it may be taken window by window; NULL */
+    int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
+    const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
+    const char *const *last;             /* the texts that stand last, up to a NULL */
+} composition;
+
+/* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
+int compose_width(void);
+/* Writes into e->text, and e->moments; e->lanes and e->varied must be set. False: the arena failed. */
+bool compose(emit *e, const composition *);
+
+#endif

@@ -1,0 +1,221 @@
+/* The interpreter: the portable machine. A model's programs as tapes, and the library's stepper over them. */
+#include "machine/machine.h"
+
+#include "lang/tape/tape.h"
+
+#include <string.h>
+
+struct interpreter {
+    model *model;
+    tape *accel, *boundary, *exact;
+    tape *jvp[4];                    /* along dx (1), dv (2), or both (3) */
+    tape **looks;                    /* one per definition, made when first looked at */
+    double *acceleration;            /* scratch for quantities that contain x'' */
+    double *zeros;                   /* stands in for a direction that is not given */
+};
+
+static tape *make(model *m, const output *outputs, size_t count)
+{
+    program *p = program_create(m->graph, outputs, count);
+    tape *t = p && !m->arena->failed ? tape_create(m->arena, p) : NULL;
+    binding b = {m->arrays, m->ints, m->pool};
+    return t && !m->arena->failed && tape_bind(t, &b) ? t : NULL;
+}
+
+static int accel(void *ctx, double t, double *x, double *v, double *a)
+{
+    interpreter *in = ctx;
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
+    if (in->model->driven)
+        tape_run(in->boundary, t, base);
+    tape_run(in->accel, t, base);
+    return 0;
+}
+
+static void refresh(void *ctx, double t, double *x, double *v)
+{
+    interpreter *in = ctx;
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v};
+    tape_run(in->boundary, t, base);
+}
+
+static int exact(void *ctx, double t, double *x, double *v)
+{
+    interpreter *in = ctx;
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v};
+    if (in->boundary)
+        tape_run(in->boundary, t, base);
+    tape_run(in->exact, t, base);
+    return 0;
+}
+
+enum { ALONG_X = 1, ALONG_V = 2 };
+
+typedef struct direction { graph_shift shift; int along; } direction;
+
+static node seed(graph *g, node leaf, void *ctx)
+{
+    direction *d = ctx;
+    const graph_node *n = graph_at(g, leaf);
+    if (n->op != OP_LOAD)
+        return 0;
+    space from = g->arrays[g->references[n->a].array].space;
+    if ((from == SPACE_X && !(d->along & ALONG_X)) || (from == SPACE_V && !(d->along & ALONG_V)))
+        return 0;
+    return graph_seed_direction(g, leaf, &d->shift);
+}
+
+/* Derived only when a method asks for it: most do not. */
+static tape *derive(interpreter *in, int along)
+{
+    model *m = in->model;
+    if (in->jvp[along])
+        return in->jvp[along];
+    output *o = arena_grow(m->arena, NULL, 0, m->accel_count * sizeof *o);
+    if (!o)
+        return NULL;
+    direction d = {{(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)}, along};
+    for (size_t i = 0; i < m->accel_count; i++) {
+        o[i] = m->accel[i];
+        o[i].value = graph_derivative(m->graph, o[i].value, seed, &d);
+    }
+    return in->jvp[along] = make(m, o, m->accel_count);
+}
+
+static bool prepare(void *ctx, bool in_v)
+{
+    interpreter *in = ctx;
+    return derive(in, in_v ? ALONG_V : ALONG_X) && !in->model->arena->failed;
+}
+
+static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
+{
+    interpreter *in = ctx;
+    tape *tp = derive(in, (dx ? ALONG_X : 0) | (dv ? ALONG_V : 0));
+    if (!tp)
+        return 1;
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = da, [SPACE_DX] = (double *)dx, [SPACE_DV] = (double *)dv};
+    tape_run(tp, t, base);
+    return 0;
+}
+
+/* ---- the structure of the derivatives ---- */
+
+typedef struct structure {
+    const model *model;
+    const output *output;
+    int64_t index[MAX_LEVELS];
+    void (*emit)(void *arg, size_t row, size_t column);
+    void *arg;
+} structure;
+
+static int64_t subscript_value(const model *m, const subscript *s, const int64_t *index)
+{
+    int64_t k = (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
+    if (s->modulus < 0)
+        return k;
+    int64_t n = m->ints[s->modulus];
+    return 1 + (k % n + n) % n;
+}
+
+static size_t element(const model *m, const reference *r, const int64_t *index)
+{
+    const array *a = &m->arrays[r->array];
+    int64_t at = (int64_t)a->base;
+    for (int d = 0; d < r->dims; d++)
+        at += (subscript_value(m, &r->at[d], index) - a->first[d]) * a->stride[d];
+    return (size_t)at;
+}
+
+/* Every value of the loops from `level` on, then the entry. */
+static void emit_loops(structure *s, const range *sums, int first_sum, int level, int levels, const reference *r)
+{
+    if (level == levels) {
+        s->emit(s->arg, element(s->model, &s->output->to, s->index), element(s->model, r, s->index));
+        return;
+    }
+    const range *loop = level < s->output->loops ? &s->output->loop[level] : &sums[level - first_sum];
+    int64_t first = subscript_value(s->model, &loop->first, s->index), last = subscript_value(s->model, &loop->last, s->index);
+    for (s->index[level] = first; s->index[level] <= last; s->index[level]++)
+        emit_loops(s, sums, first_sum, level + 1, levels, r);
+}
+
+static void visit_load(void *ctx, const reference *r, const range *sums, int first_level, int inside)
+{
+    structure *s = ctx;
+    emit_loops(s, sums, first_level, 0, inside ? first_level + inside : s->output->loops, r);
+}
+
+static void pattern(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg)
+{
+    const interpreter *in = ctx;
+    const model *m = in->model;
+    for (size_t i = 0; i < m->accel_count; i++) {
+        structure s = {.model = m, .output = &m->accel[i], .emit = emit, .arg = arg};
+        graph_loads(m->graph, m->accel[i].value, in_v ? SPACE_V : SPACE_X, visit_load, &s);
+    }
+}
+
+static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
+{
+    const interpreter *in = ctx;
+    model_name(in->model, in_v, k, out, size);
+}
+
+motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_error *err)
+{
+    interpreter *in = arena_take(m->arena, sizeof *in);
+    if (m->arena->failed)
+        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    in->model = m;
+    in->accel = make(m, m->accel, m->accel_count);
+    in->boundary = m->boundary_count ? make(m, m->boundary, m->boundary_count) : NULL;
+    in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
+    in->looks = arena_grow(m->arena, NULL, 0, (m->definition_count + 1) * sizeof *in->looks);
+    if (m->arena->failed || !in->accel || !in->looks)
+        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    memset(in->looks, 0, (m->definition_count + 1) * sizeof *in->looks);
+    *p = (problem){.ctx = in, .nx = m->nx, .nv = m->nv, .traits = m->traits, .accel = accel, .jvp = jvp, .prepare = prepare, .pattern = pattern,
+                   .refresh = m->driven ? refresh : NULL, .exact = in->exact ? exact : NULL, .name = name};
+    *out = in;
+    return MOTUS_OK;
+}
+
+bool interpreter_look(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
+{
+    model *m = in->model;
+    tape **look = &in->looks[d - m->definitions];
+    bool wants_a = false;
+    if (!*look)
+        *look = make(m, d->outputs, d->output_count);
+    for (size_t k = 0; k < d->output_count; k++)
+        wants_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
+    if (wants_a && !in->acceleration)
+        in->acceleration = arena_grow(m->arena, NULL, 0, (m->nv + 1) * sizeof(double));
+    if (!*look || (wants_a && !in->acceleration))
+        return false;
+    if (wants_a) {
+        memset(in->acceleration, 0, m->nv * sizeof(double));
+        accel(in, t, x, v, in->acceleration);
+    }
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = in->acceleration, [SPACE_OUT] = out};
+    tape_run(*look, t, base);
+    return true;
+}
+
+bool interpreter_rebind(interpreter *in)
+{
+    model *m = in->model;
+    binding b = {m->arrays, m->ints, m->pool};
+    tape *const tapes[] = {in->accel, in->boundary, in->exact, in->jvp[0], in->jvp[1], in->jvp[2], in->jvp[3]};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k] && !tape_bind(tapes[k], &b))
+            return false;
+    for (uint32_t k = 0; k < m->definition_count; k++)
+        if (in->looks[k] && !tape_bind(in->looks[k], &b))
+            return false;
+    double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
+    if (in->boundary)
+        tape_run(in->boundary, m->start, base);
+    return true;
+}

@@ -1,0 +1,263 @@
+/* Lanes: what they can do, the text, the object. See lanes.h.
+ *
+ * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and of threads are not in it.
+ */
+#include "machine/lanes_parts.h"
+
+#include "machine/cache.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, LOOK_WEIGHT = 30 };      /* vectors in a block; operations in one step of all of
+                                                                              * them; in a function; in a quantity */
+enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
+
+/* ---- the shape ---- */
+
+/* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one is company enough for
+ * itself, and a compiler has enough to do. */
+static int best_groups(const lanes_def *d, const work *plan)
+{
+    const graph *g = d->model->graph;
+    size_t operations = 4 * d->model->nv;
+    for (uint32_t k = 0; k < g->count; k++)          /* what depends on time alone is in the table */
+        operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    for (size_t k = 0; k < d->source_count; k++)
+        operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
+    const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
+    const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
+    return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
+}
+
+const char *lanes_refuse(const lanes_def *d)
+{
+    if (d->chosen->row->family == EXACT || stepper_plan(d->problem, d->chosen, NULL).solves)
+        return "this method solves an equation at every step, one trajectory at a time";
+    if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
+        return "the model is large: its trajectories are computed one at a time";
+    if (d->model->graph->count > OPERATIONS_MAX)
+        return "the equations are too long for a compiler: trajectories are computed one at a time";
+    uint32_t count;
+    const vary_active *active = vary_entries(d->vary, &count);
+    for (uint32_t k = 0; k < count; k++)
+        if (active[k].entry->map)
+            return "initial values of a family vary: trajectories are computed one at a time";
+    return NULL;
+}
+
+/* ---- the text ---- */
+
+typedef struct looked { const model_definition *definition; size_t first; } looked;
+
+static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *outs)
+{
+    size_t count = 0;
+    *outs = 0;
+    for (size_t i = 0; i < d->source_count; i++) {
+        const lanes_source *s = &d->sources[i];
+        bool known = s->kind != SOURCE_DEFINITION;
+        for (size_t k = 0; k < count; k++)
+            known |= s->definition == list[k].definition;
+        if (known)
+            continue;
+        if (count == LOOKS_MAX)
+            return SIZE_MAX;
+        list[count++] = (looked){s->definition, *outs};
+        *outs += s->definition->numbers;
+    }
+    return count;
+}
+
+#define CALL "(host->pool, host->q, host->u, host->bound, host->own, "
+
+/* What is recorded, as a table of the text. */
+static void write_records(emit_text *t, const lanes_def *d, const looked *looks, size_t look_count)
+{
+    bool looking = false, velocity = false;
+    emit_add(t, "static const lanes_record the_records[] = {");
+    for (size_t i = 0; i < d->source_count; i++) {
+        const lanes_source *s = &d->sources[i];
+        size_t first = 0;
+        for (size_t k = 0; k < look_count; k++)
+            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition)
+                first = looks[k].first;
+        static const int from[] = {[SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
+        emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
+        looking |= s->how != REDUCE_FINAL;
+        velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
+    }
+    emit_add(t, "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define WRITTEN_OUT_RECORDS%s\n", d->source_count, looking,
+             velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
+}
+
+/* The functions of the text that call the programs, all of one kind in one. */
+static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t look_count)
+{
+    emit_text t = {.arena = l->def.model->arena};
+    const bool bounded = l->def.model->boundary_count > 0;
+    write_records(&t, &l->def, looks, look_count);
+    emit_add(&t, "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s",
+             bounded ? "    compiled_boundary_bind(pool, q, u);\n" : "");
+    for (size_t k = 0; k < entries; k++)
+        emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
+    for (size_t k = 0; k < look_count; k++)
+        emit_add(&t, "    look_%zu_bind(pool, q, u);\n", k);
+    emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host, const real *values)\n{\n    (void)host;\n");
+    for (size_t k = 0; k <= entries; k++) {
+        emit_add(&t, "    for (whole k = 0; k < job->value_count; k++) host->own[job->places[k]] = values[k];\n");
+        if (k < entries)
+            emit_add(&t, "    start_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n    start_%zu" CALL
+                         "0, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n", k, k);
+    }
+    emit_add(&t, "}\n\nstatic inline void lanes_bind_lanes(const compiled_host *host)\n{\n"
+                 "    compiled_force_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n%s",
+             bounded ? "    compiled_boundary_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n" : "");
+    for (size_t k = 0; k < look_count; k++)
+        emit_add(&t, "    look_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", k);
+    emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, real *out)\n{\n"
+                 "    (void)host, (void)t, (void)x, (void)v, (void)a, (void)out;\n");
+    for (size_t k = 0; k < look_count; k++)
+        emit_add(&t, "    look_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu);\n", k, looks[k].first);
+    emit_add(&t, "}\n\n");
+    return l->def.model->arena->failed ? NULL : t.bytes;
+}
+
+enum { PROGRAM_NAME = 32 };
+
+static bool write_text(lanes *l)
+{
+    const lanes_def *d = &l->def;
+    model *m = d->model;
+    uint32_t entries;
+    const vary_active *active = vary_entries(d->vary, &entries);
+    looked looks[LOOKS_MAX];
+    const size_t look_count = list_looks(d, looks, &l->outs), count = 2 + entries + look_count;
+    composed_program *programs = arena_grow(m->arena, NULL, 0, count * sizeof *programs);
+    char *names = arena_grow(m->arena, NULL, 0, count * PROGRAM_NAME);
+    if (!programs || !names)
+        return false;
+    size_t n = 0;
+    programs[n++] = (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", true};
+    if (m->boundary_count)
+        programs[n++] = (composed_program){program_create(m->graph, m->boundary, m->boundary_count), "compiled_boundary", false};
+    for (uint32_t k = 0; k < entries; k++) {
+        snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "start_%u", k);
+        programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false};
+        n++;
+    }
+    for (size_t k = 0; k < look_count; k++) {
+        const model_definition *definition = looks[k].definition;
+        for (size_t i = 0; i < definition->output_count; i++)
+            l->wants_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
+        snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "look_%zu", k);
+        programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count), names + n * PROGRAM_NAME, false};
+        n++;
+    }
+    static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
+    l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
+    const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
+                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
+    if (m->arena->failed || !compose(&l->e, &c))
+        return false;
+    return true;
+}
+
+int lanes_in_block(const lanes *l) { return l->block; }
+
+/* ---- memory ---- */
+
+static bool prepare(lanes *l)
+{
+    const lanes_def *d = &l->def;
+    model *m = d->model;
+    arena *a = m->arena;
+    l->q = arena_grow(a, NULL, 0, (l->e.int_count + 1) * sizeof *l->q);
+    l->u = arena_grow(a, NULL, 0, (l->e.fixed + 1) * sizeof *l->u);
+    l->places = arena_grow(a, NULL, 0, (d->place_count + 1) * sizeof *l->places);
+    l->from_x = arena_grow(a, NULL, 0, (m->nx + 1) * sizeof *l->from_x);
+    l->from_v = arena_grow(a, NULL, 0, (m->nv + 1) * sizeof *l->from_v);
+    if (a->failed)
+        return false;
+    for (uint32_t k = 0; k < l->e.int_count; k++)
+        l->q[k] = emit_int_value(&l->e.ints[k], m->arrays, m->ints);
+    l->bind(m->pool, l->q, l->u);
+    for (size_t k = 0; k < d->place_count; k++)
+        l->places[k] = (int64_t)d->places[k];
+    const uint8_t *affected = vary_affected(d->vary);
+    for (uint32_t i = 0; i < m->state_count; i++) {
+        const model_state *s = &m->states[i];
+        size_t numbers = s->hull * (size_t)(s->components ? s->components : 1);
+        for (size_t k = 0; k < numbers; k++) {
+            size_t first = m->arrays[s->start_array[0]].base + k, second = s->order == 2 ? m->arrays[s->start_array[1]].base + k : first;
+            if (s->order == 2)
+                l->from_x[s->base + k] = affected[first] ? (int64_t)first : -1;
+            l->from_v[s->base + k] = affected[second] ? (int64_t)second : -1;
+        }
+    }
+    l->carried = stepper_carried(l->plan) * m->nv;
+    l->own_size = lines(l, d->place_count ? m->pool_count : 0);
+    l->bound_size = lines(l, l->e.fixed_lanes);
+    l->carry_size = lines(l, l->carried);
+    l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
+    l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
+    l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
+    return true;
+}
+
+motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t size, motus_error *err)
+{
+    model *m = d->model;
+    looked looks[LOOKS_MAX];
+    size_t outs;
+    lanes *l = arena_take(m->arena, sizeof *l);
+    if (m->arena->failed)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    *l = (lanes){.def = *d, .width = compose_width()};
+    if (list_looks(d, looks, &outs) == SIZE_MAX) {
+        snprintf(note, size, "more than %d quantities are recorded", LOOKS_MAX);
+        return MOTUS_TOOL;
+    }
+    l->plan = stepper_plan(d->problem, d->chosen, NULL);
+    coef *constants = arena_grow(m->arena, NULL, 0, (work_plan_size(&l->plan) + 1) * sizeof *constants);
+    if (!constants)
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    l->plan = stepper_plan(d->problem, d->chosen, constants);
+    if (d->lanes && d->lanes < l->width)
+        l->width = d->lanes;
+    l->groups = d->lanes ? d->lanes / l->width : best_groups(d, &l->plan);
+    l->block = l->width * l->groups;
+    if (!write_text(l))
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
+    if (!l->handle)
+        return MOTUS_TOOL;
+    /* POSIX promises that a function's address survives the way through void *. */
+    *(void **)&l->bind = dlsym(l->handle, "motus_lanes_bind");
+    *(void **)&l->table = dlsym(l->handle, "motus_lanes_table");
+    *(void **)&l->begin = dlsym(l->handle, "motus_lanes_begin");
+    *(void **)&l->set = dlsym(l->handle, "motus_lanes_set");
+    *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
+    *(void **)&l->look = dlsym(l->handle, "motus_lanes_look");
+    *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
+    if (!l->bind || !l->table || !l->begin || !l->set || !l->first || !l->look || !l->run) {
+        snprintf(note, size, "the compiled object is not what was compiled");
+        lanes_destroy(l);
+        return MOTUS_TOOL;
+    }
+    if (!prepare(l)) {
+        lanes_destroy(l);
+        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    }
+    *out = l;
+    return MOTUS_OK;
+}
+
+void lanes_destroy(lanes *l)
+{
+    if (l && l->handle)
+        dlclose(l->handle);
+    if (l)
+        l->handle = NULL;
+}

@@ -1,0 +1,44 @@
+/* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for the model, the method and what
+ * varies. Explicit methods only: what needs a solver goes one trajectory at a time.
+ */
+#ifndef MACHINE_LANES_H
+#define MACHINE_LANES_H
+
+#include "core/methods.h"
+#include "lang/model/vary.h"
+
+typedef struct lanes lanes;
+
+typedef struct lanes_source {        /* a number that is recorded: time, x[place], v[place], or number `place` of a definition */
+    enum { SOURCE_TIME, SOURCE_X, SOURCE_V, SOURCE_DEFINITION } kind;
+    const model_definition *definition;
+    size_t place;
+    int how;                         /* REDUCE_ of machine/text/reduce.h */
+} lanes_source;
+
+typedef struct lanes_def {
+    model *model;
+    const problem *problem;
+    const chosen *chosen;
+    const vary *vary;
+    const size_t *places; size_t place_count;        /* of the pool, that vary */
+    const lanes_source *sources; size_t source_count;
+    double t0, h, last, until;       /* last: the shorter last step, 0 none */
+    int64_t whole, every;
+    int lanes, threads;              /* lanes 0: as many as suits */
+    bool fast;
+    const motus_allocator *allocator;
+    int (*progress)(void *context, double fraction);
+    void *context;
+} lanes_def;
+
+/* Whether lanes can do it at all: NULL, or why not. */
+const char *lanes_refuse(const lanes_def *);
+/* The definition's pointers must outlive it. note[size]: why there is no object, where the status is MOTUS_TOOL. */
+motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
+void lanes_destroy(lanes *);
+/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. */
+motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
+int lanes_in_block(const lanes *);
+
+#endif

@@ -1,0 +1,25 @@
+/* The compiled machine where there is no compiler: in a browser. It stands in for machine/compiled.c (and all that it needs) in the page's module;
+ * whoever asks for machine code is told, and the interpreter serves.
+ */
+#include "machine/compiled.h"
+
+motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
+{
+    (void)m, (void)interpreted, (void)err;
+    *out = NULL;
+    return MOTUS_OK;
+}
+
+motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, motus_error *err)
+{
+    (void)c, (void)chosen, (void)out;
+    return fail(err, MOTUS_TOOL, "there is no compiler here");
+}
+
+const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)
+{
+    (void)c, (void)chosen, (void)kept;
+    return "there is no compiler here";
+}
+
+void compiled_close(compiled *c) { (void)c; }

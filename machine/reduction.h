@@ -1,0 +1,14 @@
+/* machine/text/reduce.h for one number at a time. */
+#ifndef MACHINE_REDUCTION_H
+#define MACHINE_REDUCTION_H
+
+#include <time.h>                /* before `clock` is the texts' */
+#include "core/stepper_body.h"
+#include "lang/base/functions.h"
+
+#define LEAST(a, b) motus_min(a, b)
+#define MOST(a, b) motus_max(a, b)
+#define CHOOSE(condition, a, b) ((condition) ? (a) : (b))
+#include "machine/text/reduce.h"
+
+#endif

@@ -1,0 +1,112 @@
+/* The acceleration of a model whose outer indices can be taken apart: of a window, or of all of them by several threads; and the pass of a model of
+ * neighbours, which makes acceleration, kick and drift one sweep over memory.
+ *
+ * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that differs.
+ */
+/* Functions of their own, so that their loops have all registers, and whether there is a pass is known when they are compiled. */
+#define PASS_WINDOW(...) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, &(window_put){__VA_ARGS__})
+
+__attribute__((noinline, flatten)) static void pass_keep(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at)
+{
+    PASS_WINDOW(.pass = false);
+}
+
+/* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as well. */
+static void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
+{
+    const tiling *in = host->tiling;
+    for (size_t i = 0; i < in->stills; i++)
+        for (size_t k = in->still[2 * i]; k < in->still[2 * i + 1]; k++) a[k] = 0;
+    pass_keep(host, t, T, x, v, a, &(window){.from = -WINDOW_ALL, .to = WINDOW_ALL});
+}
+
+#if LOCAL
+/* The numbers in the window that no equation moves: their acceleration is 0. */
+__attribute__((noinline)) static void pass_still(const work *w, real *x, real *v, real *a, const window_put *move)
+{
+    const tiling *in = w->host->tiling;
+    for (int p = 0; p < in->parts; p++) {
+        const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
+        size_t low = 0, high = in->stills;                        /* the first stretch that ends behind `begin` */
+        while (low < high) {
+            const size_t middle = (low + high) / 2;
+            if (in->still[2 * middle + 1] <= begin) low = middle + 1;
+            else high = middle;
+        }
+        for (; low < in->stills && in->still[2 * low] < end; low++)
+            for (size_t k = in->still[2 * low]; k < in->still[2 * low + 1]; k++)
+                if (k >= begin && k < end) PUT(k, 0);
+    }
+}
+
+__attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+{
+    window_move(w, w->host->tiling->around);
+    pass_still(w, x, v, a, &(window_put){.pass = false});
+    pass_keep(w->host, t, T, x, v, a, &w->window);
+    window_move(w, w->host->tiling->around);
+}
+
+#if !COMPANIONS
+#define PASS_MOVE(name, twice)                                                                                                                          \
+    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at, \
+                                                        const window_put *how)                                                                        \
+    {                                                                                                                                                  \
+        PASS_WINDOW(true, twice, how->b, how->c, how->next, how->ex, how->ev);                                                                          \
+    }
+PASS_MOVE(pass_move, false)
+PASS_MOVE(pass_move_twice, true)
+
+/* Stage i: v += b a, x += c v; and the drift that the next step begins with, where it begins with one and is in the same tile. */
+#define PASS(w, i, b, c) pass_run(w, i, b, c)
+__attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
+{
+    const bool twice = DRIFTS_FIRST && w->window.more && i == FACT(w, stages) - 1;
+    const window_put move = {true, twice, b, c, DRIFTS_FIRST ? w->scaled[FACT(w, stages)] : 0, w->ex, w->ev};
+    const clock t = time_in(w, FACT(w, c)[i]);
+    real *x = w->x, *next = w->a;
+    clock room[TERMS + 1];
+#if TERMS
+    const clock *T = w->table ? compiled_table(w, fact_moment[i]) : compiled_terms(w->host, t, room);
+#else
+    const clock *T = room;
+#endif
+    w->evaluations++;
+    window_move(w, w->host->tiling->pass);
+    pass_still(w, x, w->v, next, &move);
+    if (twice) pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
+    else pass_move(w->host, t, T, x, w->v, next, &w->window, &move);
+    w->moved += twice ? 2 : 1;
+    w->x = next;
+    w->a = x;
+}
+#endif
+
+#else
+
+typedef struct pass_job { const compiled_host *host; clock t; const clock *T; real *x, *v, *a; size_t tasks; } pass_job;
+
+static void pass_task(void *ctx, size_t k, int thread)
+{
+    (void)thread;
+    const pass_job *job = ctx;
+    const tiling *in = job->host->tiling;
+    const whole cells = in->last - in->first + 1, tasks = (whole)job->tasks, i = (whole)k;
+    window part = {.from = i == 0 ? -WINDOW_ALL : in->first + cells * i / tasks, .to = i == tasks - 1 ? WINDOW_ALL : in->first + cells * (i + 1) / tasks};
+    pass_keep(job->host, job->t, job->T, job->x, job->v, job->a, &part);
+}
+
+enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to even out; and cells that are worth a task */
+
+__attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
+{
+    const compiled_host *host = w->host;
+    const whole most = (host->tiling->last - host->tiling->first + 1) / PASS_CELLS_MIN;
+    if (w->threads == 1 || most < 2) {
+        pass_all(host, t, T, x, v, a);
+        return;
+    }
+    pass_job job = {host, t, T, x, v, a, (size_t)window_sooner(w->threads * PASS_TASKS, most)};
+    host->parallel(host->crew, w->threads, job.tasks, pass_task, &job);
+}
+#endif

@@ -1,0 +1,60 @@
+/* Windows: the same texts over some of a model's outer indices instead of all.
+ *
+ * EACH and EACHV run over the numbers in w->window, and so does compiled_force, which is written over
+ *     from, to            the window
+ *     PUT(k, value)       what becomes of the acceleration of number k
+ *     window_later, window_sooner
+ *
+ * Why windows of neighbouring steps may overlap in memory, and so why tiles give the same bits: whatever reads beyond its own index reads
+ * `reach` indices away, and window_move takes a window out of the reach of what was written before it and of what will be read after it,
+ * on the side that is open. tiled.h says which windows there are.
+ */
+static inline whole window_later(whole a, whole b) { return a > b ? a : b; }
+static inline whole window_sooner(whole a, whole b) { return a < b ? a : b; }
+
+static inline size_t window_place(const tiling_part *p, whole index)
+{
+    const whole i = index - p->first;
+    return p->base + (i < 0 ? 0 : (size_t)i < p->cells ? (size_t)i : p->cells) * p->stride;
+}
+
+#if LOCAL
+#define WINDOW(k, count)                                                                                                    \
+    for (const tiling_part *p_ = w->host->tiling->part, *end_ = p_ + (count); p_ < end_; p_++)                         \
+        for (size_t k = window_place(p_, w->window.from), to_ = window_place(p_, w->window.to); k < to_; k++)
+#undef EACH
+#undef EACHV
+#define EACH(k) WINDOW(k, w->host->tiling->positions)
+#define EACHV(k) WINDOW(k, w->host->tiling->parts)
+#endif
+
+#define WINDOW_ALL ((whole)1 << 61)
+
+static inline void window_meet(window *at)
+{
+    at->from = window_later(at->strip[0], at->block[0]);
+    at->to = window_sooner(at->strip[1], at->block[1]);
+}
+
+static inline void window_move(work *w, whole by)
+{
+    window *at = &w->window;
+    for (int i = 0; i < 2; i++) {
+        at->strip[i] -= by;
+        at->block[i] += at->slope[i] * by;
+    }
+    window_meet(at);
+}
+
+static inline void window_open(work *w)
+{
+    w->window = (window){.strip = {-WINDOW_ALL, WINDOW_ALL}, .block = {-WINDOW_ALL, WINDOW_ALL}};
+    window_meet(&w->window);
+}
+
+/* What PUT does: keeps the acceleration or, in a pass, kicks and drifts at once; the new position goes to another copy of x, which stands where
+ * the accelerations would, so that neighbours still find the old one. `twice`: a drift `next`, which the next step begins with, follows. */
+typedef struct window_put { bool pass, twice; clock b, c, next; real *ex, *ev; } window_put;
+
+#define PUT(k, value) window_keep(move, x, v, a, (size_t)(k), (value))
+#define PUTS(k, value) window_keep_many(move, x, v, a, (size_t)(k), (value))

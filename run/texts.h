@@ -1,8 +1,0 @@
-/* The texts of step/, carried in the library so that an installed motus can compile them. */
-#ifndef RUN_TEXTS_H
-#define RUN_TEXTS_H
-
-typedef struct embedded_text { const char *name, *text; } embedded_text;     /* "step/splitting.h"; the last row is NULL */
-extern const embedded_text texts_table[];
-
-#endif

@@ -1,9 +1,0 @@
-/* What look.h and reduce.h need of lanes. */
-#define exact_at(w, t, x, v) STEP_OK
-#if DRIVEN
-#define refresh_at(w, t, x, v) BOUNDARY(host_of(w), t, x, v, (real *)0)
-#else
-#define refresh_at(w, t, x, v) ((void)0)
-#endif
-#define LEAST(a, b) OF_LANES(min)(a, b)
-#define MOST(a, b) OF_LANES(max)(a, b)

@@ -1,0 +1,73 @@
+/* The operators kick, v += b h a, and drift, x += d h v, of stage i of a splitting row, on a problem of any size.
+ *
+ * Invariant: how the operators share their work changes no bit. A kick makes the drift of its stage in the same pass over memory where it can
+ * (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the closing kick of a step waits and becomes one with the
+ * opening kick of the next, which has the same acceleration. A kick whose acceleration is known from an observation does not evaluate it again.
+ */
+static inline coef kick_unit(const work *w, int i) { return FACT(w, unit)[i]; }
+static inline coef drift_unit(const work *w, int i) { return FACT(w, unit)[FACT(w, stages) + i]; }
+static inline clock kick_size(const work *w, int i) { return w->scaled[i]; }
+static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, stages) + i]; }
+static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }          /* closing and opening kick in one */
+static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stages) - 1]; }
+
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' rotation, the Cayley form of
+ * exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
+static int kick_implicit(work *w, int i)
+{
+    int bad = newton_increment(w, kick_size(w, i), 1, w->v, time_in(w, FACT(w, c)[i]));
+    if (bad) return bad;
+    EACHV(k) w->v[k] += w->delta[k];
+    return STEP_OK;
+}
+
+static inline bool kick_drifts(const work *w, int i)
+{
+    return kick_unit(w, i) != 0 && drift_unit(w, i) != 0 && !ROW(w, compensated) && !FACT(w, solves) && FACT(w, nv) == FACT(w, nx);
+}
+
+static int kick(work *w, int i)
+{
+    if (kick_unit(w, i) == 0) return STEP_OK;
+    if (FACT(w, solves)) return kick_implicit(w, i);
+    const bool known = i == 0 && work_reuse(w);
+    const clock b = i == 0 && FACT(w, fsal) && !FIRST(w) ? kick_joint(w) : kick_size(w, i), c = drift_size(w, i);
+#ifdef PASS                      /* a machine's own: acceleration, kick and drift of stage i in one pass over memory */
+    if (!known && drift_unit(w, i) != 0) {
+        PASS(w, i, b, c);
+        return STEP_OK;
+    }
+#endif
+    int bad = known ? STEP_OK : accel_in(w, i, w->x, w->v, w->a);
+    if (bad) return bad;
+    real *restrict x = w->x, *restrict v = w->v, *restrict ev = w->ev;
+    const real *restrict a = w->a;
+    if (ROW(w, compensated)) {
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], b, a[k]);
+    } else if (kick_drifts(w, i)) {
+        EACH(k) {
+            ADVANCE(v[k], b, a[k]);
+            ADVANCE(x[k], c, v[k]);
+        }
+    } else {
+        EACHV(k) ADVANCE(v[k], b, a[k]);
+    }
+    return STEP_OK;
+}
+
+static inline void drift(work *w, int i)
+{
+    if (drift_unit(w, i) == 0) return;
+#ifdef PASS
+    if (w->moved) {
+        w->moved--;
+        return;
+    }
+#endif
+    if (kick_drifts(w, i)) return;
+    real *restrict x = w->x, *restrict ex = w->ex;
+    const real *restrict v = w->v;
+    const clock c = drift_size(w, i);
+    if (ROW(w, compensated)) EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], c, v[k]);
+    else EACH(k) ADVANCE(x[k], c, v[k]);
+}

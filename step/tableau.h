@@ -1,0 +1,68 @@
+/* What the families of tableaus share: where the constants of s stages lie in `unit` and `scaled`, and the sums over stages.
+ *
+ * a (s × s, row by row) and b go with h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14], go with h².
+ */
+static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
+static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
+static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }
+static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
+
+/* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0 in the row. */
+static inline real tableau_sum(const work *w, int from, bool sparse, const real *restrict y, size_t k, int count)
+{
+    real sum = {0};
+    bool first = true;
+    EACH_STAGE(j, count) {
+        if (sparse && FACT(w, unit)[from + j] == 0) continue;
+        real term = y[(size_t)j * w->stride + k];
+        if (first) sum = w->scaled[from + j] * term;
+        else sum = FMA(w->scaled[from + j], term, sum);
+        first = false;
+    }
+    return sum;
+}
+
+#ifdef ROWS
+static void tableau_sizes(work *w, int stages)
+{
+    w->stages = stages;
+    w->linears = w->squares = stages * stages + stages;
+}
+
+/* Reads a (explicit: below the diagonal alone) and b, and forms aa and bb. */
+static void tableau_fill(work *w, bool explicit, const coef *given_a, const coef *given_b, coef *unit)
+{
+    const int s = w->stages;
+    coef *a = unit, *b = unit + tableau_b(w), *aa = unit + tableau_aa(w, 0), *bb = unit + tableau_bb(w);
+    for (int i = 0; i < s; i++) {
+        b[i] = given_b[i];
+        bb[i] = 0;
+        for (int j = 0; j < s; j++) {
+            a[i * s + j] = !explicit ? given_a[i * s + j] : j < i ? given_a[i * (i - 1) / 2 + j] : 0;
+            aa[i * s + j] = 0;
+        }
+    }
+    for (int i = 0; i < s; i++)
+        for (int j = 0; j < s; j++)
+            for (int l = 0; l < s; l++) {
+                aa[i * s + j] += a[i * s + l] * a[l * s + j];
+                if (i == 0) bb[j] += b[l] * a[l * s + j];
+            }
+}
+#endif
+
+#ifdef TRACING
+static void tableau_tell(const work *w, int i, const real *X, const real *V, const real *A)
+{
+    const coef *unit = w->unit;
+    tell(w, (trace_event){.kind = MOTUS_EVENT_STAGE, .stage = i + 1, .time = time_in(w, w->c[i]), .coefficient = w->c[i],
+                          .weight = unit[tableau_b(w) + i], .weight_x = unit[tableau_bb(w) + i], .row = unit + tableau_a(w, i),
+                          .row_x = unit + tableau_aa(w, i), .x = X, .v = V, .a = A});
+}
+
+static trace_room tableau_room(const work *w)
+{
+    const size_t s = (size_t)w->stages;
+    return (trace_room){.events = s + 1, .x = s, .v = 2 * s, .rows = 2 * s * s};
+}
+#endif
