@@ -1,7 +1,7 @@
 /* Columns: one numbering of all that can be looked at, and the names of it. */
 #include "api/system.h"
 
-#include "lang/words.h"
+#include "lang/text/words.h"
 
 #include <ctype.h>
 #include <math.h>

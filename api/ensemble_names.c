@@ -1,8 +1,8 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
 
-#include "lang/number.h"
-#include "lang/words.h"
+#include "lang/text/number.h"
+#include "lang/text/words.h"
 
 #include <stdio.h>
 #include <stdlib.h>

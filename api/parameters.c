@@ -4,7 +4,7 @@
  */
 #include "api/system.h"
 
-#include "lang/vary.h"
+#include "lang/model/vary.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* The statements of a model: what kind each is, where it stands, and how it looks in print. */
 #include "api/system.h"
-#include "lang/typeset.h"
+#include "lang/model/symbols.h"
+#include "lang/typeset/typeset.h"
 
 size_t motus_statement_count(const motus_system *s) { return s && s->model ? s->model->statements.count : 0; }
 

@@ -1,12 +1,10 @@
 /* Systems: from a text or from a callback, and back to nothing. */
 #include "api/system.h"
+#include "lang/read/read.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-const motus_allocator *motus_system_allocator(const motus_system *s);
-const motus_allocator *motus_system_allocator(const motus_system *s) { return &s->allocator; }
 
 static motus_system *begin(const motus_allocator *a)
 {
@@ -42,7 +40,7 @@ static bool keep_text(motus_system *s, motus_text_def *def)
 {
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (n > SOURCE_BYTES_MAX)
-        return true;                 /* refused in a moment, by model_create */
+        return true;                 /* refused in a moment, by read_model */
     char *copy = arena_grow(&s->arena, NULL, 0, n + 1);
     const char **set = arena_grow(&s->arena, NULL, 0, (def->set_count + 1) * sizeof *set);
     if (!copy || !set)
@@ -78,7 +76,8 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    motus_status status = keep_text(s, &def) ? model_create(&s->arena, &def, &s->model, err) : fail(err, MOTUS_MEMORY, "no memory for the model");
+    motus_status status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
+                                             : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
@@ -166,6 +165,7 @@ motus_status system_again(const motus_system *s, motus_system **out, motus_error
     return status;
 }
 
+const motus_allocator *motus_system_allocator(const motus_system *s) { return s ? &s->allocator : NULL; }
 size_t motus_positions(const motus_system *s) { return s ? s->positions : 0; }
 size_t motus_velocities(const motus_system *s) { return s ? s->velocities : 0; }
 size_t motus_variable_count(const motus_system *s) { return s ? s->state_count : 0; }

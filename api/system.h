@@ -1,6 +1,6 @@
 /* A system behind the public handle: a problem, its machine, and the numbering of what can be looked at.
  *
- * Two orders of the same numbers: inside, x and v as lang/model.h lays them out (component by component, boundary cells included); outside, variable
+ * Two orders of the same numbers: inside, x and v as lang/model/model.h lays them out (component by component, boundary cells included); outside, variable
  * by variable, cell by cell, component by component, without boundary cells.
  */
 #ifndef API_SYSTEM_H

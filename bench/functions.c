@@ -12,14 +12,14 @@
 #pragma GCC diagnostic ignored "-Wpsabi"      /* nothing here crosses an object */
 #endif
 
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 4
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #ifdef __AVX512F__
 #define LANES 8
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define REGISTER 8
 #else
 #define LANES 8

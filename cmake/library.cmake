@@ -1,10 +1,10 @@
 # libmotus, static and shared, from the folders of HOUSE.md that make up the library.
 #
 # The kernels are the same text compiled once for each instruction set, with ISA naming it; they are left out of the plain glob.
-set(kernels core/stepper_body.c lang/tape_kernels.c lang/tape_run.c)
+set(kernels core/stepper_body.c lang/tape/tape_kernels.c lang/tape/tape_run.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  core/*.c lang/*.c machine/*.c api/*.c study/*.c)
+  core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
 # The page's module takes machine/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
 list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 
@@ -43,7 +43,7 @@ endforeach()
 
 # The other files whose loops grow with the state. (The stepper's loops are in its kernel.)
 foreach(source IN LISTS library_sources)
-  if(source MATCHES "^(core/solver|lang/tape|machine/)")
+  if(source MATCHES "^(core/solver|lang/tape/|machine/)")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${hot})
   endif()
 endforeach()

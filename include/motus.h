@@ -150,6 +150,8 @@ typedef struct motus_callback_def {
 MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
 MOTUS_API motus_status motus_system_from_callback(const motus_callback_def *, motus_system **, motus_error *);
 MOTUS_API void motus_system_destroy(motus_system *);
+/* The hooks that the system was created with; whoever computes on its behalf takes memory through them. */
+MOTUS_API const motus_allocator *motus_system_allocator(const motus_system *);
 
 /* 3. What a system holds ----------------------------------------------------------------------------------------- */
 

@@ -6,7 +6,7 @@
 #include "machine/compose.h"
 
 #include "core/stepper_body.h"
-#include "lang/operation.h"
+#include "lang/base/operation.h"
 #include "machine/texts.h"
 
 #include <string.h>

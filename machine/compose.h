@@ -2,9 +2,9 @@
 #ifndef MACHINE_COMPOSE_H
 #define MACHINE_COMPOSE_H
 
-#include "lang/emit.h"
-#include "lang/emit_local.h"
-#include "lang/model.h"
+#include "lang/emit/emit.h"
+#include "lang/emit/emit_local.h"
+#include "lang/model/model.h"
 #include "core/methods.h"
 
 enum { OPERATIONS_MAX = 20000 };         /* of a graph, in one text: compilers take more than linear time, and minutes beyond this */

@@ -1,7 +1,7 @@
 /* The interpreter: the portable machine. A model's programs as tapes, and the library's stepper over them. */
 #include "machine/machine.h"
 
-#include "lang/tape.h"
+#include "lang/tape/tape.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #define MACHINE_LANES_H
 
 #include "core/methods.h"
-#include "lang/vary.h"
+#include "lang/model/vary.h"
 
 typedef struct lanes lanes;
 

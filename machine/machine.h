@@ -5,7 +5,7 @@
 #define MACHINE_MACHINE_H
 
 #include "core/stepper.h"
-#include "lang/model.h"
+#include "lang/model/model.h"
 
 /* The interpreter's problem for a model; everything lies in the model's arena. */
 typedef struct interpreter interpreter;

@@ -4,7 +4,7 @@
 
 #include <time.h>                /* before `clock` is the texts' */
 #include "core/stepper_body.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 
 #define LEAST(a, b) motus_min(a, b)
 #define MOST(a, b) motus_max(a, b)

@@ -4,8 +4,8 @@
 #ifndef MACHINE_TILES_H
 #define MACHINE_TILES_H
 
-#include "lang/emit_local.h"
-#include "lang/model.h"
+#include "lang/emit/emit_local.h"
+#include "lang/model/model.h"
 
 #include <stdint.h>
 

@@ -12,9 +12,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The hooks the system was created with (both functions may be NULL: malloc and free). Never NULL. */
-const motus_allocator *motus_system_allocator(const motus_system *);
-
 /* Truth and trajectories are looked at about this often; fewer when the states are long. */
 #define STUDY_SAMPLES 100
 #define STUDY_NUMBERS_MAX ((size_t)1 << 22)     /* in one table of samples: 32 MiB */

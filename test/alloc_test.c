@@ -577,6 +577,9 @@ static void a_pool_without_release(void **state)
     def.text = texts[3];
     def.allocator = (motus_allocator){from_pool, NULL, &used};
     must(motus_system_from_text(&def, &s, &err), &err, "pool");
+    const motus_allocator *own = motus_system_allocator(s);
+    assert_true(own && own->allocate == from_pool && !own->release && own->context == &used);
+    assert_null(motus_system_allocator(NULL));
     uint64_t result;
     must(travel(s, "gauss6", &result, &err), &err, "pool");
     assert_true(used > 1000);

@@ -6,7 +6,7 @@
 #include "test/given.h"
 
 #include <stdint.h>
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 
 typedef struct oscillator {
     double F, k, c;

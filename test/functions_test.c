@@ -17,19 +17,19 @@
 #include <cmocka.h>
 #include <mpfr.h>
 
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 2
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 4
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 8
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 16
 #include "step/functions/lanes.h"
-#include "lang/functions.h"
+#include "lang/base/functions.h"
 #define LANES 32
 #define LANES_PART 4
 #include "step/functions/wide.h"

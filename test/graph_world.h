@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lang/operation.h"
-#include "lang/tape_code.h"
+#include "lang/base/operation.h"
+#include "lang/tape/tape_code.h"
 
 #include <cmocka.h>                  /* last: it defines a macro `fail` */
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The order of the house, kept: who includes whom (the table in HOUSE.md is the law and is read from there), whose symbols are whose,
+# The order of the house: who may use whom (the tables in HOUSE.md) by includes and by symbols, how symbols are named,
 # and that the shared library shows exactly what motus.h declares.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -11,21 +11,53 @@ not_ok() { failed=$((failed + 1)); echo "not ok - $1"; shift; [ $# -gt 0 ] && pr
 # name, complaints (one a line; none: the case passes)
 judge() { if [ -z "$2" ]; then ok "$1"; else not_ok "$1"; sed 's/^/    /' <<<"$2"; fi; }
 
-# --- includes -------------------------------------------------------------------------------------------------------------
-# Rows of the table: | `core/` | what it is | `step/`, `motus.h` |. A row that grants nothing and does not say so is not a law.
-declare -A grants
+# --- the tables of HOUSE.md ---------------------------------------------------------------------------------------
+# Rows: | `core/` | what it is | `step/`, `motus.h` |. A row that grants nothing and does not say so is not a law. Folders
+# are ranked in the order of their rows, a sub-folder within its folder.
+declare -A grants rank
+folders=()
 while IFS='|' read -r _ folder _ may _; do
-    [[ $folder =~ ^\ *\`([a-z]+)/\`\ *$ ]] || continue
+    [[ $folder =~ ^\ *\`([a-z/]+)/\`\ *$ ]] || continue
     name=${BASH_REMATCH[1]}
-    case $may in *nothing*|*\`*) grants[$name]=$(grep -o '`[^`]*`' <<<"$may" | tr -d '`' | tr '\n' ' ') ;; esac
+    case $may in *nothing*|*\`*) ;; *) continue ;; esac
+    [ "$name" = lab ] && name=lab/core       # the rest of lab/ is not C
+    folders+=("$name")
+    grants[$name]=$(grep -o '`[^`]*`' <<<"$may" | tr -d '`' | tr '\n' ' ')
+    above=${rank[${name%/*}]-}
+    rank[$name]=$((above ? above + ${#folders[@]} : 100 * ${#folders[@]}))
 done <HOUSE.md
+# Sets `of` to the folder, among those of the tables, in which a file lies: the nearest one above it that has a row.
+find_folder() {
+    of=${1%/*}
+    while [ -z "${rank[$of]-}" ] && [[ $of == */* ]]; do of=${of%/*}; done
+}
+# A sub-folder may use what its folder may, and what its own row adds. (Unquoted: a grant may have a *.)
+granted() { echo ${grants[$1]} ${grants[${1%/*}]-}; }
 
-grants[lab/core]=${grants[lab]-}
-for folder in step core lang machine api study cli lab/core; do
-    if [ -z "${grants[$folder]+x}" ]; then not_ok "HOUSE.md says who $folder/ may include"; continue; fi
+judge "HOUSE.md says what every folder may use" "$(
+    find * -name node_modules -prune -o -name '*.[ch]' -printf '%h\n' | sort -u |
+        grep -vE '^(build|out|include|test|bench)(/|$)' |
+        while read -r folder; do
+            find_folder "$folder/"
+            # Where one sub-folder has a row, every one needs its own.
+            [ "$of" = "$folder" ] || { [ -n "${rank[$of]-}" ] && [[ " ${folders[*]}" != *" $of/"* ]]; } || echo "$folder/ has no row"
+        done)"
+judge "HOUSE.md grants each folder only what stands above it" "$(
+    for folder in "${folders[@]}"; do
+        for grant in ${grants[$folder]}; do
+            [[ $grant != */* ]] && continue
+            find_folder "$grant"
+            [ "${rank[$of]-999999}" -lt "${rank[$folder]}" ] || echo "$folder/: $grant"
+        done
+    done)"
+
+# --- includes -------------------------------------------------------------------------------------------------------------
+for folder in "${folders[@]}"; do
     complaints=
-    for file in "$folder"/*.[ch] "$folder"/*.def; do
-        [ -f "$file" ] || continue
+    may=$(granted "$folder")
+    for file in $(find "$folder" -name '*.[ch]' -o -name '*.def'); do
+        find_folder "$file"
+        [ "$of" = "$folder" ] || continue
         while IFS=: read -r line text; do
             if [[ $text =~ \"([^\"]+)\" ]]; then
                 target=${BASH_REMATCH[1]}
@@ -37,7 +69,7 @@ for folder in step core lang machine api study cli lab/core; do
                 [[ $file == step/families.def && $target == step/* ]] && good=yes
                 # motus.h is the vocabulary of the whole house but of step/, which knows nothing.
                 [[ $target == motus.h && $folder != step ]] && good=yes
-                for grant in ${grants[$folder]}; do
+                for grant in $may; do
                     [[ $target == "$grant" || ( $grant == */ && $target == "$grant"* ) ]] && good=yes
                 done
                 [ $good = yes ] || complaints+="$file:$line includes $target"$'\n'
@@ -55,46 +87,106 @@ judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:s
 # word, because it is the word of the house for the thing:
 declare -A also=(
     [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
-    [lang/derivative.c]='graph_'                    # a part of lang/graph.h
-    [lang/words.c]='parse_'                         # the words that lang/tree.h asks for
     [machine/interpreter.c]='machine_'                  # a machine is a file; machine/machine.h names them
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
     [machine/nowhere.c]='compiled_ machine_'            # stands in for machine/compiled.c
     [api/columns.c]='system_'                       # parts of api/system.h
     [api/explain.c]='system_'
-    [lang/tape_regions.c]='plan_'                   # the plan of a tape, lang/tape_regions.h
 )
 archive=$build/libmotus.a
-if [ ! -f "$archive" ]; then
-    not_ok "symbols: $archive is not built"
+program=$build/CMakeFiles/motus_program.dir
+if [ ! -f "$archive" ] || [ ! -d "$program/cli" ]; then
+    not_ok "symbols: $archive and the program's objects are not built"
 else
-    # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
-    judge "no two files of the library have the same name" \
-        "$(for f in core lang machine api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
-    complaints=
-    while read -r member symbol; do
-        file=${member%.o}
-        path=$(ls {core,lang,machine,api,study}/"$file" 2>/dev/null | head -n 1)
-        prefix=${file%%[_.]*}
-        case $symbol in
-        motus_*|"$prefix"|"${prefix}"_*) continue ;;
-        esac
-        good=no
-        for word in ${also[$path]-}; do
-            [[ $symbol == "$word" || ( $word == *_ && $symbol == "$word"* ) ]] && good=yes
+    scratch=$(mktemp -d)
+    trap 'rm -rf "$scratch"' EXIT
+    # The build writes texts.c, with what machine/texts.h declares.
+    sources=$(
+        for folder in "${folders[@]}"; do
+            [[ $folder == cli || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
         done
-        [ $good = yes ] || complaints+="$path defines $symbol, which should start with ${prefix}_"$'\n'
-    done < <(nm -A --defined-only -g "$archive" 2>/dev/null | awk '{ sub(/:$/, "", $1); n = split($1, p, ":"); print p[2], $NF }')
-    judge "every symbol starts with its file's name" "${complaints%$'\n'}"
+        echo machine/texts.c)
+    # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
+    judge "no two files of the library have the same name" "$(sed 's:.*/::' <<<"$sources" | sort | uniq -d)"
+    # The page's module is made for WebAssembly; its own files are compiled here once more for their symbols alone. What
+    # needs WASI uses nothing of ours.
+    mkdir -p "$scratch/lab/core"
+    unread=$(for file in lab/core/*.c; do
+        grep -q '#include <wasi/' "$file" ||
+            cc -std=c17 -w -D_GNU_SOURCE -I. -Iinclude -c "$file" -o "$scratch/$file.o" 2>&1
+    done)
+    judge "lab/core/ is compiled for its symbols" "$unread"
+    # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
+    {
+        nm -A "$archive" 2>/dev/null | sed 's/^[^:]*://'
+        for file in cli/*.c lab/core/*.c; do
+            object=$scratch/$file.o
+            [[ $file == cli/* ]] && object=$program/$file.o
+            [ -f "$object" ] && nm -A "$object" | sed "s:^[^ ]*\.o:$file.o:"
+        done
+    } | awk -v sources="$sources" '
+        BEGIN {
+            for (k = split(sources, path, "\n"); k > 0; k--) { file = path[k]; sub(/.*\//, "", file); of[file] = path[k] }
+        }
+        { file = $1; sub(/\.o:.*/, "", file); type = $(NF - 1) }
+        type ~ /^[A-Z]$/ { print (file in of ? of[file] : file), $NF, type == "U" ? "U" : "D" }' |
+        sort -u >"$scratch/symbols"
+
+    judge "every symbol starts with its file's name" "$(
+        while read -r path symbol kind; do
+            [[ $kind == D && $path != cli/* && $path != lab/* ]] || continue
+            file=${path##*/} prefix=${path##*/}
+            prefix=${prefix%%[_.]*}
+            case $symbol in
+            motus_*|"$prefix"|"${prefix}"_*) continue ;;
+            esac
+            good=no
+            for word in ${also[$path]-}; do
+                [[ $symbol == "$word" || ( $word == *_ && $symbol == "$word"* ) ]] && good=yes
+            done
+            [ $good = yes ] || echo "$path defines $symbol, which should start with ${prefix}_"
+        done <"$scratch/symbols")"
+
+    # Who uses whose: user, symbol, file of the library. What a program defines is its own.
+    awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2]; else from[$2] = $1 }
+        $3 == "U" { use[++n] = $1; symbol[n] = $2 }
+        END {
+            for (; n > 0; n--)
+                if (symbol[n] in from && !((substr(use[n], 1, 3) symbol[n]) in own)) print use[n], symbol[n], from[symbol[n]]
+        }' \
+        "$scratch/symbols" | sort >"$scratch/uses"
+    # A folder grants all its symbols; a header, those that it declares. In both cases they are defined above.
+    declared() { tr '\n' ' ' <"$1" | sed -E 's:/\*([^*]|\*+[^*/])*\*+/: :g' | grep -oE '[A-Za-z_]\w*' | sort -u; }
+    declare -A may_use names complaint
+    for folder in "${folders[@]}"; do
+        complaint[$folder]=
+        may_use[$folder]=$(granted "$folder")
+        for grant in ${may_use[$folder]}; do
+            case $grant in motus.h) header=include/motus.h ;; *.h) header=$grant ;; *) continue ;; esac
+            for name in $(declared "$header"); do names["$folder $name"]=1; done
+        done
+    done
+    while read -r user symbol path; do
+        find_folder "$user" && folder=$of
+        find_folder "$path"
+        [ "$of" = "$folder" ] && continue
+        good=${names["$folder $symbol"]-no}
+        for grant in ${may_use[$folder]-}; do [[ $grant == */ && $path == "$grant"* ]] && good=1; done
+        [ "${rank[$of]-999999}" -lt "${rank[$folder]-0}" ] || good=no
+        [ "$good" = no ] && complaint[$folder]+="$user uses $symbol of $path"$'\n'
+    done <"$scratch/uses"
+    for folder in "${folders[@]}"; do
+        [ "$folder" = step ] && continue        # texts without objects
+        judge "$folder/ uses only the symbols that HOUSE.md grants it" "${complaint[$folder]%$'\n'}"
+    done
 
     # Constants and functions only: a writable global is state that two threads would share. .data.rel.ro is constant once loaded.
     judge "no globals that change" "$(
-        for object in $(find "$build/CMakeFiles" -name '*.o' -path '*/CMakeFiles/*' ! -path '*/motus_program.dir/*' \
-                \( -path '*/core/*' -o -path '*/lang/*' -o -path '*/machine/*' -o -path '*/api/*' -o -path '*/study/*' \)); do
-            objdump -t "$object" | awk -v file="${object##*.dir/}" '
-                NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / { print file ": " $NF }'
-        done | sort -u)"
+        objdump -t "$archive" | awk '
+            / file format / { file = $1; sub(/:$/, "", file) }
+            NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / {
+                print file " " $NF }' | sort -u)"
 fi
 
 shared=$build/libmotus.so
@@ -114,7 +206,10 @@ else
 fi
 
 # --- files ----------------------------------------------------------------------------------------------------------------
-ours() { find include step core lang machine api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
+ours() {
+    find include $(printf '%s\n' "${folders[@]%%/*}" | grep -vx lab | sort -u) test ! -path 'test/corpus/*' \
+        \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort
+}
 judge "every file opens with a comment that says what it is" "$(
     for file in $(ours); do
         case $file in
@@ -126,7 +221,7 @@ judge "no flag lets the compiler change results" "$(
     grep -nE -- '-(ffast-math|fassociative-math|funsafe-math-optimizations|freciprocal-math|ffinite-math-only|Ofast)|ffp-contract=(on|fast)' \
         CMakeLists.txt CMakePresets.json cmake/*.cmake Makefile)"
 judge "no pragma lets the compiler change results" "$(
-    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include step core lang machine api study cli)"
+    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' $(ours))"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

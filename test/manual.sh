@@ -52,7 +52,7 @@ judge "bash completes methods" "$(PATH="$(dirname "$motus"):$PATH" bash -c '
     COMP_WORDS=(motus methods pef) COMP_CWORD=2; _motus 2>/dev/null; [ "${COMPREPLY[*]}" = pefrl ] || echo "pef: ${COMPREPLY[*]}"')"
 
 # --- functions, JSON keys -------------------------------------------------------------------------------------------------------------
-judge "every function of the language is in the manual" "$(grep -oE '\{"[a-z0-9]+", (OP|CALL)_' lang/words.c | grep -oE '"[a-z0-9]+"' | tr -d '"' |
+judge "every function of the language is in the manual" "$(grep -oE '\{"[a-z0-9]+", (OP|CALL)_' lang/text/words.c | grep -oE '"[a-z0-9]+"' | tr -d '"' |
     while read -r f; do sed -n '/^\*\*Functions\*\*/,/^$/p;/^\*\*Choice\*\*/,/^$/p' doc/manual.md |
         grep -qE "(^|[ \`])$f([ (\`]|$)" || echo "$f"; done)"
 judge "run --json has the documented keys" "$("$motus" run models/spring.motus --json >"$place/run.json" 2>&1

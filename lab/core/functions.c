@@ -1,5 +1,5 @@
 /* The C library's functions that the library calls, by the library's own: the module has one of each. */
-#include "lang/tape.h"
+#include "lang/base/operation.h"
 
 #include <math.h>
 

@@ -1,0 +1,27 @@
+/* Memory of one model: taken piece by piece, released at once.
+ *
+ * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory has run out it sets `failed` and
+ * returns the spare block, so callers may write before they check; code that loops or recurses checks `failed` first.
+ * Larger requests return NULL and set `failed`. (There is no longjmp because WebAssembly has none.)
+ */
+#ifndef LANG_BASE_ARENA_H
+#define LANG_BASE_ARENA_H
+
+#include "core/system.h"
+
+enum { ARENA_SPARE = 512 };
+
+typedef struct arena {
+    motus_allocator allocator;
+    struct arena_block *blocks;
+    bool failed;
+    _Alignas(max_align_t) char spare[ARENA_SPARE];   /* a block from the hooks is aligned no more strictly */
+} arena;
+
+void arena_init(arena *, const motus_allocator *);
+void *arena_take(arena *, size_t bytes);                       /* zeroed, 64-byte aligned for requests of 64 bytes and more */
+void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes);   /* copies; NULL and failed when there is none */
+char *arena_text(arena *, const char *text, size_t length);    /* a copy that ends with 0 */
+void arena_release(arena *);
+
+#endif

@@ -1,0 +1,8 @@
+/* Limits on indices: the parser refuses more, and the graph has room for this many. */
+#ifndef LANG_BASE_LIMITS_H
+#define LANG_BASE_LIMITS_H
+
+enum { MAX_DIMS = 4,                 /* indices of a family, and of one sum */
+       MAX_LEVELS = 8 };             /* loops within one another */
+
+#endif

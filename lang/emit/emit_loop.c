@@ -1,0 +1,173 @@
+/* Regions, loops, sums. See emit_parts.h.
+ *
+ * Invariant: sums follow lang/graph/program.c to the letter: up to 16 terms in turn, more in turn to eight partials and these in a fixed tree. Where the
+ * inside of a loop holds no other, WIDTH values of its index are taken at once, one in each lane, and the rest one by one.
+ */
+#include "lang/emit/emit_parts.h"
+
+#include <stdio.h>
+
+/* The total of a sum becomes the next one; `partial` names it: "s7[k]". */
+static void write_update(writer *w, const plan_item *update, const char *partial)
+{
+    node whole = w->plan.items.at[update->sum].n;
+    const graph_node *sum = &w->plan.g->nodes[whole], *how = &w->plan.g->nodes[sum->a];
+    char p[48], q[48], c[48], next[160];
+    bool fused = how->op != OP_ADD;
+    const char *operation = emit_operation(w, whole, how->op);
+    emit_operand(w, fused ? how->a : how->b, whole, p);
+    if (fused) {
+        emit_operand(w, how->b, whole, q);
+        snprintf(next, sizeof next, "%s_%d(%s, %s, %s)", operation, how->op, p, q, partial);
+    } else {
+        snprintf(next, sizeof next, "%s_%d(%s, %s)", operation, how->op, partial, p);
+    }
+    if (sum->b) {
+        emit_operation(w, whole, OP_SELECT);
+        emit_operand(w, sum->b, whole, c);
+        emit_line(w, "%s = %s_%d(%s, %s, %s);", partial, operation, OP_SELECT, c, next, partial);
+    } else {
+        emit_line(w, "%s = %s;", partial, next);
+    }
+}
+
+#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.items.at[k].next_sum)
+
+/* More than 16 terms, as long as there are eight: to the partials s or, in lanes, to v, which then becomes s. */
+static void write_eights(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const int level = r->level;
+    const bool along = w->e->vectors && w->part == RUNNING;
+    emit_line(w, "if (n%d > 16) {", level);
+    w->depth++;
+    if (along)
+        EACH_SUM(k, r)
+            emit_line(w, "reals v%u[8 / WIDTH] = {MANY(0.0)};", k);
+    emit_line(w, "for (; m%d + 8 <= n%d; m%d += 8)", level, level, level);
+    if (along)
+        emit_line(w, "#pragma GCC unroll 8");
+    emit_line(w, along ? "for (int k = 0; k < 8 / WIDTH; k++) {" : "for (int k = 0; k < 8; k++) {");
+    w->depth++;
+    emit_line(w, "const int64_t j%d = f%d + m%d + k%s;", level, level, level, along ? " * WIDTH" : "");
+    w->along = along ? level : -1;
+    emit_region(w, region);
+    w->along = -1;
+    w->depth--;
+    emit_line(w, "}");
+    if (along)
+        EACH_SUM(k, r)
+            emit_line(w, "for (int k = 0; k < 8; k++) s%u[k] = LANE_OF(v%u[k / WIDTH], k %% WIDTH);", k, k);
+    w->depth--;
+    emit_line(w, "}");
+    w->e->uses_vectors |= along;
+}
+
+static void write_sum(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const uint32_t around = w->region;
+    char first[PLACE_MAX], last[PLACE_MAX];
+    const int level = r->level;
+    emit_bound(w, &r->range.first, first);
+    emit_bound(w, &r->range.last, last);
+    EACH_SUM(k, r) {
+        emit_line(w, emit_wide(w, w->plan.items.at[k].n) ? "reals s%u[8] = {{0}};" : "double s%u[8] = {0};", k);
+        w->plan.items.at[k].reg = 0;                       /* done */
+    }
+    emit_line(w, "{");
+    w->depth++;
+    emit_line(w, "const int64_t f%d = %s, n%d = %s - f%d + 1;", level, first, level, last, level);
+    emit_line(w, "int64_t m%d = 0;", level);
+    if (!r->holds_sums)              /* a body without sums of its own is cheap to write twice */
+        write_eights(w, region);
+    emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
+    w->depth++;
+    emit_line(w, "const int64_t j%d = f%d + m%d, k = n%d > 16 ? m%d & 7 : 0;", level, level, level, level, level);
+    emit_region(w, region);
+    w->region = around;
+    w->depth--;
+    emit_line(w, "}");
+    w->depth--;
+    emit_line(w, "}");
+    EACH_SUM(k, r)
+        emit_line(w, "const %s r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + (s%u[6] + s%u[7])) : s%u[0];",
+             emit_type(w, w->plan.items.at[k].n), k, last, first, k, k, k, k, k, k, k, k, k);
+}
+
+static void write_loop(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    const uint32_t around = w->region;
+    const int level = r->level;
+    char first[PLACE_MAX], last[PLACE_MAX];
+    if (r->sum) {
+        write_sum(w, region);
+        return;
+    }
+    emit_bound(w, &r->range.first, first);
+    emit_bound(w, &r->range.last, last);
+    emit_line(w, "{");
+    w->depth++;
+    emit_line(w, level == 0 && w->e->windowed ? "int64_t j%d = window_later(%s, from), e%d = window_sooner(%s, to - 1);" : "int64_t j%d = %s, e%d = %s;",
+              level, first, level, last);
+    if (w->e->vectors && r->innermost && !r->holds_sums) {
+        w->e->uses_vectors = true;
+        emit_line(w, "for (; j%d + WIDTH - 1 <= e%d; j%d += WIDTH) {", level, level, level);
+        w->depth++;
+        w->along = level;
+        emit_region(w, region);
+        w->along = -1;
+        w->depth--;
+        emit_line(w, "}");
+        emit_line(w, "for (; j%d <= e%d; j%d++) {", level, level, level);
+        emit_line(w, "    INDEX_REST;");
+    } else {
+        emit_line(w, "for (; j%d <= e%d; j%d++) {", level, level, level);
+    }
+    w->depth++;
+    emit_region(w, region);
+    w->depth--;
+    emit_line(w, "}");
+    w->depth--;
+    emit_line(w, "}");
+    w->region = around;
+}
+
+/* Whether the function that is being written computes an item of its region itself. */
+static bool belongs(const writer *w, const plan_item *i, uint32_t region)
+{
+    if (w->part == TERMS)
+        return (w->nature[i->n] & PLAIN_TIME) || w->plan.g->nodes[i->n].op == OP_TIME;
+    if (region != AT_BIND || w->part == RUNNING)
+        return true;
+    return emit_wide(w, i->n) == (w->part == BINDING_LANES) && w->plan.g->nodes[i->n].op != OP_CONST;
+}
+
+void emit_region(writer *w, uint32_t region)
+{
+    const plan_region *r = &w->plan.regions.at[region];
+    char partial[24];
+    w->region = region;
+    emit_outputs(w, r->outputs);
+    for (uint32_t k = 0; k < r->item_count && !w->plan.failed; k++) {
+        uint32_t item = w->plan.order[r->items + k];
+        plan_item *i = &w->plan.items.at[item];
+        if (!belongs(w, i, region))
+            continue;
+        if (i->inside != NONE && i->reg == NONE)
+            write_loop(w, i->inside);
+        w->region = region;
+        if (i->sum != NONE) {
+            snprintf(partial, sizeof partial, w->along < 0 ? "s%u[k]" : "v%u[k]", i->sum);
+            write_update(w, i, partial);
+        } else {
+            emit_item(w, item);
+        }
+    }
+    for (uint32_t k = r->first_child; k != NONE && !w->plan.failed; k = w->plan.regions.at[k].next)
+        if (!w->plan.regions.at[k].sum && region != AT_BIND && w->part == RUNNING) {
+            write_loop(w, k);
+            w->region = region;
+        }
+}

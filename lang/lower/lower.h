@@ -1,0 +1,53 @@
+/* Lowering: trees to nodes. It checks shapes, splits vectors into components and resolves names.
+ *
+ * Lowering, parameters (resolve.h), hulls (hull.h) and initial values (start.h) call one another: an expression may
+ * need a parameter's value or a state's shape, which comes from another expression. Each is computed when it is first
+ * needed; model.h bounds the depth. Numbers in brackets are the rules of the language as test/language_test.c numbers
+ * them.
+ */
+#ifndef LANG_LOWER_LOWER_H
+#define LANG_LOWER_LOWER_H
+
+#include "lang/model/model.h"
+
+typedef struct value {
+    node *item;
+    int count;                       /* 0: a scalar, item[0] */
+    bool boolean;
+} value;
+
+/* A name of an index that may be used here: as a subscript, as a number, and its range. */
+typedef struct index_name {
+    const char *name;
+    subscript at;
+    node constant;                   /* the int slot of `at` as a node; 0 if it has none */
+    node number;
+    int64_t first, last;
+} index_name;
+
+typedef enum lower_place { PLACE_CONSTANT, PLACE_EXACT, PLACE_EQUATION, PLACE_BOUNDARY, PLACE_QUANTITY } lower_place;
+
+typedef struct lowering {
+    model *model;
+    lower_place place;
+    const char *what;                /* "a parameter", "an initial value", "a boundary line": for messages */
+    index_name names[2 * MAX_LEVELS];
+    int name_count, levels;
+    int64_t low[MAX_LEVELS], high[MAX_LEVELS];       /* the range of each level */
+    double terms;                    /* how often the expression is evaluated in one evaluation of the model */
+    int chain;
+} lowering;
+
+void lower_start(lowering *, model *, lower_place, const char *what);
+value lower_expression(lowering *, const tree *);
+/* The same for a tree that must be a number, neither vector nor condition. */
+node lower_scalar(lowering *, const tree *, const char *what);
+/* A left side, `name[indices] … for loops`: fills to->dims, to->at and the loops of the output, and makes the indices
+ * known to the lowering. */
+bool lower_target(lowering *, const statement *, output *);
+bool lower_subscript(lowering *, const tree *, subscript *, int64_t *first, int64_t *last);
+
+/* The range of each index of a left side that lower_target has read. */
+void lower_extent(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);
+
+#endif

@@ -1,0 +1,75 @@
+/* Helpers that lower.c, lower_index.c and lower_name.c share. */
+#ifndef LANG_LOWER_LOWER_PARTS_H
+#define LANG_LOWER_LOWER_PARTS_H
+
+#include "lang/lower/lower.h"
+
+#include <stdio.h>
+
+#define COMPLAIN(l, at, ...) (source_complain(&(l)->model->source, MOTUS_SHAPE, (at), __VA_ARGS__))
+#define HINT(l, ...) (source_hint(&(l)->model->source, __VA_ARGS__))
+
+static inline bool failed(const lowering *l) { return source_failed(&l->model->source) || l->model->graph->too_large; }
+
+static inline const char *quote(const lowering *l, span at, char out[80]) { return source_excerpt(&l->model->source, at, out, 80); }
+
+static inline value scalar(lowering *l, node n)
+{
+    value v = {.item = arena_take(l->model->arena, sizeof(node))};
+    v.item[0] = n;
+    return v;
+}
+
+static inline value condition(lowering *l, node n)
+{
+    value v = scalar(l, n);
+    v.boolean = true;
+    return v;
+}
+
+static inline value vector(lowering *l, int count)
+{
+    value v = {.count = count};
+    size_t bytes = sizeof(node) * (size_t)(count ? count : 1);
+    v.item = bytes <= ARENA_SPARE ? arena_take(l->model->arena, bytes) : arena_grow(l->model->arena, NULL, 0, bytes);
+    if (!v.item) {
+        v.item = arena_take(l->model->arena, ARENA_SPARE);
+        v.count = 0;
+    }
+    return v;
+}
+
+static inline value wrong(lowering *l) { return scalar(l, 0); }
+
+static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
+
+static inline const char *shape_name(value v, char out[40])
+{
+    if (v.boolean)
+        return "a condition";
+    if (v.count == 0)
+        return "a number";
+    snprintf(out, 40, "a vector of length %d", v.count);
+    return out;
+}
+
+static inline bool want_number(lowering *l, value v, const tree *t)
+{
+    if (!v.boolean || failed(l))
+        return !failed(l);
+    COMPLAIN(l, t->at, "a condition stands here where a number is due");
+    HINT(l, "write if(condition, 1, 0)");
+    return false;
+}
+
+/* lower_index.c */
+const index_name *lower_find_index(const lowering *, const char *name);
+bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
+bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
+
+/* lower_name.c: names, and initial values x(0) */
+value lower_name(lowering *, const tree *);
+value lower_initial(lowering *, const tree *);
+value lower_component(lowering *, value, const tree *number, const tree *whole);
+
+#endif

@@ -1,0 +1,20 @@
+/* Evaluation while a model is read: of constants to numbers, of outputs into arrays. */
+#ifndef LANG_MODEL_EVALUATE_H
+#define LANG_MODEL_EVALUATE_H
+
+#include "lang/model/model.h"
+
+/* All return false after a complaint or without memory. */
+bool evaluate_outputs(model *, const output *, size_t count, double t, double *const base[SPACES]);
+/* Evaluates the components of a statement into the pool: arrays over [first, last] of `hull` places each, one after the
+ * other from `base` on. */
+bool evaluate_into_pool(model *, const output *target, const node *values, int parts, size_t base,
+                        const int64_t first[], const int64_t last[], size_t hull);
+bool evaluate_nodes(model *, const node *, int count, double *out);        /* constants */
+/* Evaluates a constant that decides more than numbers, and logs that (vary_record.h). It complains where the node is
+ * not constant. what: "step", "the start", …, or NULL for a size or an index; the text must outlive the model. */
+bool evaluate_number(model *, node, span at, const char *what, double *value);
+/* Evaluates a size or an index; returns its int slot, or -1. */
+int evaluate_int(model *, node, span at, int64_t *value);
+
+#endif

@@ -1,0 +1,161 @@
+/* The names of a model's numbers, and nodes of its graph as text with these names. */
+#include "lang/model/model.h"
+
+#include <stdio.h>
+
+/* "r[3,4]'.y"; component -1: the whole vector, without ".y" */
+void model_state_name(const model_state *s, size_t cell, int component, bool prime, char *out, size_t size)
+{
+    size_t n = (size_t)snprintf(out, size, "%s", s->name);
+    int64_t at[MAX_DIMS];
+    for (int d = s->dims - 1; d >= 0; d--) {
+        size_t extent = (size_t)(s->last[d] - s->first[d] + 1);
+        at[d] = s->first[d] + (int64_t)(cell % extent);
+        cell /= extent;
+    }
+    for (int d = 0; d < s->dims && n < size; d++)
+        n += (size_t)snprintf(out + n, size - n, "%s%lld%s", d ? "," : "[", (long long)at[d], d == s->dims - 1 ? "]" : "");
+    if (prime && n < size)
+        n += (size_t)snprintf(out + n, size - n, "'");
+    if (s->components && component >= 0 && n < size) {
+        if (s->components <= 3)
+            snprintf(out + n, size - n, ".%c", "xyz"[component]);
+        else
+            snprintf(out + n, size - n, "[%d]", component + 1);
+    }
+}
+
+void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
+{
+    snprintf(out, size, "?");
+    for (uint32_t i = 0; i < m->state_count; i++) {
+        const model_state *s = &m->states[i];
+        size_t n = s->hull * (size_t)(s->components ? s->components : 1);
+        if ((!in_v && s->order == 1) || k < s->base || k >= s->base + n)
+            continue;
+        model_state_name(s, (k - s->base) % s->hull, (int)((k - s->base) / s->hull), in_v && s->order == 2, out, size);
+        return;
+    }
+}
+
+/* ---- text of nodes ---- */
+
+static size_t name_index(const model *m, const subscript *s, char *out, size_t size)
+{
+    static const char letters[MAX_LEVELS + 1] = "ijklpqrs";
+    size_t n = 0;
+    if (s->modulus >= 0)
+        n += (size_t)snprintf(out + n, size - n, "mod(");
+    int64_t shift = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
+    if (s->level >= 0)
+        n += (size_t)snprintf(out + n, size - n, "%c", letters[s->level]);
+    if (s->level < 0)
+        n += (size_t)snprintf(out + n, size - n, "%lld", (long long)shift);
+    else if (shift)
+        n += (size_t)snprintf(out + n, size - n, "%+lld", (long long)shift);
+    if (s->modulus >= 0)
+        n += (size_t)snprintf(out + n, size - n, ", %lld)+1", (long long)m->ints[s->modulus]);
+    return n;
+}
+
+static void name_parameter(const model *m, uint32_t slot, char *out, size_t size)
+{
+    snprintf(out, size, "?");
+    for (uint32_t i = 0; i < m->definition_count; i++) {
+        const model_definition *d = &m->definitions[i];
+        int parts = d->components ? d->components : 1;
+        if (d->kind != DEFINED_PARAMETER || d->list || slot < d->slot || slot >= d->slot + (uint32_t)parts)
+            continue;
+        if (!d->components)
+            snprintf(out, size, "%s", d->name);
+        else if (d->components <= 3)
+            snprintf(out, size, "%s.%c", d->name, "xyz"[slot - d->slot]);
+        else
+            snprintf(out, size, "%s[%u]", d->name, slot - d->slot + 1);
+        return;
+    }
+}
+
+static void name_reference(const model *m, const reference *r, char *out, size_t size)
+{
+    const char *name = "?", *primes = "", *tail = "";
+    int component = -1, components = 0;
+    for (uint32_t i = 0; i < m->state_count; i++) {
+        const model_state *s = &m->states[i];
+        int parts = s->components ? s->components : 1;
+        for (int b = 0; b < 3; b++) {
+            int k = (int)r->array - (m->block[b] + s->array);
+            if (k < 0 || k >= parts || r->array >= m->block[b] + m->block_size)
+                continue;
+            name = s->name;
+            component = k;
+            components = s->components;
+            int count = s->order == 2 ? b : b - 1;
+            primes = count == 2 ? "''" : count == 1 ? "'" : "";
+        }
+        for (int d = 0; d < s->order; d++) {
+            int k = (int)r->array - s->start_array[d];
+            if (k < 0 || k >= parts)
+                continue;
+            name = s->name;
+            component = k;
+            components = s->components;
+            primes = d ? "'" : "";
+            tail = "(0)";
+        }
+    }
+    for (uint32_t i = 0; i < m->definition_count; i++) {
+        const model_definition *d = &m->definitions[i];
+        int k = (int)r->array - d->array, parts = d->components ? d->components : 1;
+        if (!d->list || k < 0 || k >= parts)
+            continue;
+        name = d->name;
+        component = k;
+        components = d->components;
+    }
+    size_t n_ = (size_t)snprintf(out, size, "%s", name);
+    for (int d = 0; d < r->dims && n_ + 40 < size; d++) {
+        n_ += (size_t)snprintf(out + n_, size - n_, "%s", d ? "," : "[");
+        n_ += name_index(m, &r->at[d], out + n_, size - n_);
+        if (d == r->dims - 1)
+            n_ += (size_t)snprintf(out + n_, size - n_, "]");
+    }
+    if (n_ < size)
+        n_ += (size_t)snprintf(out + n_, size - n_, "%s%s", primes, tail);
+    if (components && n_ < size) {
+        if (components <= 3)
+            snprintf(out + n_, size - n_, ".%c", "xyz"[component]);
+        else
+            snprintf(out + n_, size - n_, "[%d]", component + 1);
+    }
+}
+
+static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
+{
+    const model *m = model_;
+    out[0] = 0;
+    if (n->op == OP_PARAM)
+        name_parameter(m, n->a, out, size);
+    else if (n->op == OP_INDEX && n->level == MAX_LEVELS)
+        snprintf(out, size, "%lld", (long long)m->ints[n->a]);
+    else if (n->op == OP_LOAD)
+        name_reference(m, &m->graph->references[n->a], out, size);
+}
+
+void model_print(const model *m, node n, char *out, size_t size)
+{
+    graph_print(m->graph, n, name_leaf, (void *)m, out, size);
+}
+
+bool model_equation(const model *m, size_t k, char *out, size_t size)
+{
+    if (k >= m->accel_count)
+        return false;
+    const output *o = &m->accel[k];
+    char left[MOTUS_NAME_MAX + 96];
+    name_reference(m, &o->to, left, sizeof left);
+    size_t n = (size_t)snprintf(out, size, "%s = ", left);
+    if (n < size)
+        model_print(m, o->value, out + n, size - n);
+    return true;
+}

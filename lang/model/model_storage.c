@@ -1,0 +1,58 @@
+/* Room for a model's numbers and arrays. Pool and arrays move when they grow, so code that reads a model keeps no
+ * pointer into them. */
+#include "lang/model/model.h"
+
+#include <string.h>
+
+bool model_take_numbers(model *m, size_t count, size_t *first)
+{
+    if (m->pool_count + count > m->pool_capacity) {
+        size_t room = m->pool_capacity + m->pool_capacity / 2 + count + 64;
+        double *more = arena_grow(m->arena, m->pool, m->pool_capacity * sizeof *more, room * sizeof *more);
+        if (!more)
+            return false;
+        memset(more + m->pool_capacity, 0, (room - m->pool_capacity) * sizeof *more);
+        m->pool = more;
+        m->pool_capacity = room;
+    }
+    *first = m->pool_count;
+    m->pool_count += count;
+    return true;
+}
+
+bool model_take_arrays(model *m, int count, uint16_t *first)
+{
+    uint32_t need = m->array_count + (uint32_t)count;
+    if (need > UINT16_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, (span){0, 0, 0}, "the model has more than %d arrays", UINT16_MAX);
+        return false;
+    }
+    if (need > m->array_capacity) {
+        uint32_t room = need + 64 + m->array_capacity / 2;
+        array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
+        if (!more)
+            return false;
+        m->arrays = more;
+        m->array_capacity = room;
+    }
+    *first = (uint16_t)m->array_count;
+    memset(&m->arrays[m->array_count], 0, (size_t)count * sizeof *m->arrays);
+    m->array_count = need;
+    m->graph->arrays = m->arrays;
+    return true;
+}
+
+void model_start_state(model *m)
+{
+    for (uint32_t i = 0; i < m->state_count; i++) {
+        const model_state *s = &m->states[i];
+        size_t n = s->hull * (size_t)(s->components ? s->components : 1);
+        const double *first = m->pool + m->arrays[s->start_array[0]].base;
+        if (s->order == 2) {
+            memcpy(m->x0 + s->base, first, n * sizeof *first);
+            memcpy(m->v0 + s->base, m->pool + m->arrays[s->start_array[1]].base, n * sizeof *first);
+        } else {
+            memcpy(m->v0 + s->base, first, n * sizeof *first);
+        }
+    }
+}

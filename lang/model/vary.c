@@ -1,0 +1,190 @@
+/* Which log entries follow from a change, and running them again. See vary.h. */
+#include "lang/model/vary.h"
+
+#include "lang/tape/tape.h"
+
+#include <string.h>
+
+struct vary {
+    model *model;
+    size_t count, *places;
+    uint8_t *affected;
+    vary_active *active;
+    uint32_t active_count;
+    double *kept;                    /* copies of cells that an entry overwrites though other lines set them */
+};
+
+/* ---- what is affected ---- */
+
+/* Marks every node whose value changes, in one pass, because operands come before the nodes that use them. */
+static void mark_nodes(const vary *v, uint8_t *changed)
+{
+    const graph *g = v->model->graph;
+    for (node n = 0; n < g->count; n++) {
+        const graph_node *m = &g->nodes[n];
+        int arity = operation_at(m->op)->arity;
+        changed[n] = 0;
+        if (m->op == OP_PARAM)
+            changed[n] = v->affected[m->a];
+        else if (m->op == OP_LOAD && g->arrays[g->references[m->a].array].space == SPACE_POOL)
+            changed[n] = graph_marked(&g->arrays[g->references[m->a].array], v->affected);
+        else if (m->op == OP_SUM)
+            changed[n] = changed[m->a] | (m->b ? changed[m->b] : 0);
+        for (int i = 0; i < arity; i++)
+            changed[n] |= changed[i == 0 ? m->a : i == 1 ? m->b : m->c];
+    }
+}
+
+static bool entry_changes(const vary_entry *e, const uint8_t *changed)
+{
+    for (int k = 0; k < e->parts; k++)
+        if (changed[e->outputs[k].value])
+            return true;
+    return false;
+}
+
+/* Marks the places that an entry writes: its whole hull where it has loops, else its cell. */
+static void mark_places(vary *v, const vary_entry *e)
+{
+    const model *m = v->model;
+    for (int k = 0; k < e->parts; k++) {
+        const output *o = &e->outputs[k];
+        const array *a = &m->arrays[o->to.array];
+        int64_t at = (int64_t)a->base;
+        for (int d = 0; d < o->to.dims && !o->loops; d++)
+            at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) * a->stride[d];
+        size_t count = o->loops ? e->hull : 1;
+        memset(v->affected + at, 1, count);
+    }
+}
+
+/* Extends `affected` to all places that follow from those marked so far, and collects the entries that compute them in
+ * `active`, if it is not NULL. */
+static void follow(vary *v, uint8_t *changed)
+{
+    const vary_log *log = &v->model->log;
+    mark_nodes(v, changed);
+    for (uint32_t k = 0; k < log->count; k++) {
+        if (!entry_changes(&log->entries[k], changed))
+            continue;
+        mark_places(v, &log->entries[k]);
+        mark_nodes(v, changed);
+        if (v->active)
+            v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
+    }
+}
+
+static const char *decision(const struct vary_frozen *f) { return f->what ? f->what : "a size or an index"; }
+
+bool vary_decides(const model *m, size_t first, size_t count, const motus_allocator *allocator, const char **what)
+{
+    const size_t nodes = m->graph->count;
+    uint8_t *room = take(allocator, m->pool_count + nodes + 2, 1);
+    *what = NULL;
+    if (!room)
+        return false;
+    uint8_t *changed = room + m->pool_count + 1;
+    vary v = {.model = (model *)m, .affected = room};
+    memset(room + first, 1, count);
+    follow(&v, changed);
+    for (uint32_t k = 0; k < m->log.frozen_count; k++) {
+        const struct vary_frozen *f = &m->log.frozen[k];
+        if (changed[f->n] && !*what)
+            *what = decision(f);
+    }
+    give(allocator, room);
+    return true;
+}
+
+static motus_status refuse(const model *m, const uint8_t *changed, bool own_step, bool own_until, motus_error *err)
+{
+    for (uint32_t k = 0; k < m->log.frozen_count; k++) {
+        const struct vary_frozen *f = &m->log.frozen[k];
+        bool step = f->what && !strcmp(f->what, "step"), until = f->what && !strcmp(f->what, "until");
+        if (!changed[f->n] || (step && own_step) || (until && own_until))
+            continue;
+        fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories", step || until ? "the " : "",
+             until ? "end" : decision(f));
+        if (step || until)
+            hint(err, "give a step and an end of its own: --step and --until");
+        return MOTUS_ARGUMENT;
+    }
+    return MOTUS_OK;
+}
+
+motus_status vary_create(model *m, const size_t *places, size_t count, bool own_step, bool own_until, vary **out, motus_error *err)
+{
+    arena *a = m->arena;
+    vary *v = arena_take(a, sizeof *v);
+    if (a->failed)
+        return fail(err, MOTUS_MEMORY, "no memory for what varies");
+    *v = (vary){.model = m, .count = count, .places = arena_grow(a, NULL, 0, (count + 1) * sizeof *places),
+                .affected = arena_grow(a, NULL, 0, m->pool_count + 1), .active = arena_grow(a, NULL, 0, (m->log.count + 1) * sizeof *v->active)};
+    size_t nodes = m->graph->count;
+    uint8_t *changed = arena_grow(a, NULL, 0, nodes + 1);
+    if (!v->places || !v->affected || !v->active || !changed)
+        return fail(err, MOTUS_MEMORY, "no memory for what varies");
+    memset(v->affected, 0, m->pool_count + 1);
+    for (size_t k = 0; k < count; k++) {
+        v->places[k] = places[k];
+        v->affected[places[k]] = 1;
+    }
+    follow(v, changed);
+    size_t largest = 0;
+    for (uint32_t k = 0; k < v->active_count; k++) {
+        const vary_entry *e = v->active[k].entry;
+        if (e->map && e->hull * (size_t)e->parts > largest)
+            largest = e->hull * (size_t)e->parts;
+    }
+    motus_status status = refuse(m, changed, own_step, own_until, err);
+    if (status != MOTUS_OK)
+        return status;
+    for (uint32_t k = 0; k < v->active_count; k++) {
+        vary_active *e = &v->active[k];
+        e->program = program_create(m->graph, e->entry->outputs, (size_t)e->entry->parts);
+        e->tape = e->program && !a->failed ? tape_create(a, e->program) : NULL;
+    }
+    v->kept = arena_grow(a, NULL, 0, (largest + 1) * sizeof *v->kept);
+    if (a->failed)
+        return fail(err, MOTUS_MEMORY, "no memory for what varies");
+    *out = v;
+    return MOTUS_OK;
+}
+
+/* ---- computing again ---- */
+
+static void put_values(const vary *v, const double *values)
+{
+    for (size_t k = 0; k < v->count; k++)
+        v->model->pool[v->places[k]] = values[k];
+}
+
+bool vary_apply(vary *v, const double *values)
+{
+    model *m = v->model;
+    const binding b = {m->arrays, m->ints, m->pool};
+    double *base[SPACES] = {[SPACE_OUT] = m->pool};
+    put_values(v, values);
+    for (uint32_t k = 0; k < v->active_count; k++) {
+        const vary_entry *e = v->active[k].entry;
+        const size_t all = e->map ? e->hull * (size_t)e->parts : 0;
+        memcpy(v->kept, m->pool + e->base, all * sizeof(double));
+        if (!tape_bind(v->active[k].tape, &b))
+            return false;
+        tape_run(v->active[k].tape, 0, base);
+        for (size_t i = 0; i < all; i++)
+            if (e->map[i % e->hull] > e->rank)
+                m->pool[e->base + i] = v->kept[i];
+        put_values(v, values);
+    }
+    model_start_state(m);
+    return true;
+}
+
+const vary_active *vary_entries(const vary *v, uint32_t *count)
+{
+    *count = v->active_count;
+    return v->active;
+}
+
+const uint8_t *vary_affected(const vary *v) { return v->affected; }

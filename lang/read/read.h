@@ -1,0 +1,10 @@
+/* Reads a model from its text: resolves names, computes constants, lowers equations to the graph and analyses them. */
+#ifndef LANG_READ_READ_H
+#define LANG_READ_READ_H
+
+#include "lang/model/model.h"
+
+/* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
+motus_status read_model(arena *, const motus_text_def *, model **out, motus_error *);
+
+#endif

@@ -1,0 +1,53 @@
+/* Reads the settings of a model: method, step, tolerance, until, every. */
+#include "lang/read/read_steps.h"
+
+#include "lang/lower/resolve.h"
+
+#include <math.h>
+
+bool settings_all(model *m)
+{
+    bool seen[STATEMENT_EVERY + 1] = {false};
+    m->step = m->tolerance = m->until = m->every_time = NAN;
+    for (uint32_t i = 0; i < m->statements.count; i++) {
+        const statement *s = &m->statements.item[i];
+        if (s->kind < STATEMENT_METHOD)
+            continue;
+        if (seen[s->kind]) {
+            source_complain(&m->source, MOTUS_NAME, s->at, "%s is set twice", s->name);
+            return false;
+        }
+        seen[s->kind] = true;
+        if (s->kind == STATEMENT_METHOD) {
+            m->method = s->text;
+            continue;
+        }
+        double v;
+        if (!resolve_constant(m, s->value, s->name, &v))
+            return false;
+        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_EVERY;
+        if (positive && !(v > 0)) {
+            source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "%s is positive, not %g", s->name, v);
+            if (s->kind == STATEMENT_STEP)
+                source_hint(&m->source, "a run goes backward when `until` lies before the start");
+            return false;
+        }
+        switch (s->kind) {
+        case STATEMENT_STEP: m->step = v; break;
+        case STATEMENT_TOLERANCE: m->tolerance = v; break;
+        case STATEMENT_UNTIL: m->until = v; break;
+        case STATEMENT_EVERY:
+            if (!s->steps) {
+                m->every_time = v;
+            } else if (v != floor(v) || v > 9e15) {
+                source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "every %g steps: a whole number is due", v);
+                return false;
+            } else {
+                m->every_steps = (int64_t)v;
+            }
+            break;
+        default: break;
+        }
+    }
+    return true;
+}

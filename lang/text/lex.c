@@ -1,0 +1,299 @@
+/* Characters to tokens. See lex.h. */
+#include "lang/text/lex.h"
+
+#include "lang/text/number.h"
+
+#include <string.h>
+
+void lex_start(lexer *l, source *s, uint32_t text)
+{
+    *l = (lexer){.source = s, .text = text};
+    const struct source_text *t = &s->texts[text];
+    if (t->length >= 3 && memcmp(t->bytes, "\xEF\xBB\xBF", 3) == 0)
+        l->at = 3;                   /* a byte order mark */
+}
+
+/* One code point at `at`; 0 bytes long where the bytes are not UTF-8. */
+static uint32_t decode(const char *bytes, uint32_t length, uint32_t at, uint32_t *size)
+{
+    const unsigned char *p = (const unsigned char *)bytes + at;
+    uint32_t left = length - at;
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    uint32_t n = p[0] < 0x80 ? 1 : p[0] >> 5 == 6 ? 2 : p[0] >> 4 == 14 ? 3 : p[0] >> 3 == 30 ? 4 : 0;
+    *size = 0;
+    if (n == 0 || n > left)
+        return 0;
+    uint32_t c = n == 1 ? p[0] : p[0] & (0x7Fu >> n);
+    for (uint32_t i = 1; i < n; i++) {
+        if ((p[i] & 0xC0) != 0x80)
+            return 0;
+        c = c << 6 | (p[i] & 0x3F);
+    }
+    if (c < least[n] || c > 0x10FFFF || (c >= 0xD800 && c <= 0xDFFF))
+        return 0;
+    *size = n;
+    return c;
+}
+
+/* Letters outside ASCII: everything that is not a sign, a blank, punctuation, a private or a control character. */
+static bool letter(uint32_t c)
+{
+    static const uint32_t not_letters[][2] = {
+        {0x80, 0xA9}, {0xAB, 0xB4}, {0xB6, 0xB9}, {0xBB, 0xBF}, {0xD7, 0xD7}, {0xF7, 0xF7}, {0x300, 0x36F}, {0x37E, 0x37E},
+        {0x387, 0x387}, {0x1680, 0x1680}, {0x180E, 0x180E}, {0x2000, 0x20FF}, {0x2190, 0x2BFF}, {0x2E00, 0x2E7F},
+        {0x3000, 0x3004}, {0x3008, 0x3020}, {0x3030, 0x3030}, {0xE000, 0xF8FF}, {0xFE00, 0xFE6F}, {0xFEFF, 0xFF20},
+        {0xFF3B, 0xFF40}, {0xFF5B, 0xFF65}, {0xFFE0, 0xFFFF}, {0x1F000, 0x1FAFF}, {0xE0000, 0x10FFFF}};
+    if (c < 0x80)
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    for (size_t i = 0; i < sizeof not_letters / sizeof *not_letters; i++)
+        if (c >= not_letters[i][0] && c <= not_letters[i][1])
+            return false;
+    return true;
+}
+
+/* What may follow the first letter: letters, digits, subscripts (x₁) and combining marks (ẋ as x + dot). */
+static bool name_part(uint32_t c)
+{
+    return letter(c) || (c >= '0' && c <= '9') || (c >= 0x2080 && c <= 0x209C) || (c >= 0x300 && c <= 0x36F);
+}
+
+static bool digit(const char *bytes, uint32_t length, uint32_t at)
+{
+    return at < length && bytes[at] >= '0' && bytes[at] <= '9';
+}
+
+static token make(lexer *l, token_kind kind, uint32_t from, bool blank)
+{
+    return (token){.kind = kind, .blank = blank, .at = {l->text, from, l->at}};
+}
+
+static token stop(lexer *l, uint32_t from)
+{
+    l->at = l->source->texts[l->text].length;
+    return (token){.kind = TOKEN_END, .blank = true, .at = {l->text, from, from}};
+}
+
+static token lex_number(lexer *l, bool blank)
+{
+    const char *b = l->source->texts[l->text].bytes;
+    uint32_t n = l->source->texts[l->text].length, from = l->at;
+    while (digit(b, n, l->at))
+        l->at++;
+    if (l->at < n && b[l->at] == '.' && !(l->at + 1 < n && b[l->at + 1] == '.')) {
+        if (!digit(b, n, l->at + 1)) {
+            span at = {l->text, from, l->at + 1};
+            source_complain(l->source, MOTUS_SYNTAX, at, "a number cannot end with a point");
+            source_hint(l->source, "write %.*s or %.*s.0", (int)(l->at - from), b + from, (int)(l->at - from), b + from);
+            return stop(l, from);
+        }
+        l->at++;
+        while (digit(b, n, l->at))
+            l->at++;
+    }
+    if (l->at < n && (b[l->at] == 'e' || b[l->at] == 'E')) {
+        uint32_t e = l->at + 1;
+        if (e < n && (b[e] == '+' || b[e] == '-'))
+            e++;
+        if (digit(b, n, e)) {
+            while (digit(b, n, e))
+                e++;
+            l->at = e;
+        }
+    }
+    token t = make(l, TOKEN_NUMBER, from, blank);
+    if (l->at < n && b[l->at] == '.' && digit(b, n, l->at + 1)) {
+        t.at.to++;
+        source_complain(l->source, MOTUS_SYNTAX, t.at, "a number has one decimal point");
+        return stop(l, from);
+    }
+    if (!number_read(b + from, l->at - from, &t.number)) {
+        source_complain(l->source, MOTUS_LIMIT, t.at, "this number is beyond the range of a double (1.8e308)");
+        return stop(l, from);
+    }
+    return t;
+}
+
+static token lex_name(lexer *l, bool blank)
+{
+    const char *b = l->source->texts[l->text].bytes;
+    uint32_t n = l->source->texts[l->text].length, from = l->at, size, c;
+    while (l->at < n && (c = decode(b, n, l->at, &size), size > 0) && name_part(c))
+        l->at += size;
+    token t = make(l, TOKEN_NAME, from, blank);
+    if (l->at - from >= MOTUS_NAME_MAX) {
+        source_complain(l->source, MOTUS_LIMIT, t.at, "a name has at most %d bytes", MOTUS_NAME_MAX - 1);
+        return stop(l, from);
+    }
+    return t;
+}
+
+static int prime_of(uint32_t c) { return c == '\'' || c == 0x2032 || c == 0x2019 ? 1 : c == 0x2033 || c == '"' ? 2 : c == 0x2034 ? 3 : 0; }
+
+static token lex_primes(lexer *l, bool blank)
+{
+    const char *b = l->source->texts[l->text].bytes;
+    uint32_t n = l->source->texts[l->text].length, from = l->at, size, c;
+    int primes = 0;
+    while (l->at < n && (c = decode(b, n, l->at, &size), size > 0) && prime_of(c) && primes < 100) {
+        primes += prime_of(c);
+        l->at += size;
+    }
+    token t = make(l, TOKEN_PRIMES, from, blank);
+    t.primes = primes;
+    return t;
+}
+
+/* The lexer matches brackets because line ends inside them are blanks. */
+static bool bracket(lexer *l, char c, uint32_t from)
+{
+    span at = {l->text, from, from + 1};
+    if (c == '(' || c == '[') {
+        if (l->depth == SOURCE_NESTING_MAX) {
+            source_complain(l->source, MOTUS_LIMIT, at, "brackets are nested more than %d deep", SOURCE_NESTING_MAX);
+            return false;
+        }
+        l->opened[l->depth] = from;
+        l->closer[l->depth++] = c == '(' ? ')' : ']';
+    } else if (c == ')' || c == ']') {
+        if (l->depth == 0) {
+            source_complain(l->source, MOTUS_SYNTAX, at, "this %c closes nothing", c);
+            source_hint(l->source, "remove it, or open it with %c before", c == ')' ? '(' : '[');
+            return false;
+        }
+        if (l->closer[--l->depth] != c) {
+            span open = {l->text, l->opened[l->depth], l->opened[l->depth] + 1};
+            source_complain(l->source, MOTUS_SYNTAX, at, "%c expected here, for the %c in line %d, but there is %c",
+                            l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, open), c);
+            return false;
+        }
+    }
+    return true;
+}
+
+static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
+{
+    source *s = l->source;
+    span at = {l->text, from, from + (size ? size : 1)};
+    if (size == 0) {
+        source_complain(s, MOTUS_SYNTAX, at, "this byte (0x%02X) is not UTF-8 text", (unsigned char)s->texts[l->text].bytes[from]);
+        source_hint(s, "save the model as UTF-8");
+    } else if (c < 0x20 || c == 0x7F) {
+        source_complain(s, MOTUS_SYNTAX, at, "a control character (U+%04X) stands here", c);
+        source_hint(s, "a model is plain text: remove it");
+    } else if (c == 0xB2 || c == 0xB3 || c == 0xB9 || (c >= 0x2070 && c <= 0x207F)) {
+        source_complain(s, MOTUS_SYNTAX, at, "raised characters are not read as powers");
+        source_hint(s, "write ^2, ^3 …");
+    } else if (c == 0xD7 || c == 0xB7 || c == 0x22C5 || c == 0x2217) {
+        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_hint(s, "multiply with * or a blank; dot(a, b) and cross(a, b) for vectors");
+    } else if (c == 0xF7) {
+        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_hint(s, "divide with /");
+    } else if (c == 0x221A) {
+        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_hint(s, "write sqrt(…)");
+    } else if (c == 0x2211) {
+        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_hint(s, "write sum(i = 1..N: …)");
+    } else if (c == ';') {
+        source_complain(s, MOTUS_SYNTAX, at, "; does not separate statements");
+        source_hint(s, "one statement a line");
+    } else if (c == '{' || c == '}') {
+        source_complain(s, MOTUS_SYNTAX, at, "there are no braces in the language");
+        source_hint(s, "group with ( )");
+    } else if (c == '&') {
+        source_complain(s, MOTUS_SYNTAX, at, "there is no & in the language");
+        source_hint(s, "write: and");
+    } else if (c == '!') {
+        source_complain(s, MOTUS_SYNTAX, at, "! alone means nothing");
+        source_hint(s, "write != for unequal, not for the logical not");
+    } else if (c == 0xB0) {
+        source_complain(s, MOTUS_SYNTAX, at, "angles are in radians");
+        source_hint(s, "write 30 pi/180 for 30 degrees");
+    } else if (c == '\\') {
+        source_complain(s, MOTUS_SYNTAX, at, "the character \\ has no meaning here");
+        source_hint(s, "write Greek letters as they are, ω, or by name, omega");
+    } else if (c == '%') {
+        source_complain(s, MOTUS_SYNTAX, at, "the character %% has no meaning here");
+        source_hint(s, "a comment begins with #");
+    } else if (c >= 0x20 && c < 0x7F) {
+        source_complain(s, MOTUS_SYNTAX, at, "the character %c has no meaning here", (char)c);
+    } else {
+        source_complain(s, MOTUS_SYNTAX, at, "the character U+%04X has no meaning here", c);
+    }
+    return stop(l, from);
+}
+
+token lex_next(lexer *l)
+{
+    source *s = l->source;
+    const char *b = s->texts[l->text].bytes;
+    uint32_t n = s->texts[l->text].length;
+    bool blank = l->at == 0;
+    for (;;) {
+        if (source_failed(s))
+            return stop(l, l->at);
+        if (l->at >= n) {
+            if (l->depth > 0) {
+                span open = {l->text, l->opened[l->depth - 1], l->opened[l->depth - 1] + 1};
+                source_complain(s, MOTUS_SYNTAX, open, "this %c is never closed", b[open.from]);
+                source_hint(s, "add the missing %c", l->closer[l->depth - 1]);
+            }
+            return stop(l, n);
+        }
+        char c = b[l->at];
+        if (c == ' ' || c == '\t' || c == '\r') {
+            l->at++;
+        } else if (c == '#') {
+            while (l->at < n && b[l->at] != '\n')
+                l->at++;
+        } else if (c == '\n') {
+            l->at++;
+            if (l->depth == 0)
+                return make(l, TOKEN_NEWLINE, l->at - 1, true);
+        } else if (l->at + 1 < n && (unsigned char)c == 0xC2 && (unsigned char)b[l->at + 1] == 0xA0) {
+            l->at += 2;              /* a no-break space, as word processors leave it */
+        } else {
+            break;
+        }
+        blank = true;
+    }
+    uint32_t from = l->at, size, c = decode(b, n, from, &size);
+    if (size == 0)
+        return wrong_character(l, from, 0, 0);
+    if (c >= '0' && c <= '9')
+        return lex_number(l, blank);
+    if (letter(c))
+        return lex_name(l, blank);
+    if (prime_of(c))
+        return lex_primes(l, blank);
+    static const struct { char text[3]; token_kind kind; } pairs[] = {
+        {"..", TOKEN_DOTS}, {"<=", TOKEN_LE}, {">=", TOKEN_GE}, {"==", TOKEN_EQ}, {"!=", TOKEN_NE}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        if (from + 1 < n && b[from] == pairs[i].text[0] && b[from + 1] == pairs[i].text[1]) {
+            l->at += 2;
+            return make(l, pairs[i].kind, from, blank);
+        }
+    token_kind relation = c == 0x2264 ? TOKEN_LE : c == 0x2265 ? TOKEN_GE : c == 0x2260 ? TOKEN_NE : TOKEN_END;
+    if (relation != TOKEN_END) {
+        l->at += size;
+        return make(l, relation, from, blank);
+    }
+    if (c == 0x2212)                 /* the typographic minus */
+        c = '-';
+    if (c == '.' && digit(b, n, from + 1) && (blank || from == 0 || !(b[from - 1] == ')' || b[from - 1] == ']' || b[from - 1] == '\''))) {
+        span at = {l->text, from, from + 2};
+        source_complain(s, MOTUS_SYNTAX, at, "a number needs a digit before the point");
+        source_hint(s, "write 0.%c", b[from + 1]);
+        return stop(l, from);
+    }
+    if (c > 0 && c < 0x80 && strchr("+-*/^()[]|,.=<>:", (int)c)) {
+        l->at += size;
+        if (!bracket(l, (char)c, from))
+            return stop(l, from);
+        token t = make(l, TOKEN_CHARACTER, from, blank);
+        t.character = (char)c;
+        return t;
+    }
+    return wrong_character(l, from, c, size);
+}

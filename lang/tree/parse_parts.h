@@ -1,0 +1,152 @@
+/* The parser's state and helpers, shared by parse.c (expressions) and parse_statement.c (statements). */
+#ifndef LANG_TREE_PARSE_PARTS_H
+#define LANG_TREE_PARSE_PARTS_H
+
+#include "lang/base/limits.h"
+#include "lang/base/operation.h"
+#include "lang/text/lex.h"
+#include "lang/tree/tree.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct parser {
+    lexer lexer;
+    source *source;
+    arena *arena;
+    token token, last;               /* the one to be read, and the one before it */
+    int bars;                        /* | opened in the present bracket and not yet closed [7] */
+    int depth;
+} parser;
+
+enum { DEPTH_MAX = 2 * SOURCE_NESTING_MAX, ITEMS_FIRST = 4 };
+
+static inline bool failed(const parser *p) { return source_failed(p->source); }
+
+static inline void advance(parser *p)
+{
+    p->last = p->token;
+    p->token = lex_next(&p->lexer);
+}
+
+static inline bool is(const parser *p, char c) { return p->token.kind == TOKEN_CHARACTER && p->token.character == c; }
+
+static inline void skip_lines(parser *p)
+{
+    while (p->token.kind == TOKEN_NEWLINE)
+        advance(p);
+}
+
+static inline bool spelled(const parser *p, const token *t, const char *word)
+{
+    return t->kind == TOKEN_NAME && strlen(word) == t->at.to - t->at.from &&
+           memcmp(p->source->texts[t->at.text].bytes + t->at.from, word, t->at.to - t->at.from) == 0;
+}
+
+static inline bool word(const parser *p, const char *text) { return spelled(p, &p->token, text); }
+
+static inline const char *copy_name(parser *p, span at)
+{
+    return arena_text(p->arena, p->source->texts[at.text].bytes + at.from, at.to - at.from);
+}
+
+static inline tree *grow(parser *p, tree_kind kind, span at)
+{
+    tree *t = arena_take(p->arena, sizeof *t);
+    t->kind = kind;
+    t->at = at;
+    return t;
+}
+
+static inline void add_item(parser *p, tree *t, tree *item)
+{
+    if (failed(p))
+        return;
+    bool power_of_two = t->count >= ITEMS_FIRST && (t->count & (t->count - 1)) == 0;
+    if (t->count == 0 || power_of_two) {
+        size_t room = t->count == 0 ? ITEMS_FIRST : 2 * (size_t)t->count;
+        tree **more = arena_grow(p->arena, t->item, t->count * sizeof *more, room * sizeof *more);
+        if (!more)
+            return;
+        t->item = more;
+    }
+    t->item[t->count++] = item;
+}
+
+static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
+{
+    tree *t = grow(p, kind, (span){a->at.text, a->at.from, b->at.to});
+    add_item(p, t, a);
+    add_item(p, t, b);
+    return t;
+}
+
+static inline tree *nothing(parser *p) { return grow(p, TREE_NUMBER, p->token.at); }
+
+#define COMPLAIN(p, at, ...) (source_complain((p)->source, MOTUS_SYNTAX, (at), __VA_ARGS__))
+#define HINT(p, ...) (source_hint((p)->source, __VA_ARGS__))
+
+static inline const char *quote(const parser *p, span at, char out[80]) { return source_excerpt(p->source, at, out, 80); }
+
+static inline bool deeper(parser *p)
+{
+    if (++p->depth <= DEPTH_MAX)
+        return true;
+    source_complain(p->source, MOTUS_LIMIT, p->token.at, "the expression is nested too deeply");
+    HINT(p, "give parts of it names of their own");
+    return false;
+}
+
+/* Complains that the present token is not what was expected. */
+static inline void unexpected(parser *p, const char *wanted)
+{
+    char text[80];
+    if (p->token.kind == TOKEN_END || p->token.kind == TOKEN_NEWLINE)
+        COMPLAIN(p, p->token.at, "%s expected, but the line ends here", wanted);
+    else
+        COMPLAIN(p, p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
+}
+
+/* Line ends inside a bracket do not count [8], so an open bracket swallows the next statement: complains at that
+ * bracket, if there is one. */
+static inline bool left_open(parser *p)
+{
+    if (p->lexer.depth == 0 || failed(p))
+        return false;
+    uint32_t from = p->lexer.opened[p->lexer.depth - 1];
+    span open = {p->token.at.text, from, from + 1};
+    if (source_line(p->source, open) == source_line(p->source, p->token.at))
+        return false;
+    char closer = p->lexer.closer[p->lexer.depth - 1];
+    COMPLAIN(p, open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
+    HINT(p, "add the missing %c", closer);
+    return true;
+}
+
+static inline bool expect(parser *p, char c, const char *where)
+{
+    if (is(p, c)) {
+        advance(p);
+        return true;
+    }
+    if (is(p, '=') && (c == ')' || c == ']')) {
+        if (!left_open(p)) {
+            COMPLAIN(p, p->token.at, "%c %s expected, but here is =", c, where);
+            HINT(p, "to compare write ==");
+        }
+        return false;
+    }
+    char wanted[80];
+    snprintf(wanted, sizeof wanted, "%c %s", c, where);
+    unexpected(p, wanted);
+    return false;
+}
+
+/* parse.c */
+tree *parse_inside(parser *p);
+bool parse_loop(parser *p, loop *l);
+void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l);
+tree *parse_or(parser *p);
+void parse_index(parser *p, tree *t);
+
+#endif

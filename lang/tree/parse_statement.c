@@ -1,0 +1,320 @@
+/* Statements: tokens to trees, one statement a line. Each function is headed by its grammar rule; parse.c has the
+ * expressions. */
+#include "lang/tree/parse_parts.h"
+
+/* for = "for" loop { "," loop } */
+static void parse_for(parser *p, statement *s)
+{
+    if (!word(p, "for"))
+        return;
+    do {
+        advance(p);
+        skip_lines(p);
+        loop l = {0};
+        if (s->loop_count == MAX_DIMS) {
+            source_complain(p->source, MOTUS_LIMIT, p->token.at, "at most %d indices", MAX_DIMS);
+            return;
+        }
+        if (!parse_loop(p, &l))
+            return;
+        parse_add_loop(p, &s->loops, &s->loop_count, &l);
+    } while (is(p, ',') && !failed(p));
+}
+
+/* `line` is where the statement begins. */
+static void end_of_statement(parser *p, int line)
+{
+    if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END)
+        return;
+    char text[80], before[80];
+    if (is(p, ',') && p->last.kind == TOKEN_NUMBER) {
+        lexer ahead = p->lexer;
+        token next = lex_next(&ahead);
+        COMPLAIN(p, p->token.at, "the statement ends before this comma");
+        if (next.kind == TOKEN_NUMBER)
+            HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)", quote(p, p->last.at, before),
+                 quote(p, next.at, text), before, text);
+        return;
+    }
+    if (is(p, '=')) {
+        COMPLAIN(p, p->token.at, "a second = in one statement");
+        if (line != source_line(p->source, p->token.at))
+            HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
+        HINT(p, "one statement a line; to compare write ==");
+        return;
+    }
+    COMPLAIN(p, p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
+    if (p->token.kind == TOKEN_NAME)
+        HINT(p, "one statement a line");
+}
+
+static void parse_value(parser *p, statement *s)
+{
+    if (!is(p, '=')) {
+        unexpected(p, "=");
+        return;
+    }
+    advance(p);
+    skip_lines(p);
+    if (is(p, '=')) {
+        COMPLAIN(p, p->token.at, "one = is enough in a statement");
+        return;
+    }
+    const span first = p->token.at;
+    s->value = parse_or(p);
+    s->value_at = (span){first.text, first.from, p->last.at.to};
+    parse_for(p, s);
+    end_of_statement(p, source_line(p->source, s->at));
+}
+
+/* "method" text: up to the end of the line; names have dashes, and arguments in brackets */
+static void parse_method(parser *p, statement *s)
+{
+    const struct source_text *text = &p->source->texts[p->lexer.text];
+    uint32_t from = p->last.at.to, to = from;
+    while (to < text->length && text->bytes[to] != '\n' && text->bytes[to] != '#')
+        to++;
+    uint32_t end = to;
+    while (from < end && (text->bytes[from] == ' ' || text->bytes[from] == '\t'))
+        from++;
+    while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
+        end--;
+    s->at = (span){p->lexer.text, from, end};
+    if (from == end || text->bytes[from] == '=') {
+        COMPLAIN(p, s->at, "the name of a method expected");
+        HINT(p, "write: method verlet");
+        return;
+    }
+    if (end - from >= MOTUS_NAME_MAX) {
+        source_complain(p->source, MOTUS_LIMIT, s->at, "the name of a method has at most %d bytes", MOTUS_NAME_MAX - 1);
+        return;
+    }
+    s->text = arena_text(p->arena, text->bytes + from, end - from);
+    p->lexer.at = to;
+    p->lexer.depth = 0;
+    advance(p);
+}
+
+/* setting = ("step" | "tolerance" | "from" | "until") or | "every" or [ "steps" ] */
+static void parse_setting(parser *p, statement *s)
+{
+    if (is(p, '=')) {
+        char text[80];
+        COMPLAIN(p, p->token.at, "a setting is written without =");
+        HINT(p, "write: %s 0.01", quote(p, p->last.at, text));
+        return;
+    }
+    s->value = parse_or(p);
+    if (s->kind == STATEMENT_EVERY && !failed(p) && (word(p, "steps") || word(p, "step"))) {
+        s->steps = true;
+        advance(p);
+    }
+    end_of_statement(p, source_line(p->source, s->at));
+}
+
+/* Hints for usual ways to write a derivative that the language does not have. */
+static bool parse_leibniz(parser *p, const statement *s)
+{
+    if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^')))
+        return false;
+    const struct source_text *text = &p->source->texts[s->at.text];
+    uint32_t end = s->name_at.from;
+    while (end < text->length && text->bytes[end] != '=' && text->bytes[end] != '\n')
+        end++;
+    bool second = false;
+    for (uint32_t i = s->name_at.from; i < end; i++)
+        second |= text->bytes[i] == '2';
+    const char *x = s->name + 1;
+    while (*x == '2' || *x == '^')
+        x++;
+    if (!*x)
+        x = "x";
+    COMPLAIN(p, ((span){s->at.text, s->name_at.from, end}), "derivatives are written with primes");
+    HINT(p, "write %s%s = …", x, second ? "''" : "'");
+    return true;
+}
+
+/* left = name [ index ] [ primes ] [ "(" or ")" ] */
+static void parse_left(parser *p, statement *s)
+{
+    if (p->token.kind != TOKEN_NAME) {
+        lexer ahead = p->lexer;
+        token next = is(p, '/') ? lex_next(&ahead) : p->token;
+        bool slashes = is(p, '/') && next.kind == TOKEN_CHARACTER && (next.character == '/' || next.character == '*');
+        unexpected(p, "a statement");
+        if (slashes)
+            HINT(p, "a comment begins with #");
+        if (is(p, '+') || is(p, '-') || is(p, '*') || is(p, '/'))
+            HINT(p, "a line goes on in the next where it ends with an operator, or inside a bracket");
+        if (p->token.kind == TOKEN_NUMBER || is(p, '('))
+            HINT(p, "a statement begins with a name: x'' = …, k = 2, x(0) = 1");
+        return;
+    }
+    tree name = {.at = p->token.at};
+    s->name_at = p->token.at;
+    s->name = copy_name(p, p->token.at);
+    if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
+        if (!strcmp(s->name, "t"))
+            COMPLAIN(p, s->name_at, "t is the time and cannot be defined");
+        else
+            COMPLAIN(p, s->name_at, "%s is a word of the language and cannot be defined", s->name);
+        HINT(p, "take another name");
+        return;
+    }
+    advance(p);
+    if (parse_leibniz(p, s))
+        return;
+    if (is(p, '[') && !p->token.blank) {
+        parse_index(p, &name);
+        s->index = name.item;
+        s->index_count = name.index_count;
+    }
+    if (failed(p))
+        return;
+    if (p->token.kind == TOKEN_PRIMES) {
+        s->primes = p->token.primes;
+        if (s->primes > 2) {
+            COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
+            HINT(p, "Newton's second law is of second order; bring in a first-order companion s' = … for more");
+            return;
+        }
+        advance(p);
+    }
+    s->kind = s->primes ? STATEMENT_EQUATION : STATEMENT_DEFINITION;
+    if (is(p, '(')) {
+        if (p->token.blank) {
+            COMPLAIN(p, p->token.at, "the bracket of an initial value stands directly behind the name");
+            HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
+            return;
+        }
+        advance(p);
+        s->start_at = parse_inside(p);
+        if (!expect(p, ')', "after the start"))
+            return;
+        s->kind = STATEMENT_START;
+        if (p->token.kind == TOKEN_PRIMES) {
+            COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
+            if (s->start_at->kind == TREE_NAME)
+                HINT(p, "write %s%s = …; that it depends on t is understood", s->name, p->token.primes == 1 ? "'" : "''");
+            else
+                HINT(p, "write %s'(0) = …", s->name);
+            return;
+        }
+        if (s->primes == 2) {
+            COMPLAIN(p, s->at, "%s'' at the start follows from the equation and cannot be given", s->name);
+            return;
+        }
+    }
+    s->at.to = p->last.at.to;
+    if (is(p, '='))
+        return;
+    if (is(p, '.')) {
+        COMPLAIN(p, p->token.at, "a component cannot be given alone");
+        HINT(p, "give the whole vector: %s = (…, …)", s->name);
+    } else if (s->kind == STATEMENT_EQUATION && (is(p, '+') || is(p, '-'))) {
+        COMPLAIN(p, p->token.at, "the left side of an equation is the highest derivative alone");
+        HINT(p, "solve for it: %s%s = …", s->name, s->primes == 2 ? "''" : "'");
+    } else if (p->token.kind == TOKEN_NAME || is(p, '*')) {
+        if (is(p, '*'))
+            advance(p);
+        lexer ahead = p->lexer;
+        token next = lex_next(&ahead);
+        char text[80];
+        if (p->token.kind == TOKEN_NAME && next.kind == TOKEN_PRIMES) {
+            quote(p, p->token.at, text);
+            COMPLAIN(p, s->at, "the left side of an equation is the highest derivative alone");
+            HINT(p, "divide: %s%s = (…)/%s", text, next.primes == 1 ? "'" : "''", s->name);
+        } else if (p->token.kind == TOKEN_NAME) {
+            unexpected(p, "=");
+            char near[80];
+            if (words_nearest_statement(s->name, near, sizeof near))
+                HINT(p, "did you mean %s?", near);
+        } else {
+            unexpected(p, "=");
+        }
+    } else {
+        char near[80];
+        unexpected(p, "=");
+        if (p->token.kind == TOKEN_NUMBER && words_nearest_statement(s->name, near, sizeof near))
+            HINT(p, "did you mean %s?", near);
+    }
+}
+
+static void parse_statement(parser *p, statement *s)
+{
+    s->at = p->token.at;
+    static const struct { const char *word; statement_kind kind; } settings[] = {
+        {"step", STATEMENT_STEP}, {"tolerance", STATEMENT_TOLERANCE}, {"from", STATEMENT_FROM},
+        {"until", STATEMENT_UNTIL}, {"every", STATEMENT_EVERY}};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        if (word(p, settings[i].word)) {
+            s->kind = settings[i].kind;
+            s->name = settings[i].word;
+            advance(p);
+            parse_setting(p, s);
+            return;
+        }
+    if (word(p, "method")) {
+        s->kind = STATEMENT_METHOD;
+        s->name = "method";
+        p->last = p->token;
+        parse_method(p, s);
+        return;
+    }
+    if (word(p, "when")) {
+        source_complain(p->source, MOTUS_UNAVAILABLE, p->token.at, "events (when …) are not available yet");
+        HINT(p, "leave the line out; the motion runs on to `until`");
+        return;
+    }
+    bool exact = word(p, "exact"), invariant = word(p, "invariant");
+    if (exact || invariant)
+        advance(p);
+    parse_left(p, s);
+    if (failed(p))
+        return;
+    if (exact || invariant) {
+        const char *what = exact ? "exact" : "invariant";
+        if (s->kind != STATEMENT_DEFINITION) {
+            COMPLAIN(p, s->at, "behind %s stands a name alone", what);
+            if (exact)
+                HINT(p, "write: exact %s = …; its velocity is its derivative", s->name);
+            return;
+        }
+        s->kind = exact ? STATEMENT_EXACT : STATEMENT_INVARIANT;
+    }
+    parse_value(p, s);
+}
+
+bool parse_text(source *s, uint32_t text, statements *all)
+{
+    parser p = {.source = s, .arena = s->arena};
+    lex_start(&p.lexer, s, text);
+    advance(&p);
+    for (;;) {
+        skip_lines(&p);
+        if (failed(&p) || p.token.kind == TOKEN_END)
+            return !failed(&p);
+        if (all->count == SOURCE_STATEMENTS_MAX) {
+            source_complain(s, MOTUS_LIMIT, p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);
+            return false;
+        }
+        if (all->count == all->capacity) {
+            uint32_t room = all->capacity ? 2 * all->capacity : 32;
+            statement *more = arena_grow(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
+            if (!more)
+                return false;
+            all->item = more;
+            all->capacity = room;
+        }
+        statement *one = &all->item[all->count];
+        *one = (statement){0};
+        parse_statement(&p, one);
+        if (failed(&p))
+            return false;
+        all->count++;
+        if (p.token.kind != TOKEN_NEWLINE && p.token.kind != TOKEN_END) {
+            unexpected(&p, "the end of the line");
+            return false;
+        }
+    }
+}

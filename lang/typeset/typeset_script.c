@@ -1,0 +1,124 @@
+/* Names of a typeset statement with what belongs to them: subscripts, primes, the time of a value; and indices that run. See typeset_parts.h. */
+#include "lang/typeset/typeset_parts.h"
+
+bool typeset_head(const tree *t, head *h)
+{
+    *h = (head){0};
+    if (t->kind == TREE_COMPONENT) {
+        h->component = t->item[1];
+        t = t->item[0];
+    }
+    if (t->kind == TREE_START) {
+        h->start = t->item[1];
+        t = t->item[0];
+    }
+    h->name = t;
+    return t->kind == TREE_NAME;
+}
+
+/* .x .y .z are numbers in the tree, and letters in the text. */
+static const char *component_letter(const source *s, const tree *number)
+{
+    static const char *const letters[] = {"x", "y", "z"};
+    char c = s->texts[number->at.text].bytes[number->at.from];
+    return number->kind == TREE_NUMBER && c >= 'x' && c <= 'z' ? letters[c - 'x'] : NULL;
+}
+
+/* x_{max,i,y}: one part is an element by itself, several are a row. */
+static void subscripts(typesetter *p, const head *h, uint32_t parts, place at)
+{
+    place in = parts == 1 ? place_script(at) : place_inside(at) | PLACE_SMALL;
+    uint32_t done = 0;
+    if (parts > 1)
+        typeset_tag(p, "<mrow>");
+    if (typeset_has_tail(h->name->name)) {
+        typeset_word(p, TASK_TAIL, h->name->name);
+        done++;
+    }
+    for (uint32_t i = 0; i < h->name->index_count; i++) {
+        if (done++)
+            typeset_sign(p, "<mo>,</mo>");
+        typeset_then(p, h->name->item[i], in);
+    }
+    if (h->component) {
+        if (done)
+            typeset_sign(p, "<mo>,</mo>");
+        const char *letter = component_letter(&p->model->source, h->component);
+        if (letter)
+            typeset_word(p, TASK_NAME, letter);
+        else
+            typeset_then(p, h->component, in);
+    }
+    if (parts > 1)
+        typeset_tag(p, "</mrow>");
+}
+
+static void superscripts(typesetter *p, int primes, const tree *power, place at)
+{
+    bool both = primes && power;
+    if (both)
+        typeset_tag(p, "<mrow>");
+    if (primes)
+        typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">′′</mo>");
+    if (power)
+        typeset_then(p, power, both ? place_inside(at) | PLACE_SMALL : place_script(at));
+    if (both)
+        typeset_tag(p, "</mrow>");
+}
+
+/* Primes and an exponent share the superscript, x′², and a value at a time is raised as a whole, x(0)². */
+void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
+{
+    uint32_t parts = (uint32_t)typeset_has_tail(h->name->name) + h->name->index_count + (h->component != NULL);
+    const tree *own_power = h->start ? NULL : power;
+    int scripts = 2 * (parts > 0) + (h->name->primes || own_power);
+    static const char *const open[] = {"", "<msup>", "<msub>", "<msubsup>"}, *const close[] = {"", "</msup>", "</msub>", "</msubsup>"};
+    if (h->start && power)
+        typeset_tag(p, "<msup>");
+    if (h->start)
+        typeset_tag(p, "<mrow>");
+    typeset_tag(p, open[scripts]);
+    typeset_word(p, TASK_NAME, h->name->name);
+    if (parts)
+        subscripts(p, h, parts, at);
+    if (scripts & 1)
+        superscripts(p, h->name->primes, own_power, at);
+    typeset_tag(p, close[scripts]);
+    if (h->start) {
+        typeset_tag(p, TYPESET_APPLY);
+        typeset_itself(p, FENCE_ROUND, h->start, at);
+        typeset_tag(p, "</mrow>");
+    }
+    if (h->start && power) {
+        typeset_then(p, power, place_script(at));
+        typeset_tag(p, "</msup>");
+    }
+}
+
+void typeset_component(typesetter *p, const tree *t, place at)
+{
+    typeset_tag(p, "<msub>");
+    typeset_then(p, t->item[0], place_element(at) | TIGHT_ATOM);
+    const char *letter = component_letter(&p->model->source, t->item[1]);
+    if (letter)
+        typeset_word(p, TASK_NAME, letter);
+    else
+        typeset_then(p, t->item[1], place_script(at));
+    typeset_tag(p, "</msub>");
+}
+
+void typeset_range(typesetter *p, const loop *l, const char *between, place at)
+{
+    bool tail = typeset_has_tail(l->name);
+    typeset_tag(p, tail ? "<msub>" : "");
+    typeset_word(p, TASK_NAME, l->name);
+    if (tail)
+        typeset_word(p, TASK_TAIL, l->name);
+    typeset_tag(p, tail ? "</msub>" : "");
+    typeset_sign(p, "<mo>=</mo>");
+    typeset_then(p, l->first, place_inside(at));
+    if (!between)
+        return;
+    typeset_sign(p, between);
+    typeset_then(p, l->last, place_inside(at));
+}
