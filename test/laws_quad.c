@@ -168,17 +168,6 @@ void quad_recursion(const quad_problem *p, quad t, quad h, const quad *before, c
     memcpy(after, w.x, p->nx * sizeof *after);
 }
 
-bool quad_tableau_of(method k, quad_tableau *out)
-{
-    const row *m = &methods_table[k];
-    if (m->family != RUNGE_KUTTA && (m->family != IMPLICIT || m->newmark)) return false;
-    out->stages = m->tableau.stages;
-    memcpy(out->c, m->tableau.c, sizeof out->c);
-    memcpy(out->a, m->tableau.a, sizeof out->a);
-    memcpy(out->b, m->tableau.b, sizeof out->b);
-    return true;
-}
-
 int quad_splitting_of(method k, quad *kick, quad *drift)
 {
     const row *m = &methods_table[k];
