@@ -73,7 +73,7 @@ static quad limit_of(method m)
     quad z[3] = {0};
     growth g[3] = {{0}};
     if (worse(growth_at(m, first)) > visible) return 0;      /* no limit is so small: this is growth at every step */
-    for (quad at = first; at < last; at = implicit ? at * Q(1.01) : at + Q(0x1p-8)) {
+    for (quad at = first; at < last; at = implicit ? at * Q(1.01) : at + Q(0x1p-5)) {
         z[0] = z[1], z[1] = z[2], z[2] = at;
         g[0] = g[1], g[1] = g[2], g[2] = growth_at(m, at);
         if (worse(g[2]) > visible) return crossing(m, z[1], z[2]);
