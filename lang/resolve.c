@@ -608,7 +608,7 @@ void resolve_start_state(model *m)
 static bool resolve_settings(model *m)
 {
     bool seen[STATEMENT_EVERY + 1] = {false};
-    m->step = m->tolerance = m->until = m->every_time = NAN;
+    m->step = m->until = m->every_time = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
         if (s->kind < STATEMENT_METHOD)
@@ -625,7 +625,7 @@ static bool resolve_settings(model *m)
         double v;
         if (!constant_value(m, s->value, s->name, &v))
             return false;
-        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_EVERY;
+        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY;
         if (positive && !(v > 0)) {
             source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "%s is positive, not %g", s->name, v);
             if (s->kind == STATEMENT_STEP)
@@ -634,7 +634,6 @@ static bool resolve_settings(model *m)
         }
         switch (s->kind) {
         case STATEMENT_STEP: m->step = v; break;
-        case STATEMENT_TOLERANCE: m->tolerance = v; break;
         case STATEMENT_UNTIL: m->until = v; break;
         case STATEMENT_EVERY:
             if (!s->steps) {
