@@ -275,6 +275,7 @@ MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
 typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } motus_forces;
 typedef struct motus_method {
     const char *name, *aliases;      /* aliases: blank-separated, "" if none */
+    const char *title;               /* as a text or a legend has it: "velocity Verlet" */
     const char *family;              /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
     int order, stages;
     int evaluations;                 /* of the acceleration, per step in the long run; 0: depends on the solve */

@@ -445,7 +445,8 @@ static void methods_are_found(void **state)
         const motus_method *card = motus_method_at(k);
         must(motus_method_find(card->name, &m, &err), &err, card->name);
         assert_ptr_equal(m, card);
-        assert_true(card->formula[0] && card->use[0] && card->family[0]);
+        assert_true(card->formula[0] && card->use[0] && card->family[0] && card->title && card->title[0]);
+        for (size_t i = 0; i < k; i++) assert_string_not_equal(motus_method_at(i)->title, card->title);
         char alias[128];
         for (const char *p = card->aliases; *p; p += strspn(p, " ")) {
             size_t n = strcspn(p, " ");

@@ -523,7 +523,7 @@ done
 # --- methods ------------------------------------------------------------------------------------------------------------------------
 gives "methods --json" 0 "$motus" methods --json
 that "... is JSON" json "$out"
-that "... rows with their properties" holds '.methods | length >= 30 and all(.[]; has("name") and has("aliases") and has("family") and has("order") and has("stages") and has("evaluations") and has("forces") and has("symplectic") and has("reversible") and has("stability_limit") and (.name == "exact" or (.cite | length > 2)))'
+that "... rows with their properties" holds '.methods | length >= 30 and all(.[]; has("name") and has("aliases") and has("title") and has("family") and has("order") and has("stages") and has("evaluations") and has("forces") and has("symplectic") and has("reversible") and has("stability_limit") and (.name == "exact" or (.cite | length > 2)))'
 count=$(jq '.methods | length' "$out")
 for name in explicit-euler midpoint heun ralston rk3 rk4 rk4-38 symplectic-euler velocity-verlet leapfrog ruth3 forest-ruth pefrl mclachlan4 suzuki4 yoshida6 \
     kahan-li6 yoshida8 kahan-li8 verlet verlet-literal beeman newmark implicit-midpoint gauss4 gauss6 boris exact; do
