@@ -185,13 +185,13 @@ motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *
 
 void motus_settings_of(const motus_system *s, motus_settings *out)
 {
-    *out = (motus_settings){.step = NAN, .tolerance = NAN, .from = NAN, .until = NAN, .every_time = NAN};
+    *out = (motus_settings){.step = NAN, .from = NAN, .until = NAN, .every_time = NAN};
     if (!s)
         return;
     out->from = s->start;
     if (!s->model)
         return;
     const model *m = s->model;
-    *out = (motus_settings){.method = m->method, .step = m->step, .tolerance = m->tolerance, .from = m->start, .until = m->until,
+    *out = (motus_settings){.method = m->method, .step = m->step, .from = m->start, .until = m->until,
                             .every_time = m->every_time, .every_steps = m->every_steps};
 }

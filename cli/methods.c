@@ -48,6 +48,8 @@ static void row_json(json *j, const motus_method *m)
         s += length + (s[length] == ' ');
     }
     json_close(j, ']');
+    json_key(j, "title");
+    json_string(j, m->title);
     json_key(j, "family");
     json_string(j, m->family);
     json_key(j, "order");

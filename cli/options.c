@@ -108,8 +108,11 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
         complain_hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
     }
-    if (strcmp(name, "--tolerance") == 0)
-        return complain(err, MOTUS_UNAVAILABLE, "--tolerance is not available in this version: give --step");
+    if (strcmp(name, "--tolerance") == 0) {
+        complain(err, MOTUS_UNAVAILABLE, "--tolerance would change nothing: every method takes fixed steps");
+        complain_hint(err, "give --step; motus converge shows the error that a step leaves");
+        return MOTUS_UNAVAILABLE;
+    }
     complain(err, MOTUS_ARGUMENT, "unknown option %s", name);
     if (strcmp(name, "--from") == 0)
         complain_hint(err, "the start is the constant c in x(c) = ..., in the model");

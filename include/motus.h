@@ -228,7 +228,7 @@ MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, doub
 /* What the model's settings say. NaN, 0 or NULL where it says nothing. */
 typedef struct motus_settings {
     const char *method;              /* "verlet", "newmark(0.25, 0.5)" */
-    double step, tolerance, from, until;
+    double step, from, until;
     double every_time;               /* every T */
     int64_t every_steps;             /* every n steps */
 } motus_settings;
@@ -256,7 +256,7 @@ typedef enum motus_statement_kind {
     MOTUS_STATEMENT_START,           /* x(0) = …, x'(0) = … */
     MOTUS_STATEMENT_BOUNDARY,        /* x[0] = … */
     MOTUS_STATEMENT_EXACT, MOTUS_STATEMENT_INVARIANT,
-    MOTUS_STATEMENT_SETTING          /* method, step, tolerance, from, until, every */
+    MOTUS_STATEMENT_SETTING          /* method, step, from, until, every */
 } motus_statement_kind;
 typedef struct motus_statement {
     motus_statement_kind kind;
@@ -277,6 +277,7 @@ MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
 typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } motus_forces;
 typedef struct motus_method {
     const char *name, *aliases;      /* aliases: blank-separated, "" if none */
+    const char *title;               /* as a text or a legend has it: "velocity Verlet" */
     const char *family;              /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
     int order, stages;
     int evaluations;                 /* of the acceleration, per step in the long run; 0: depends on the solve */

@@ -49,7 +49,8 @@ export interface Description {
 
 /** A row of the catalogue of methods. */
 export interface Method {
-  readonly name: string; readonly aliases: readonly string[]; readonly family: string; readonly order: number; readonly stages: number; readonly evaluations: number;
+  readonly name: string; readonly aliases: readonly string[]; readonly title: string; readonly family: string;
+  readonly order: number; readonly stages: number; readonly evaluations: number;
   readonly symplectic: boolean; readonly reversible: boolean; readonly stabilityLimit: number;
   readonly cite: string; readonly formula: string; readonly use: string;
 }

@@ -417,14 +417,14 @@ static void settings_are_read(void **unused)
     motus_system *s = given_text(still);
     motus_settings_of(s, &m);
     assert_null(m.method);
-    assert_true(isnan(m.step) && isnan(m.tolerance) && isnan(m.until) && isnan(m.every_time) && m.every_steps == 0 && m.from == 2);
+    assert_true(isnan(m.step) && isnan(m.until) && isnan(m.every_time) && m.every_steps == 0 && m.from == 2);
     motus_system_destroy(s);
     char text[512];
-    snprintf(text, sizeof text, "h = 0.5\nstep h^2\nuntil 2 pi + h\nevery 3 h\ntolerance 1e-6   # for later\nmethod   newmark(1/6, 1/2)  # with arguments\nfrom 4 h\n%s", still);
+    snprintf(text, sizeof text, "h = 0.5\nstep h^2\nuntil 2 pi + h\nevery 3 h   # for later\nmethod   newmark(1/6, 1/2)  # with arguments\nfrom 4 h\n%s", still);
     s = given_text(text);
     motus_settings_of(s, &m);
     assert_string_equal(m.method, "newmark(1/6, 1/2)");
-    assert_true(m.step == 0.25 && m.tolerance == 1e-6 && m.until == 2 * 3.14159265358979323846 + 0.5 && m.every_time == 1.5 && m.every_steps == 0 && m.from == 2);
+    assert_true(m.step == 0.25 && m.until == 2 * 3.14159265358979323846 + 0.5 && m.every_time == 1.5 && m.every_steps == 0 && m.from == 2);
     motus_system_destroy(s);
     snprintf(text, sizeof text, "%sn = 5\nevery 2 n steps\n", still);
     s = given_text(text);

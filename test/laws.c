@@ -3,7 +3,7 @@
  *     laws              all of them
  *     laws --quiet      failures only
  */
-#include "test/laws.h"
+#include "test/laws_proof.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -38,6 +38,8 @@ double quad_log2(quad x)
 int main(int count, char **arguments)
 {
     quiet = count > 1 && !strcmp(arguments[1], "--quiet");
+    laws_of_proof();
+    laws_of_steps();
     laws_of_order();
     laws_of_structure();
     laws_of_stability();

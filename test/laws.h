@@ -19,7 +19,7 @@ __extension__ typedef __float128 quad;
 #define QUAD_EPSILON Q(0x1p-112)
 
 /* A method is its place in the catalogue. quad_… use its row in 33 digits; who wants to see inside the row includes core/rows.h and
- * looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside and outside of laws_quad.c.) */
+ * looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside and outside of laws_quad.c and laws_coefficients.c.) */
 typedef size_t method;
 
 enum { DIMENSIONS = 4, SPLITTING_MAX = 40 };      /* SPLITTING_MAX: stages of a splitting row */
@@ -50,9 +50,6 @@ void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, co
 /* The motion itself, by an extrapolated midpoint rule that shares nothing with step/. */
 void quad_truth(const quad_problem *, quad t0, quad t1, quad_state *state);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
-/* Coefficients as the texts use them, in units of h: the tableau of runge-kutta and implicit rows; false for others. */
-typedef struct quad_tableau { int stages; quad c[4], a[4][4], b[4]; } quad_tableau;
-bool quad_tableau_of(method, quad_tableau *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);
 /* By how much the sums of kicks and of drifts miss 1: as far as the known digits go. 0 for other rows. */

@@ -167,22 +167,6 @@ void quad_recursion(const quad_problem *p, quad t, quad h, const quad *before, c
     memcpy(after, w.x, p->nx * sizeof *after);
 }
 
-bool quad_tableau_of(method k, quad_tableau *out)
-{
-    const row *m = &methods_table[k];
-    if (m->family != RUNGE_KUTTA && (m->family != IMPLICIT || m->newmark)) return false;
-    work w = {.row = m};
-    quad memory[CONSTANTS_MAX];
-    work_plan(&w, NULL, memory);
-    out->stages = w.stages;
-    for (int i = 0; i < w.stages; i++) {
-        out->c[i] = w.c[i];
-        out->b[i] = w.unit[tableau_b(&w) + i];
-        for (int j = 0; j < w.stages; j++) out->a[i][j] = w.unit[tableau_a(&w, i) + j];
-    }
-    return true;
-}
-
 int quad_splitting_of(method k, quad *kick, quad *drift)
 {
     const row *m = &methods_table[k];

@@ -27,10 +27,10 @@ start() {
     echo "$? $((SECONDS - since))" >"$logs/$name.status"
 }
 bits() { start bits 200 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
-# node's own runner says it in its way.
-addresses() {
-    start addresses 60 node --test --test-reporter=tap test/lab/share.test.mjs
-    echo "$(sed -n 's/^# pass //p' $logs/addresses.log) passed, $(sed -n 's/^# fail //p' $logs/addresses.log) failed" >>$logs/addresses.log
+# What needs no browser; node's own runner says it in its way.
+parts() {
+    start parts 60 node --test --test-reporter=tap test/lab/*.test.mjs
+    echo "$(sed -n 's/^# pass //p' $logs/parts.log) passed, $(sed -n 's/^# fail //p' $logs/parts.log) failed" >>$logs/parts.log
 }
 page() { start "$1" 240 node "test/lab/$1.mjs"; }
 
@@ -39,12 +39,12 @@ together() {
     local name
     for name; do
         while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-2}" ]; do wait -n; done
-        case $name in bits | addresses) $name ;; *) page "$name" ;; esac &
+        case $name in bits | parts) $name ;; *) page "$name" ;; esac &
     done
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people share presets panels controls bits start addresses clock speed)
+[ $# -gt 0 ] || names=(people share presets panels controls bits start parts clock speed)
 rm -f $logs/*.status
 others=()
 for name in "${names[@]}"; do [ "$name" = speed ] || others+=("$name"); done

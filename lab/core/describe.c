@@ -173,6 +173,7 @@ LAB_CALL(lab_catalogue) const char *lab_catalogue(lab *l)
         json_open(j, NULL, '{');
         json_string(j, "name", m->name);
         json_string(j, "aliases", m->aliases);
+        json_string(j, "title", m->title);
         json_string(j, "family", m->family);
         json_number(j, "order", m->order);
         json_number(j, "stages", m->stages);

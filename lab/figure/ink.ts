@@ -35,7 +35,8 @@ const DASHES: readonly (readonly number[])[] = [
   [7, 3], [], [9, 3, 2, 3], [2, 2.5], [14, 4], [9, 3, 2, 3, 2, 3], [5, 2], [3, 4], [14, 3, 4, 3], [10, 5, 4, 5, 4, 5],
 ];
 
-/** In the order in which colours are handed out: the first ten all differ. Families that are compared among themselves stand side by side. */
+/** In the order in which colours are handed out: the first ten all differ. Families that are compared among themselves stand side by side. A method
+ * that is not here has the looks behind these: the list is made of those whose looks must not change any more. */
 const ORDER: readonly string[] = [
   'explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4', 'velocity-verlet', 'leapfrog', 'forest-ruth', 'implicit-midpoint', 'gauss4',
   'heun', 'boris', 'pefrl', 'yoshida6', 'verlet-literal', 'beeman', 'gauss6', 'ralston', 'rk3', 'yoshida8',
@@ -43,20 +44,11 @@ const ORDER: readonly string[] = [
   'blanes-moan6', 'blanes-moan6-14',
 ];
 
-const SPOKEN: Readonly<Record<string, string>> = {
-  'explicit-euler': 'explicit Euler', 'symplectic-euler': 'symplectic Euler', 'symplectic-euler-adjoint': 'symplectic Euler, adjoint',
-  midpoint: 'midpoint (RK2)', verlet: 'Verlet', 'verlet-literal': 'Verlet, literal', 'velocity-verlet': 'velocity Verlet', leapfrog: 'leapfrog',
-  beeman: 'Beeman', boris: 'Boris', heun: 'Heun', ralston: 'Ralston', rk3: 'RK3', rk4: 'RK4', 'rk4-38': 'RK4, 3/8', newmark: 'Newmark',
-  'implicit-midpoint': 'implicit midpoint', gauss4: 'Gauss 4', gauss6: 'Gauss 6', gauss8: 'Gauss 8', ruth3: 'Ruth 3', 'forest-ruth': 'Forest–Ruth',
-  pefrl: 'PEFRL', mclachlan4: 'McLachlan 4', suzuki4: 'Suzuki 4', 'blanes-moan4': 'Blanes–Moan 4', 'blanes-moan6': 'Blanes–Moan 6',
-  'blanes-moan6-14': 'Blanes–Moan 6, 14', yoshida6: 'Yoshida 6', yoshida8: 'Yoshida 8', 'kahan-li6': 'Kahan–Li 6', 'kahan-li8': 'Kahan–Li 8', exact: 'exact',
-};
-
 function place(method: string, catalogue: readonly Method[]): number {
   const known = ORDER.indexOf(method);
   if (known >= 0) return known;
   // A method newer than this list: behind all of it, in the catalogue's order.
-  const row = catalogue.filter((m) => !ORDER.includes(m.name)).findIndex((m) => m.name === method);
+  const row = catalogue.filter((m) => !ORDER.includes(m.name) && m.name !== 'exact').findIndex((m) => m.name === method);
   return ORDER.length + Math.max(0, row);
 }
 
@@ -70,12 +62,13 @@ export function looksOf(methods: readonly string[], catalogue: readonly Method[]
   return methods.map((name) => {
     // newmark(1/4, 1/2) looks like newmark.
     const bare = name.replace(/\s*\(.*$/, '');
-    const method = catalogue.find((m) => m.name === bare || m.aliases.includes(bare))?.name ?? bare;
-    if (method === 'exact') return { method: name, label: 'exact', colour: exact, dash: [], marker: 'circle' };
+    const row = catalogue.find((m) => m.name === bare || m.aliases.includes(bare)), method = row?.name ?? bare;
+    const label = (row?.title ?? bare) + name.slice(bare.length);
+    if (method === 'exact') return { method: name, label, colour: exact, dash: [], marker: 'circle' };
     const k = place(method, catalogue), round = Math.floor(k / 10);
     const pair = COLOURS[k % 10]!;
     return {
-      method: name, label: ((Object.hasOwn(SPOKEN, method) ? SPOKEN[method] : undefined) ?? method) + name.slice(bare.length), colour: dark ? pair[1] : pair[0],
+      method: name, label, colour: dark ? pair[1] : pair[0],
       // Each further ten meets its colour again with another dash and another marker.
       dash: DASHES[(k + 3 * round) % 10]!, marker: MARKERS[(k + 7 * round) % 10]!,
     };

@@ -242,7 +242,7 @@ export const stability: PanelMaker = (store): Panel => {
   function sentence(): string {
     const m = method(), h = step();
     if (!m || !plane) return '';
-    const title = scene?.looks[0]?.label ?? methodTitle(m.name);
+    const title = scene?.looks[0]?.label ?? methodTitle(m);
     const what = plane.full ? '' : ` Only the imaginary axis, oscillation without friction, has a meaning for ${title}: its force may hold no velocity.`;
     if (turns()) {
       return `${title} turns the velocity about the field by a rotation, which is stable at any step. The axis shows its other half, oscillation in position alone, stable while hω is below ${brief(m.stabilityLimit, 3)}; `

@@ -18,15 +18,8 @@ function typeset(body: string): readonly Node[] {
   return Array.from(parsed.documentElement.childNodes, node => document.importNode(node, true));
 }
 
-const NAMES: Readonly<Record<string, string>> = {
-  heun: 'Heun', ralston: 'Ralston', ruth3: 'Ruth', pefrl: 'PEFRL', mclachlan4: 'McLachlan', suzuki4: 'Suzuki', rk3: 'Kutta’s method of order 3', 'rk4-38': 'The three-eighths rule',
-  gauss4: 'Gauss, two stages', gauss6: 'Gauss, three stages', gauss8: 'Gauss, four stages',
-};
-/** "kahan-li8" -> "Kahan–Li 8". */
-function titleOf(name: string): string {
-  return NAMES[name] ?? name.replace(/(^|-)([a-z])/g, (_, dash: string, letter: string) => (dash && '–') + letter.toUpperCase()).replace(/([a-z])(\d)/, '$1 $2');
-}
-export function methodTitle(name: string): string { return cards[name]?.title ?? titleOf(name); }
+/** A heading: the card's own, or the catalogue's words. */
+export const methodTitle = (method: Method): string => cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
 
 function limit(h: number): string {
   if (h === 0) return 'never stable on an undamped spring';
@@ -48,7 +41,7 @@ export function facts(method: Method): string[] {
 
 export function methodCard(method: Method): HTMLElement {
   const made = element('section', 'card');
-  const title = element('h3', '', methodTitle(method.name));
+  const title = element('h3', '', methodTitle(method));
   const own = cards[method.name];
   made.append(title);
   if (own) made.append(...typeset(own.body));

@@ -108,7 +108,7 @@ typedef struct model {
     bool exact_given, exact_recognised;
     traits traits;                   /* gyroscopic and gradient are found on demand (machine/) */
 
-    double start, step, tolerance, until, every_time;
+    double start, step, until, every_time;
     bool start_known;
     int64_t every_steps;
     const char *method;

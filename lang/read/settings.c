@@ -1,4 +1,4 @@
-/* Reads the settings of a model: method, step, tolerance, until, every. */
+/* Reads the settings of a model: method, step, until, every. */
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/resolve.h"
@@ -8,7 +8,7 @@
 bool settings_all(model *m)
 {
     bool seen[STATEMENT_EVERY + 1] = {false};
-    m->step = m->tolerance = m->until = m->every_time = NAN;
+    m->step = m->until = m->every_time = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
         if (s->kind < STATEMENT_METHOD)
@@ -25,7 +25,7 @@ bool settings_all(model *m)
         double v;
         if (!resolve_constant(m, s->value, s->name, &v))
             return false;
-        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_EVERY;
+        bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY;
         if (positive && !(v > 0)) {
             source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "%s is positive, not %g", s->name, v);
             if (s->kind == STATEMENT_STEP)
@@ -34,7 +34,6 @@ bool settings_all(model *m)
         }
         switch (s->kind) {
         case STATEMENT_STEP: m->step = v; break;
-        case STATEMENT_TOLERANCE: m->tolerance = v; break;
         case STATEMENT_UNTIL: m->until = v; break;
         case STATEMENT_EVERY:
             if (!s->steps) {

@@ -40,7 +40,7 @@ typedef enum statement_kind {
     STATEMENT_START,                 /* name[indices]'(at) = value */
     STATEMENT_EXACT, STATEMENT_INVARIANT,
     STATEMENT_METHOD,                /* text */
-    STATEMENT_STEP, STATEMENT_TOLERANCE, STATEMENT_FROM, STATEMENT_UNTIL, STATEMENT_EVERY
+    STATEMENT_STEP, STATEMENT_FROM, STATEMENT_UNTIL, STATEMENT_EVERY
 } statement_kind;
 
 typedef struct statement {

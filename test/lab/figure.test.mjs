@@ -2,6 +2,7 @@
  * Laws: SVG is well formed whatever it is made of; axes map what is finite to what is finite; thinning loses no peak; a table's numbers are whole.
  */
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { createRequire } from 'node:module';
 import { fileURLToPath } from 'node:url';
 import test from 'node:test';
@@ -116,6 +117,27 @@ test('a table is saved with every digit, and text is not a formula', () => {
   assert.equal(many.length, 200);
   assert.equal(many[0], 0);
   assert.equal(many[199], 4000);
+});
+
+test('every method looks like itself alone, those of tomorrow too', () => {
+  globalThis.document = { documentElement: { dataset: { theme: 'light' } } };
+  globalThis.getComputedStyle = () => ({ getPropertyValue: () => '' });
+  const today = JSON.parse(execFileSync(process.env.MOTUS ?? fileURLToPath(new URL('../../build/motus', import.meta.url)), ['methods', '--json'])).methods;
+  const tomorrow = Array.from({ length: 40 }, (_, k) => ({ name: `new-${k}`, title: `New ${k}`, aliases: [`n${k}`] }));
+  const catalogue = [...today, ...tomorrow], seen = new Map();
+  for (const method of catalogue) {
+    const [look] = f.looksOf([method.name], catalogue);
+    assert.equal(look.label, method.title);
+    const { colour, dash, marker } = look, key = JSON.stringify([colour, dash, marker]);
+    assert.equal(seen.get(key), undefined, `${method.name} looks like ${seen.get(key)}`);
+    seen.set(key, method.name);
+    // A new row behind changes nobody's look.
+    if (!method.name.startsWith('new-')) assert.deepEqual(f.looksOf([method.name], today), [look]);
+  }
+  const [known, other] = f.looksOf(['new-3', 'n3'], catalogue);
+  assert.deepEqual({ ...known, method: '' }, { ...other, method: '' });
+  assert.equal(f.looksOf(['newmark(1/6, 1/2)'], catalogue)[0].label, 'Newmark(1/6, 1/2)');
+  delete globalThis.document, delete globalThis.getComputedStyle;
 });
 
 test('files have names that every system takes', () => {

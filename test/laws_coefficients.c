@@ -1,0 +1,160 @@
+/* THE COEFFICIENTS OF THE ROWS and what each may be off by; the one file of the laws' proofs that knows how a row is
+ * laid out.
+ *
+ * Invariant: nothing about a row's digits is written here. core/methods.c is compiled twice with numbers of 113 bits:
+ * as it stands, and with every literal moved by half a unit in its last printed place; the difference of the two tables
+ * is what the digits leave open. A literal that is a binary fraction of at most 20 places (0.5, 24.0) is meant exactly,
+ * and so is what is computed from such (7/24).
+ */
+#define K(x) Q(x)
+#include "test/laws_proof.h"
+
+typedef quad coef;
+#define methods_table plain_table
+#define methods_count plain_count
+#define methods_newmark_damped plain_newmark_damped
+#include "core/methods.c"
+#undef methods_table
+#undef methods_count
+#undef methods_newmark_damped
+#undef K
+
+/* sizeof "0.5" is 4: a digit, the point, one decimal, the end; a sign and a second digit make it longer. */
+#define DECIMALS(size, x) ((int)(size) - 3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
+#define TENTH(d, bit, power) (((d) & (bit)) ? power : Q(1.0))
+#define TEN_TO_MINUS(d) (TENTH(d, 1, Q(1e-1)) * TENTH(d, 2, Q(1e-2)) * TENTH(d, 4, Q(1e-4)) * TENTH(d, 8, Q(1e-8)) * \
+                         TENTH(d, 16, Q(1e-16)) * TENTH(d, 32, Q(1e-32)))
+#define EXACT_LITERAL(x) ((x) * 1048576 == (quad)(long long)((x) * 1048576))
+#define HALF_UNIT(size, x) (EXACT_LITERAL(x) ? Q(0.0) : Q(0.5) * TEN_TO_MINUS(DECIMALS(size, x)))
+#define K(x) (Q(x) + HALF_UNIT(sizeof #x, Q(x)))
+#define methods_table moved_table
+#define methods_count moved_count
+#define methods_newmark_damped moved_newmark_damped
+#include "core/methods.c"
+#undef methods_table
+
+/* The numbers that a row stores, in the order of its members. */
+static int stored(const row *m, quad *out)
+{
+    int n = 0;
+    if (m->family == SPLITTING && m->composition.count) {
+        for (int i = 0; i < (m->composition.count + 1) / 2; i++) out[n++] = m->composition.weight[i];
+    } else if (m->family == SPLITTING) {
+        for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.kick[i];
+        for (int i = 0; i < m->splitting.stages; i++) out[n++] = m->splitting.drift[i];
+    } else if (m->family == RUNGE_KUTTA || (m->family == IMPLICIT && !m->newmark)) {
+        const int s = m->tableau.stages;
+        for (int i = 0; i < s; i++) out[n++] = m->tableau.c[i];
+        for (int i = 0; i < s; i++)
+            for (int j = 0; j < s; j++)
+                out[n++] = m->family == IMPLICIT ? m->tableau.a[i * s + j] : j < i ? m->tableau.a[i * (i - 1) / 2 + j] : 0;
+        for (int i = 0; i < s; i++) out[n++] = m->tableau.b[i];
+    }
+    return n;
+}
+
+static bool fits(const row *m)
+{
+    const int splits = m->composition.count ? m->composition.count + 1 : m->splitting.stages;
+    const int s = m->family == SPLITTING ? splits : m->tableau.stages;
+    return s <= SCHEME_STAGES_MAX && (m->family == SPLITTING ? 2 * s : s * (s + 2)) <= COEFFICIENTS_MAX;
+}
+
+coefficients coefficients_of(method k)
+{
+    coefficients c = {0};
+    quad moved[COEFFICIENTS_MAX];
+    if (!fits(&plain_table[k])) {
+        judge(false, plain_table[k].card.name, "coefficients", "too many: raise the limits in test/laws_proof.h");
+        return c;
+    }
+    c.count = stored(&plain_table[k], c.value);
+    stored(&moved_table[k], moved);
+    for (int i = 0; i < c.count; i++) c.unit[i] = quad_abs(moved[i] - c.value[i]);
+    return c;
+}
+
+quad coefficients_unit(method k)
+{
+    const coefficients c = coefficients_of(k);
+    quad most = 0;
+    for (int i = 0; i < c.count; i++)
+        if (c.unit[i] > most) most = c.unit[i];
+    return most;
+}
+
+/* Kicks and drifts in turn, as a row or a composition of leapfrog steps has them: drift[i] follows kick[i]. */
+static int operators(const row *m, const quad *value, quad *kick, quad *drift)
+{
+    const int count = m->composition.count;
+    if (!count) {
+        for (int i = 0; i < m->splitting.stages; i++) {
+            kick[i] = value[i];
+            drift[i] = value[m->splitting.stages + i];
+        }
+        return m->splitting.stages;
+    }
+    kick[0] = drift[0] = 0;
+    for (int i = 0; i < count; i++) {
+        const quad weight = value[i < count - 1 - i ? i : count - 1 - i];
+        drift[i] += weight / 2;
+        kick[i + 1] = weight;
+        drift[i + 1] = weight / 2;
+    }
+    return count + 1;
+}
+
+/* Every kick is a stage, and moves the positions by the drifts that follow it. Boris' kick takes the velocity in its
+ * own middle. */
+static void splitting_scheme(const row *m, const quad *value, scheme *out)
+{
+    quad kick[SCHEME_STAGES_MAX], drift[SCHEME_STAGES_MAX];
+    const int n = operators(m, value, kick, drift);
+    for (int i = 0; i < n; i++) {
+        if (kick[i] != 0) {
+            const int s = out->stages++;
+            out->c[s] = out->end;
+            out->bv[s] = kick[i];
+            for (int j = 0; j < s; j++) {
+                out->a[s][j] = out->b[j];
+                out->av[s][j] = out->bv[j];
+            }
+            if (m->gyroscopic) out->av[s][s] = kick[i] / 2;
+        }
+        out->end += drift[i];
+        for (int j = 0; j < out->stages; j++) out->b[j] += out->bv[j] * drift[i];
+    }
+}
+
+/* Runge and Kutta's method for x' = v, v' = a; positions go with the tableau's square. */
+static void tableau_scheme(int s, const quad *value, scheme *out)
+{
+    const quad *c = value, *a = c + s, *b = a + s * s;
+    out->stages = s;
+    for (int i = 0; i < s; i++) {
+        out->c[i] = c[i];
+        out->bv[i] = b[i];
+        out->end += b[i];
+        for (int j = 0; j < s; j++) {
+            out->av[i][j] = a[i * s + j];
+            for (int l = 0; l < s; l++) out->a[i][j] += a[i * s + l] * a[l * s + j];
+            out->b[i] += b[j] * a[j * s + i];
+        }
+    }
+}
+
+void coefficients_scheme(method k, const quad *value, scheme *out)
+{
+    const row *m = &plain_table[k];
+    *out = (scheme){0};
+    if (m->family == SPLITTING) splitting_scheme(m, value, out);
+    else tableau_scheme(m->tableau.stages, value, out);
+}
+
+/* Kicks that depend on v need all of Nyström's trees; those that do not, the special ones; tableaux are made for s' =
+ * f(s). */
+trees_kind coefficients_trees(method k)
+{
+    const row *m = &plain_table[k];
+    return m->family != SPLITTING ? TREES_ROOTED : m->card.forces == MOTUS_FORCES_XVT ? TREES_NYSTROM : TREES_SPECIAL;
+}

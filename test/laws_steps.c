@@ -1,0 +1,179 @@
+/* LAWS OF STEPS: what the texts of step/ do is the tableau that the proofs judge; the two-step recurrences are velocity
+ * Verlet's map.
+ *
+ * Invariant: the acceleration is replaced by marks, 1 for one evaluation and 0 for all others, so that one run reads
+ * off how the step uses that evaluation. A step is linear in them and in the start, hence known for every force once
+ * every mark has been tried. Times and steps are binary fractions: where a method has only such coefficients too,
+ * nothing is rounded and the comparison is exact.
+ */
+#include "core/rows.h"
+#include "test/laws_proof.h"
+
+#include <stdio.h>
+
+static const quad step = Q(0.25), start = Q(0.5);
+
+/* Mark 0 is the initial position, 1 the initial velocity, 2 + i the acceleration of evaluation i. `expected` times
+ * tell implicit evaluations, which are repeated, apart: the last one counts, and what is asked elsewhere, to begin an
+ * iteration, must not matter. */
+enum { MARKS_MAX = SCHEME_STAGES_MAX + 2 };
+typedef struct record { quad c, x, v; } record;
+static struct { int mark, calls, expected; const quad *time; record seen[SCHEME_STAGES_MAX]; } probe;
+
+static void marked(quad t, const quad *x, const quad *v, quad *a)
+{
+    int i = probe.time ? 0 : probe.calls++;
+    while (probe.time && i < probe.expected && quad_abs(t - start - probe.time[i] * step) > Q(1e-20)) i++;
+    a[0] = i >= probe.expected ? 7 : probe.mark == 2 + i;
+    if (i < probe.expected) probe.seen[i] = (record){(t - start) / step, x[0], v[0]};
+}
+
+static void flat(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da)
+{
+    (void)t, (void)x, (void)v, (void)dx, (void)dv;
+    da[0] = 0;
+}
+
+static bool takes_v(method m) { return row_card(m)->forces == MOTUS_FORCES_XVT; }
+
+/* Newton's method, which `linear` would skip, comes to rest when the stages are those of the step. */
+static quad_state run(method m, const double *argument, int mark, const quad *time, int expected, int steps)
+{
+    const quad_problem p = {"marks", 1, 1, .velocity = takes_v(m), .time = true, .accel = marked, .jvp = flat};
+    quad_state s = {.x = {mark == 0}, .v = {mark == 1}};
+    probe.mark = mark, probe.calls = 0, probe.expected = expected, probe.time = time;
+    quad_run(m, argument, &p, start, step, steps, &s);
+    return s;
+}
+
+static void widen(quad *most, quad miss)
+{
+    if (!(quad_abs(miss) <= *most)) *most = quad_abs(miss);
+}
+
+static bool recurrence(const row *r) { return r->family == VERLET || r->family == LITERAL || r->family == BEEMAN; }
+
+/* Evaluations that happen one after the other are told apart by their number: two stages of rk4 have the same time. */
+static bool by_time(method m)
+{
+    const row *r = &methods_table[m];
+    return r->family == IMPLICIT || recurrence(r) || r->gyroscopic;
+}
+
+/* The tableau that one step follows, its stages expected where `as` has them. Returns the largest miss of what holds
+ * of any method: X[i] begins with x + c[i] h v, V[i] with v. */
+static quad tableau_of(method m, const double *argument, const scheme *as, scheme *out)
+{
+    quad off = 0;
+    *out = (scheme){.stages = as->stages};
+    for (int mark = 0; mark < as->stages + 2; mark++) {
+        const quad_state end = run(m, argument, mark, by_time(m) ? as->c : NULL, as->stages, 1);
+        const int j = mark - 2;
+        for (int i = 0; i < as->stages; i++) {
+            const record *r = &probe.seen[i];
+            if (mark == 0) out->c[i] = r->c, widen(&off, r->x - 1), widen(&off, r->v);
+            else if (mark == 1) widen(&off, r->x - out->c[i] * step), widen(&off, r->v - 1);
+            else out->a[i][j] = r->x / (step * step), out->av[i][j] = r->v / step;
+        }
+        if (mark == 0) widen(&off, end.x[0] - 1), widen(&off, end.v[0]);
+        else if (mark == 1) out->end = end.x[0] / step, widen(&off, end.v[0] - 1);
+        else out->b[j] = end.x[0] / (step * step), out->bv[j] = end.v[0] / step;
+    }
+    return off;
+}
+
+/* The largest difference of two tableaux. Of a force that no velocity enters, V is not asked for. */
+static quad difference(const scheme *p, const scheme *q, bool velocity)
+{
+    quad most = quad_abs(p->end - q->end);
+    for (int i = 0; i < p->stages; i++) {
+        widen(&most, p->c[i] - q->c[i]);
+        widen(&most, p->b[i] - q->b[i]);
+        widen(&most, p->bv[i] - q->bv[i]);
+        for (int j = 0; j < p->stages; j++) {
+            widen(&most, p->a[i][j] - q->a[i][j]);
+            if (velocity) widen(&most, p->av[i][j] - q->av[i][j]);
+        }
+    }
+    return most;
+}
+
+/* A row with coefficients steps as its tableau says: x and v are sums of at most 2 s numbers, each of them a few times
+ * rounded. */
+static void as_tableau(method m)
+{
+    const coefficients c = coefficients_of(m);
+    scheme said, done;
+    coefficients_scheme(m, c.value, &said);
+    quad off = tableau_of(m, NULL, &said, &done);
+    quad size = 1;
+    for (int i = 0; i < said.stages; i++)
+        for (int j = 0; j < said.stages; j++) widen(&size, quad_abs(said.av[i][j]) > size ? said.av[i][j] : size);
+    const quad miss = difference(&said, &done, takes_v(m));
+    const quad bound = 8 * said.stages * size * QUAD_EPSILON / (step * step);
+    if (miss > off) off = miss;
+    judge(off <= bound, row_card(m)->name, "steps as its tableau", "%d stages, off by %.1e, rounding %.1e", said.stages,
+          (double)off, (double)bound);
+}
+
+/* Velocity Verlet's map, the force taken at the new velocity too: x₁ = x + h v + h²/2 k, v₁ = v + h/2 (k + k₁). */
+static const scheme verlet_map = {.stages = 2, .end = 1, .c = {0, 1}, .a = {{0, 0}, {Q(0.5), 0}}, .b = {Q(0.5), 0},
+                                  .av = {{0, 0}, {Q(0.5), Q(0.5)}}, .bv = {Q(0.5), Q(0.5)}};
+
+/* Every step of a two-step method, the first included, is that map between x[n] and w[n] = (x[n+1] - x[n-1])/2h.
+ * Verlet's velocity is w, and the force takes it; Beeman's is w - h/6 (k[n] - k[n-1]), which differs from w by O(h²)
+ * and leaves the positions alone. */
+static void as_recurrence(method m)
+{
+    enum { STEPS = 6 };
+    static const quad time[STEPS + 1] = {0, 1, 2, 3, 4, 5, 6};
+    const bool beeman = methods_table[m].family == BEEMAN, velocity = takes_v(m);
+    quad off = 0;
+    for (int mark = 0; mark < STEPS + 3; mark++) {
+        const quad_state end = run(m, NULL, mark, time, STEPS + 1, STEPS);
+        quad x = mark == 0, w = mark == 1, v = w;
+        for (int n = 0; n <= STEPS; n++) {
+            const quad before = mark == n + 1, now = mark == n + 2;
+            if (n > 0) {
+                x += step * w + step * step / 2 * before;
+                w += step / 2 * (before + now);
+                v = beeman ? w - step / 6 * (now - before) : w;
+            }
+            widen(&off, probe.seen[n].x - x);
+            if (velocity) widen(&off, probe.seen[n].v - w);
+        }
+        widen(&off, end.x[0] - x);
+        widen(&off, end.v[0] - v);
+    }
+    /* Beeman's thirds and sixths are rounded, a few times a step, and carried on by v to x. */
+    const quad bound = beeman ? 4 * STEPS * STEPS * QUAD_EPSILON : 0;
+    judge(off <= bound, row_card(m)->name, "is velocity Verlet's map", "%d steps, off by %.1e, rounding %.1e", STEPS,
+          (double)off, (double)bound);
+    proof_of_scheme(row_card(m)->name, velocity ? TREES_NYSTROM : TREES_SPECIAL, &verlet_map, row_card(m)->order);
+}
+
+/* Newmark has no coefficients but its arguments: of order 2 for every beta with gamma = 1/2, of order 1 for any other
+ * gamma. */
+static void of_newmark(method m)
+{
+    static const struct { double argument[2]; const char *name; } known[] = {
+        {{0.25, 0.5}, "newmark"}, {{0, 0.5}, "newmark(0, 1/2)"}, {{1.0 / 12, 0.5}, "newmark(1/12, 1/2)"},
+        {{1.0 / 6, 0.5}, "newmark(1/6, 1/2)"}, {{1, 0.5}, "newmark(1, 1/2)"}, {{0.25, 0.25}, "newmark(1/4, 1/4)"},
+        {{0.3025, 0.6}, "newmark(0.3025, 0.6)"},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        scheme done;
+        const quad off = tableau_of(m, known[i].argument, &verlet_map, &done);
+        judge(off <= 64 * QUAD_EPSILON, known[i].name, "steps as a tableau", "off by %.1e", (double)off);
+        proof_of_scheme(known[i].name, TREES_NYSTROM, &done, known[i].argument[1] == 0.5 ? 2 : 1);
+    }
+}
+
+void laws_of_steps(void)
+{
+    for (method m = 0; m < row_count(); m++) {
+        if (methods_table[m].newmark) of_newmark(m);
+        else if (recurrence(&methods_table[m])) as_recurrence(m);
+        else if (methods_table[m].family != EXACT) as_tableau(m);
+    }
+}
