@@ -220,6 +220,13 @@ void motus_run_destroy(motus_run *r)
 
 int motus_run_done(const motus_run *r) { return r && r->arrived; }
 double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) : NAN; }
+double motus_run_time_of(const motus_run *r, int64_t step)
+{
+    if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX))
+        return NAN;
+    return step >= r->total ? r->until : stepper_time_of(r->stepper, step);
+}
+
 double motus_run_step_size(const motus_run *r) { return r ? fabs(r->h) : NAN; }
 int64_t motus_run_steps(const motus_run *r) { return r ? stepper_steps(r->stepper) : 0; }
 int64_t motus_run_steps_total(const motus_run *r) { return r ? r->total : 0; }

@@ -246,8 +246,6 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
         return fail(err, MOTUS_STATE, "the restart state was written by method %s, and this run uses %s", method, r->chosen.name);
     if (start != r->t0 || h != r->h)
         return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
-    if (steps > r->whole)
-        return fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", start + (double)steps * h, r->until);
     if ((size_t)n != stepper_carry(r->stepper))
         return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
@@ -257,10 +255,14 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     for (int64_t k = 0; k < n && ok; k++)
         ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
     motus_status status = MOTUS_OK;
+    const stepper_count then = {steps, evaluations, iterations};
+    const double t = stepper_time_saved(r->stepper, then, carry);
     if (!ok || in.at != in.end)
         status = unreadable(err);
+    else if (row_adaptive(&r->chosen) ? (t - r->until) * r->h > 0 : steps > r->whole)
+        status = fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t, r->until);
     else
-        status = stepper_load(r->stepper, (stepper_count){steps, evaluations, iterations}, carry, err);
+        status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);
     if (status != MOTUS_OK)
         return status;               /* and the run is where it was */

@@ -124,7 +124,7 @@ static walk_watcher rows_watcher(job *j)
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;
-    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of(period, motus_run_step_size(j->run)) : 1;
+    w.stride = steps > 0 ? steps : period > 0 ? walk_steps_of_run(j->run, period) : 1;
     w.period = w.stride > 0 ? 0 : period;
     return w;
 }

@@ -16,7 +16,6 @@ enum { CHUNK = 64 };
 typedef struct walker {
     motus_run *run;
     double start, until, step;           /* step with its sign */
-    int64_t total, now;
     double *values;                      /* CHUNK rows of the widest watcher */
 } walker;
 
@@ -26,9 +25,9 @@ int64_t walk_steps_of(double period, double step)
     return n >= 1 && n < 9e15 && fabs(period / fabs(step) - n) <= 1e-9 * n ? (int64_t)n : 0;
 }
 
-static double time_of(const walker *w, int64_t step)
+int64_t walk_steps_of_run(const motus_run *run, double period)
 {
-    return step >= w->total ? w->until : w->start + (double)step * w->step;
+    return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_step_size(run));
 }
 
 static motus_status look(walker *w, const walk_watcher *o, motus_error *err)
@@ -41,11 +40,12 @@ static motus_status look(walker *w, const walk_watcher *o, motus_error *err)
     return o->take(o->context, w->values, err);
 }
 
-/* Times start + k period, from *k on, up to that of step `next`; the end itself is looked at when it is reached. */
-static motus_status sample(walker *w, const walk_watcher *o, int64_t *k, int64_t next, motus_error *err)
+/* Times start + k period, from *k on, up to `limit`; the end itself is looked at when it is reached. */
+static motus_status sample(walker *w, const walk_watcher *o, int64_t *k, double limit, motus_error *err)
 {
     double sign = w->step < 0 ? -1 : 1, slack = 1e-9 * fabs(w->step);
-    double limit = next >= w->total ? w->until - sign * slack : time_of(w, next);
+    if (limit == w->until)
+        limit -= sign * slack;
     for (;;) {
         double times[CHUNK];
         size_t n = 0;
@@ -66,16 +66,15 @@ static motus_status sample(walker *w, const walk_watcher *o, int64_t *k, int64_t
     }
 }
 
-/* The next step at which somebody wants the run to stand. */
+/* The next step at which somebody wants the run to stand; INT64_MAX: nobody before the end. */
 static int64_t next_stop(const walker *w, const walk_watcher *watchers, size_t count)
 {
-    int64_t next = w->total;
+    int64_t next = INT64_MAX;
+    const int64_t now = motus_run_steps(w->run);
     for (size_t i = 0; i < count; i++) {
         const walk_watcher *o = &watchers[i];
-        if (o->stride > 0 && w->total - w->now > o->stride - w->now % o->stride) {
-            int64_t stop = w->now + (o->stride - w->now % o->stride);
-            next = stop < next ? stop : next;
-        }
+        const int64_t stop = o->stride > 0 ? now + (o->stride - now % o->stride) : INT64_MAX;
+        next = stop < next ? stop : next;
     }
     return next;
 }
@@ -84,7 +83,7 @@ static motus_status looks(walker *w, const walk_watcher *watchers, size_t count,
 {
     for (size_t i = 0; i < count; i++) {
         const walk_watcher *o = &watchers[i];
-        bool due = w->now == w->total || (o->stride > 0 && w->now % o->stride == 0);
+        bool due = motus_run_done(w->run) || (o->stride > 0 && motus_run_steps(w->run) % o->stride == 0);
         motus_status status = due ? look(w, o, err) : MOTUS_OK;
         if (status)
             return status;
@@ -92,17 +91,32 @@ static motus_status looks(walker *w, const walk_watcher *watchers, size_t count,
     return MOTUS_OK;
 }
 
+static motus_status samples(walker *w, const walk_watcher *watchers, size_t count, int64_t *k, double limit, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < count; i++)
+        if (watchers[i].period > 0)
+            status = sample(w, &watchers[i], &k[i], limit, err);
+    return status;
+}
+
 static motus_status go(walker *w, const walk_watcher *watchers, size_t count, int64_t *k, motus_error *err)
 {
     motus_status status = looks(w, watchers, count, err);
-    while (!status && w->now < w->total) {
+    while (!status && !motus_run_done(w->run)) {
         int64_t next = next_stop(w, watchers, count);
-        for (size_t i = 0; !status && i < count; i++)
-            if (watchers[i].period > 0)
-                status = sample(w, &watchers[i], &k[i], next, err);
+        const double limit = motus_run_time_of(w->run, next);
+        bool periods = false;
+        for (size_t i = 0; i < count; i++)
+            periods |= watchers[i].period > 0;
+        if (periods && isnan(limit))             /* where steps adapt, the times that a step has passed are read after it */
+            next = motus_run_steps(w->run) + 1;
+        else
+            status = samples(w, watchers, count, k, limit, err);
         if (!status && motus_run_steps(w->run) < next)
             status = motus_run_step(w->run, next - motus_run_steps(w->run), err);
-        w->now = next;
+        if (!status && isnan(limit))
+            status = samples(w, watchers, count, k, motus_run_time(w->run), err);
         if (!status)
             status = looks(w, watchers, count, err);
         if (!status && stop_requested())
@@ -115,8 +129,6 @@ motus_status walk(motus_run *run, double start, double until, const walk_watcher
 {
     double size = fabs(motus_run_step_size(run));
     walker w = {.run = run, .start = start, .until = until, .step = until < start ? -size : size};
-    w.total = motus_run_steps_total(run);
-    w.now = motus_run_steps(run);
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = watchers[i].period > 0 ? CHUNK : 1;
@@ -134,7 +146,7 @@ motus_status walk(motus_run *run, double start, double until, const walk_watcher
             continue;
         /* a restarted run takes the grid up where it stands */
         double gone = fabs(motus_run_time(run) - start) / watchers[i].period;
-        k[i] = w.now == 0 ? 0 : (int64_t)ceil(gone * (1 - 1e-12));
+        k[i] = motus_run_steps(run) == 0 ? 0 : (int64_t)ceil(gone * (1 - 1e-12));
     }
     if (!status)
         status = go(&w, watchers, count, k, err);

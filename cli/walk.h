@@ -18,7 +18,8 @@ typedef struct walk_watcher {
 /* start: the time of step 0, until: of the last. Steps in as few calls as the watchers allow. */
 motus_status walk(motus_run *, double start, double until, const walk_watcher *, size_t count, motus_error *);
 
-/* A period that is a whole number of steps, as that number; else 0. */
+/* A period that is a whole number of steps, as that number; else 0, as where steps adapt. */
 int64_t walk_steps_of(double period, double step);
+int64_t walk_steps_of_run(const motus_run *, double period);
 
 #endif

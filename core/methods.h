@@ -24,5 +24,7 @@ motus_status row_admits(const chosen *, const traits *, motus_error *);
 void row_reason(const motus_method *, const traits *, char *out, size_t size);
 /* True: every step must have the same size, so `until` must be a whole number of steps away (verlet-literal). */
 bool row_uniform(const chosen *);
+/* True: step sizes follow from errors, so their number is not known beforehand. */
+bool row_adaptive(const chosen *);
 
 #endif

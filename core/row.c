@@ -15,6 +15,7 @@ size_t row_count(void) { return methods_count; }
 const motus_method *row_card(size_t k) { return k < methods_count ? &methods_table[k].card : NULL; }
 
 bool row_uniform(const chosen *method) { return method->row->uniform; }
+bool row_adaptive(const chosen *method) { return method->row->adaptive; }
 
 /* Names --------------------------------------------------------------------------------------------------------- */
 

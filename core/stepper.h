@@ -47,6 +47,7 @@ motus_status stepper_trace(stepper *, double until, const tracer *, motus_error 
 motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_error *);
 
 double stepper_time(const stepper *);
+double stepper_time_of(const stepper *, int64_t n);      /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);              /* size of the present leg's steps, with its sign */
 int64_t stepper_steps(const stepper *);            /* finished since the start of the leg, a shorter last one included */
 int64_t stepper_evaluations(const stepper *);      /* by the method itself; observing is not counted */
@@ -64,6 +65,7 @@ int64_t stepper_steps_before(const stepper *, double t);
 typedef struct stepper_count { int64_t steps, evaluations, iterations; } stepper_count;
 size_t stepper_carry(const stepper *);
 stepper_count stepper_save(const stepper *, double *carry);
+double stepper_time_saved(const stepper *, stepper_count, const double *carry);       /* the time of a saved state */
 motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_error *);
 
 /* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */

@@ -4,6 +4,14 @@
 #include <string.h>
 
 double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
+double stepper_time_of(const stepper *s, int64_t n)
+{
+    work leg = s->work;
+    leg.t0 = s->main_t0;
+    leg.h = s->leg_h;
+    return leg.carried ? NAN : TIME_FIXED(&leg, (double)n, 0);
+}
+
 double stepper_step(const stepper *s) { return s->leg_h; }
 int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
 int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
@@ -53,6 +61,11 @@ stepper_count stepper_save(const stepper *s, double *carry)
     if (!s->shortened) return stepper_get(s, carry);
     memcpy(carry, s->snapshot, stepper_carry(s) * sizeof *carry);
     return s->at;
+}
+
+double stepper_time_saved(const stepper *s, stepper_count at, const double *carry)
+{
+    return s->work.carried ? carry[stepper_carry(s) - STEPPER_CLOCKS] : stepper_time_of(s, at.steps);
 }
 
 motus_status stepper_load(stepper *s, stepper_count at, const double *carry, motus_error *err)
@@ -131,7 +144,7 @@ int64_t stepper_steps_before(const stepper *s, double t)
     if (w->carried || s->arrived) return 0;
     const double q = floor((t - w->t0) / w->h), sign = w->h < 0 ? -1 : 1;
     int64_t n = q >= (double)way.whole ? way.whole : (int64_t)q;
-    if (sign * (w->t0 + (double)n * w->h - t) > 0) n--;      /* the quotient was rounded up */
+    if (sign * (stepper_time_of(s, n) - t) > 0) n--;      /* the quotient was rounded up */
     return n > w->n ? n - w->n : 0;
 }
 

@@ -337,7 +337,8 @@ MOTUS_API int motus_run_done(const motus_run *);
 MOTUS_API double motus_run_time(const motus_run *);
 MOTUS_API double motus_run_step_size(const motus_run *);
 MOTUS_API int64_t motus_run_steps(const motus_run *);         /* taken so far */
-MOTUS_API int64_t motus_run_steps_total(const motus_run *);   /* up to `until`, the last short one included */
+MOTUS_API int64_t motus_run_steps_total(const motus_run *);   /* up to `until`, the last short one included; of steps that adapt: at their first size */
+MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);   /* of step 0, 1 …; `until` from the last one on. NaN where steps adapt */
 MOTUS_API double motus_run_last_step(const motus_run *);      /* size of the shortened last step, 0 if none is needed */
 MOTUS_API int64_t motus_run_evaluations(const motus_run *);
 MOTUS_API int64_t motus_run_iterations(const motus_run *);    /* of Newton's method, in all */

@@ -104,7 +104,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
         c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
     if (m->arena->failed)
         return false;
-    const composed_program programs[] = {{c->force, "compiled_force", true}, {c->boundary, "compiled_boundary", false}};
+    const composed_program programs[] = {{c->force, "compiled_force", !row_adaptive(chosen)}, {c->boundary, "compiled_boundary", false}};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m, .problem = c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
                                      .locality = &c->locality, .last = last});

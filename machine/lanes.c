@@ -35,6 +35,8 @@ const char *lanes_refuse(const lanes_def *d)
 {
     if (d->chosen->row->family == EXACT || stepper_plan(d->problem, d->chosen, NULL).solves)
         return "this method solves an equation at every step, one trajectory at a time";
+    if (row_adaptive(d->chosen))
+        return "the steps of this method adapt to each trajectory, one at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
     if (d->model->graph->count > OPERATIONS_MAX)

@@ -53,6 +53,9 @@ int motus_run(work *given, whole steps)
         if (compiled_steps(w, some) || !advance_finite(w)) return given->host->run(given, some);
         work_move(given, w, NUMBERS);
         given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = w->fresh;
+#if FACT_carried
+        given->t = w->t, given->lost = w->lost, given->h = w->h, given->next = w->next, given->refused = w->refused, given->stalled = w->stalled;
+#endif
 #else
         some = steps;
         int bad = STEP_OK;
