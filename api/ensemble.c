@@ -57,7 +57,7 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
 /* A recorded column as lanes see it; false: they cannot. */
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
 {
-    motus_column c;
+    motus_column c = motus_default_column();
     if (motus_column_at(s, r->column, &c) != MOTUS_OK)
         return false;
     *out = (lanes_source){.how = (int)r->how};
@@ -157,14 +157,17 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a place for the ensemble");
     *out = NULL;
     if (!s || !given)
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
-    motus_ensemble_def d = motus_default_ensemble();
-    memcpy(&d, given, given->size < sizeof d ? given->size : sizeof d);
-    motus_status status = check(s, &d, err);
+    motus_ensemble_def d;
+    motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
+    if (status == MOTUS_OK)
+        status = check(s, &d, err);
     if (status != MOTUS_OK)
         return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
@@ -192,6 +195,8 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
 
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!e || !results || (e->vary_count && !values))
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
     for (size_t k = 0; k < e->vary_count; k++)

@@ -40,7 +40,7 @@ typedef struct group {
 static const double *row_of(const group *b, size_t column)
 {
     const motus_system *s = b->w->system;
-    motus_column c;
+    motus_column c = motus_default_column();
     if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
         return NULL;
     const bool of_v = c.kind != MOTUS_POSITION;
@@ -171,7 +171,7 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
     motus_status status = travel(&b, &w->why);
     if (b.engine)
         e->machine->close(b.engine);
-    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
+    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (status != MOTUS_OK && !lost)
         return status;
     if (lost && count > 1) {

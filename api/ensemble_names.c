@@ -54,7 +54,7 @@ static bool take_bracket(const char *name, char *bare, size_t size, double *star
 static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
 {
     size_t first, count;
-    motus_column c;
+    motus_column c = motus_default_column();
     if (motus_column_find(s, bare, &first, &count, NULL) != MOTUS_OK || motus_column_at(s, first, &c) != MOTUS_OK ||
         (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
         return unknown(s, name, err);

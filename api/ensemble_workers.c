@@ -99,7 +99,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
     if (first->status == MOTUS_CANCELLED)
         return fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", atomic_load(&e->done), e->count);
     if (err)
-        *err = first->why;
+        motus_struct_write(MOTUS_DEF_ERROR, &first->why, err);
     return first->status;
 }
 

@@ -97,18 +97,19 @@ bool system_sample_gradient(motus_system *s)
     return s->sampled_gradient;
 }
 
-void motus_analysis_of(const motus_system *given, motus_analysis *a)
+motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 {
     motus_system *s = (motus_system *)given;
-    *a = (motus_analysis){0};
-    if (!s)
-        return;
-    system_sample_gyroscopic(s);
-    system_sample_gradient(s);
+    if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK)
+        return MOTUS_ARGUMENT;
+    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+        return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
-    *a = (motus_analysis){.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
+    const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
                           .constant = t->constant, .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
                           .exact_recognised = s->model && s->model->exact_recognised};
+    motus_struct_write(MOTUS_DEF_ANALYSIS, &ours, out);
+    return MOTUS_OK;
 }
 
 /* ---- words ---- */

@@ -43,17 +43,18 @@ static size_t place_of(const motus_system *s, const model_definition *d) { retur
 motus_status motus_parameter_at(const motus_system *s, size_t k, motus_parameter *out)
 {
     const model_definition *d = parameter(s, k);
-    if (!d || !out)
+    if (!d || !out || motus_struct_check(MOTUS_DEF_PARAMETER, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
-    *out = (motus_parameter){.name = d->name, .components = d->components, .list = d->list, .dimensions = d->dims,
+    motus_parameter p = {.name = d->name, .components = d->components, .list = d->list, .dimensions = d->dims,
                              .count = cells_of(d) * parts_of(d->components)};
-    memcpy(out->first, d->first, sizeof out->first);
-    memcpy(out->last, d->last, sizeof out->last);
+    memcpy(p.first, d->first, sizeof p.first);
+    memcpy(p.last, d->last, sizeof p.last);
     const span at = d->statement->value_at;
-    out->text = s->model->source.texts[at.text].bytes + at.from;
-    out->length = at.to - at.from;
-    if (!vary_decides(s->model, place_of(s, d), out->count, &s->allocator, &out->decides))
-        out->decides = "unknown";
+    p.text = s->model->source.texts[at.text].bytes + at.from;
+    p.length = at.to - at.from;
+    if (!vary_decides(s->model, place_of(s, d), p.count, &s->allocator, &p.decides))
+        p.decides = "unknown";
+    motus_struct_write(MOTUS_DEF_PARAMETER, &p, out);
     return MOTUS_OK;
 }
 
@@ -97,11 +98,12 @@ motus_status motus_initial_at(const motus_system *s, size_t k, motus_initial *ou
     uint32_t variable;
     bool velocity;
     const model_state *st = initial(s, k, &variable, &velocity);
-    if (!st || !out)
+    if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     char at[DECIMAL_MAX];
-    *out = (motus_initial){.variable = variable, .is_velocity = velocity, .count = st->cells.count * parts_of(st->components)};
-    snprintf(out->name, sizeof out->name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
+    motus_initial i = {.variable = variable, .is_velocity = velocity, .count = st->cells.count * parts_of(st->components)};
+    snprintf(i.name, sizeof i.name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
+    motus_struct_write(MOTUS_DEF_INITIAL, &i, out);
     return MOTUS_OK;
 }
 

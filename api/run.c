@@ -16,7 +16,7 @@
 
 motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r, motus_error *err)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     double h = isnan(step) ? set.step : step;
     *r = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
@@ -107,6 +107,8 @@ const char *motus_compiled_text(motus_system *s, const char *method, motus_error
     chosen c;
     const motus_method *card;
     size_t length;
+    if (!motus_error_sound(err))
+        return NULL;
     if (!s || !s->model) {
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
@@ -142,16 +144,17 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
 
 motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
     *out = NULL;
     if (!s)
         return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
-    motus_run_def def = motus_default_run();
-    if (given) {
-        uint32_t theirs = given->size;
-        memcpy(&def, given, theirs < sizeof def ? theirs : sizeof def);
-    }
+    motus_run_def def;
+    motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (status != MOTUS_OK)
+        return status;
     size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1;
     size_t head = (sizeof(motus_run) + 63) / 64 * 64;
     motus_run *r = take(&s->allocator, 1, head + (3 * nx + 5 * nv) * sizeof(double));
@@ -172,7 +175,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->piece = 1;
     r->context = def.context;
     modes m = modes_enter();
-    motus_status status = choice_method(s, def.method, &r->chosen, &r->card, err);
+    status = choice_method(s, def.method, &r->chosen, &r->card, err);
     if (status == MOTUS_OK)
         status = plan(r, &def, err);
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
@@ -243,6 +246,8 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 
 motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r)
         return fail(err, MOTUS_ARGUMENT, "motus_run_state needs a run");
     modes m = modes_enter();
@@ -255,6 +260,8 @@ motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *er
 
 motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count, double *out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_values needs a run, columns and a place for the values");
     modes m = modes_enter();
@@ -347,6 +354,8 @@ motus_status run_trace(motus_run *r, const tracer *to, motus_error *err)
 
 motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || n < 0)
         return fail(err, MOTUS_ARGUMENT, "motus_run_step needs a run and a number of steps that is not negative");
     modes m = modes_enter();
@@ -460,6 +469,8 @@ static motus_status sample(motus_run *r, const double *times, size_t n, const si
 
 motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count, double *out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (n && !times) || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
     modes m = modes_enter();

@@ -29,10 +29,11 @@ struct motus_system {
     problem compiled_problem;
     double start;
     double *x0, *v0;
-    model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's x and s */
+    model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's numbers */
+    model_definition *definitions; uint32_t definition_count;      /* likewise */
     size_t positions, velocities;
     column_group *groups; size_t group_count, column_count;
-    double *look;                    /* room for the numbers of any one quantity or invariant */
+    double *look;                    /* room for the numbers of any one quantity or invariant; of a callback, of all of either */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;
     char *explanation;
@@ -45,6 +46,17 @@ motus_status system_again(const motus_system *, motus_system **, motus_error *);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);
+/* defaults.c. Structs with a size, and what may be done with one of `made`'s size, where versions had these sizes, the last one today's. */
+typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
+defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
+/* MOTUS_ARGUMENT with the remedy, where its size is of no version or it asks for what this library does not have. */
+motus_status motus_struct_check(motus_def_kind, const void *made, motus_error *);
+/* Defaults, and over them what is given (NULL: nothing): `ours` is a struct as this library knows it. */
+motus_status motus_struct_read(motus_def_kind, const void *given, void *ours, motus_error *);
+/* Ours into one of the caller's that was checked, as far as its size goes. */
+void motus_struct_write(motus_def_kind, const void *ours, void *to);
+/* What every call asks first. False: it returns MOTUS_ARGUMENT, and the error says why. */
+bool motus_error_sound(motus_error *);
 /* Between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

@@ -69,10 +69,13 @@ static motus_status report(const stepper *s, int bad, double t, motus_error *err
         status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not settle", s->method.name, time, name);
         hint(err, "the step is %s; a smaller one brings the solution nearer to the starting guess", step);
     } else {
-        fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s", time);
+        const bool here = s->problem.returned && *s->problem.returned > 0;
+        fail(err, MOTUS_CALLBACK, here ? "by its callback, the acceleration cannot be evaluated at t = %s" : "the acceleration callback reported a failure at t = %s", time);
+        if (here) hint(err, "the run is at its last good step; a smaller step may lead around the place");
     }
     if (!err) return status;
     err->time = t;
+    err->returned = bad == STEP_CALLBACK && s->problem.returned ? *s->problem.returned : 0;
     if (bad != STEP_CALLBACK) snprintf(err->variable, sizeof err->variable, "%s", name);
     return status;
 }

@@ -15,8 +15,17 @@
  *     motus_system *s;  motus_run *r;
  *     if (motus_system_from_text(&def, &s, &err)) puts(err.message);
  *
- * Definitions. A `motus_…_def` is made by motus_default_…() and edited; its first member holds its size, so a program
- * compiled against an older header keeps working with a newer library.
+ * Structs may grow at their end in later versions, and a program compiled against this header keeps working, because neither
+ * side relies on the size of the other's structs:
+ *   - A struct of yours, which a call reads or fills, begins with `size` and is made by motus_default_…(). A definition,
+ *     motus_…_def, is then edited. A size that no version had is refused with MOTUS_ARGUMENT. A larger one, of a newer header,
+ *     is taken as long as what this library does not know is zero, as motus_default_…() leaves it: zero means "as before".
+ *   - A struct of the library's is handed out by a pointer to const, and several as an array of such pointers: rows[k]->step.
+ *     Read its members through the pointer; copying it whole, or its sizeof, would rely on how large it is today.
+ *   - motus_allocator and motus_record are final: one lies inside definitions, and you make arrays of the other.
+ * Enumerations may get further values at their end.
+ * Names. A status is MOTUS_ and one word, MOTUS_DIVERGED. Every other enumerator has the word of its enumeration in between,
+ * MOTUS_EVENT_KICK, so none can ever be a status. All macros begin with MOTUS_.
  * Lifetimes. A handle lives from …_create / …_from_… to …_destroy (destroying NULL does nothing). A run needs its system:
  * destroy the run first. Strings returned as `const char *` belong to the handle they came from, or are static.
  * Threads. There are no globals. Different handles may be used from different threads at once. One system may serve
@@ -71,12 +80,12 @@ MOTUS_API const char *motus_version(void);
     X(STATE,     "state",     "the restart state does not fit this run",              2) \
     X(UNAVAILABLE, "unavailable", "not available in this version",                    2)
 
+#define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
-#define X(name, word, text, exit) MOTUS_##name,
-    MOTUS_STATUS_MAP(X)
-#undef X
-    MOTUS_STATUS_COUNT
+    MOTUS_STATUS_MAP(MOTUS_STATUS_ENUMERATOR)
+    MOTUS_STATUS_COUNT               /* how many this header knows; a newer library may have more */
 } motus_status;
+#undef MOTUS_STATUS_ENUMERATOR
 
 MOTUS_API const char *motus_status_word(motus_status);     /* "diverged"; static */
 MOTUS_API const char *motus_status_text(motus_status);     /* the sentence; static */
@@ -87,9 +96,10 @@ MOTUS_API int motus_status_exit(motus_status);             /* 0, 1 or 2 */
 
 /* What went wrong, where, and what to do. Filled only when a call returns other than MOTUS_OK; may be NULL everywhere. */
 typedef struct motus_error {
-    uint32_t size;                   /* set by motus_default_error() */
+    uint32_t size;                   /* by motus_default_error() */
     motus_status status;
     int line, column;                /* 1-based, in characters, for errors in a text; 0 where there is no place */
+    int returned;                    /* CALLBACK: what the callback returned, never 0; 0 elsewhere */
     double time;                     /* DIVERGED, SOLVE, CALLBACK: when; NaN elsewhere */
     char variable[MOTUS_NAME_MAX];   /* DIVERGED, SOLVE: which, "r[3].y"; else "" */
     char message[MOTUS_TEXT_MAX];    /* one sentence, UTF-8, without a newline, safe to print on a terminal */
@@ -128,12 +138,21 @@ typedef struct motus_callback_def {
     size_t positions, companions;
     const double *x, *v;             /* initial values, copied */
     double start;                    /* initial time */
-    int (*acceleration)(void *context, double t, const double *x, const double *v, double *a);   /* 0, or failure */
+    /* NULL, or positions + companions names as in a model, each its own: "theta", whose velocity is then "theta'". Copied.
+     * Without them the positions are x and the companions s, counted from 1: x[1], x[2] …; a single one is plain x, or s. */
+    const char *const *names;
+    int (*acceleration)(void *context, double t, const double *x, const double *v, double *a);
     /* Optional: directional derivative da = (da/dx) dx + (da/dv) dv; NULL: difference quotients where one is needed. */
     int (*derivative)(void *context, double t, const double *x, const double *v, const double *dx, const double *dv,
                       double *da);
     int (*exact)(void *context, double t, double *x, double *v);         /* optional: the exact motion */
-    int (*invariant)(void *context, double t, const double *x, const double *v, double *value);   /* optional */
+    /* Optional: `quantities` numbers worth looking at, and `invariants` numbers that should be kept; each function fills all of
+     * its own. 1 by default. The names are copied; without them they are one quantity, "quantity", or one invariant,
+     * "invariant", whose numbers count from 1 where there are several. */
+    int (*quantity)(void *context, double t, const double *x, const double *v, double *values);
+    int (*invariant)(void *context, double t, const double *x, const double *v, double *values);
+    size_t quantities, invariants;
+    const char *const *quantity_names, *const *invariant_names;
     int depends_on_velocity, depends_on_time;   /* what `acceleration` reads; both 1 by default: safe */
     int linear_in_velocity;                     /* 1 lets implicit velocity terms be solved in one step */
     void *context;
@@ -158,6 +177,7 @@ MOTUS_API size_t motus_velocities(const motus_system *);     /* length of v: vel
 
 /* A variable of the model: a state with its family indices and components. */
 typedef struct motus_variable {
+    uint32_t size;                   /* by motus_default_variable() */
     const char *name;
     int order;                       /* 2: x'' = …   1: s' = … */
     int components;                  /* 0: scalar, else the length of the vector */
@@ -175,14 +195,20 @@ typedef enum motus_column_kind {
     MOTUS_TIME, MOTUS_POSITION, MOTUS_VELOCITY, MOTUS_COMPANION, MOTUS_QUANTITY, MOTUS_INVARIANT, MOTUS_EXACT
 } motus_column_kind;
 typedef struct motus_column {
+    uint32_t size;                   /* by motus_default_column() */
     motus_column_kind kind;
-    size_t variable;                 /* index of the variable, quantity or invariant it belongs to */
-    int component;                   /* 0-based */
-    int is_velocity;                 /* for MOTUS_EXACT: exact velocity */
+    size_t variable;                 /* index of the variable, quantity or invariant it belongs to; of the time 0 */
+    int is_velocity;                 /* 1: of a velocity, exact or not */
+    int component;                   /* of a vector, from 0; of a number 0 */
+    int dimensions;                  /* number of family indices, 0 … 4, */
+    int64_t cell[4];                 /*   and these, as the language counts them */
     char name[MOTUS_NAME_MAX + 64];
 } motus_column;
 MOTUS_API size_t motus_column_count(const motus_system *);
 MOTUS_API motus_status motus_column_at(const motus_system *, size_t k, motus_column *);
+/* The inverse: the column *k that has this kind, variable, is_velocity (which only MOTUS_EXACT asks for), component and cell; the
+ * other members are not read. MOTUS_NAME where there is none. */
+MOTUS_API motus_status motus_column_of(const motus_system *, const motus_column *, size_t *k, motus_error *);
 /* Columns [*first, *first + *count) that a name stands for: "x" of a vector or family is all of its numbers.
  * MOTUS_NAME with a "did you mean" where there is none. */
 MOTUS_API motus_status motus_column_find(const motus_system *, const char *name, size_t *first, size_t *count,
@@ -197,6 +223,7 @@ MOTUS_API int motus_has_exact(const motus_system *);         /* by an exact line
 
 /* What may be set: parameters, in the order of the model, and initial values. With `set` in motus_text_def a system is made in which they differ. */
 typedef struct motus_parameter {
+    uint32_t size;                   /* by motus_default_parameter() */
     const char *name;
     const char *text;                /* what stands behind its =, in the model or in `set`: `length` bytes, not ended with 0; owned by the system */
     size_t length;
@@ -214,6 +241,7 @@ MOTUS_API motus_status motus_parameter_at(const motus_system *, size_t k, motus_
 MOTUS_API motus_status motus_parameter_values(const motus_system *, size_t k, double *out);
 
 typedef struct motus_initial {
+    uint32_t size;                   /* by motus_default_initial() */
     size_t variable;                 /* for motus_variable_at: its components, its indices */
     int is_velocity;
     size_t count;                    /* numbers in all */
@@ -225,22 +253,24 @@ MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, doub
 
 /* What the model's settings say. NaN, 0 or NULL where it says nothing. */
 typedef struct motus_settings {
+    uint32_t size;                   /* by motus_default_settings() */
     const char *method;              /* "verlet", "newmark(0.25, 0.5)" */
     double step, tolerance, from, until;
     double every_time;               /* every T */
     int64_t every_steps;             /* every n steps */
 } motus_settings;
-MOTUS_API void motus_settings_of(const motus_system *, motus_settings *);
+MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
 
 /* What the program understood by reading the equations. */
 typedef struct motus_analysis {
+    uint32_t size;                   /* by motus_default_analysis() */
     int velocity_dependent, linear_in_velocity, time_dependent, affine, constant;
     int gyroscopic;                  /* a = E(x,t) + v × B(x,t): the velocity term does no work */
     int gradient;                    /* 1 shown, 0 not shown */
     int smooth;                      /* 1: no abs, min, max, floor, mod, sign, if */
     int exact_recognised;            /* exact motion known without an exact line */
 } motus_analysis;
-MOTUS_API void motus_analysis_of(const motus_system *, motus_analysis *);
+MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
 /* The same in plain words, one sentence a line, with the coefficients of the velocity; owned by the system. */
 MOTUS_API const char *motus_explain(motus_system *);
 /* Equation k of the normal form, as text in the language: "x'' = x^3 - x + F cos(t)". NULL past the last. */
@@ -257,6 +287,7 @@ typedef enum motus_statement_kind {
     MOTUS_STATEMENT_SETTING          /* method, step, tolerance, from, until, every */
 } motus_statement_kind;
 typedef struct motus_statement {
+    uint32_t size;                   /* by motus_default_statement() */
     motus_statement_kind kind;
     const char *name;                /* what it is about: "x", "energy"; of a setting its word: "step" */
     int line;                        /* of the model's text, 1-based, where it begins; 0: added by `set` */
@@ -398,7 +429,7 @@ typedef struct motus_trace_entry {
 } motus_trace_entry;
 /* The entries are the run's until it is traced again or destroyed. At the end of the run there is nothing left to take: *count is 0. Fails as
  * motus_run_step does; and where the step could be taken but the state after it cannot be had, as motus_run_state does then. Calls no progress hook. */
-MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry **entries, size_t *count, motus_error *);
+MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry *const **entries, size_t *count, motus_error *);
 
 /* 6. Ensembles --------------------------------------------------------------------------------------------------- */
 
@@ -481,14 +512,14 @@ typedef struct motus_compare_row {
     double seconds;
     double error_max_x, error_max_v, error_final_x, error_final_v;   /* norm: largest component; NaN where unknown */
     size_t invariant_count;
-    const motus_drift *invariants;
+    const motus_drift *const *invariants;          /* invariant_count, in the order of motus_invariant_name */
     double reversal;                 /* distance from the start after going there and back */
     const char *note;
 } motus_compare_row;
 
 typedef struct motus_comparison {
     size_t row_count;
-    const motus_compare_row *rows;
+    const motus_compare_row *const *rows;
     const char *reference;           /* "exact", or "gauss6 at step 0.00125" */
     double reference_error;          /* estimated error of the reference itself; 0 for exact */
     const char *remarks;             /* why the numbers are as they are, one sentence a line; "" if nothing is to be said */
@@ -509,12 +540,12 @@ typedef struct motus_converge_row {
     int passed;                      /* the certificate */
     motus_status status;
     size_t point_count;
-    const motus_point *points;
+    const motus_point *const *points;
     const char *certificate;         /* "observed 2.00, declared 2" */
 } motus_converge_row;
 typedef struct motus_convergence {
     size_t row_count;
-    const motus_converge_row *rows;
+    const motus_converge_row *const *rows;
     const char *reference;
     double reference_error;
     int passed;                      /* every row */
@@ -537,26 +568,36 @@ MOTUS_API void motus_reference_destroy(motus_reference *);
 
 /* Defaults ------------------------------------------------------------------------------------------------------- */
 
-typedef enum motus_def_kind { MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY, MOTUS_DEF_ENSEMBLE } motus_def_kind;
-/* Fills `size` bytes of a definition; use the functions below. */
-MOTUS_API void motus_default(motus_def_kind, void *def, uint32_t size);
+typedef enum motus_def_kind {
+    MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY, MOTUS_DEF_ENSEMBLE,
+    MOTUS_DEF_VARIABLE, MOTUS_DEF_COLUMN, MOTUS_DEF_PARAMETER, MOTUS_DEF_INITIAL, MOTUS_DEF_SETTINGS, MOTUS_DEF_ANALYSIS,
+    MOTUS_DEF_STATEMENT
+} motus_def_kind;
+/* Fills the `size` bytes of a struct; the functions below do so with the size that this header knows. What is beyond the
+ * library's own size is zero, and so is all of a struct that it does not know. */
+MOTUS_API void motus_default(motus_def_kind, void *made, uint32_t size);
 
-#define MOTUS_DEFAULT_MAP(X)                    \
-    X(error, ERROR, motus_error)                \
-    X(text, TEXT, motus_text_def)               \
-    X(callback, CALLBACK, motus_callback_def)   \
-    X(run, RUN, motus_run_def)                  \
-    X(study, STUDY, motus_study_def)            \
-    X(ensemble, ENSEMBLE, motus_ensemble_def)
-#define X(name, KIND, type)                                                      \
+#define MOTUS_DEFAULT_FUNCTION(name, KIND, type)                                  \
     static inline type motus_default_##name(void)                                \
     {                                                                            \
-        type def;                                                                \
-        motus_default(MOTUS_DEF_##KIND, &def, (uint32_t)sizeof def);             \
-        return def;                                                              \
+        type made;                                                               \
+        motus_default(MOTUS_DEF_##KIND, &made, (uint32_t)sizeof made);           \
+        return made;                                                             \
     }
-MOTUS_DEFAULT_MAP(X)
-#undef X
+MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
+MOTUS_DEFAULT_FUNCTION(text, TEXT, motus_text_def)
+MOTUS_DEFAULT_FUNCTION(callback, CALLBACK, motus_callback_def)
+MOTUS_DEFAULT_FUNCTION(run, RUN, motus_run_def)
+MOTUS_DEFAULT_FUNCTION(study, STUDY, motus_study_def)
+MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
+MOTUS_DEFAULT_FUNCTION(variable, VARIABLE, motus_variable)
+MOTUS_DEFAULT_FUNCTION(column, COLUMN, motus_column)
+MOTUS_DEFAULT_FUNCTION(parameter, PARAMETER, motus_parameter)
+MOTUS_DEFAULT_FUNCTION(initial, INITIAL, motus_initial)
+MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
+MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
+MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
+#undef MOTUS_DEFAULT_FUNCTION
 
 #ifdef __cplusplus
 }

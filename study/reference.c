@@ -89,6 +89,8 @@ static bool within(const study *s, double t)
 
 motus_status motus_reference_at(motus_reference *r, const double *times, size_t count, double *x, double *v, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (count && !times))
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_at needs a reference and times");
     study *s = &r->s;
@@ -114,7 +116,7 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
 {
     study *s = &r->s;
     motus_study_def def;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_status status = study_read(given, &def, err);
     if (status != MOTUS_OK)
         return status;
@@ -141,6 +143,8 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
 
 motus_status motus_reference_create(motus_system *system, const motus_study_def *given, motus_reference **reference, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!system || !reference)
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_create needs a system and a place for the reference");
     *reference = NULL;

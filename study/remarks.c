@@ -133,7 +133,7 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
 
 static const motus_drift *drift(const remarks_view *v, size_t k, size_t i)
 {
-    return &v->rows[k].invariants[i];
+    return v->rows[k].invariants[i];
 }
 
 static bool runs_away(const remarks_view *v, size_t k, size_t i)
@@ -173,7 +173,7 @@ static double largest_drift(const remarks_view *v, member *is, size_t i)
 static void invariant(const remarks_view *v, size_t i, sheet *out)
 {
     char list[LINE_MAX_BYTES / 2];
-    const char *name = v->rows[0].invariants[i].name;
+    const char *name = v->rows[0].invariants[i]->name;
     size_t n = names(v, runs_away, i, list, sizeof list), worst = v->count;
     for (size_t k = 0; k < v->count; k++)
         if (runs_away(v, k, i) && (worst == v->count || drift(v, k, i)->max_drift > drift(v, worst, i)->max_drift))

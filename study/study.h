@@ -14,6 +14,10 @@
 
 /* The hooks the system was created with (both functions may be NULL: malloc and free). Never NULL. */
 const motus_allocator *motus_system_allocator(const motus_system *);
+/* Structs with a size, as every call takes and gives them: api/system.h says how. */
+bool motus_error_sound(motus_error *);
+motus_status motus_struct_read(motus_def_kind, const void *given, void *ours, motus_error *);
+void motus_struct_write(motus_def_kind, const void *ours, void *to);
 
 /* Truth and trajectories are looked at about this often; fewer when the states are long. */
 #define STUDY_SAMPLES 100

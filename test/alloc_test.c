@@ -269,11 +269,11 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
         kept = malloc(length + 1);
         assert_non_null(kept);
         memcpy(kept, text, length + 1);
-        const motus_trace_entry *e;
+        const motus_trace_entry *const *e;
         status = motus_run_trace(r, &e, &length_traced, err);
         for (size_t k = 0; k < length_traced; k++) {
-            h = mix(mix(mix(h, &e[k].kind, sizeof e[k].kind), e[k].x, nx * sizeof(double)), e[k].v, nv * sizeof(double));
-            h = mix(h, e[k].a, e[k].a ? nv * sizeof(double) : 0);
+            h = mix(mix(mix(h, &e[k]->kind, sizeof e[k]->kind), e[k]->x, nx * sizeof(double)), e[k]->v, nv * sizeof(double));
+            h = mix(h, e[k]->a, e[k]->a ? nv * sizeof(double) : 0);
         }
     }
     if (status == MOTUS_OK)
@@ -344,7 +344,7 @@ static motus_status settings(motus_system *s, const char *method, uint64_t *resu
     (void)method;
     *result = 1;
     for (size_t k = 0; k < motus_parameter_count(s); k++) {
-        motus_parameter p;
+        motus_parameter p = motus_default_parameter();
         assert_int_equal(motus_parameter_at(s, k, &p), MOTUS_OK);
         if (p.decides && !strcmp(p.decides, "unknown")) {
             *err = (motus_error){.status = MOTUS_MEMORY, .message = "unknown"};
@@ -437,9 +437,9 @@ static motus_status compare(motus_system *s, const char *methods, uint64_t *resu
         assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++) {
-        assert_int_equal(c->rows[i].status, MOTUS_OK);
-        *result = mix(*result, &c->rows[i].error_final_x, sizeof(double));
-        *result = mix(*result, &c->rows[i].reversal, sizeof(double));
+        assert_int_equal(c->rows[i]->status, MOTUS_OK);
+        *result = mix(*result, &c->rows[i]->error_final_x, sizeof(double));
+        *result = mix(*result, &c->rows[i]->reversal, sizeof(double));
     }
     motus_comparison_destroy(c);
     return status;
@@ -460,7 +460,7 @@ static motus_status converge(motus_system *s, const char *methods, uint64_t *res
         assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++)
-        *result = mix(*result, &c->rows[i].observed, sizeof(double));
+        *result = mix(*result, &c->rows[i]->observed, sizeof(double));
     motus_convergence_destroy(c);
     return status;
 }
@@ -482,7 +482,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     enum { COUNT = 5 };
     motus_ensemble_def def = motus_default_ensemble();
     motus_ensemble *e = NULL;
-    motus_column c;
+    motus_column c = motus_default_column();
     const size_t columns = motus_column_count(s);
     motus_record *records = malloc(columns * sizeof *records);
     double first[COUNT] = {1, 2, 3, INFINITY, 5}, second[COUNT] = {0.1, 0.2, 0.3, 0.4, 0.5}, stopped[COUNT], *room = malloc(columns * COUNT * sizeof *room);

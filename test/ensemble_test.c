@@ -92,7 +92,7 @@ typedef struct task {
 /* Every column once for its last value and once by one of the other reductions. */
 static void record_all(task *t)
 {
-    motus_column c;
+    motus_column c = motus_default_column();
     for (size_t k = 0; motus_column_at(t->s, k, &c) == MOTUS_OK; k++) {
         if (c.kind == MOTUS_EXACT || t->record_count + 2 > RECORDS_MAX)
             continue;
@@ -113,7 +113,7 @@ static void open_task(task *t, const given_case *c)
             t->values[k][i] = c->vary[k].from + c->vary[k].by * (double)((i * (5 + 6 * k) + k) % 23) / 3;
         t->vary_count++;
     }
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(t->s, &set);
     t->step = set.step;
 }
@@ -137,7 +137,7 @@ static void close_task(task *t)
 static void shape(task *t, int k)
 {
     static const struct { double steps; int64_t every; } shapes[] = {{40, 1}, {30.4, 3}, {0.3, 2}, {29.5, 7}, {1060, 7}, {36, 1000}, {530.25, 530}, {1, 1}};
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(t->s, &set);
     t->steps = (int64_t)ceil(shapes[k].steps);
     if (!strcmp(t->method, "verlet-literal"))        /* takes equal steps only */

@@ -302,7 +302,7 @@ static char *everything_about(motus_system *s)
 {
     static char text[20000];
     size_t n = 0;
-    motus_column c;
+    motus_column c = motus_default_column();
     n += (size_t)snprintf(text + n, sizeof text - n, "%s", motus_explain(s));
     for (size_t k = 0; motus_equation_text(s, k) && n < sizeof text; k++)
         n += (size_t)snprintf(text + n, sizeof text - n, "%s\n", motus_equation_text(s, k));
