@@ -175,6 +175,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
                           .threads = d.threads ? d.threads : s->model ? parallel_processors() : 1, .progress = d.progress, .context = d.context};
+    motus_system_hold(s, true);
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     modes m = modes_enter();
@@ -225,6 +226,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     if (!e)
         return;
     motus_allocator a = e->allocator;
+    motus_system_hold(e->system, false);
     lanes_destroy(e->lanes);
     ensemble_dismiss(e);
     give(&a, e->places);

@@ -1,7 +1,7 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
+#include "api/parameters.h"
 
-#include "lang/number.h"
 #include "lang/words.h"
 
 #include <stdio.h>
@@ -32,23 +32,6 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
         }
     hint(err, "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0)");
     return MOTUS_NAME;
-}
-
-/* "x'(0)" → "x'"; false where there is no such bracket. *start: what stands in it. */
-static bool take_bracket(const char *name, char *bare, size_t size, double *start)
-{
-    const char *open = strrchr(name, '(');
-    if (!open || (size_t)(open - name) >= size)
-        return false;
-    snprintf(bare, size, "%.*s", (int)(open - name), name);
-    const bool minus = open[1] == '-';
-    const char *digits = open + 1 + minus;
-    const size_t n = strspn(digits, "0123456789.e+-");
-    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
-        return false;
-    if (minus)
-        *start = -*start;
-    return true;
 }
 
 static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
@@ -121,7 +104,7 @@ motus_status ensemble_place(const motus_system *s, const char *name, size_t *pla
     double start;
     if (!name)
         return fail(err, MOTUS_ARGUMENT, "what varies has no name");
-    if (!take_bracket(name, bare, sizeof bare, &start))
+    if (!parameters_bracket(name, bare, sizeof bare, &start))
         return parameter(s, name, place, err);
     if (start != s->start) {
         char at[DECIMAL_MAX];

@@ -19,7 +19,7 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
     if (w->e)
         return MOTUS_OK;
     if (number > 0) {
-        motus_status status = system_again(e->system, &s, err);
+        motus_status status = motus_system_clone(e->system, &s, err);
         if (status == MOTUS_OK && s->model)
             status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
         if (status == MOTUS_OK && !system_sample_gyroscopic(s))

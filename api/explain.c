@@ -224,12 +224,14 @@ const char *motus_explain(motus_system *s)
 {
     if (!s)
         return "";
-    if (s->explanation)
-        return s->explanation;
     if (!s->model)
         return "the acceleration is a callback: nothing can be read off it\n";
     if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
         return "";
+    const traits *t = &s->problem.traits;
+    const char **kept = &s->explanation[t->gyroscopic][t->gradient];
+    if (*kept)
+        return *kept;
     modes m = modes_enter();
     words w = {.arena = &s->arena};
     say_variables(&w, s);
@@ -237,8 +239,7 @@ const char *motus_explain(motus_system *s)
     modes_leave(m);
     if (!w.text || w.failed || s->arena.failed)
         return "";                   /* the whole of it or nothing */
-    s->explanation = w.text;
-    return s->explanation;
+    return *kept = w.text;
 }
 
 const char *motus_equation_text(motus_system *s, size_t k)

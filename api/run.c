@@ -161,6 +161,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     if (!r)
         return fail(err, MOTUS_MEMORY, "no memory for the run");
     r->system = s;
+    motus_system_hold(s, true);
     r->allocator = s->allocator;
     double *room = (double *)((char *)r + head);
     r->x = room;
@@ -199,6 +200,7 @@ void motus_run_destroy(motus_run *r)
     if (!r)
         return;
     motus_allocator a = r->allocator;
+    motus_system_hold(r->system, false);
     if (r->engine)
         r->machine->close(r->engine);
     if (r->tail)

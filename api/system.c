@@ -154,17 +154,6 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     return MOTUS_OK;
 }
 
-motus_status system_again(const motus_system *s, motus_system **out, motus_error *err)
-{
-    motus_callback_def def = s->callback;
-    def.x = s->x0;                   /* what the caller gave was copied, and may be gone */
-    def.v = s->v0;
-    motus_status status = s->model ? motus_system_from_text(&s->text, out, err) : motus_system_from_callback(&def, out, err);
-    if (status == MOTUS_OK)
-        (*out)->problem.traits = s->problem.traits;
-    return status;
-}
-
 size_t motus_positions(const motus_system *s) { return s ? s->positions : 0; }
 size_t motus_velocities(const motus_system *s) { return s ? s->velocities : 0; }
 size_t motus_variable_count(const motus_system *s) { return s ? s->state_count : 0; }

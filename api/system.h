@@ -36,13 +36,15 @@ struct motus_system {
     double *look;                    /* room for the numbers of any one quantity or invariant; of a callback, of all of either */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;
-    char *explanation;
+    size_t held;                     /* by so many: set.c */
+    struct setting *settings;
+    const char *explanation[2][2];   /* by what sampling found: gyroscopic, gradient */
     char *equation;
     char *mathml;                    /* of the statement asked for last, from the hooks */
 };
 
-/* The same system once more, for another thread; what was found out by sampling is known to it too. */
-motus_status system_again(const motus_system *, motus_system **, motus_error *);
+/* set.c. Whoever needs the system's numbers to stay as they are holds it, and lets it go: runs, ensembles, references. */
+void motus_system_hold(motus_system *, bool on);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);

@@ -170,6 +170,18 @@ MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_syst
 MOTUS_API motus_status motus_system_from_callback(const motus_callback_def *, motus_system **, motus_error *);
 MOTUS_API void motus_system_destroy(motus_system *);
 
+/* Sets numbers of a system without reading its text again, for sliders and searches: those of a parameter, "F", or of an initial value
+ * as motus_initial calls it, "x'(0)" (of a callback, initial values alone). values: `count` numbers, which are all of it, in the order
+ * of motus_parameter_values or motus_initial_values. What is computed from them follows; what was set itself stays as it was set. Runs
+ * created afterwards have the bits of a system that was read with these numbers in `set` of its motus_text_def.
+ * After a failure the system is as it was. MOTUS_NAME: no such parameter or initial value. MOTUS_SHAPE: another number of numbers.
+ * MOTUS_ARGUMENT: a number is not finite, or one that follows would not be; an exact line would no longer be true; the parameter decides
+ * a size, the step or the like (motus_parameter.decides); or a run, an ensemble or a reference still uses the system. */
+MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count, motus_error *);
+/* The same system once more, numbers that were set included, for another thread: afterwards the two share nothing but the callbacks,
+ * their context and the allocator, which must then bear being called from both threads. Fails as the call did that made the system. */
+MOTUS_API motus_status motus_system_clone(const motus_system *, motus_system **, motus_error *);
+
 /* 3. What a system holds ----------------------------------------------------------------------------------------- */
 
 MOTUS_API size_t motus_positions(const motus_system *);      /* length of x as seen here: without boundary cells */

@@ -87,6 +87,8 @@ typedef struct model {
     uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors, whatever N is */
 
     vary_log log;
+    uint8_t *overridden;             /* vary.h: per place of the pool, 1: set from outside, whatever its line says; NULL: none is */
+    struct exact_check *check;       /* analysis.c: of the exact line; NULL: there is none */
     double constant_terms;           /* of sums in constants so far */
     int depth;                       /* expressions within expressions, at present */
     int start_depth;                 /* initial values that use one another */
@@ -151,6 +153,8 @@ bool start_cells(model *, model_state *, int primes, const int64_t low[], const 
 bool equations_all(model *);
 /* analysis.c */
 void analysis_all(model *);
+/* Whether the exact line is still true, now that numbers have changed; no memory is needed. */
+motus_status analysis_exact(model *, motus_error *);
 
 /* symbols.c: names */
 typedef struct symbol { model_state *state; model_definition *definition; } symbol;

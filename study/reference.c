@@ -17,6 +17,7 @@ struct motus_reference {
     study_grid grid;
     double *y;                       /* the last answer, */
     double t;                        /*   at this time; NaN: none yet */
+    bool holds;                      /* the system, whose numbers its answers rest on */
 };
 
 static double direction_of(const study *s)
@@ -158,8 +159,10 @@ motus_status motus_reference_create(motus_system *system, const motus_study_def 
     study_leave(&modes);
     if (status != MOTUS_OK)
         motus_reference_destroy(r);
-    else
+    else {
+        motus_system_hold(system, r->holds = true);
         *reference = r;
+    }
     return status;
 }
 
@@ -178,6 +181,8 @@ void motus_reference_destroy(motus_reference *r)
     if (!r)
         return;
     const motus_allocator *allocator = r->s.allocator;
+    if (r->holds)
+        motus_system_hold(r->s.system, false);
     truth_free(&r->s, &r->truth);
     study_give(allocator, r->y);
     study_close(&r->s);

@@ -14,6 +14,8 @@
 
 /* The hooks the system was created with (both functions may be NULL: malloc and free). Never NULL. */
 const motus_allocator *motus_system_allocator(const motus_system *);
+/* While it is held, the system's numbers cannot be set. */
+void motus_system_hold(motus_system *, bool on);
 /* Structs with a size, as every call takes and gives them: api/system.h says how. */
 bool motus_error_sound(motus_error *);
 motus_status motus_struct_read(motus_def_kind, const void *given, void *ours, motus_error *);

@@ -113,6 +113,7 @@ static bool in_blocks;               /* the callback is one of blocks */
 static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
 {
     static const double x[2] = {1, 2}, v[3] = {0, 1, 0};
+    static const char *const names[] = {"a", "b", "c"};
     motus_callback_def def = motus_default_callback();
     *err = motus_default_error();
     def.positions = 2;
@@ -121,6 +122,7 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
     def.v = v;
     def.acceleration = pull;
     def.invariant = energy;
+    def.names = in_blocks ? NULL : names;
     def.block = in_blocks ? side_by_side : NULL;
     def.allocator = hooks(b);
     return motus_system_from_callback(&def, s, err);
@@ -367,6 +369,43 @@ static void what_may_be_set(void **state)
     refuse_each(wide, "", settings, "parameters");
 }
 
+/* Numbers that are set, twice over, and a clone that has them; where there is no memory the numbers are the old ones. */
+static motus_status set(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    (void)method;
+    static const double g[] = {1.5, 2.5}, k[][3] = {{1, 2, 3}, {4, 9, 16}};
+    motus_system *clone = NULL;
+    motus_status status = MOTUS_OK;
+    for (int n = 0; n < 2 && status == MOTUS_OK; n++) {
+        double before[3], now[3];
+        assert_int_equal(motus_parameter_values(s, 2, before), MOTUS_OK);
+        status = motus_system_set(s, "g", &g[n], 1, err);
+        if (status == MOTUS_OK)
+            status = motus_system_set(s, "k", k[n], 3, err);
+        assert_int_equal(motus_parameter_values(s, 2, now), MOTUS_OK);
+        assert_memory_equal(now, status == MOTUS_OK ? k[n] : before, sizeof now);
+    }
+    if (status == MOTUS_OK)
+        status = motus_system_clone(s, &clone, err);
+    *result = 1;
+    for (size_t i = 0; status == MOTUS_OK && i < motus_parameter_count(s); i++) {
+        double values[2][8];
+        assert_int_equal(motus_parameter_values(s, i, values[0]), MOTUS_OK);
+        assert_int_equal(motus_parameter_values(clone, i, values[1]), MOTUS_OK);
+        *result = mix(*result, values[0], (i == 0 || i == 1 ? 1 : 3) * sizeof(double));
+        assert_memory_equal(values[0], values[1], (i == 0 || i == 1 ? 1 : 3) * sizeof(double));
+    }
+    assert_true((status == MOTUS_OK) == (clone != NULL));
+    motus_system_destroy(clone);
+    return status;
+}
+
+static void setting(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(rich, "", set, "set") > 10);
+}
+
 static void admission(void **state)
 {
     (void)state;
@@ -591,6 +630,7 @@ int main(void)
         cmocka_unit_test(runs),
         cmocka_unit_test(admission),
         cmocka_unit_test(what_may_be_set),
+        cmocka_unit_test(setting),
         cmocka_unit_test(explanations),
         cmocka_unit_test(statements),
         cmocka_unit_test(studies),
