@@ -46,6 +46,16 @@ for folder in step core lang run api study cli lab/core; do
     done
     judge "$folder/ includes only what HOUSE.md grants it" "${complaints%$'\n'}"
 done
+# What the header brings along, beyond the two it includes: macros with its own prefix, and none of the user's taken away.
+macros() { cc -std=c17 -Iinclude -E -dM "$@" -x c - | sed -E 's/^#define ([A-Za-z_0-9]+).*/\1/' | sort -u; }
+plain=$(printf '#include <stddef.h>\n#include <stdint.h>\n' | macros)
+judge "every macro of motus.h begins with MOTUS_" "$(echo '#include "motus.h"' | macros | comm -13 <(echo "$plain") - | grep -v '^MOTUS_')"
+judge "motus.h leaves the user's macros alone" "$(echo '#include "motus.h"' | cc -std=c17 -Werror -Iinclude -DX=7 -Dname=8 -DERROR=9 -DOK=10 -E -dM -x c - 2>&1 |
+    grep -cE '^#define (X 7|name 8|ERROR 9|OK 10)$' | grep -vx 4)"
+judge "motus.h compiles beside macros of common names" "$(echo '#include "motus.h"' |
+    cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude -DX=7 -DERROR=9 -DOK=10 -DFILE=11 -fsyntax-only -x c - 2>&1)"
+judge "motus.h is C++ too" "$(printf '#include "motus.h"\nint main() { motus_column c = motus_default_column(); return motus_column_at(nullptr, 0, &c) == MOTUS_OK; }\n' |
+    c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinclude -fsyntax-only -x c++ - 2>&1)"
 judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' include/motus.h)"
 
 # --- symbols --------------------------------------------------------------------------------------------------------------
