@@ -46,7 +46,8 @@ static void put_back(motus_system *s, const double *room)
 
 static motus_status refuse_decision(const char *name, const char *what, motus_error *err)
 {
-    fail(err, MOTUS_ARGUMENT, "%s decides %s, which is fixed when the text is read", name, what);
+    const char *quote = strchr(what, ' ') ? "" : "`";        /* a setting, by its word */
+    fail(err, MOTUS_ARGUMENT, "%s decides %s%s%s, which is fixed when the text is read", name, quote, what, quote);
     hint(err, "read the text again, with the value in `set` of its definition");
     return MOTUS_ARGUMENT;
 }

@@ -91,7 +91,7 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
 
 void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME])
 {
-    motus_column c = {0};
+    motus_column c = motus_default_column();
     motus_column_at(m->system, r->column, &c);
     const char *word = "";
     for (size_t i = 1; i < REDUCTIONS; i++)

@@ -100,7 +100,7 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
     char behind[LINE_MAX_BYTES / 2], ahead[LINE_MAX_BYTES / 2];
     if (isnan(v->acceleration) || v->acceleration == 0 || !v->truth->known)
         return;
-    motus_column axis = { .name = "x" };
+    motus_column axis = motus_default_column();
     motus_column_at(v->s->system, 1 + v->axis, &axis);
     size_t n = names(v, lags, 0, behind, sizeof behind), m = names(v, leads, 0, ahead, sizeof ahead);
     size_t k = 0;

@@ -240,7 +240,7 @@ static void refusals(void **state)
         {"x''(0)", 1, {1}, MOTUS_NAME, "neither", ""}, {"", 1, {1}, MOTUS_NAME, "neither", ""}, {"(0)", 1, {1}, MOTUS_NAME, "neither", ""},
         {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, and 2 are given", ""}, {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, and 1 are given", ""},
         {"k", 1, {NAN}, MOTUS_ARGUMENT, "not a finite number", ""}, {"x(0)", 1, {INFINITY}, MOTUS_ARGUMENT, "not a finite number", ""},
-        {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""}, {"T", 1, {3}, MOTUS_ARGUMENT, "T decides step", "`set`"},
+        {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""}, {"T", 1, {3}, MOTUS_ARGUMENT, "T decides `step`", "`set`"},
         {"x'(0)", 1, {1}, MOTUS_ARGUMENT, "does not meet the initial value", ""}};
     motus_system *s = given_text(text), *before = given_text(text);
     motus_error err = motus_default_error();
