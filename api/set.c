@@ -101,13 +101,6 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
     return analysis_exact(s->model, err);
 }
 
-/* What was found out for other numbers. */
-static void forget_samples(motus_system *s)
-{
-    s->sampled_gyroscopic = s->sampled_gradient = false;
-    s->problem.traits.gyroscopic = s->problem.traits.gradient = false;
-}
-
 static motus_status set_model(motus_system *s, const char *name, const parameters_target *t, const double *values, motus_error *err)
 {
     model *m = s->model;
@@ -128,7 +121,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
         status = fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     }
     if (status == MOTUS_OK)
-        forget_samples(s);
+        s->sampled_gyroscopic = s->sampled_gradient = false;     /* that was found out for other numbers */
     else
         put_back(s, own);
     if (status != MOTUS_OK && !before)

@@ -182,7 +182,7 @@ static void what_was_set_stays(void **state)
     for (int start = 0; start < STEPS; start++)
         for (int way = -1; way <= 1; way += 2) {
             motus_system *s = given_text(chained);
-            const char *settings[STEPS];
+            const char *settings[STEPS + 1];
             for (int n = 0; n < STEPS; n++) {
                 const int k = ((start + way * n) % STEPS + STEPS) % STEPS;
                 set(s, steps[k].name, steps[k].count, steps[k].values);
@@ -191,13 +191,24 @@ static void what_was_set_stays(void **state)
                 same_systems(s, t, "interpreter", settings[n]);
                 must(motus_system_clone(s, &c, NULL), &(motus_error){0}, "clone");
                 same_systems(c, t, "interpreter", "a clone");
-                if (n < STEPS - 1) {         /* and the clone goes its own way */
-                    set(c, "A", 1, (const double[]){11});
-                    same_systems(s, t, "interpreter", "beside its clone");
-                }
+                motus_system_destroy(t);
+                /* The clone goes its own way, and still heeds what was set before. */
+                settings[n + 1] = "A=11";
+                t = given_text_with(chained, settings, (size_t)n + 2, "set");
+                set(c, "A", 1, (const double[]){11});
+                same_systems(c, t, "interpreter", "a clone of its own");
+                motus_system_destroy(t);
+                t = given_text_with(chained, settings, (size_t)n + 1, "set");
+                same_systems(s, t, "interpreter", "beside its clone");
                 motus_system_destroy(c);
                 motus_system_destroy(t);
             }
+            /* What was set early is set again, after lines that used it were overridden. */
+            settings[STEPS] = "A=11";
+            set(s, "A", 1, (const double[]){11});
+            motus_system *t = given_text_with(chained, settings, STEPS + 1, "set");
+            same_systems(s, t, "interpreter", "set again");
+            motus_system_destroy(t);
             motus_system_destroy(s);
         }
 }
@@ -258,6 +269,16 @@ static void refusals(void **state)
     assert_int_equal(motus_system_clone(NULL, &before, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_system_clone(s, NULL, &err), MOTUS_ARGUMENT);
     assert_null(before);
+    motus_system_destroy(s);
+
+    /* A line that was to be overridden, and was not, is still a line. */
+    const double none = 0, three = 3;
+    s = given_text("A = 2\nx'' = -x\nx(0) = A\nx'(0) = 0\nd = 1/x(0)\n");
+    assert_int_equal(motus_system_set(s, "x(0)", &none, 1, &err), MOTUS_ARGUMENT);
+    set(s, "A", 1, &three);
+    double now;
+    assert_int_equal(motus_initial_values(s, 0, &now), MOTUS_OK);
+    assert_true(now == three);
     motus_system_destroy(s);
 
     s = given_text("k = 4\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nexact x = cos(2 t)\n");
