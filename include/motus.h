@@ -240,7 +240,8 @@ MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_v
  * quantities; invariants; exact. Names: "t", "x", "x'", "r.x", "r'.y", "x[3]'", "w[2]" (component 2 of a vector longer
  * than 3), "r[3].x", "energy", "exact x". */
 typedef enum motus_column_kind {
-    MOTUS_TIME, MOTUS_POSITION, MOTUS_VELOCITY, MOTUS_COMPANION, MOTUS_QUANTITY, MOTUS_INVARIANT, MOTUS_EXACT
+    MOTUS_TIME, MOTUS_POSITION, MOTUS_VELOCITY, MOTUS_COMPANION,
+    MOTUS_QUANTITY, MOTUS_INVARIANT, MOTUS_EXACT
 } motus_column_kind;
 typedef struct motus_column {
     uint32_t size;                   /* by motus_default_column() */
@@ -531,9 +532,12 @@ MOTUS_API motus_status motus_run_trace(motus_run *, const motus_trace_entry *con
 typedef struct motus_ensemble motus_ensemble;
 
 typedef enum motus_reduction {
-    MOTUS_FINAL,                     /* the value at the end */
-    MOTUS_MIN, MOTUS_MAX, MOTUS_MEAN,   /* over the looks: the start, every `every` steps, and the end */
-    MOTUS_TIME_OF_MIN, MOTUS_TIME_OF_MAX   /* the time of the first look with that value */
+    /* The value at the end. */
+    MOTUS_FINAL,
+    /* Over the looks: the start, every `every` steps, and the end. */
+    MOTUS_MIN, MOTUS_MAX, MOTUS_MEAN,
+    /* The time of the first look with that value. */
+    MOTUS_TIME_OF_MIN, MOTUS_TIME_OF_MAX
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record { motus_reduction how; size_t column; } motus_record;

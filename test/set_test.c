@@ -372,6 +372,10 @@ static void methods_follow(void **state)
     motus_system *s = given_text("d = 0\nr'' = cross(r', (0, 0, 2)) - d r'\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\n"), *c = NULL;
     motus_analysis a = motus_default_analysis();
     const double one = 1, none = 0;
+    /* A clone of a system that nobody asked yet finds it out for itself. */
+    must(motus_system_clone(s, &c, NULL), &(motus_error){0}, "clone");
+    assert_int_equal(motus_method_admits(c, "boris", NULL), MOTUS_OK);
+    motus_system_destroy(c);
     const char *turning = motus_explain(s);
     assert_non_null(strstr(turning, "Boris"));
     assert_int_equal(motus_method_admits(s, "boris", NULL), MOTUS_OK);
