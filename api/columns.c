@@ -10,7 +10,10 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
-static const model_definition *definition(const motus_system *s, const column_group *g) { return &s->definitions[g->item]; }
+static const model_definition *definition(const motus_system *s, const column_group *g)
+{
+    return &s->definitions[g->item];
+}
 
 static bool of_state(motus_column_kind kind)
 {
@@ -28,12 +31,14 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
     int order = kind == MOTUS_COMPANION ? 1 : 2;
     for (uint32_t i = 0; i < s->state_count; i++)
         if (s->states[i].order == order)
-            add(s, exact ? MOTUS_EXACT : kind, prime, i, s->states[i].cells.count * columns_parts(s->states[i].components));
+            add(s, exact ? MOTUS_EXACT : kind, prime, i,
+                s->states[i].cells.count * columns_parts(s->states[i].components));
 }
 
 bool system_number_columns(motus_system *s)
 {
-    s->groups = arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
+    s->groups =
+        arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
     if (!s->groups)
         return false;
     add(s, MOTUS_TIME, false, 0, 1);
@@ -137,7 +142,8 @@ size_t system_number(const motus_system *s, size_t outer, bool of_v)
 }
 
 /* All quantities of a callback, or all its invariants. */
-static motus_status ask(motus_system *s, motus_column_kind kind, double t, const double *x, const double *v, motus_error *err)
+static motus_status ask(motus_system *s, motus_column_kind kind, double t, const double *x, const double *v,
+                        motus_error *err)
 {
     const motus_callback_def *def = &s->callback;
     const bool invariant = kind == MOTUS_INVARIANT;
@@ -180,7 +186,8 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
 /* The exact columns come from one evaluation, and so do all quantities, or invariants, of a callback. */
 static bool evaluated(const motus_system *s, const column_group *g, const column_group *done)
 {
-    return g == done || (done && done->kind == g->kind && (g->kind == MOTUS_EXACT || (!s->model && !of_state(g->kind))));
+    return g == done ||
+           (done && done->kind == g->kind && (g->kind == MOTUS_EXACT || (!s->model && !of_state(g->kind))));
 }
 
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *err)
@@ -226,7 +233,8 @@ model_state columns_shape(const motus_system *s, const column_group *g)
         return s->states[g->item];
     const model_definition *d = definition(s, g);
     const size_t hull = d->numbers / columns_parts(d->components);
-    model_state shape = {.name = d->name, .order = 2, .components = d->components, .dims = d->dims, .hull = hull, .cells = {.count = hull}};
+    model_state shape = {.name = d->name, .order = 2, .components = d->components, .dims = d->dims, .hull = hull,
+                         .cells = {.count = hull}};
     memcpy(shape.first, d->first, sizeof shape.first);
     memcpy(shape.last, d->last, sizeof shape.last);
     return shape;
@@ -345,7 +353,8 @@ motus_status motus_column_of(const motus_system *s, const motus_column *given, s
     const size_t parts = columns_parts(shape.components);
     size_t cell;
     if (c.component < 0 || (size_t)c.component >= parts)
-        return fail(err, MOTUS_NAME, "%s has no component %d; they count from 0, and there are %d", shape.name, c.component, shape.components);
+        return fail(err, MOTUS_NAME, "%s has no component %d; they count from 0, and there are %d", shape.name,
+                    c.component, shape.components);
     if (!columns_find_cell(&shape, c.cell, &cell)) {
         fail(err, MOTUS_NAME, "%s has no cell with this index", shape.name);
         if (shape.dims == 1)
@@ -380,6 +389,14 @@ static size_t definition_count(const motus_system *s, definition_kind kind)
 }
 
 size_t motus_quantity_count(const motus_system *s) { return definition_count(s, DEFINED_QUANTITY); }
-const char *motus_quantity_name(const motus_system *s, size_t k, size_t *numbers) { return definition_name(s, DEFINED_QUANTITY, k, numbers); }
 size_t motus_invariant_count(const motus_system *s) { return definition_count(s, DEFINED_INVARIANT); }
-const char *motus_invariant_name(const motus_system *s, size_t k, size_t *numbers) { return definition_name(s, DEFINED_INVARIANT, k, numbers); }
+
+const char *motus_quantity_name(const motus_system *s, size_t k, size_t *numbers)
+{
+    return definition_name(s, DEFINED_QUANTITY, k, numbers);
+}
+
+const char *motus_invariant_name(const motus_system *s, size_t k, size_t *numbers)
+{
+    return definition_name(s, DEFINED_INVARIANT, k, numbers);
+}

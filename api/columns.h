@@ -8,7 +8,7 @@ static inline size_t columns_parts(int components) { return components ? (size_t
 
 /* The group that column k is in. */
 const column_group *columns_group(const motus_system *, size_t k);
-/* The cells and components that a group's columns run over, and its name: those of the state, or of the definition as one. */
+/* The cells and components that a group's columns run over, and its name: the state's, or the definition as a state. */
 model_state columns_shape(const motus_system *, const column_group *);
 /* The cell with these indices; false if there is no equation there. */
 bool columns_find_cell(const model_state *, const int64_t *index, size_t *cell);

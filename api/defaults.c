@@ -1,9 +1,10 @@
-/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version. And the words
- * of statuses, which need no system.
+/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version. And
+ * the words of statuses, which need no system.
  *
- * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what it adds has no
- * padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a struct of an older caller is a
- * beginning of ours, and one of a newer caller is ours and zeros, unless it asks for what this library does not have.
+ * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what it
+ * adds has no padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a struct of
+ * an older caller is a beginning of ours, and one of a newer caller is ours and zeros, unless it asks for what this
+ * library does not have.
  */
 #include "api/system.h"
 
@@ -24,7 +25,8 @@ static const layout layouts[] = {
     [MOTUS_DEF_ERROR] = {"motus_error", "error", SIZES(motus_error), NULL},
     [MOTUS_DEF_TEXT] = {"motus_text_def", "text", SIZES(motus_text_def), &(const motus_text_def){.length = SIZE_MAX}},
     [MOTUS_DEF_CALLBACK] = {"motus_callback_def", "callback", SIZES(motus_callback_def),
-                            &(const motus_callback_def){.quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
+                            &(const motus_callback_def){
+                                .quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
     [MOTUS_DEF_RUN] = {"motus_run_def", "run", SIZES(motus_run_def),
                        &(const motus_run_def){.step = NAN, .until = NAN, .start = NAN}},
     [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
@@ -36,7 +38,8 @@ static const layout layouts[] = {
     [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},
     [MOTUS_DEF_INITIAL] = {"motus_initial", "initial", SIZES(motus_initial), NULL},
     [MOTUS_DEF_SETTINGS] = {"motus_settings", "settings", SIZES(motus_settings),
-                            &(const motus_settings){.step = NAN, .tolerance = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
+                            &(const motus_settings){
+                                .step = NAN, .tolerance = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
     [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
     [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
 };
@@ -65,7 +68,7 @@ void motus_default(motus_def_kind kind, void *made, uint32_t size)
 
 /* ---- sizes ---- */
 
-/* No version of any struct is larger. A size beyond it is not read as one: it is what lay in memory that nobody filled. */
+/* No version of any struct is larger. A size beyond it is none: it is what lay in memory that nobody filled. */
 enum { SIZE_BOUND = 1 << 14 };
 
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made)
@@ -89,8 +92,7 @@ static motus_status refuse(const layout *l, defaults_fit fit, uint32_t size, mot
 {
     if (fit == SIZE_ASKS_MORE) {
         fail(err, MOTUS_ARGUMENT, "the %s asks for something that motus %s does not have", l->type, MOTUS_VERSION);
-        hint(err, "it is larger than this library's: leave what is new in it as motus_default_%s() makes it, or load a newer motus",
-             l->maker);
+        hint(err, "leave what is new in it as motus_default_%s() makes it, or load a newer motus", l->maker);
         return MOTUS_ARGUMENT;
     }
     if (fit == SIZE_MISSING)

@@ -171,7 +171,8 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
     motus_status status = travel(&b, &w->why);
     if (b.engine)
         e->machine->close(b.engine);
-    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
+    const bool lost =
+        status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (status != MOTUS_OK && !lost)
         return status;
     if (lost && count > 1) {

@@ -105,9 +105,10 @@ motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
     if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
         return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
-    const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
-                          .constant = t->constant, .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
-                          .exact_recognised = s->model && s->model->exact_recognised};
+    const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v,
+                                 .time_dependent = t->time, .affine = t->affine, .constant = t->constant,
+                                 .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
+                                 .exact_recognised = s->model && s->model->exact_recognised};
     motus_struct_write(MOTUS_DEF_ANALYSIS, &ours, out);
     return MOTUS_OK;
 }

@@ -102,7 +102,8 @@ motus_status motus_initial_at(const motus_system *s, size_t k, motus_initial *ou
     if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     char at[DECIMAL_MAX];
-    motus_initial i = {.variable = variable, .is_velocity = velocity, .count = st->cells.count * columns_parts(st->components)};
+    motus_initial i = {
+        .variable = variable, .is_velocity = velocity, .count = st->cells.count * columns_parts(st->components)};
     snprintf(i.name, sizeof i.name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
     motus_struct_write(MOTUS_DEF_INITIAL, &i, out);
     return MOTUS_OK;
@@ -163,7 +164,8 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
     return MOTUS_NAME;
 }
 
-static motus_status find_initial(const motus_system *s, const char *name, char *bare, double start, parameters_target *out, motus_error *err)
+static motus_status find_initial(const motus_system *s, const char *name, char *bare, double start,
+                                 parameters_target *out, motus_error *err)
 {
     const size_t length = strlen(bare);
     const bool velocity = length > 0 && bare[length - 1] == '\'';
@@ -173,7 +175,9 @@ static motus_status find_initial(const motus_system *s, const char *name, char *
         if (strcmp(st->name, bare) || (velocity && st->order == 1))
             continue;
         const size_t parts = columns_parts(st->components);
-        *out = (parameters_target){.state = st, .velocity = velocity, .count = st->cells.count * parts, .span = st->hull * parts};
+        *out = (parameters_target){.state = st, .velocity = velocity};
+        out->count = st->cells.count * parts;
+        out->span = st->hull * parts;
         if (s->model)
             out->first = s->model->arrays[st->start_array[velocity]].base;
         return MOTUS_OK;
@@ -205,7 +209,8 @@ parameters_target parameters_of(const motus_system *s, const model_definition *d
 
 size_t parameters_place(const parameters_target *t, size_t k)
 {
-    const size_t parts = columns_parts(t->state ? t->state->components : t->definition->components), cell = k / parts, part = k % parts;
+    const size_t parts = columns_parts(t->state ? t->state->components : t->definition->components), cell = k / parts,
+                 part = k % parts;
     if (t->state)
         return t->first + (system_place(t->state, cell, (int)part) - t->state->base);
     return t->first + part * (t->count / parts) + cell;

@@ -9,7 +9,7 @@ typedef struct parameters_target {
     const model_state *state;                /*   the state of an initial value, */
     bool velocity;                           /*   and whether it is that of its velocity */
     size_t count;                            /* numbers in the outside order */
-    size_t first, span;                      /* of a model: all its places in the pool, those of boundary cells included */
+    size_t first, span;                      /* of a model: its places in the pool, boundary cells included */
 } parameters_target;
 
 /* MOTUS_NAME, with a hint, where there is none. */

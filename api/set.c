@@ -1,7 +1,7 @@
 /* Numbers of a system set without reading its text again: motus_system_set; and a system once more: motus_system_clone.
  *
- * Invariant: a system whose numbers were set has the numbers of one that was read with them in `set`, to the bit, and a refusal leaves it as it
- * was. What follows is computed by lang/vary.h, which ensembles use for the same.
+ * Invariant: a system whose numbers were set has the numbers of one that was read with them in `set`, to the bit, and a
+ * refusal leaves it as it was. What follows is computed by lang/vary.h, which ensembles use for the same.
  */
 #include "api/parameters.h"
 
@@ -53,7 +53,8 @@ static motus_status refuse_decision(const char *name, const char *what, motus_er
 }
 
 /* The setting of a target, made where it is not there yet. */
-static motus_status setting_of(motus_system *s, const char *name, const parameters_target *t, struct setting **out, motus_error *err)
+static motus_status setting_of(motus_system *s, const char *name, const parameters_target *t, struct setting **out,
+                               motus_error *err)
 {
     const char *what;
     for (*out = s->settings; *out; *out = (*out)->next)
@@ -89,19 +90,23 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
         const parameters_target t = parameters_of(s, &m->definitions[i]);
         for (size_t k = 0; k < t.span; k++)
             if (!isfinite(m->pool[t.first + k]))
-                return fail(err, MOTUS_ARGUMENT, "%s follows from %s, and would not be a finite number", m->definitions[i].name, name);
+                return fail(err, MOTUS_ARGUMENT, "%s follows from %s, and would not be a finite number",
+                            m->definitions[i].name, name);
     }
     for (uint32_t i = 0; i < s->state_count; i++)
         for (size_t c = 0; c < s->states[i].cells.count; c++)
             for (int k = 0; k < (s->states[i].components ? s->states[i].components : 1); k++) {
                 const size_t at = system_place(&s->states[i], c, k);
                 if (!isfinite(s->v0[at]) || (s->states[i].order == 2 && !isfinite(s->x0[at])))
-                    return fail(err, MOTUS_ARGUMENT, "an initial value of %s follows from %s, and would not be a finite number", s->states[i].name, name);
+                    return fail(err, MOTUS_ARGUMENT,
+                                "an initial value of %s follows from %s, and would not be a finite number",
+                                s->states[i].name, name);
             }
     return analysis_exact(s->model, err);
 }
 
-static motus_status set_model(motus_system *s, const char *name, const parameters_target *t, const double *values, motus_error *err)
+static motus_status set_model(motus_system *s, const char *name, const parameters_target *t, const double *values,
+                              motus_error *err)
 {
     model *m = s->model;
     const bool before = m->overridden && m->overridden[t->first];
@@ -148,12 +153,14 @@ motus_status motus_system_set(motus_system *s, const char *name, const double *v
     if (status != MOTUS_OK)
         return status;
     if (count != t.count)
-        return fail(err, MOTUS_SHAPE, "%s is %zu number%s, and %zu are given", name, t.count, t.count == 1 ? "" : "s", count);
+        return fail(err, MOTUS_SHAPE, "%s is %zu number%s, and %zu are given", name, t.count, t.count == 1 ? "" : "s",
+                    count);
     for (size_t k = 0; k < count; k++)
         if (!isfinite(values[k]))
             return fail(err, MOTUS_ARGUMENT, "%s cannot be set: value %zu is not a finite number", name, k + 1);
     if (s->held) {
-        fail(err, MOTUS_ARGUMENT, "%s cannot be set: %zu run%s, ensembles and references included, still use%s the system", name, s->held,
+        fail(err, MOTUS_ARGUMENT,
+             "%s cannot be set: %zu run%s, ensembles and references included, still use%s the system", name, s->held,
              s->held == 1 ? "" : "s", s->held == 1 ? "s" : "");
         hint(err, "destroy them first, or set it in a clone");
         return MOTUS_ARGUMENT;
@@ -202,7 +209,8 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     motus_callback_def def = s->callback;
     def.x = s->x0;                   /* what the caller gave was copied, and may be gone */
     def.v = s->v0;
-    motus_status status = s->model ? motus_system_from_text(&s->text, &made, err) : motus_system_from_callback(&def, &made, err);
+    motus_status status =
+        s->model ? motus_system_from_text(&s->text, &made, err) : motus_system_from_callback(&def, &made, err);
     if (status == MOTUS_OK)
         status = take_over(s, made, err);
     if (status != MOTUS_OK) {

@@ -1,6 +1,6 @@
-/* What a callback's numbers are called: variables, quantities and invariants as a model has them, but without expressions.
+/* What a callback's numbers are called: variables, quantities and invariants as a model has them, without expressions.
  *
- * Invariant: names are copied, are names of the language and are all different, so that a column can be found by its name.
+ * Invariant: names are copied, are names of the language and are all different, so a column can be found by its name.
  */
 #include "api/stand_in.h"
 
@@ -30,7 +30,8 @@ static motus_status check_name(motus_system *s, const char *name, const char *of
     return MOTUS_NAME;
 }
 
-static motus_status copy_names(motus_system *s, const char *const **names, size_t count, const char *of, motus_error *err)
+static motus_status copy_names(motus_system *s, const char *const **names, size_t count, const char *of,
+                               motus_error *err)
 {
     if (!*names)
         return MOTUS_OK;
@@ -54,7 +55,8 @@ static motus_status copy_names(motus_system *s, const char *const **names, size_
 static void add_state(motus_system *s, const char *name, int order, size_t count, size_t base)
 {
     model_state *st = &s->states[s->state_count++];
-    *st = (model_state){.name = name, .order = order, .dims = count > 1, .hull = count, .base = base, .cells = {.count = count}};
+    *st = (model_state){.name = name, .order = order, .dims = count > 1, .hull = count, .base = base};
+    st->cells.count = count;
     st->first[0] = st->eq_first[0] = count > 1;
     st->last[0] = st->eq_last[0] = count > 1 ? (int64_t)count : 0;
 }
@@ -67,7 +69,8 @@ static void add_definition(motus_system *s, const char *name, definition_kind ki
     d->last[0] = count > 1 ? (int64_t)count : 0;
 }
 
-static void add_definitions(motus_system *s, definition_kind kind, size_t count, const char *const *names, const char *plain)
+static void add_definitions(motus_system *s, definition_kind kind, size_t count, const char *const *names,
+                            const char *plain)
 {
     if (!names && count)
         add_definition(s, plain, kind, count, 0);
@@ -122,8 +125,10 @@ motus_status stand_in_make(motus_system *s, motus_error *err)
     if (status != MOTUS_OK)
         return status;
     s->states = arena_grow(&s->arena, NULL, 0, ((def->names ? nx + ns : 2) + 1) * sizeof *s->states);
-    s->definitions = arena_grow(&s->arena, NULL, 0, ((def->quantity_names ? def->quantities : 1) +
-                                                     (def->invariant_names ? def->invariants : 1) + 1) * sizeof *s->definitions);
+    s->definitions =
+        arena_grow(&s->arena, NULL, 0,
+                   ((def->quantity_names ? def->quantities : 1) + (def->invariant_names ? def->invariants : 1) + 1) *
+                       sizeof *s->definitions);
     if (!s->states || !s->definitions)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     for (size_t k = 0; def->names && k < nx + ns; k++)

@@ -74,7 +74,8 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    status = keep_text(s, &def) ? model_create(&s->arena, &def, &s->model, err) : fail(err, MOTUS_MEMORY, "no memory for the model");
+    status = keep_text(s, &def) ? model_create(&s->arena, &def, &s->model, err)
+                                : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {

@@ -33,7 +33,7 @@ struct motus_system {
     model_definition *definitions; uint32_t definition_count;      /* likewise */
     size_t positions, velocities;
     column_group *groups; size_t group_count, column_count;
-    double *look;                    /* room for the numbers of any one quantity or invariant; of a callback, of all of either */
+    double *look;                    /* room for any one quantity or invariant; of a callback, for all of either */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;
     size_t held;                     /* by so many: set.c */
@@ -43,12 +43,12 @@ struct motus_system {
     char *mathml;                    /* of the statement asked for last, from the hooks */
 };
 
-/* set.c. Whoever needs the system's numbers to stay as they are holds it, and lets it go: runs, ensembles, references. */
+/* set.c. Who needs the system's numbers to stay as they are holds it, and lets it go: runs, ensembles, references. */
 void motus_system_hold(motus_system *, bool on);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);
-/* defaults.c. Structs with a size, and what may be done with one of `made`'s size, where versions had these sizes, the last one today's. */
+/* defaults.c. Structs with a size; and how one fits that says its own, where versions had these, the last one today's. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
 /* MOTUS_ARGUMENT with the remedy, where its size is of no version or it asks for what this library does not have. */

@@ -25,7 +25,8 @@ static trace *make(motus_run *r)
     const trace_room room = trace_room_of(r->problem, &r->chosen);
     const size_t events = room.events + TRACE_ENDS;
     const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions + (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + 2 * TRACE_ROW_MAX * events;
-    const uint64_t bytes = sizeof(trace) + events * (sizeof(motus_trace_entry) + sizeof(motus_trace_entry *)) + numbers * sizeof(double);
+    const uint64_t bytes =
+        sizeof(trace) + events * (sizeof(motus_trace_entry) + sizeof(motus_trace_entry *)) + numbers * sizeof(double);
     if (!r->trace && bytes <= SIZE_MAX)
         r->trace = take(&r->allocator, 1, (size_t)bytes);
     trace *t = r->trace;

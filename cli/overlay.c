@@ -139,7 +139,8 @@ motus_status overlay_draw(const load *m, const motus_comparison *c, const option
             status = run_method(&v, c->rows[k], o, progress, err);
     }
     if (!status && v.record_count == 0)
-        status = complain(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD, "no method got to the end: there is nothing to draw");
+        status = complain(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,
+                          "no method got to the end: there is nothing to draw");
     if (!status)
         status = plot_draw(&v.plot, o->plot, file, err);
     if (!status && left && !o->quiet)

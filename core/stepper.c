@@ -70,7 +70,10 @@ static motus_status report(const stepper *s, int bad, double t, motus_error *err
         hint(err, "the step is %s; a smaller one brings the solution nearer to the starting guess", step);
     } else {
         const bool here = s->problem.returned && *s->problem.returned > 0;
-        fail(err, MOTUS_CALLBACK, here ? "by its callback, the acceleration cannot be evaluated at t = %s" : "the acceleration callback reported a failure at t = %s", time);
+        fail(err, MOTUS_CALLBACK,
+             here ? "by its callback, the acceleration cannot be evaluated at t = %s"
+                  : "the acceleration callback reported a failure at t = %s",
+             time);
         if (here) hint(err, "the run is at its last good step; a smaller step may lead around the place");
     }
     if (!err) return status;

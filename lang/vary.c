@@ -119,7 +119,8 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
     const array *a = &m->arrays[o->to.array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < o->to.dims && !o->loops; d++)
-        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) * a->stride[d];
+        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) *
+              a->stride[d];
     return (size_t)at;
 }
 
@@ -130,7 +131,10 @@ static void mark_places(vary *v, const vary_entry *e)
 }
 
 /* What is overridden is so as a whole: one number tells for all. */
-static bool overridden(const model *m, const vary_entry *e) { return m->overridden && m->overridden[place_of(m, e, 0)]; }
+static bool overridden(const model *m, const vary_entry *e)
+{
+    return m->overridden && m->overridden[place_of(m, e, 0)];
+}
 
 bool vary_override(model *m, size_t first, size_t count, bool yes)
 {

@@ -31,8 +31,9 @@ motus_status vary_create(model *, const size_t *places, size_t count, bool own_s
  * order in which the model was read), or NULL: nothing.
  * Leaves no trace in the model. False: no memory. */
 bool vary_decides(const model *, size_t first, size_t count, const motus_allocator *, const char **what);
-/* From now on numbers [first, first + count) of the pool are what they are set to (yes), or again what the model's lines make of them: all
- * numbers of a parameter, of a state's x(0) or x'(0), boundary cells included. A vary made before heeds it too. False: no memory. */
+/* From now on numbers [first, first + count) of the pool are what they are set to (yes), or again what the model's lines
+ * make of them: all numbers of a parameter, of a state's x(0) or x'(0), boundary cells included. A vary made before heeds
+ * it too. False: no memory. */
 bool vary_override(model *, size_t first, size_t count, bool yes);
 /* values[k] to places[k], and all that follows: the pool, x0 and v0. False: no memory. */
 bool vary_apply(vary *, const double *values);

@@ -1,6 +1,7 @@
 /* The callback machine: the acceleration is the user's C function.
  *
- * Invariant: when a function of the user's returns other than 0, that number stands in `returned` of the calling, where errors find it.
+ * Invariant: when a function of the user's returns other than 0, that number stands in `returned` of the calling, where
+ * errors find it.
  */
 #include "run/run.h"
 
@@ -64,7 +65,8 @@ motus_status callback_problem(calling *c, problem *p, motus_error *err)
     if ((def->positions && !def->x) || !def->v)
         return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
     *p = (problem){.ctx = c, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
-                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name, .returned = &c->returned};
+                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name,
+                   .returned = &c->returned};
     p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
                          .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};
     return MOTUS_OK;

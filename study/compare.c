@@ -78,7 +78,8 @@ static motus_status make_result(compare *c)
     size_t rows = aligned(c->count * sizeof(motus_compare_row)), texts = aligned(c->count * sizeof(row_text));
     size_t drifts = aligned(c->count * c->invariants * sizeof(motus_drift));
     size_t head = aligned(sizeof(result)), names = aligned(c->invariants * sizeof(invariant_name));
-    size_t row_list = aligned(c->count * sizeof(void *)), drift_list = aligned(c->count * c->invariants * sizeof(void *));
+    size_t row_list = aligned(c->count * sizeof(void *));
+    size_t drift_list = aligned(c->count * c->invariants * sizeof(void *));
     char *block = study_take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
     if (!block)
         return no_memory(c, "the comparison");
@@ -102,8 +103,8 @@ static motus_status make_result(compare *c)
         }
         r->row_list[k] = &r->rows[k];
         r->rows[k] = (motus_compare_row){ .method = r->texts[k].method, .step = NAN, .error_max_x = NAN, .error_max_v = NAN,
-            .error_final_x = NAN, .error_final_v = NAN, .invariant_count = c->invariants, .invariants = list, .reversal = NAN,
-            .note = r->texts[k].note };
+            .error_final_x = NAN, .error_final_v = NAN, .invariant_count = c->invariants, .invariants = list,
+            .reversal = NAN, .note = r->texts[k].note };
     }
     return MOTUS_OK;
 }

@@ -274,7 +274,8 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
         const motus_trace_entry *const *e;
         status = motus_run_trace(r, &e, &length_traced, err);
         for (size_t k = 0; k < length_traced; k++) {
-            h = mix(mix(mix(h, &e[k]->kind, sizeof e[k]->kind), e[k]->x, nx * sizeof(double)), e[k]->v, nv * sizeof(double));
+            h = mix(mix(mix(h, &e[k]->kind, sizeof e[k]->kind), e[k]->x, nx * sizeof(double)), e[k]->v,
+                    nv * sizeof(double));
             h = mix(h, e[k]->a, e[k]->a ? nv * sizeof(double) : 0);
         }
     }
@@ -369,7 +370,7 @@ static void what_may_be_set(void **state)
     refuse_each(wide, "", settings, "parameters");
 }
 
-/* Numbers that are set, twice over, and a clone that has them; where there is no memory the numbers are the old ones. */
+/* Numbers that are set, twice over, and a clone that has them; where there is no memory the numbers stay. */
 static motus_status set(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     (void)method;

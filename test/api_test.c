@@ -99,10 +99,12 @@ static void sizes_of_versions_fit(void **state)
 {
     (void)state;
     static const uint32_t history[] = {16, 24, 40};
-    static const struct { uint32_t size; int beyond; defaults_fit fit; } cases[] = {
-        {0, 0, SIZE_MISSING}, {3, 0, SIZE_UNKNOWN}, {15, 0, SIZE_UNKNOWN}, {16, 0, SIZE_FITS}, {17, 0, SIZE_UNKNOWN}, {24, 0, SIZE_FITS},
-        {32, 0, SIZE_UNKNOWN}, {40, 0, SIZE_FITS}, {40, 1, SIZE_FITS}, {41, 0, SIZE_FITS}, {48, 0, SIZE_FITS}, {48, 1, SIZE_ASKS_MORE},
-        {64, 1, SIZE_ASKS_MORE}, {0x10000, 0, SIZE_UNKNOWN}, {0xA5A5A5A5, 0, SIZE_UNKNOWN}};
+    static const struct { uint32_t size; int beyond; defaults_fit fit;
+    } cases[] = {{0, 0, SIZE_MISSING},    {3, 0, SIZE_UNKNOWN},       {15, 0, SIZE_UNKNOWN},
+                 {16, 0, SIZE_FITS},      {17, 0, SIZE_UNKNOWN},      {24, 0, SIZE_FITS},
+                 {32, 0, SIZE_UNKNOWN},   {40, 0, SIZE_FITS},         {40, 1, SIZE_FITS},
+                 {41, 0, SIZE_FITS},      {48, 0, SIZE_FITS},         {48, 1, SIZE_ASKS_MORE},
+                 {64, 1, SIZE_ASKS_MORE}, {0x10000, 0, SIZE_UNKNOWN}, {0xA5A5A5A5, 0, SIZE_UNKNOWN}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         _Alignas(16) unsigned char room[64];
         memset(room, 0xA5, 40);
@@ -115,7 +117,14 @@ static void sizes_of_versions_fit(void **state)
 }
 
 /* A call with a definition of each kind, made by `make` and then spoilt or enlarged. */
-typedef struct enlarged { motus_error error; motus_text_def text; motus_callback_def call; motus_run_def run; motus_study_def study; motus_ensemble_def ensemble; } enlarged;
+typedef struct enlarged {
+    motus_error error;
+    motus_text_def text;
+    motus_callback_def call;
+    motus_run_def run;
+    motus_study_def study;
+    motus_ensemble_def ensemble;
+} enlarged;
 
 static motus_status create_by(motus_def_kind kind, const void *def, motus_system *s, motus_error *err)
 {
@@ -162,13 +171,15 @@ static void definitions_of_every_size(void **state)
     call.positions = 1, call.x = x, call.v = v, call.acceleration = pull;
     study.methods = methods, study.method_count = 1;
     ensemble.records = &record, ensemble.record_count = 1, ensemble.machine = "interpreter";
-    const struct { motus_def_kind kind; const void *def; uint32_t size; const char *maker; } all[] = {
-        {MOTUS_DEF_TEXT, &text, sizeof text, "motus_default_text()"}, {MOTUS_DEF_CALLBACK, &call, sizeof call, "motus_default_callback()"},
-        {MOTUS_DEF_RUN, &run, sizeof run, "motus_default_run()"}, {MOTUS_DEF_STUDY, &study, sizeof study, "motus_default_study()"},
-        {MOTUS_DEF_ENSEMBLE, &ensemble, sizeof ensemble, "motus_default_ensemble()"}};
+    const struct { motus_def_kind kind; const void *def; uint32_t size; const char *maker;
+    } all[] = {{MOTUS_DEF_TEXT, &text, sizeof text, "motus_default_text()"},
+               {MOTUS_DEF_CALLBACK, &call, sizeof call, "motus_default_callback()"},
+               {MOTUS_DEF_RUN, &run, sizeof run, "motus_default_run()"},
+               {MOTUS_DEF_STUDY, &study, sizeof study, "motus_default_study()"},
+               {MOTUS_DEF_ENSEMBLE, &ensemble, sizeof ensemble, "motus_default_ensemble()"}};
     motus_system *s = given_text(spring);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        const uint32_t sizes[] = {0, 1, 4, 8, all[k].size / 2, all[k].size - 8, all[k].size - 1, all[k].size, all[k].size + 1, all[k].size + 64, 1u << 20};
+        const uint32_t now = all[k].size, sizes[] = {0, 1, 4, 8, now / 2, now - 8, now - 1, now, now + 1, now + 64, 1u << 20};
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
             for (int asks = 0; asks < 2; asks++) {
                 _Alignas(16) unsigned char room[sizeof(enlarged)] = {0};
@@ -176,9 +187,12 @@ static void definitions_of_every_size(void **state)
                 memcpy(room, &sizes[i], sizeof sizes[i]);
                 room[all[k].size + 60] = (unsigned char)asks;
                 motus_error err = motus_default_error();
-                const bool newer = sizes[i] > all[k].size && sizes[i] <= all[k].size + 64, more = newer && asks && sizes[i] > all[k].size + 60;
-                const motus_status status = create_by(all[k].kind, room, s, &err), due = (sizes[i] == all[k].size || newer) && !more ? MOTUS_OK : MOTUS_ARGUMENT;
-                if (status != due || (due != MOTUS_OK && !strstr(err.hint, all[k].maker)) || (more && !strstr(err.message, MOTUS_VERSION)))
+                const bool newer = sizes[i] > all[k].size && sizes[i] <= all[k].size + 64,
+                           more = newer && asks && sizes[i] > all[k].size + 60;
+                const motus_status status = create_by(all[k].kind, room, s, &err),
+                                   due = (sizes[i] == all[k].size || newer) && !more ? MOTUS_OK : MOTUS_ARGUMENT;
+                if (status != due || (due != MOTUS_OK && !strstr(err.hint, all[k].maker)) ||
+                    (more && !strstr(err.message, MOTUS_VERSION)))
                     fail_msg("%s, %u bytes: %s (%s)", all[k].maker, sizes[i], err.message, err.hint);
             }
     }
@@ -193,20 +207,35 @@ static void filled_structs_of_every_size(void **state)
     (void)state;
     motus_system *s = given_text(spring);
     for (int kind = MOTUS_DEF_VARIABLE; kind <= MOTUS_DEF_STATEMENT; kind++) {
-        static const uint32_t known[] = {[MOTUS_DEF_VARIABLE] = sizeof(motus_variable), [MOTUS_DEF_COLUMN] = sizeof(motus_column),
-            [MOTUS_DEF_PARAMETER] = sizeof(motus_parameter), [MOTUS_DEF_INITIAL] = sizeof(motus_initial), [MOTUS_DEF_SETTINGS] = sizeof(motus_settings),
-            [MOTUS_DEF_ANALYSIS] = sizeof(motus_analysis), [MOTUS_DEF_STATEMENT] = sizeof(motus_statement)};
+        static const uint32_t known[] = {
+            [MOTUS_DEF_VARIABLE] = sizeof(motus_variable),   [MOTUS_DEF_COLUMN] = sizeof(motus_column),
+            [MOTUS_DEF_PARAMETER] = sizeof(motus_parameter), [MOTUS_DEF_INITIAL] = sizeof(motus_initial),
+            [MOTUS_DEF_SETTINGS] = sizeof(motus_settings),   [MOTUS_DEF_ANALYSIS] = sizeof(motus_analysis),
+            [MOTUS_DEF_STATEMENT] = sizeof(motus_statement)};
         const uint32_t now = known[kind], sizes[] = {0, 8, now - 4, now, now + 32};
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-            union { motus_variable v; motus_column c; motus_parameter p; motus_initial i; motus_settings s; motus_analysis a; motus_statement t; unsigned char bytes[1024]; } u;
+            union {
+                motus_variable v;
+                motus_column c;
+                motus_parameter p;
+                motus_initial i;
+                motus_settings s;
+                motus_analysis a;
+                motus_statement t;
+                unsigned char bytes[1024];
+            } u;
             memset(&u, 0xA5, sizeof u);
             motus_default((motus_def_kind)kind, &u, sizes[i] > now ? sizes[i] : now);
             memcpy(&u, &sizes[i], sizeof sizes[i]);
             unsigned char before[sizeof u];
             memcpy(before, &u, sizeof u);
-            const motus_status status = kind == MOTUS_DEF_VARIABLE ? motus_variable_at(s, 0, &u.v) : kind == MOTUS_DEF_COLUMN ? motus_column_at(s, 0, &u.c)
-                : kind == MOTUS_DEF_PARAMETER ? motus_parameter_at(s, 0, &u.p) : kind == MOTUS_DEF_INITIAL ? motus_initial_at(s, 0, &u.i)
-                : kind == MOTUS_DEF_SETTINGS ? motus_settings_of(s, &u.s) : kind == MOTUS_DEF_ANALYSIS ? motus_analysis_of(s, &u.a) : motus_statement_at(s, 0, &u.t);
+            const motus_status status = kind == MOTUS_DEF_VARIABLE    ? motus_variable_at(s, 0, &u.v)
+                                        : kind == MOTUS_DEF_COLUMN    ? motus_column_at(s, 0, &u.c)
+                                        : kind == MOTUS_DEF_PARAMETER ? motus_parameter_at(s, 0, &u.p)
+                                        : kind == MOTUS_DEF_INITIAL   ? motus_initial_at(s, 0, &u.i)
+                                        : kind == MOTUS_DEF_SETTINGS  ? motus_settings_of(s, &u.s)
+                                        : kind == MOTUS_DEF_ANALYSIS  ? motus_analysis_of(s, &u.a)
+                                                                      : motus_statement_at(s, 0, &u.t);
             assert_int_equal(status, sizes[i] >= now ? MOTUS_OK : MOTUS_ARGUMENT);
             if (status != MOTUS_OK)
                 assert_memory_equal(&u, before, sizeof u);
@@ -252,20 +281,22 @@ static void errors_of_every_size(void **state)
     must(motus_reference_create(s, &study, &known, NULL), &(motus_error){0}, "reference");
     must(motus_run_save(r, &kept, &length, NULL), &(motus_error){0}, "save");
     char *saved = strdup(kept);
-    const uint32_t sizes[] = {0, 12, sizeof(motus_error) - 1, 0xA5A5A5A5, sizeof(motus_error) + 16, sizeof(motus_error) + 8};
+    const uint32_t sizes[] = {
+        0, 12, sizeof(motus_error) - 1, 0xA5A5A5A5, sizeof(motus_error) + 16, sizeof(motus_error) + 8};
     struct { motus_error error; unsigned char beyond[16]; } u;
     motus_error *err = &u.error;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         const bool sound = i == 5;
-#define REFUSES(call)                                                                                                     \
-        do {                                                                                                              \
-            memset(&u, 0, sizeof u);                                                                                      \
-            u.error.size = sizes[i];                                                                                      \
-            u.beyond[15] = 1;                                                                                             \
-            const bool refused = (call) == MOTUS_ARGUMENT && err->status == MOTUS_ARGUMENT && strstr(err->hint, "motus_default_error()"); \
-            if (refused == sound || u.error.size != sizes[i])                                                             \
-                fail_msg("%s, an error of %u bytes: %s (%s)", #call, sizes[i], err->message, err->hint);                 \
-        } while (0)
+#define REFUSES(call)                                                                                                  \
+    do {                                                                                                               \
+        memset(&u, 0, sizeof u);                                                                                       \
+        u.error.size = sizes[i];                                                                                       \
+        u.beyond[15] = 1;                                                                                              \
+        const bool refused =                                                                                           \
+            (call) == MOTUS_ARGUMENT && err->status == MOTUS_ARGUMENT && strstr(err->hint, "motus_default_error()");   \
+        if (refused == sound || u.error.size != sizes[i])                                                              \
+            fail_msg("%s, an error of %u bytes: %s (%s)", #call, sizes[i], err->message, err->hint);                   \
+    } while (0)
         REFUSES(motus_system_from_text(&text, &system, err));
         motus_system_destroy(system);
         REFUSES(motus_system_from_callback(&call, &system, err));
@@ -560,7 +591,8 @@ static void columns_by_cell_and_component(void **state)
             motus_column c = motus_default_column(), bare = motus_default_column();
             size_t back = SIZE_MAX;
             assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
-            bare.kind = c.kind, bare.variable = c.variable, bare.is_velocity = c.is_velocity, bare.component = c.component;
+            bare.kind = c.kind, bare.variable = c.variable, bare.is_velocity = c.is_velocity,
+            bare.component = c.component;
             memcpy(bare.cell, c.cell, sizeof bare.cell);
             must(motus_column_of(s, &bare, &back, &err), &err, c.name);
             assert_int_equal(back, k);
@@ -568,17 +600,36 @@ static void columns_by_cell_and_component(void **state)
         motus_system_destroy(s);
     }
     motus_system *s = given_text(gapped);
-    static const struct { motus_column_kind kind; size_t variable; int64_t cell[2]; int component, is_velocity; const char *name; } cases[] = {
-        {MOTUS_TIME, 0, {0}, 0, 0, "t"}, {MOTUS_POSITION, 0, {7}, 1, 0, "r[7].y"}, {MOTUS_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
-        {MOTUS_COMPANION, 1, {0}, 0, 0, "s"}, {MOTUS_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"}, {MOTUS_INVARIANT, 0, {0}, 0, 0, "e"},
-        {MOTUS_EXACT, 0, {2}, 1, 0, "exact r[2].y"}, {MOTUS_EXACT, 0, {7}, 0, 1, "exact r[7]'.x"}, {MOTUS_EXACT, 1, {0}, 0, 0, "exact s"},
-        {MOTUS_POSITION, 0, {4}, 0, 0, NULL}, {MOTUS_POSITION, 0, {8}, 0, 0, NULL}, {MOTUS_POSITION, 0, {7}, 2, 0, NULL},
-        {MOTUS_POSITION, 0, {7}, -1, 0, NULL}, {MOTUS_POSITION, 1, {0}, 0, 0, NULL}, {MOTUS_COMPANION, 1, {0}, 1, 0, NULL},
-        {MOTUS_QUANTITY, 1, {0}, 0, 0, NULL}, {MOTUS_QUANTITY, 0, {2, 0}, 0, 0, NULL}, {MOTUS_EXACT, 1, {0}, 0, 1, NULL}, {(motus_column_kind)99, 0, {0}, 0, 0, NULL}};
+    static const struct {
+        motus_column_kind kind;
+        size_t variable;
+        int64_t cell[2];
+        int component, is_velocity;
+        const char *name;
+    } cases[] = {{MOTUS_TIME, 0, {0}, 0, 0, "t"},
+                 {MOTUS_POSITION, 0, {7}, 1, 0, "r[7].y"},
+                 {MOTUS_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
+                 {MOTUS_COMPANION, 1, {0}, 0, 0, "s"},
+                 {MOTUS_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"},
+                 {MOTUS_INVARIANT, 0, {0}, 0, 0, "e"},
+                 {MOTUS_EXACT, 0, {2}, 1, 0, "exact r[2].y"},
+                 {MOTUS_EXACT, 0, {7}, 0, 1, "exact r[7]'.x"},
+                 {MOTUS_EXACT, 1, {0}, 0, 0, "exact s"},
+                 {MOTUS_POSITION, 0, {4}, 0, 0, NULL},
+                 {MOTUS_POSITION, 0, {8}, 0, 0, NULL},
+                 {MOTUS_POSITION, 0, {7}, 2, 0, NULL},
+                 {MOTUS_POSITION, 0, {7}, -1, 0, NULL},
+                 {MOTUS_POSITION, 1, {0}, 0, 0, NULL},
+                 {MOTUS_COMPANION, 1, {0}, 1, 0, NULL},
+                 {MOTUS_QUANTITY, 1, {0}, 0, 0, NULL},
+                 {MOTUS_QUANTITY, 0, {2, 0}, 0, 0, NULL},
+                 {MOTUS_EXACT, 1, {0}, 0, 1, NULL},
+                 {(motus_column_kind)99, 0, {0}, 0, 0, NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motus_column c = motus_default_column(), found = motus_default_column();
         size_t k = 77;
-        c.kind = cases[i].kind, c.variable = cases[i].variable, c.component = cases[i].component, c.is_velocity = cases[i].is_velocity;
+        c.kind = cases[i].kind, c.variable = cases[i].variable, c.component = cases[i].component,
+        c.is_velocity = cases[i].is_velocity;
         memcpy(c.cell, cases[i].cell, sizeof cases[i].cell);
         const motus_status status = motus_column_of(s, &c, &k, &err);
         if (status != (cases[i].name ? MOTUS_OK : MOTUS_NAME))
@@ -589,7 +640,10 @@ static void columns_by_cell_and_component(void **state)
         }
         assert_int_equal(motus_column_at(s, k, &found), MOTUS_OK);
         assert_string_equal(found.name, cases[i].name);
-        assert_true(found.dimensions == (cases[i].variable == 0 && found.kind != MOTUS_TIME && found.kind != MOTUS_INVARIANT ? (found.kind == MOTUS_QUANTITY ? 2 : 1) : 0));
+        assert_true(found.dimensions ==
+                    (cases[i].variable == 0 && found.kind != MOTUS_TIME && found.kind != MOTUS_INVARIANT
+                         ? (found.kind == MOTUS_QUANTITY ? 2 : 1)
+                         : 0));
     }
     motus_column c = motus_default_column();
     size_t k;

@@ -231,8 +231,8 @@ static void nonlinear_velocity_terms_and_companions(void **state)
         finish(derived);
         finish(quotient);
         const int64_t calls = without.calls;             /* before anybody looks, which is not counted */
-        static const char *const names[][2] = {{"x", "x[1]"}, {"y", "x[2]"}, {"x'", "x[1]'"}, {"y'", "x[2]'"}, {"s", "s"},
-                                                 {"e", "invariant"}};
+        static const char *const names[][2] = {{"x", "x[1]"},   {"y", "x[2]"}, {"x'", "x[1]'"},
+                                               {"y'", "x[2]'"}, {"s", "s"},    {"e", "invariant"}};
         /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end of each. */
         const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
         for (size_t k = 0; k < 6; k++) {
@@ -303,7 +303,7 @@ static void linear_velocity_terms_take_one_step(void **state)
 
 /* Failures and the rest of the definition ------------------------------------------------------------------------------------ */
 
-/* Below 0 the callback gave up, above 0 only this place could not be evaluated: either way the run is at its last good step. */
+/* Below 0 the callback gave up, above 0 only this place could not be evaluated: the run is at its last good step. */
 static void a_failing_callback_stops_the_run_and_not_more(void **state)
 {
     (void)state;
@@ -487,9 +487,11 @@ static void are_columns(const motus_system *s, const char *const *names, size_t 
 static void numbers_have_names(void **state)
 {
     (void)state;
-    static const char *const plain[] = {"t", "x[1]", "x[2]", "x[3]", "x[1]'", "x[2]'", "x[3]'", "s[1]", "s[2]", "quantity[1]", "quantity[2]",
-                                        "invariant[1]", "invariant[2]"};
-    static const char *const named[] = {"t", "left", "θ₁", "right", "left'", "θ₁'", "right'", "work", "heat", "sum", "clock", "momentum", "energy"};
+    static const char *const plain[] = {"t",           "x[1]",         "x[2]",        "x[3]", "x[1]'",
+                                        "x[2]'",       "x[3]'",        "s[1]",        "s[2]", "quantity[1]",
+                                        "quantity[2]", "invariant[1]", "invariant[2]"};
+    static const char *const named[] = {"t",    "left", "θ₁",  "right", "left'",    "θ₁'",   "right'",
+                                        "work", "heat", "sum", "clock", "momentum", "energy"};
     char copies[9][16];
     const char *names[5], *quantities[2], *invariants[2];
     for (int k = 0; k < 9; k++)
@@ -555,13 +557,14 @@ static void quantities_and_invariants(void **state)
     finish(run);
     double x[3], v[5], out[6];
     motus_error err = motus_default_error();
-    const size_t columns[6] = {column(s, "energy"), column(s, "momentum"), column(s, "quantity[2]"), column(s, "quantity[1]"), column(s, "x[2]"),
-                               column(s, "energy")};
+    const size_t columns[6] = {column(s, "energy"),      column(s, "momentum"), column(s, "quantity[2]"),
+                               column(s, "quantity[1]"), column(s, "x[2]"),     column(s, "energy")};
     must(motus_run_state(run, x, v, &err), &err, "state");
     r.looks = 0;
     must(motus_run_values(run, columns, 6, out, &err), &err, "values");
     assert_int_equal(r.looks, 3);                /* invariants, quantities, and invariants again */
-    assert_true(out[0] == out[5] && out[1] == v[0] + v[1] + v[2] && out[2] == motus_run_time(run) && out[3] == x[0] + x[1] && out[4] == x[1]);
+    assert_true(out[0] == out[5] && out[1] == v[0] + v[1] + v[2] && out[2] == motus_run_time(run) &&
+                out[3] == x[0] + x[1] && out[4] == x[1]);
     near(out[1], -0.5, 100 * 8 * ROUNDING, "the momentum");
     r.fail = 5;
     assert_int_equal(motus_run_values(run, columns, 6, out, &err), MOTUS_CALLBACK);
@@ -589,7 +592,8 @@ static void quantities_and_invariants(void **state)
 static void names_that_are_refused(void **state)
 {
     (void)state;
-    static const char *const good[] = {"a", "b", "c", "d", "e"}, *const rest[] = {"f", "g"}, *const twice[] = {"f", "f"}, *const taken[] = {"f", "c"};
+    static const char *const good[] = {"a", "b", "c", "d", "e"}, *const rest[] = {"f", "g"},
+                             *const twice[] = {"f", "f"}, *const taken[] = {"f", "c"};
     static const char *const bad[] = {"", "1a", "a b", "x[1]", "t", "a'", "\xff", "a\n", " a", "exact a", NULL,
                                       "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklm"};
     ring r;
@@ -641,7 +645,8 @@ static void a_run_goes_on_from_its_last_good_step(void **state)
     const double height = 1, rest = 0;
     motus_callback_def def = motus_default_callback();
     motus_error err = motus_default_error();
-    def.positions = 1, def.x = &height, def.v = &rest, def.acceleration = over_a_floor, def.depends_on_velocity = def.depends_on_time = 0;
+    def.positions = 1, def.x = &height, def.v = &rest, def.acceleration = over_a_floor,
+    def.depends_on_velocity = def.depends_on_time = 0;
     motus_system *s = system_of(&def);
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
         double x = height, v = rest;
@@ -687,7 +692,8 @@ static void errors_know_the_names(void **state)
     for (int named = 0; named < 2; named++) {
         motus_callback_def def = motus_default_callback();
         motus_error err = motus_default_error();
-        def.positions = 2, def.x = x, def.v = v, def.acceleration = burst, def.depends_on_velocity = def.depends_on_time = 0;
+        def.positions = 2, def.x = x, def.v = v, def.acceleration = burst,
+        def.depends_on_velocity = def.depends_on_time = 0;
         def.names = named ? names : NULL;
         motus_system *s = system_of(&def);
         motus_run *r = given_run(s, "velocity-verlet", 0.1, 100);

@@ -1,5 +1,5 @@
-/* Numbers set in a system that was read already: the same bits as a text read with `set`, refusals that leave everything as it was, and
- * clones that have the numbers too.
+/* Numbers set in a system that was read already: the same bits as a text read with `set`, refusals that leave everything
+ * as it was, and clones that have the numbers too.
  */
 #include "test/ensemble_given.h"
 
@@ -29,7 +29,8 @@ static void same_systems(motus_system *got, motus_system *expected, const char *
         double *a = malloc((count + 1) * sizeof *a), *b = malloc((count + 1) * sizeof *b);
         assert_true(a && b);
         assert_int_equal(initial ? motus_initial_values(got, i, a) : motus_parameter_values(got, k, a), MOTUS_OK);
-        assert_int_equal(initial ? motus_initial_values(expected, i, b) : motus_parameter_values(expected, k, b), MOTUS_OK);
+        assert_int_equal(initial ? motus_initial_values(expected, i, b) : motus_parameter_values(expected, k, b),
+                         MOTUS_OK);
         same_values(a, b, count, what, initial ? n.name : p.name);
         free(a);
         free(b);
@@ -52,7 +53,8 @@ static void same_systems(motus_system *got, motus_system *expected, const char *
 }
 
 /* "F=0.5", "r(0)=(1, 2)", "m=[1, 2]" with every digit; false: a text cannot say it. */
-static bool write_setting(char *out, size_t size, const char *name, int components, int list, int dimensions, const double *values, size_t count)
+static bool write_setting(char *out, size_t size, const char *name, int components, int list, int dimensions,
+                          const double *values, size_t count)
 {
     if (dimensions > 1 || (list && components) || count > 32)
         return false;
@@ -66,7 +68,8 @@ static bool write_setting(char *out, size_t size, const char *name, int componen
 typedef struct tally { int same, refused, decided; } tally;
 
 /* One name of one model: by motus_system_set, and by a text read with `set`. */
-static void set_both(const char *text, const char *name, const double *values, size_t count, const char *setting, const char *machine, tally *sum)
+static void set_both(const char *text, const char *name, const double *values, size_t count, const char *setting,
+                     const char *machine, tally *sum)
 {
     motus_system *s = given_text(text), *t = NULL;
     motus_error err = motus_default_error(), other = motus_default_error();
@@ -74,7 +77,8 @@ static void set_both(const char *text, const char *name, const double *values, s
     def.text = text;
     def.set = &setting;
     def.set_count = 1;
-    const motus_status status = motus_system_set(s, name, values, count, &err), due = motus_system_from_text(&def, &t, &other);
+    const motus_status status = motus_system_set(s, name, values, count, &err),
+                       due = motus_system_from_text(&def, &t, &other);
     if (status != due)
         fail_msg("%s: %s (%s), and read with `set`: %s", setting, err.message, err.hint, other.message);
     if (status == MOTUS_OK) {
@@ -116,9 +120,10 @@ static void set_all_of(const char *text, const char *machine, tally *sum)
             assert_true(strstr(err.message, p.decides) && strlen(err.hint) > 10);
             motus_system_destroy(other);
             sum->decided++;
-        } else if (!(initial && v.dimensions) && write_setting(setting, sizeof setting, initial ? n.name : p.name,
-                                                                  initial ? v.components : p.components, initial ? 0 : p.list,
-                                                                  initial ? 0 : p.dimensions, values, count)) {
+        } else if (!(initial && v.dimensions) &&
+                   write_setting(setting, sizeof setting, initial ? n.name : p.name,
+                                 initial ? v.components : p.components, initial ? 0 : p.list,
+                                 initial ? 0 : p.dimensions, values, count)) {
             if (initial || !p.list || p.text[0] == '[')          /* a text sets a list, and no family of parameters */
                 set_both(text, initial ? n.name : p.name, values, count, setting, machine, sum);
         }
@@ -152,7 +157,9 @@ static void compiled_models_too(void **state)
 {
     (void)state;
     tally sum = {0};
-    set_all_of("k = 2\nF = 0.1\nA = 1\ng = (0, -1)\nx'' = -k x + F cos(t)\nx(0) = A\nx'(0) = k A\nr'' = g - 0.1 r'\nr(0) = (A, 0)\nr'(0) = (0, 1)\n", "compiled", &sum);
+    set_all_of("k = 2\nF = 0.1\nA = 1\ng = (0, -1)\nx'' = -k x + F cos(t)\nx(0) = A\nx'(0) = k A\n"
+               "r'' = g - 0.1 r'\nr(0) = (A, 0)\nr'(0) = (0, 1)\n",
+               "compiled", &sum);
     assert_int_equal(sum.same, 8);
 }
 
@@ -161,7 +168,8 @@ static void compiled_models_too(void **state)
 static const char chained[] =
     "A = 1\nB = 2 A\nk = [1, 4, 9]\nN = 3\nc[i] = k[i] + B   for i = 1..N\n"
     "x'' = -B x\nx(0) = A\nx'(0) = x(0) + B\n"
-    "y[i]'' = -c[i] y[i] + y[0]   for i = 1..N\ny[0] = A\ny[i](0) = A i   for i = 1..N\ny[2](0) = B\ny[i]'(0) = y[i](0)   for i = 1..N\n"
+    "y[i]'' = -c[i] y[i] + y[0]   for i = 1..N\ny[0] = A\ny[i](0) = A i   for i = 1..N\n"
+    "y[2](0) = B\ny[i]'(0) = y[i](0)   for i = 1..N\n"
     "r'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\ns' = -B s\ns(0) = A\n";
 
 static void set(motus_system *s, const char *name, size_t count, const double *values)
@@ -174,9 +182,13 @@ static void set(motus_system *s, const char *name, size_t count, const double *v
 static void what_was_set_stays(void **state)
 {
     (void)state;
-    static const struct { const char *name, *setting; size_t count; double values[3]; } steps[] = {
-        {"A", "A=3", 1, {3}}, {"x(0)", "x(0)=0.5", 1, {0.5}}, {"B", "B=0.25", 1, {0.25}}, {"r'(0)", "r'(0)=(1, -1)", 2, {1, -1}},
-        {"k", "k=[2, 3, 5]", 3, {2, 3, 5}}, {"s(0)", "s(0)=7", 1, {7}}};
+    static const struct { const char *name, *setting; size_t count; double values[3];
+    } steps[] = {{"A", "A=3", 1, {3}},
+                 {"x(0)", "x(0)=0.5", 1, {0.5}},
+                 {"B", "B=0.25", 1, {0.25}},
+                 {"r'(0)", "r'(0)=(1, -1)", 2, {1, -1}},
+                 {"k", "k=[2, 3, 5]", 3, {2, 3, 5}},
+                 {"s(0)", "s(0)=7", 1, {7}}};
     enum { STEPS = sizeof steps / sizeof *steps };
     /* All orders of five of them would be many; all rotations, forward and backward, meet every pair in both orders. */
     for (int start = 0; start < STEPS; start++)
@@ -245,14 +257,27 @@ static void refusals(void **state)
     static const char text[] =
         "N = 2\nk = 4\nd = 1/k\nT = 2\nw = (1, 2)\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nexact x = x(0) cos(sqrt(k) t)\n"
         "energy = x'^2\nstep T/100\nuntil T\n";
-    static const struct { const char *name; size_t count; double values[2]; motus_status status; const char *message, *hint; } cases[] = {
-        {"q", 1, {1}, MOTUS_NAME, "neither a parameter nor an initial value", ""}, {"energy", 1, {1}, MOTUS_NAME, "neither", "computed along the way"},
-        {"x", 1, {1}, MOTUS_NAME, "neither", "x(0)"}, {"x(1)", 1, {1}, MOTUS_NAME, "neither", "x(0)"}, {"w.x", 1, {1}, MOTUS_NAME, "neither", "as a whole"},
-        {"x''(0)", 1, {1}, MOTUS_NAME, "neither", ""}, {"", 1, {1}, MOTUS_NAME, "neither", ""}, {"(0)", 1, {1}, MOTUS_NAME, "neither", ""},
-        {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, and 2 are given", ""}, {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, and 1 are given", ""},
-        {"k", 1, {NAN}, MOTUS_ARGUMENT, "not a finite number", ""}, {"x(0)", 1, {INFINITY}, MOTUS_ARGUMENT, "not a finite number", ""},
-        {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""}, {"T", 1, {3}, MOTUS_ARGUMENT, "T decides `step`", "`set`"},
-        {"x'(0)", 1, {1}, MOTUS_ARGUMENT, "does not meet the initial value", ""}};
+    static const struct {
+        const char *name;
+        size_t count;
+        double values[2];
+        motus_status status;
+        const char *message, *hint;
+    } cases[] = {{"q", 1, {1}, MOTUS_NAME, "neither a parameter nor an initial value", ""},
+                 {"energy", 1, {1}, MOTUS_NAME, "neither", "computed along the way"},
+                 {"x", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
+                 {"x(1)", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
+                 {"w.x", 1, {1}, MOTUS_NAME, "neither", "as a whole"},
+                 {"x''(0)", 1, {1}, MOTUS_NAME, "neither", ""},
+                 {"", 1, {1}, MOTUS_NAME, "neither", ""},
+                 {"(0)", 1, {1}, MOTUS_NAME, "neither", ""},
+                 {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, and 2 are given", ""},
+                 {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, and 1 are given", ""},
+                 {"k", 1, {NAN}, MOTUS_ARGUMENT, "not a finite number", ""},
+                 {"x(0)", 1, {INFINITY}, MOTUS_ARGUMENT, "not a finite number", ""},
+                 {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""},
+                 {"T", 1, {3}, MOTUS_ARGUMENT, "T decides `step`", "`set`"},
+                 {"x'(0)", 1, {1}, MOTUS_ARGUMENT, "does not meet the initial value", ""}};
     motus_system *s = given_text(text), *before = given_text(text);
     motus_error err = motus_default_error();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -335,7 +360,8 @@ static void ensembles(void **state)
     motus_record records[4];
     for (int k = 0; k < COUNT; k++)
         A[k] = 0.5 + 0.25 * k;
-    static const char text[] = "A = 1\nB = 2 A\nx'' = -B x\nx(0) = A\nx'(0) = x(0) + B\nr'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\n";
+    static const char text[] =
+        "A = 1\nB = 2 A\nx'' = -B x\nx(0) = A\nx'(0) = x(0) + B\nr'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\n";
     motus_system *s = given_text(text);
     set(s, "x(0)", 1, &x0);
     set(s, "r'(0)", 2, (const double[]){1, -1});
@@ -369,7 +395,8 @@ static void ensembles(void **state)
 static void methods_follow(void **state)
 {
     (void)state;
-    motus_system *s = given_text("d = 0\nr'' = cross(r', (0, 0, 2)) - d r'\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\n"), *c = NULL;
+    motus_system *s = given_text("d = 0\nr'' = cross(r', (0, 0, 2)) - d r'\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\n"),
+                 *c = NULL;
     motus_analysis a = motus_default_analysis();
     const double one = 1, none = 0;
     /* A clone of a system that nobody asked yet finds it out for itself. */
@@ -496,9 +523,16 @@ static void setting_again_takes_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_number_of_every_model), cmocka_unit_test(compiled_models_too), cmocka_unit_test(what_was_set_stays),
-        cmocka_unit_test(families), cmocka_unit_test(refusals), cmocka_unit_test(not_while_somebody_uses_it), cmocka_unit_test(ensembles),
-        cmocka_unit_test(methods_follow), cmocka_unit_test(states_belong_to_their_numbers), cmocka_unit_test(callbacks),
+        cmocka_unit_test(every_number_of_every_model),
+        cmocka_unit_test(compiled_models_too),
+        cmocka_unit_test(what_was_set_stays),
+        cmocka_unit_test(families),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(not_while_somebody_uses_it),
+        cmocka_unit_test(ensembles),
+        cmocka_unit_test(methods_follow),
+        cmocka_unit_test(states_belong_to_their_numbers),
+        cmocka_unit_test(callbacks),
         cmocka_unit_test(setting_again_takes_no_memory),
     };
     open_cache();

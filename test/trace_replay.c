@@ -274,11 +274,11 @@ static void recurrence(const step *s, const double *before_x, const double *befo
     same(s, "positions at the end", e->x, s->end->x, s->nx);
 }
 
-void trace_replay(const motus_system *system, const motus_method *m, const motus_trace_entry *const *entries, size_t count, const double *before_x,
-                  const double *before_a, const char *what)
+void trace_replay(const motus_system *system, const motus_method *m, const motus_trace_entry *const *entries,
+                  size_t count, const double *before_x, const double *before_a, const char *what)
 {
     assert_true(count >= 2);
-    motus_trace_entry *entry = calloc(count, sizeof *entry);     /* side by side: events are compared with their neighbours */
+    motus_trace_entry *entry = calloc(count, sizeof *entry);     /* side by side: each is compared with its neighbours */
     assert_non_null(entry);
     for (size_t i = 0; i < count; i++)
         entry[i] = *entries[i];
