@@ -65,9 +65,9 @@ static bool take_name(const char *p, column_name *n)
 static const char *group_name(const motus_system *s, const column_group *g)
 {
     switch (g->kind) {
-    case MOTUS_TIME: return "t";
-    case MOTUS_QUANTITY:
-    case MOTUS_INVARIANT: return s->definitions[g->item].name;
+    case MOTUS_COLUMN_TIME: return "t";
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT: return s->definitions[g->item].name;
     default: return s->states[g->item].name;
     }
 }
@@ -100,7 +100,7 @@ static bool select_columns(const motus_system *s, const column_group *g, column_
 {
     *first = g->first;
     *count = g->count;
-    if (g->kind == MOTUS_TIME)
+    if (g->kind == MOTUS_COLUMN_TIME)
         return !n.dims && !n.component;
     const model_state shape = columns_shape(s, g);
     const size_t parts = columns_parts(shape.components);
@@ -136,7 +136,7 @@ motus_status motus_column_find(const motus_system *s, const char *name, size_t *
     for (size_t i = 0; i < s->group_count; i++) {
         const column_group *g = &s->groups[i];
         size_t from, number;
-        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_EXACT) || n.primes != (g->prime ? 1 : 0))
+        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) || n.primes != (g->prime ? 1 : 0))
             continue;
         if (!select_columns(s, g, n, &from, &number))
             break;

@@ -17,7 +17,7 @@ static const model_definition *definition(const motus_system *s, const column_gr
 
 static bool of_state(motus_column_kind kind)
 {
-    return kind == MOTUS_POSITION || kind == MOTUS_VELOCITY || kind == MOTUS_COMPANION || kind == MOTUS_EXACT;
+    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION || kind == MOTUS_COLUMN_EXACT;
 }
 
 static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t item, size_t count)
@@ -28,10 +28,10 @@ static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t it
 
 static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool prime)
 {
-    int order = kind == MOTUS_COMPANION ? 1 : 2;
+    int order = kind == MOTUS_COLUMN_COMPANION ? 1 : 2;
     for (uint32_t i = 0; i < s->state_count; i++)
         if (s->states[i].order == order)
-            add(s, exact ? MOTUS_EXACT : kind, prime, i,
+            add(s, exact ? MOTUS_COLUMN_EXACT : kind, prime, i,
                 s->states[i].cells.count * columns_parts(s->states[i].components));
 }
 
@@ -41,11 +41,11 @@ bool system_number_columns(motus_system *s)
         arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
     if (!s->groups)
         return false;
-    add(s, MOTUS_TIME, false, 0, 1);
-    add_states(s, MOTUS_POSITION, false, false);
+    add(s, MOTUS_COLUMN_TIME, false, 0, 1);
+    add_states(s, MOTUS_COLUMN_POSITION, false, false);
     s->positions = s->column_count - 1;
-    add_states(s, MOTUS_VELOCITY, false, true);
-    add_states(s, MOTUS_COMPANION, false, false);
+    add_states(s, MOTUS_COLUMN_VELOCITY, false, true);
+    add_states(s, MOTUS_COLUMN_COMPANION, false, false);
     s->velocities = s->column_count - 1 - s->positions;
     size_t largest = 1;
     for (int pass = 0; pass < 2; pass++)
@@ -53,14 +53,14 @@ bool system_number_columns(motus_system *s)
             const model_definition *d = &s->definitions[i];
             if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY))
                 continue;
-            add(s, pass ? MOTUS_INVARIANT : MOTUS_QUANTITY, false, i, d->numbers);
+            add(s, pass ? MOTUS_COLUMN_INVARIANT : MOTUS_COLUMN_QUANTITY, false, i, d->numbers);
             const size_t room = s->model ? d->numbers : d->slot + d->numbers;
             largest = room > largest ? room : largest;
         }
     if (s->problem.traits.has_exact) {
-        add_states(s, MOTUS_POSITION, true, false);
-        add_states(s, MOTUS_VELOCITY, true, true);
-        add_states(s, MOTUS_COMPANION, true, false);
+        add_states(s, MOTUS_COLUMN_POSITION, true, false);
+        add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
+        add_states(s, MOTUS_COLUMN_COMPANION, true, false);
         s->exact_x = arena_grow(&s->arena, NULL, 0, (s->problem.nx + 1) * sizeof(double));
         s->exact_v = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
     }
@@ -146,7 +146,7 @@ static motus_status ask(motus_system *s, motus_column_kind kind, double t, const
                         motus_error *err)
 {
     const motus_callback_def *def = &s->callback;
-    const bool invariant = kind == MOTUS_INVARIANT;
+    const bool invariant = kind == MOTUS_COLUMN_INVARIANT;
     const int answer = (invariant ? def->invariant : def->quantity)(def->context, t, x, v, s->look);
     if (!answer)
         return MOTUS_OK;
@@ -167,14 +167,14 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
 {
     const problem *p = &s->problem;
     switch (g->kind) {
-    case MOTUS_QUANTITY:
-    case MOTUS_INVARIANT:
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT:
         if (!s->model)
             return ask(s, g->kind, t, x, v, err);
         if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->look))
             return fail(err, MOTUS_MEMORY, "no memory to compute %s", definition(s, g)->name);
         return MOTUS_OK;
-    case MOTUS_EXACT:
+    case MOTUS_COLUMN_EXACT:
         if (p->exact(p->ctx, t, s->exact_x, s->exact_v))
             return columns_callback_failed("exact", t, p->returned ? *p->returned : 0, err);
         return MOTUS_OK;
@@ -187,7 +187,7 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
 static bool evaluated(const motus_system *s, const column_group *g, const column_group *done)
 {
     return g == done ||
-           (done && done->kind == g->kind && (g->kind == MOTUS_EXACT || (!s->model && !of_state(g->kind))));
+           (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *err)
@@ -200,7 +200,7 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu; the system has %zu", columns[i], s->column_count);
         const column_group *g = columns_group(s, columns[i]);
         size_t k = columns[i] - g->first;
-        if (g->kind == MOTUS_TIME) {
+        if (g->kind == MOTUS_COLUMN_TIME) {
             out[i] = t;
             continue;
         }
@@ -213,7 +213,7 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
         if (of_state(g->kind)) {
             const model_state *st = &s->states[g->item];
             size_t parts = columns_parts(st->components), at = system_place(st, k / parts, (int)(k % parts));
-            const double *from_x = g->kind == MOTUS_EXACT ? s->exact_x : x, *from_v = g->kind == MOTUS_EXACT ? s->exact_v : v;
+            const double *from_x = g->kind == MOTUS_COLUMN_EXACT ? s->exact_x : x, *from_v = g->kind == MOTUS_COLUMN_EXACT ? s->exact_v : v;
             out[i] = st->order == 2 && !g->prime ? from_x[at] : from_v[at];
         } else if (s->model) {
             size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts;
@@ -289,7 +289,7 @@ static motus_column describe(const motus_system *s, size_t k)
 {
     const column_group *g = columns_group(s, k);
     motus_column c = {.kind = g->kind, .variable = g->item, .is_velocity = g->prime};
-    if (g->kind == MOTUS_TIME) {
+    if (g->kind == MOTUS_COLUMN_TIME) {
         snprintf(c.name, sizeof c.name, "t");
         return c;
     }
@@ -301,7 +301,7 @@ static motus_column describe(const motus_system *s, size_t k)
     c.component = (int)((k - g->first) % parts);
     c.dimensions = shape.dims;
     indices_of(&shape, offset, c.cell);
-    const size_t n = g->kind == MOTUS_EXACT ? (size_t)snprintf(c.name, sizeof c.name, "exact ") : 0;
+    const size_t n = g->kind == MOTUS_COLUMN_EXACT ? (size_t)snprintf(c.name, sizeof c.name, "exact ") : 0;
     model_state_name(&shape, offset, c.component, g->prime, c.name + n, sizeof c.name - n);
     return c;
 }
@@ -326,7 +326,7 @@ static const column_group *group_of(const motus_system *s, const motus_column *c
         if (g->kind != c->kind)
             continue;
         const size_t variable = of_state(g->kind) ? g->item : rank++;
-        if (variable == c->variable && (g->kind != MOTUS_EXACT || g->prime == (c->is_velocity != 0)))
+        if (variable == c->variable && (g->kind != MOTUS_COLUMN_EXACT || g->prime == (c->is_velocity != 0)))
             return g;
     }
     return NULL;
@@ -345,7 +345,7 @@ motus_status motus_column_of(const motus_system *s, const motus_column *given, s
     const column_group *g = group_of(s, &c);
     if (!g)
         return fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
-    if (g->kind == MOTUS_TIME) {
+    if (g->kind == MOTUS_COLUMN_TIME) {
         *k = g->first;
         return MOTUS_OK;
     }

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-_Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_TIME_OF_MAX, "the reductions are the same list");
+_Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX, "the reductions are the same list");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -30,7 +30,7 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
     if (!d->record_count || !d->records)
         return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
-        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_TIME_OF_MAX)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TIME_OF_MAX)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r, d->records[r].column, s->column_count);
     if (d->every < 1)
         return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
@@ -62,18 +62,18 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
         return false;
     *out = (lanes_source){.how = (int)r->how};
     switch (c.kind) {
-    case MOTUS_TIME: out->kind = SOURCE_TIME; return true;
-    case MOTUS_POSITION:
+    case MOTUS_COLUMN_TIME: out->kind = SOURCE_TIME; return true;
+    case MOTUS_COLUMN_POSITION:
         out->kind = SOURCE_X;
         out->place = system_number(s, r->column - 1, false);
         return true;
-    case MOTUS_VELOCITY:
-    case MOTUS_COMPANION:
+    case MOTUS_COLUMN_VELOCITY:
+    case MOTUS_COLUMN_COMPANION:
         out->kind = SOURCE_V;
         out->place = system_number(s, r->column - 1, true);
         return true;
-    case MOTUS_QUANTITY:
-    case MOTUS_INVARIANT:
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT:
         out->kind = SOURCE_DEFINITION;
         out->definition = system_definition(s, r->column, &out->place);
         return true;
@@ -212,7 +212,7 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     double began = run_now();
     places p = {values, results, stopped, false};
     for (size_t r = 0; r < e->record_count; r++)
-        p.looks |= e->records[r].how != MOTUS_FINAL;
+        p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
                           : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);

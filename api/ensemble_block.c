@@ -41,9 +41,9 @@ static const double *row_of(const group *b, size_t column)
 {
     const motus_system *s = b->w->system;
     motus_column c = motus_default_column();
-    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
+    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
         return NULL;
-    const bool of_v = c.kind != MOTUS_POSITION;
+    const bool of_v = c.kind != MOTUS_COLUMN_POSITION;
     return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;
 }
 

@@ -240,8 +240,8 @@ MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_v
  * quantities; invariants; exact. Names: "t", "x", "x'", "r.x", "r'.y", "x[3]'", "w[2]" (component 2 of a vector longer
  * than 3), "r[3].x", "energy", "exact x". */
 typedef enum motus_column_kind {
-    MOTUS_TIME, MOTUS_POSITION, MOTUS_VELOCITY, MOTUS_COMPANION,
-    MOTUS_QUANTITY, MOTUS_INVARIANT, MOTUS_EXACT
+    MOTUS_COLUMN_TIME, MOTUS_COLUMN_POSITION, MOTUS_COLUMN_VELOCITY, MOTUS_COLUMN_COMPANION,
+    MOTUS_COLUMN_QUANTITY, MOTUS_COLUMN_INVARIANT, MOTUS_COLUMN_EXACT
 } motus_column_kind;
 typedef struct motus_column {
     uint32_t size;                   /* by motus_default_column() */
@@ -533,11 +533,11 @@ typedef struct motus_ensemble motus_ensemble;
 
 typedef enum motus_reduction {
     /* The value at the end. */
-    MOTUS_FINAL,
+    MOTUS_REDUCE_FINAL,
     /* Over the looks: the start, every `every` steps, and the end. */
-    MOTUS_MIN, MOTUS_MAX, MOTUS_MEAN,
+    MOTUS_REDUCE_MIN, MOTUS_REDUCE_MAX, MOTUS_REDUCE_MEAN,
     /* The time of the first look with that value. */
-    MOTUS_TIME_OF_MIN, MOTUS_TIME_OF_MAX
+    MOTUS_REDUCE_TIME_OF_MIN, MOTUS_REDUCE_TIME_OF_MAX
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
 typedef struct motus_record { motus_reduction how; size_t column; } motus_record;

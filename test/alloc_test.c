@@ -539,7 +539,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     for (size_t k = 0; k < columns; k++) {
         records[def.record_count] = (motus_record){(motus_reduction)(k % 6), k};
         at[k] = room + k * COUNT;
-        def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_EXACT;
+        def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_COLUMN_EXACT;
     }
     def.vary = names;
     def.vary_count = strstr(machine, "callback") ? 1 : 2;

@@ -161,7 +161,7 @@ static void definitions_of_every_size(void **state)
     (void)state;
     static const double x[1] = {1}, v[1] = {0};
     static const char *const methods[] = {"verlet"};
-    static const motus_record record = {MOTUS_FINAL, 1};
+    static const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     motus_text_def text = motus_default_text();
     motus_callback_def call = motus_default_callback();
     motus_run_def run = motus_default_run();
@@ -261,7 +261,7 @@ static void errors_of_every_size(void **state)
     const double one = 1, *values[1] = {&one};
     double out[4], *results[1] = {out};
     const size_t column_one = 1;
-    const motus_record record = {MOTUS_FINAL, 1};
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     const char *kept, *methods[] = {"verlet"};
     size_t length, count;
     const motus_method *m;
@@ -531,9 +531,9 @@ static void columns_are_found_by_their_own_names(void **state)
     motus_column c = motus_default_column();
     assert_int_equal(motus_column_at(s, motus_column_count(s), &c), MOTUS_ARGUMENT);
     assert_int_equal(motus_column_at(s, 14, &c), MOTUS_OK);
-    assert_true(c.kind == MOTUS_VELOCITY && c.variable == 0 && c.is_velocity);
+    assert_true(c.kind == MOTUS_COLUMN_VELOCITY && c.variable == 0 && c.is_velocity);
     assert_int_equal(motus_column_at(s, 23, &c), MOTUS_OK);
-    assert_int_equal(c.kind, MOTUS_COMPANION);
+    assert_int_equal(c.kind, MOTUS_COLUMN_COMPANION);
     motus_system_destroy(s);
 }
 
@@ -606,24 +606,24 @@ static void columns_by_cell_and_component(void **state)
         int64_t cell[2];
         int component, is_velocity;
         const char *name;
-    } cases[] = {{MOTUS_TIME, 0, {0}, 0, 0, "t"},
-                 {MOTUS_POSITION, 0, {7}, 1, 0, "r[7].y"},
-                 {MOTUS_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
-                 {MOTUS_COMPANION, 1, {0}, 0, 0, "s"},
-                 {MOTUS_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"},
-                 {MOTUS_INVARIANT, 0, {0}, 0, 0, "e"},
-                 {MOTUS_EXACT, 0, {2}, 1, 0, "exact r[2].y"},
-                 {MOTUS_EXACT, 0, {7}, 0, 1, "exact r[7]'.x"},
-                 {MOTUS_EXACT, 1, {0}, 0, 0, "exact s"},
-                 {MOTUS_POSITION, 0, {4}, 0, 0, NULL},
-                 {MOTUS_POSITION, 0, {8}, 0, 0, NULL},
-                 {MOTUS_POSITION, 0, {7}, 2, 0, NULL},
-                 {MOTUS_POSITION, 0, {7}, -1, 0, NULL},
-                 {MOTUS_POSITION, 1, {0}, 0, 0, NULL},
-                 {MOTUS_COMPANION, 1, {0}, 1, 0, NULL},
-                 {MOTUS_QUANTITY, 1, {0}, 0, 0, NULL},
-                 {MOTUS_QUANTITY, 0, {2, 0}, 0, 0, NULL},
-                 {MOTUS_EXACT, 1, {0}, 0, 1, NULL},
+    } cases[] = {{MOTUS_COLUMN_TIME, 0, {0}, 0, 0, "t"},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, 1, 0, "r[7].y"},
+                 {MOTUS_COLUMN_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
+                 {MOTUS_COLUMN_COMPANION, 1, {0}, 0, 0, "s"},
+                 {MOTUS_COLUMN_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"},
+                 {MOTUS_COLUMN_INVARIANT, 0, {0}, 0, 0, "e"},
+                 {MOTUS_COLUMN_EXACT, 0, {2}, 1, 0, "exact r[2].y"},
+                 {MOTUS_COLUMN_EXACT, 0, {7}, 0, 1, "exact r[7]'.x"},
+                 {MOTUS_COLUMN_EXACT, 1, {0}, 0, 0, "exact s"},
+                 {MOTUS_COLUMN_POSITION, 0, {4}, 0, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {8}, 0, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, 2, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, -1, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 1, {0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_COMPANION, 1, {0}, 1, 0, NULL},
+                 {MOTUS_COLUMN_QUANTITY, 1, {0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_QUANTITY, 0, {2, 0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_EXACT, 1, {0}, 0, 1, NULL},
                  {(motus_column_kind)99, 0, {0}, 0, 0, NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motus_column c = motus_default_column(), found = motus_default_column();
@@ -641,8 +641,8 @@ static void columns_by_cell_and_component(void **state)
         assert_int_equal(motus_column_at(s, k, &found), MOTUS_OK);
         assert_string_equal(found.name, cases[i].name);
         assert_true(found.dimensions ==
-                    (cases[i].variable == 0 && found.kind != MOTUS_TIME && found.kind != MOTUS_INVARIANT
-                         ? (found.kind == MOTUS_QUANTITY ? 2 : 1)
+                    (cases[i].variable == 0 && found.kind != MOTUS_COLUMN_TIME && found.kind != MOTUS_COLUMN_INVARIANT
+                         ? (found.kind == MOTUS_COLUMN_QUANTITY ? 2 : 1)
                          : 0));
     }
     motus_column c = motus_default_column();
@@ -694,7 +694,7 @@ static void exact_columns(void **state)
     near(value(s, r, "exact x'"), -2 * sin(2), 8 * ROUNDING, "exact x'");
     motus_column c = motus_default_column();
     assert_int_equal(motus_column_at(s, 4, &c), MOTUS_OK);
-    assert_true(c.kind == MOTUS_EXACT && c.is_velocity && !strcmp(c.name, "exact x'"));
+    assert_true(c.kind == MOTUS_COLUMN_EXACT && c.is_velocity && !strcmp(c.name, "exact x'"));
     motus_run_destroy(r);
     motus_system_destroy(s);
 }

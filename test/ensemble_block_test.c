@@ -100,8 +100,8 @@ static motus_ensemble_def define(const motus_record *records, size_t count, cons
 static size_t record_all(motus_record out[2 * COLUMNS])
 {
     for (size_t k = 0; k < COLUMNS; k++) {
-        out[2 * k] = (motus_record){MOTUS_FINAL, k};
-        out[2 * k + 1] = (motus_record){(motus_reduction)(MOTUS_MIN + k % 5), k};
+        out[2 * k] = (motus_record){MOTUS_REDUCE_FINAL, k};
+        out[2 * k + 1] = (motus_record){(motus_reduction)(MOTUS_REDUCE_MIN + k % 5), k};
     }
     return 2 * COLUMNS;
 }
@@ -165,7 +165,7 @@ static void trajectories_have_their_own_numbers(void **state)
     (void)state;
     static double values[NAMES][COUNT], stiffness[COUNT];
     const double *list[NAMES];
-    const motus_record records[] = {{MOTUS_FINAL, 1}, {MOTUS_MEAN, 6}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MEAN, 6}};
     spread(values, list);
     for (int i = 0; i < COUNT; i++)
         stiffness[i] = 1 + 0.01 * i;
@@ -256,7 +256,7 @@ static void threads_of_models(void **state)
         v[i] = i == 31 ? INFINITY : 0.1 * ((i * 11) % SOME);
     }
     motus_system *s = given_text(text);
-    const motus_record records[] = {{MOTUS_FINAL, 1}, {MOTUS_MAX, column(s, "q")}, {MOTUS_TIME_OF_MIN, 2}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MAX, column(s, "q")}, {MOTUS_REDUCE_TIME_OF_MIN, 2}};
     static const char *const machines[] = {"interpreter", "compiled"};
     for (int m = 0; m < 2; m++) {
         outcome first = {0};
@@ -302,7 +302,7 @@ static void watched(void **state)
     (void)state;
     static double values[NAMES][COUNT];
     const double *list[NAMES];
-    const motus_record records[] = {{MOTUS_FINAL, 1}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}};
     spread(values, list);
     for (int threads = 1; threads <= 3; threads++) {
         world w = {.fail_at = -1};
@@ -342,7 +342,7 @@ static void blocks_are_fast(void **state)
     double *amplitude = calloc(count, sizeof *amplitude), *x = calloc(2 * count, sizeof *x), zero = 0, best[2] = {INFINITY, INFINITY};
     assert_true(amplitude && x);
     static const char *const vary[] = {"x(0)"};
-    const motus_record record = {MOTUS_FINAL, 1};
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     const double *values[] = {x};
     double *at[] = {x + count};
     for (int round = 0; round < 6; round++) {

@@ -94,10 +94,10 @@ static void record_all(task *t)
 {
     motus_column c = motus_default_column();
     for (size_t k = 0; motus_column_at(t->s, k, &c) == MOTUS_OK; k++) {
-        if (c.kind == MOTUS_EXACT || t->record_count + 2 > RECORDS_MAX)
+        if (c.kind == MOTUS_COLUMN_EXACT || t->record_count + 2 > RECORDS_MAX)
             continue;
-        t->records[t->record_count++] = (motus_record){MOTUS_FINAL, k};
-        t->records[t->record_count++] = (motus_record){(motus_reduction)(MOTUS_MIN + k % 5), k};
+        t->records[t->record_count++] = (motus_record){MOTUS_REDUCE_FINAL, k};
+        t->records[t->record_count++] = (motus_record){(motus_reduction)(MOTUS_REDUCE_MIN + k % 5), k};
     }
 }
 
@@ -173,10 +173,10 @@ static void look_at(const task *t, motus_run *r, double *kept, double *when, int
         const motus_record *one = &t->records[i];
         double now;
         must(motus_run_values(r, &one->column, 1, &now, &err), &err, "look");
-        bool better = looks == 0 || isnan(now) || (one->how == MOTUS_MIN || one->how == MOTUS_TIME_OF_MIN ? now < kept[i] : now > kept[i]);
-        if (one->how == MOTUS_MEAN)
+        bool better = looks == 0 || isnan(now) || (one->how == MOTUS_REDUCE_MIN || one->how == MOTUS_REDUCE_TIME_OF_MIN ? now < kept[i] : now > kept[i]);
+        if (one->how == MOTUS_REDUCE_MEAN)
             kept[i] = looks ? kept[i] + now : now;
-        else if (one->how == MOTUS_FINAL || better)
+        else if (one->how == MOTUS_REDUCE_FINAL || better)
             kept[i] = now;
         if (better && !isnan(now))
             when[i] = motus_run_time(r);
@@ -218,9 +218,9 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
         assert_true(isnan(o->at[k][i]));
     for (size_t k = 0; status == MOTUS_OK && k < t->record_count; k++) {
         const motus_reduction how = t->records[k].how;
-        double expected = how == MOTUS_MEAN ? kept[k] / (double)looks : how == MOTUS_TIME_OF_MIN || how == MOTUS_TIME_OF_MAX ? when[k] : kept[k];
+        double expected = how == MOTUS_REDUCE_MEAN ? kept[k] / (double)looks : how == MOTUS_REDUCE_TIME_OF_MIN || how == MOTUS_REDUCE_TIME_OF_MAX ? when[k] : kept[k];
         /* Which of two zeros of different signs is the least is nobody's business. */
-        if (!same_number(expected, o->at[k][i]) && !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_MIN || how == MOTUS_MAX)))
+        if (!same_number(expected, o->at[k][i]) && !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_REDUCE_MIN || how == MOTUS_REDUCE_MAX)))
             fail_msg("%s by %s, until %g, every %lld: trajectory %zu, record %zu (%d of column %zu) is %a; a run says %a", t->c->model, t->method, t->until,
                 (long long)t->every, i, k, (int)how, t->records[k].column, o->at[k][i], expected);
     }
@@ -383,7 +383,7 @@ static void elsewhere_in_time(void **state)
     motus_system *s = given_text(text);
     static const char *const names[] = {"q", "x'(2)"};
     const double q[3] = {1, 1.5, -0.25}, v[3] = {0, 1, 2}, *const values[] = {q, v};
-    const motus_record records[] = {{MOTUS_FINAL, column(s, "x")}, {MOTUS_TIME_OF_MAX, column(s, "x")}, {MOTUS_FINAL, column(s, "push")}, {MOTUS_MIN, 0}, {MOTUS_FINAL, 0}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, column(s, "x")}, {MOTUS_REDUCE_TIME_OF_MAX, column(s, "x")}, {MOTUS_REDUCE_FINAL, column(s, "push")}, {MOTUS_REDUCE_MIN, 0}, {MOTUS_REDUCE_FINAL, 0}};
     for (int k = 0; k < 3; k++) {
         motus_ensemble_def def = motus_default_ensemble();
         def.vary = names;

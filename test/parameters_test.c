@@ -77,7 +77,7 @@ static void decides_what_an_ensemble_refuses(void **state)
         const char *vary[] = {name};
         motus_error e = motus_default_error();
         motus_ensemble_def def = motus_default_ensemble();
-        const motus_record record = {MOTUS_FINAL, 1};
+        const motus_record record = {MOTUS_REDUCE_FINAL, 1};
         def.vary = vary;
         def.vary_count = 1;
         def.records = &record;

@@ -319,7 +319,7 @@ static void not_while_somebody_uses_it(void **state)
     motus_system *s = given_text("k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 1\n");
     motus_error err = motus_default_error();
     const double k = 2;
-    const motus_record record = {MOTUS_FINAL, 1};
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     motus_ensemble_def flock = motus_default_ensemble();
     motus_ensemble *e = NULL;
     motus_reference *reference = NULL;
@@ -366,7 +366,7 @@ static void ensembles(void **state)
     set(s, "x(0)", 1, &x0);
     set(s, "r'(0)", 2, (const double[]){1, -1});
     for (size_t k = 0; k < 4; k++)
-        records[k] = (motus_record){MOTUS_FINAL, k + 1};
+        records[k] = (motus_record){MOTUS_REDUCE_FINAL, k + 1};
     for (int m = 0; m < 2; m++) {
         motus_ensemble_def def = motus_default_ensemble();
         def.vary = vary, def.vary_count = 1, def.records = records, def.record_count = 4;

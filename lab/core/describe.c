@@ -8,8 +8,8 @@
 static void describe_columns(json *j, const motus_system *s)
 {
     static const char *const kinds[] = {
-        [MOTUS_TIME] = "time", [MOTUS_POSITION] = "position", [MOTUS_VELOCITY] = "velocity", [MOTUS_COMPANION] = "companion",
-        [MOTUS_QUANTITY] = "quantity", [MOTUS_INVARIANT] = "invariant", [MOTUS_EXACT] = "exact",
+        [MOTUS_COLUMN_TIME] = "time", [MOTUS_COLUMN_POSITION] = "position", [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_COMPANION] = "companion",
+        [MOTUS_COLUMN_QUANTITY] = "quantity", [MOTUS_COLUMN_INVARIANT] = "invariant", [MOTUS_COLUMN_EXACT] = "exact",
     };
     json_open(j, "columns", '[');
     for (size_t k = 0; k < motus_column_count(s); k++) {
