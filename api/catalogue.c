@@ -6,6 +6,8 @@ const motus_method *motus_method_at(size_t k) { return row_card(k); }
 
 motus_status motus_method_find(const char *name, const motus_method **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     chosen c;
     const motus_method *card = NULL;
     if (!name)
@@ -18,6 +20,8 @@ motus_status motus_method_find(const char *name, const motus_method **out, motus
 
 motus_status motus_method_admits(const motus_system *given, const char *name, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     motus_system *s = (motus_system *)given;
     chosen c;
     const motus_method *card;

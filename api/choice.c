@@ -5,7 +5,7 @@
 
 motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card, motus_error *err)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_status status = row_choose(name ? name : set.method ? set.method : "verlet", chosen, card, err);
     if (status != MOTUS_OK)

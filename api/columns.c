@@ -1,15 +1,10 @@
-/* Columns: one numbering of all that can be looked at, and the names of it. */
-#include "api/system.h"
+/* Columns: one numbering of all that can be looked at, its values, and what each column is. */
+#include "api/columns.h"
 
-#include "lang/text/words.h"
-
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-static size_t parts_of(int components) { return components ? (size_t)components : 1; }
+#include <stdio.h>
+#include <string.h>
 
 size_t system_place(const model_state *s, size_t cell, int component)
 {
@@ -17,11 +12,14 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
-static const model_definition *definition(const motus_system *s, const column_group *g) { return &s->model->definitions[g->item]; }
+static const model_definition *definition(const motus_system *s, const column_group *g)
+{
+    return &s->definitions[g->item];
+}
 
 static bool of_state(motus_column_kind kind)
 {
-    return kind == MOTUS_POSITION || kind == MOTUS_VELOCITY || kind == MOTUS_COMPANION || kind == MOTUS_EXACT;
+    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION || kind == MOTUS_COLUMN_EXACT;
 }
 
 static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t item, size_t count)
@@ -32,40 +30,39 @@ static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t it
 
 static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool prime)
 {
-    int order = kind == MOTUS_COMPANION ? 1 : 2;
+    int order = kind == MOTUS_COLUMN_COMPANION ? 1 : 2;
     for (uint32_t i = 0; i < s->state_count; i++)
         if (s->states[i].order == order)
-            add(s, exact ? MOTUS_EXACT : kind, prime, i, s->states[i].cells.count * parts_of(s->states[i].components));
+            add(s, exact ? MOTUS_COLUMN_EXACT : kind, prime, i,
+                s->states[i].cells.count * columns_parts(s->states[i].components));
 }
 
 bool system_number_columns(motus_system *s)
 {
-    uint32_t definitions = s->model ? s->model->definition_count : 1;
-    s->groups = arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + definitions) * sizeof *s->groups);
+    s->groups =
+        arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
     if (!s->groups)
         return false;
-    add(s, MOTUS_TIME, false, 0, 1);
-    add_states(s, MOTUS_POSITION, false, false);
+    add(s, MOTUS_COLUMN_TIME, false, 0, 1);
+    add_states(s, MOTUS_COLUMN_POSITION, false, false);
     s->positions = s->column_count - 1;
-    add_states(s, MOTUS_VELOCITY, false, true);
-    add_states(s, MOTUS_COMPANION, false, false);
+    add_states(s, MOTUS_COLUMN_VELOCITY, false, true);
+    add_states(s, MOTUS_COLUMN_COMPANION, false, false);
     s->velocities = s->column_count - 1 - s->positions;
     size_t largest = 1;
-    for (int pass = 0; pass < 2 && s->model; pass++)
-        for (uint32_t i = 0; i < definitions; i++) {
-            const model_definition *d = &s->model->definitions[i];
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < s->definition_count; i++) {
+            const model_definition *d = &s->definitions[i];
             if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY))
                 continue;
-            add(s, pass ? MOTUS_INVARIANT : MOTUS_QUANTITY, false, i, d->numbers);
-            if (d->numbers > largest)
-                largest = d->numbers;
+            add(s, pass ? MOTUS_COLUMN_INVARIANT : MOTUS_COLUMN_QUANTITY, false, i, d->numbers);
+            const size_t room = s->model ? d->numbers : d->slot + d->numbers;
+            largest = room > largest ? room : largest;
         }
-    if (!s->model && s->callback.invariant)
-        add(s, MOTUS_INVARIANT, false, 0, 1);
     if (s->problem.traits.has_exact) {
-        add_states(s, MOTUS_POSITION, true, false);
-        add_states(s, MOTUS_VELOCITY, true, true);
-        add_states(s, MOTUS_COMPANION, true, false);
+        add_states(s, MOTUS_COLUMN_POSITION, true, false);
+        add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
+        add_states(s, MOTUS_COLUMN_COMPANION, true, false);
         s->exact_x = arena_grow(&s->arena, NULL, 0, (s->problem.nx + 1) * sizeof(double));
         s->exact_v = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
     }
@@ -73,7 +70,7 @@ bool system_number_columns(motus_system *s)
     return !s->arena.failed;
 }
 
-static const column_group *group_of(const motus_system *s, size_t k)
+const column_group *columns_group(const motus_system *s, size_t k)
 {
     size_t low = 0, high = s->group_count;
     while (high - low > 1) {
@@ -97,7 +94,7 @@ static void each_number(const motus_system *s, double *x, double *v, double *out
             if (st->order != order)
                 continue;
             for (size_t c = 0; c < st->cells.count; c++)
-                for (size_t k = 0; k < parts_of(st->components); k++) {
+                for (size_t k = 0; k < columns_parts(st->components); k++) {
                     size_t at = system_place(st, c, (int)k);
                     if (order == 2 && outer_x)
                         move(&x[at], outer_x++);
@@ -122,8 +119,8 @@ void system_inside(const motus_system *s, const double *in_x, const double *in_v
 
 const model_definition *system_definition(const motus_system *s, size_t column, size_t *number)
 {
-    const column_group *g = group_of(s, column);
-    const size_t k = column - g->first, parts = parts_of(definition(s, g)->components);
+    const column_group *g = columns_group(s, column);
+    const size_t k = column - g->first, parts = columns_parts(definition(s, g)->components);
     *number = k % parts * (g->count / parts) + k / parts;
     return definition(s, g);
 }
@@ -136,7 +133,7 @@ size_t system_number(const motus_system *s, size_t outer, bool of_v)
     for (int order = 2; order >= (of_v ? 1 : 2); order--)
         for (uint32_t i = 0; i < s->state_count; i++) {
             const model_state *st = &s->states[i];
-            size_t parts = parts_of(st->components), numbers = st->cells.count * parts;
+            size_t parts = columns_parts(st->components), numbers = st->cells.count * parts;
             if (st->order != order)
                 continue;
             if (outer < seen + numbers)
@@ -146,26 +143,53 @@ size_t system_number(const motus_system *s, size_t outer, bool of_v)
     return 0;
 }
 
+/* All quantities of a callback, or all its invariants. */
+static motus_status ask(motus_system *s, motus_column_kind kind, double t, const double *x, const double *v,
+                        motus_error *err)
+{
+    const motus_callback_def *def = &s->callback;
+    const bool invariant = kind == MOTUS_COLUMN_INVARIANT;
+    const int answer = (invariant ? def->invariant : def->quantity)(def->context, t, x, v, s->look);
+    if (!answer)
+        return MOTUS_OK;
+    return columns_callback_failed(invariant ? "invariant" : "quantity", t, answer, err);
+}
+
+motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *err)
+{
+    fail(err, MOTUS_CALLBACK, "the %s callback reported a failure at t = %g", which, t);
+    if (err) {
+        err->time = t;
+        err->returned = answer;
+    }
+    return MOTUS_CALLBACK;
+}
+
 static motus_status evaluate(motus_system *s, const column_group *g, double t, double *x, double *v, motus_error *err)
 {
+    const problem *p = &s->problem;
     switch (g->kind) {
-    case MOTUS_QUANTITY:
-    case MOTUS_INVARIANT:
-        if (!s->model) {
-            if (s->callback.invariant(s->callback.context, t, x, v, s->look))
-                return fail(err, MOTUS_CALLBACK, "the invariant callback reported a failure at t = %g", t);
-            return MOTUS_OK;
-        }
-        if (!interpreter_look(s->interpreter, &s->model->definitions[g->item], t, x, v, s->look))
-            return fail(err, MOTUS_MEMORY, "no memory to compute %s", s->model->definitions[g->item].name);
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT:
+        if (!s->model)
+            return ask(s, g->kind, t, x, v, err);
+        if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->look))
+            return fail(err, MOTUS_MEMORY, "no memory to compute %s", definition(s, g)->name);
         return MOTUS_OK;
-    case MOTUS_EXACT:
-        if (s->problem.exact(s->problem.ctx, t, s->exact_x, s->exact_v))
-            return fail(err, MOTUS_CALLBACK, "the exact callback reported a failure at t = %g", t);
+    case MOTUS_COLUMN_EXACT:
+        if (p->exact(p->ctx, t, s->exact_x, s->exact_v))
+            return columns_callback_failed("exact", t, p->returned ? *p->returned : 0, err);
         return MOTUS_OK;
     default:
         return MOTUS_OK;
     }
+}
+
+/* The exact columns come from one evaluation, and so do all quantities, or invariants, of a callback. */
+static bool evaluated(const motus_system *s, const column_group *g, const column_group *done)
+{
+    return g == done ||
+           (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *err)
@@ -176,14 +200,13 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
     for (size_t i = 0; i < count; i++) {
         if (columns[i] >= s->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu; the system has %zu", columns[i], s->column_count);
-        const column_group *g = group_of(s, columns[i]);
+        const column_group *g = columns_group(s, columns[i]);
         size_t k = columns[i] - g->first;
-        if (g->kind == MOTUS_TIME) {
+        if (g->kind == MOTUS_COLUMN_TIME) {
             out[i] = t;
             continue;
         }
-        /* All exact columns come from one evaluation. */
-        if (g != done && !(done && done->kind == MOTUS_EXACT && g->kind == MOTUS_EXACT)) {
+        if (!evaluated(s, g, done)) {
             motus_status status = evaluate(s, g, t, x, v, err);
             if (status != MOTUS_OK)
                 return status;
@@ -191,129 +214,36 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
         }
         if (of_state(g->kind)) {
             const model_state *st = &s->states[g->item];
-            size_t parts = parts_of(st->components), at = system_place(st, k / parts, (int)(k % parts));
-            const double *from_x = g->kind == MOTUS_EXACT ? s->exact_x : x, *from_v = g->kind == MOTUS_EXACT ? s->exact_v : v;
+            size_t parts = columns_parts(st->components), at = system_place(st, k / parts, (int)(k % parts));
+            const double *from_x = g->kind == MOTUS_COLUMN_EXACT ? s->exact_x : x, *from_v = g->kind == MOTUS_COLUMN_EXACT ? s->exact_v : v;
             out[i] = st->order == 2 && !g->prime ? from_x[at] : from_v[at];
         } else if (s->model) {
-            size_t parts = parts_of(definition(s, g)->components), hull = g->count / parts;
+            size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts;
             out[i] = s->look[k % parts * hull + k / parts];
         } else {
-            out[i] = s->look[0];
+            out[i] = s->look[definition(s, g)->slot + k];
         }
     }
     return MOTUS_OK;
 }
 
-/* ---- names ---- */
+/* ---- what a column is ---- */
 
-static model_state as_state(const model_definition *d)
+model_state columns_shape(const motus_system *s, const column_group *g)
 {
-    model_state s = {.name = d->name, .order = 2, .components = d->components, .dims = d->dims, .hull = d->numbers / parts_of(d->components)};
-    memcpy(s.first, d->first, sizeof s.first);
-    memcpy(s.last, d->last, sizeof s.last);
-    return s;
-}
-
-size_t motus_column_count(const motus_system *s) { return s ? s->column_count : 0; }
-
-motus_status motus_column_at(const motus_system *s, size_t k, motus_column *c)
-{
-    if (!s || !c || k >= s->column_count)
-        return MOTUS_ARGUMENT;
-    const column_group *g = group_of(s, k);
-    *c = (motus_column){.kind = g->kind, .variable = g->item, .is_velocity = g->prime};
-    k -= g->first;
-    char *name = c->name;
-    size_t room = sizeof c->name;
-    if (g->kind == MOTUS_TIME) {
-        snprintf(name, room, "t");
-        return MOTUS_OK;
-    }
-    if (g->kind == MOTUS_EXACT) {
-        size_t n = (size_t)snprintf(name, room, "exact ");
-        name += n;
-        room -= n;
-    }
-    if (of_state(g->kind)) {
-        const model_state *st = &s->states[g->item];
-        size_t parts = parts_of(st->components), cell = k / parts;
-        c->component = (int)(k % parts);
-        model_state_name(st, st->cells.offset ? st->cells.offset[cell] : cell, c->component, g->prime, name, room);
-        return MOTUS_OK;
-    }
-    if (!s->model) {
-        snprintf(name, room, "invariant");
-        return MOTUS_OK;
-    }
+    if (of_state(g->kind))
+        return s->states[g->item];
     const model_definition *d = definition(s, g);
-    model_state st = as_state(d);
-    c->component = (int)(k % parts_of(d->components));
-    size_t number = 0;               /* among the quantities, or the invariants */
-    for (uint32_t i = 0; i < g->item; i++)
-        number += s->model->definitions[i].kind == d->kind;
-    c->variable = number;
-    model_state_name(&st, k / parts_of(d->components), c->component, false, name, room);
-    return MOTUS_OK;
-}
-
-typedef struct column_name {         /* a name taken apart: [exact] base [indices] primes component */
-    bool exact;
-    char base[MOTUS_NAME_MAX];
-    int dims;
-    int64_t index[MAX_DIMS];
-    int primes;
-    int component;                   /* 1-based, 0: none */
-} column_name;
-
-static const char *read_integer(const char *p, int64_t *value)
-{
-    const bool minus = *p == '-';
-    const char *digit = p += minus;
-    for (*value = 0; isdigit((unsigned char)*p); p++)
-        *value = *value < INT32_MAX ? 10 * *value + (*p - '0') : *value;       /* no index is that far */
-    *value = minus ? -*value : *value;
-    return p == digit ? NULL : p;
-}
-
-static bool take_name(const char *p, column_name *n)
-{
-    *n = (column_name){0};
-    if (!strncmp(p, "exact ", 6)) {
-        n->exact = true;
-        p += 6;
-    }
-    size_t length = strcspn(p, "[.'");
-    if (length == 0 || length >= sizeof n->base)
-        return false;
-    memcpy(n->base, p, length);
-    p += length;
-    if (*p == '[') {
-        do {
-            if (n->dims == MAX_DIMS || !(p = read_integer(p + 1, &n->index[n->dims])))
-                return false;
-            n->dims++;
-        } while (*p == ',');
-        if (*p++ != ']')
-            return false;
-    }
-    while (*p == '\'' && n->primes < 3) {
-        n->primes++;
-        p++;
-    }
-    if (*p == '.') {
-        n->component = p[1] == 'x' ? 1 : p[1] == 'y' ? 2 : p[1] == 'z' ? 3 : -1;
-        p += p[1] ? 2 : 1;
-    } else if (*p == '[') {
-        int64_t k;
-        if (!(p = read_integer(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
-            return false;
-        n->component = (int)k;
-    }
-    return *p == 0 && n->component >= 0;
+    const size_t hull = d->numbers / columns_parts(d->components);
+    model_state shape = {.name = d->name, .order = 2, .components = d->components, .dims = d->dims, .hull = hull,
+                         .cells = {.count = hull}};
+    memcpy(shape.first, d->first, sizeof shape.first);
+    memcpy(shape.last, d->last, sizeof shape.last);
+    return shape;
 }
 
 /* The cell of a family with these indices; false if there is no equation there. */
-static bool find_cell(const model_state *s, const int64_t *index, size_t *cell)
+bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
 {
     size_t offset = 0;
     for (int d = 0; d < s->dims; d++) {
@@ -337,82 +267,112 @@ static bool find_cell(const model_state *s, const int64_t *index, size_t *cell)
     return s->cells.count > 0 && s->cells.offset[low] == offset;
 }
 
-static const char *group_name(const motus_system *s, const column_group *g)
-{
-    if (g->kind == MOTUS_TIME)
-        return "t";
-    if (of_state(g->kind))
-        return s->states[g->item].name;
-    return s->model ? definition(s, g)->name : "invariant";
-}
 
-static motus_status no_column(const motus_system *s, const char *name, const char *base, motus_error *err)
+/* The other way: the indices of a place in the hull. */
+static void indices_of(const model_state *s, size_t offset, int64_t *index)
 {
-    fail(err, MOTUS_NAME, "there is no column %s", name);
-    const char *best = NULL;
-    int least = 7;
-    for (size_t i = 0; i < s->group_count; i++) {
-        const char *other = group_name(s, &s->groups[i]);
-        if (!words_near(base, other))
-            continue;
-        int d = words_distance(base, other, 6);
-        if (d < least) {
-            least = d;
-            best = other;
-        }
+    for (int d = s->dims - 1; d >= 0; d--) {
+        const size_t extent = (size_t)(s->last[d] - s->first[d] + 1);
+        index[d] = s->first[d] + (int64_t)(offset % extent);
+        offset /= extent;
     }
-    motus_column c;
-    if (best && strcmp(best, base))
-        hint(err, "did you mean %s?", best);
-    else if (s->column_count > 1 && motus_column_at(s, 1, &c) == MOTUS_OK)
-        hint(err, "the columns are t, %s … as a trajectory file names them", c.name);
-    return MOTUS_NAME;
 }
 
-motus_status motus_column_find(const motus_system *s, const char *name, size_t *first, size_t *count, motus_error *err)
+/* Which quantity or invariant of the system this group is, from 0: groups of a kind stand together. */
+static size_t rank_of(const motus_system *s, const column_group *g)
 {
-    column_name n;
-    if (!s || !name || !first || !count)
-        return fail(err, MOTUS_ARGUMENT, "motus_column_find needs a system, a name and two places for the answer");
-    if (!take_name(name, &n))
-        return fail(err, MOTUS_NAME, "%s is not the name of a column", name);
+    size_t rank = 0;
+    while (g > s->groups && g[-1].kind == g->kind)
+        g--, rank++;
+    return rank;
+}
+
+static motus_column describe(const motus_system *s, size_t k)
+{
+    const column_group *g = columns_group(s, k);
+    motus_column c = {.kind = g->kind, .variable = g->item, .is_velocity = g->prime};
+    if (g->kind == MOTUS_COLUMN_TIME) {
+        snprintf(c.name, sizeof c.name, "t");
+        return c;
+    }
+    const model_state shape = columns_shape(s, g);
+    const size_t parts = columns_parts(shape.components), cell = (k - g->first) / parts;
+    const size_t offset = shape.cells.offset ? shape.cells.offset[cell] : cell;
+    if (!of_state(g->kind))
+        c.variable = rank_of(s, g);
+    c.component = (int)((k - g->first) % parts);
+    c.dimensions = shape.dims;
+    indices_of(&shape, offset, c.cell);
+    const size_t n = g->kind == MOTUS_COLUMN_EXACT ? (size_t)snprintf(c.name, sizeof c.name, "exact ") : 0;
+    model_state_name(&shape, offset, c.component, g->prime, c.name + n, sizeof c.name - n);
+    return c;
+}
+
+size_t motus_column_count(const motus_system *s) { return s ? s->column_count : 0; }
+
+motus_status motus_column_at(const motus_system *s, size_t k, motus_column *out)
+{
+    if (!s || !out || k >= s->column_count || motus_struct_check(MOTUS_DEF_COLUMN, out, NULL) != MOTUS_OK)
+        return MOTUS_ARGUMENT;
+    const motus_column c = describe(s, k);
+    motus_struct_write(MOTUS_DEF_COLUMN, &c, out);
+    return MOTUS_OK;
+}
+
+/* The group that a column's description is about; NULL: none. */
+static const column_group *group_of(const motus_system *s, const motus_column *c)
+{
+    size_t rank = 0;
     for (size_t i = 0; i < s->group_count; i++) {
         const column_group *g = &s->groups[i];
-        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_EXACT) || n.primes != (g->prime ? 1 : 0))
+        if (g->kind != c->kind)
             continue;
-        *first = g->first;
-        *count = g->count;
-        if (g->kind == MOTUS_TIME || (!s->model && g->kind == MOTUS_INVARIANT))
-            return n.dims || n.component ? no_column(s, name, n.base, err) : MOTUS_OK;
-        model_state st = of_state(g->kind) ? s->states[g->item] : as_state(definition(s, g));
-        if (!of_state(g->kind))
-            st.cells.count = st.hull;
-        size_t parts = parts_of(st.components), cell = 0;
-        if (st.dims == 0 && n.dims == 1 && !n.component && !n.primes) {      /* w[2]: a component of a vector */
-            n.component = n.index[0] > 0 && n.index[0] < INT32_MAX ? (int)n.index[0] : INT32_MAX;
-            n.dims = 0;
-        }
-        if (n.dims && (n.dims != st.dims || !find_cell(&st, n.index, &cell)))
-            return no_column(s, name, n.base, err);
-        if (n.component > st.components || (n.component && st.dims && !n.dims))
-            return no_column(s, name, n.base, err);
-        if (n.dims) {
-            *first += cell * parts;
-            *count = parts;
-        }
-        if (n.component) {
-            *first += (size_t)n.component - 1;
-            *count = 1;
-        }
+        const size_t variable = of_state(g->kind) ? g->item : rank++;
+        if (variable == c->variable && (g->kind != MOTUS_COLUMN_EXACT || g->prime == (c->is_velocity != 0)))
+            return g;
+    }
+    return NULL;
+}
+
+motus_status motus_column_of(const motus_system *s, const motus_column *given, size_t *k, motus_error *err)
+{
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
+    if (!s || !given || !k)
+        return fail(err, MOTUS_ARGUMENT, "motus_column_of needs a system, a column and a place for its number");
+    motus_column c;
+    motus_status status = motus_struct_read(MOTUS_DEF_COLUMN, given, &c, err);
+    if (status != MOTUS_OK)
+        return status;
+    const column_group *g = group_of(s, &c);
+    if (!g)
+        return fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
+    if (g->kind == MOTUS_COLUMN_TIME) {
+        *k = g->first;
         return MOTUS_OK;
     }
-    return no_column(s, name, n.base, err);
+    const model_state shape = columns_shape(s, g);
+    const size_t parts = columns_parts(shape.components);
+    size_t cell;
+    if (c.component < 0 || (size_t)c.component >= parts)
+        return fail(err, MOTUS_NAME, "%s has no component %d; they count from 0, and there are %d", shape.name,
+                    c.component, shape.components);
+    if (!columns_find_cell(&shape, c.cell, &cell)) {
+        fail(err, MOTUS_NAME, "%s has no cell with this index", shape.name);
+        if (shape.dims == 1)
+            hint(err, "its indices are %lld to %lld", (long long)shape.first[0], (long long)shape.last[0]);
+        return MOTUS_NAME;
+    }
+    *k = g->first + cell * parts + (size_t)c.component;
+    return MOTUS_OK;
 }
+
+/* ---- quantities and invariants ---- */
 
 static const char *definition_name(const motus_system *s, definition_kind kind, size_t k, size_t *numbers)
 {
-    for (uint32_t i = 0; s && s->model && i < s->model->definition_count; i++) {
-        const model_definition *d = &s->model->definitions[i];
+    for (uint32_t i = 0; s && i < s->definition_count; i++) {
+        const model_definition *d = &s->definitions[i];
         if (d->kind != kind || k-- > 0)
             continue;
         if (numbers)
@@ -425,24 +385,20 @@ static const char *definition_name(const motus_system *s, definition_kind kind, 
 static size_t definition_count(const motus_system *s, definition_kind kind)
 {
     size_t n = 0;
-    for (uint32_t i = 0; s && s->model && i < s->model->definition_count; i++)
-        n += s->model->definitions[i].kind == kind;
+    for (uint32_t i = 0; s && i < s->definition_count; i++)
+        n += s->definitions[i].kind == kind;
     return n;
 }
 
 size_t motus_quantity_count(const motus_system *s) { return definition_count(s, DEFINED_QUANTITY); }
-const char *motus_quantity_name(const motus_system *s, size_t k, size_t *numbers) { return definition_name(s, DEFINED_QUANTITY, k, numbers); }
+size_t motus_invariant_count(const motus_system *s) { return definition_count(s, DEFINED_INVARIANT); }
 
-size_t motus_invariant_count(const motus_system *s)
+const char *motus_quantity_name(const motus_system *s, size_t k, size_t *numbers)
 {
-    return s && !s->model ? s->callback.invariant != NULL : definition_count(s, DEFINED_INVARIANT);
+    return definition_name(s, DEFINED_QUANTITY, k, numbers);
 }
 
 const char *motus_invariant_name(const motus_system *s, size_t k, size_t *numbers)
 {
-    if (s && s->model)
-        return definition_name(s, DEFINED_INVARIANT, k, numbers);
-    if (numbers)
-        *numbers = 1;
-    return s && s->callback.invariant && k == 0 ? "invariant" : NULL;
+    return definition_name(s, DEFINED_INVARIANT, k, numbers);
 }

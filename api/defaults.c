@@ -1,59 +1,143 @@
-/* Definitions and words that need no system. */
+/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version. And
+ * the words of statuses, which need no system.
+ *
+ * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what it
+ * adds has no padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a struct of
+ * an older caller is a beginning of ours, and one of a newer caller is ours and zeros, unless it asks for what this
+ * library does not have.
+ */
 #include "api/system.h"
 
 #include <math.h>
 #include <string.h>
 
-#define COPY(type)                                                        \
-    do {                                                                  \
-        d.size = size;                                                    \
-        memset(def, 0, size);                                             \
-        memcpy(def, &d, size < sizeof d ? size : sizeof d);               \
-    } while (0)
+/* A version that adds members adds its size at the end; the last one is the size of today. */
+#define SIZES(type) (const uint32_t[]){sizeof(type)}, 1
 
-void motus_default(motus_def_kind kind, void *def, uint32_t size)
+typedef struct layout {
+    const char *type, *maker;
+    const uint32_t *sizes;
+    size_t count;
+    const void *start;               /* what a new one holds, but for its size; NULL: zeros */
+} layout;
+
+static const layout layouts[] = {
+    [MOTUS_DEF_ERROR] = {"motus_error", "error", SIZES(motus_error), NULL},
+    [MOTUS_DEF_TEXT] = {"motus_text_def", "text", SIZES(motus_text_def), &(const motus_text_def){.length = SIZE_MAX}},
+    [MOTUS_DEF_CALLBACK] = {"motus_callback_def", "callback", SIZES(motus_callback_def),
+                            &(const motus_callback_def){
+                                .quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
+    [MOTUS_DEF_RUN] = {"motus_run_def", "run", SIZES(motus_run_def),
+                       &(const motus_run_def){.step = NAN, .until = NAN, .start = NAN}},
+    [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
+                         &(const motus_study_def){.step = NAN, .until = NAN}},
+    [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),
+                            &(const motus_ensemble_def){.step = NAN, .until = NAN, .every = 1}},
+    [MOTUS_DEF_VARIABLE] = {"motus_variable", "variable", SIZES(motus_variable), NULL},
+    [MOTUS_DEF_COLUMN] = {"motus_column", "column", SIZES(motus_column), NULL},
+    [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},
+    [MOTUS_DEF_INITIAL] = {"motus_initial", "initial", SIZES(motus_initial), NULL},
+    [MOTUS_DEF_SETTINGS] = {"motus_settings", "settings", SIZES(motus_settings),
+                            &(const motus_settings){
+                                .step = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
+    [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
+    [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
+    [MOTUS_DEF_STATISTICS] = {"motus_statistics", "statistics", SIZES(motus_statistics),
+                              &(const motus_statistics){.first_step = NAN, .last_step = NAN}},
+};
+
+static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }
+
+static uint32_t size_said(const void *made)
 {
-    switch (kind) {
-    case MOTUS_DEF_ERROR: {
-        motus_error d = {.time = NAN};
-        COPY(motus_error);
-        break;
-    }
-    case MOTUS_DEF_TEXT: {
-        motus_text_def d = {.length = SIZE_MAX};
-        COPY(motus_text_def);
-        break;
-    }
-    case MOTUS_DEF_CALLBACK: {
-        motus_callback_def d = {.depends_on_velocity = 1, .depends_on_time = 1};
-        COPY(motus_callback_def);
-        break;
-    }
-    case MOTUS_DEF_RUN: {
-        motus_run_def d = {.step = NAN, .until = NAN, .start = NAN};
-        COPY(motus_run_def);
-        break;
-    }
-    case MOTUS_DEF_STUDY: {
-        motus_study_def d = {.step = NAN, .until = NAN};
-        COPY(motus_study_def);
-        break;
-    }
-    case MOTUS_DEF_ENSEMBLE: {
-        motus_ensemble_def d = {.step = NAN, .until = NAN, .every = 1};
-        COPY(motus_ensemble_def);
-        break;
-    }
-    }
+    uint32_t size;
+    memcpy(&size, made, sizeof size);
+    return size;
 }
+
+void motus_default(motus_def_kind kind, void *made, uint32_t size)
+{
+    memset(made, 0, size);
+    if ((unsigned)kind >= sizeof layouts / sizeof *layouts || size < sizeof size)
+        return;
+    const layout *l = &layouts[kind];
+    if (l->start)
+        memcpy(made, l->start, size < size_now(l) ? size : size_now(l));
+    if (kind == MOTUS_DEF_ERROR && size >= offsetof(motus_error, time) + sizeof(double))
+        ((motus_error *)made)->time = NAN;       /* here: nearly all of an error is room for texts */
+    memcpy(made, &size, sizeof size);
+}
+
+/* ---- sizes ---- */
+
+/* No version of any struct is larger. A size beyond it is none: it is what lay in memory that nobody filled. */
+enum { SIZE_BOUND = 1 << 14 };
+
+defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made)
+{
+    const uint32_t size = size_said(made), now = sizes[count - 1];
+    const unsigned char *bytes = made;
+    if (size == 0)
+        return SIZE_MISSING;
+    for (size_t i = 0; i < count; i++)
+        if (sizes[i] == size)
+            return SIZE_FITS;
+    if (size < now || size > SIZE_BOUND)
+        return SIZE_UNKNOWN;
+    for (uint32_t i = now; i < size; i++)
+        if (bytes[i])
+            return SIZE_ASKS_MORE;
+    return SIZE_FITS;
+}
+
+static motus_status refuse(const layout *l, defaults_fit fit, uint32_t size, motus_error *err)
+{
+    if (fit == SIZE_ASKS_MORE) {
+        fail(err, MOTUS_ARGUMENT, "the %s asks for something that motus %s does not have", l->type, MOTUS_VERSION);
+        hint(err, "leave what is new in it as motus_default_%s() makes it, or load a newer motus", l->maker);
+        return MOTUS_ARGUMENT;
+    }
+    if (fit == SIZE_MISSING)
+        fail(err, MOTUS_ARGUMENT, "the %s has no size", l->type);
+    else
+        fail(err, MOTUS_ARGUMENT, "the %s has a size of no version, %lu bytes", l->type, (unsigned long)size);
+    hint(err, "make it with motus_default_%s()", l->maker);
+    return MOTUS_ARGUMENT;
+}
+
+motus_status motus_struct_check(motus_def_kind kind, const void *made, motus_error *err)
+{
+    const layout *l = &layouts[kind];
+    const defaults_fit fit = defaults_judge(l->sizes, l->count, made);
+    return fit == SIZE_FITS ? MOTUS_OK : refuse(l, fit, size_said(made), err);
+}
+
+/* Whatever its size says, it has the members of the first version, so the refusal can be said in it. */
+bool motus_error_sound(motus_error *err) { return !err || motus_struct_check(MOTUS_DEF_ERROR, err, err) == MOTUS_OK; }
+
+static void copy(motus_def_kind kind, void *to, const void *from, uint32_t size)
+{
+    const uint32_t now = size_now(&layouts[kind]), most = size < now ? size : now;
+    memcpy((char *)to + sizeof size, (const char *)from + sizeof size, most - sizeof size);
+}
+
+motus_status motus_struct_read(motus_def_kind kind, const void *given, void *ours, motus_error *err)
+{
+    motus_default(kind, ours, size_now(&layouts[kind]));
+    motus_status status = given ? motus_struct_check(kind, given, err) : MOTUS_OK;
+    if (given && status == MOTUS_OK)
+        copy(kind, ours, given, size_said(given));
+    return status;
+}
+
+void motus_struct_write(motus_def_kind kind, const void *ours, void *to) { copy(kind, to, ours, size_said(to)); }
+
+/* ---- words ---- */
 
 const char *motus_version(void) { return MOTUS_VERSION; }
 
-static const struct { const char *word, *text; int exit; } statuses[] = {
-#define X(name, word, text, exit) {word, text, exit},
-    MOTUS_STATUS_MAP(X)
-#undef X
-};
+#define STATUS_ROW(name, word, text, exit) {word, text, exit},
+static const struct { const char *word, *text; int exit; } statuses[] = {MOTUS_STATUS_MAP(STATUS_ROW)};
 
 static size_t known(motus_status s) { return (unsigned)s < MOTUS_STATUS_COUNT ? (size_t)s : MOTUS_ARGUMENT; }
 

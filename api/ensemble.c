@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-_Static_assert((int)REDUCE_MEAN == (int)MOTUS_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_TIME_OF_MAX, "the reductions are the same list");
+_Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX, "the reductions are the same list");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -30,7 +30,7 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
     if (!d->record_count || !d->records)
         return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
-        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_TIME_OF_MAX)
+        if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TIME_OF_MAX)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r, d->records[r].column, s->column_count);
     if (d->every < 1)
         return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
@@ -57,23 +57,23 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
 /* A recorded column as lanes see it; false: they cannot. */
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
 {
-    motus_column c;
+    motus_column c = motus_default_column();
     if (motus_column_at(s, r->column, &c) != MOTUS_OK)
         return false;
     *out = (lanes_source){.how = (int)r->how};
     switch (c.kind) {
-    case MOTUS_TIME: out->kind = SOURCE_TIME; return true;
-    case MOTUS_POSITION:
+    case MOTUS_COLUMN_TIME: out->kind = SOURCE_TIME; return true;
+    case MOTUS_COLUMN_POSITION:
         out->kind = SOURCE_X;
         out->place = system_number(s, r->column - 1, false);
         return true;
-    case MOTUS_VELOCITY:
-    case MOTUS_COMPANION:
+    case MOTUS_COLUMN_VELOCITY:
+    case MOTUS_COLUMN_COMPANION:
         out->kind = SOURCE_V;
         out->place = system_number(s, r->column - 1, true);
         return true;
-    case MOTUS_QUANTITY:
-    case MOTUS_INVARIANT:
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT:
         out->kind = SOURCE_DEFINITION;
         out->definition = system_definition(s, r->column, &out->place);
         return true;
@@ -156,14 +156,17 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
 
 motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a place for the ensemble");
     *out = NULL;
     if (!s || !given)
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
-    motus_ensemble_def d = motus_default_ensemble();
-    memcpy(&d, given, given->size < sizeof d ? given->size : sizeof d);
-    motus_status status = check(s, &d, err);
+    motus_ensemble_def d;
+    motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
+    if (status == MOTUS_OK)
+        status = check(s, &d, err);
     if (status != MOTUS_OK)
         return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
@@ -171,6 +174,7 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
                           .threads = d.threads ? d.threads : s->model ? parallel_processors() : 1, .progress = d.progress, .context = d.context};
+    motus_system_hold(s, true);
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
     modes m = modes_enter();
@@ -191,6 +195,8 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
 
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!e || !results || (e->vary_count && !values))
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
     for (size_t k = 0; k < e->vary_count; k++)
@@ -205,7 +211,7 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     double began = pace_now();
     places p = {values, results, stopped, false};
     for (size_t r = 0; r < e->record_count; r++)
-        p.looks |= e->records[r].how != MOTUS_FINAL;
+        p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
                           : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
@@ -219,6 +225,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     if (!e)
         return;
     motus_allocator a = e->allocator;
+    motus_system_hold(e->system, false);
     lanes_destroy(e->lanes);
     ensemble_dismiss(e);
     give(&a, e->places);

@@ -38,10 +38,10 @@ typedef struct group {
 static const double *row_of(const group *b, size_t column)
 {
     const motus_system *s = b->w->system;
-    motus_column c;
-    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
+    motus_column c = motus_default_column();
+    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
         return NULL;
-    const bool of_v = c.kind != MOTUS_POSITION;
+    const bool of_v = c.kind != MOTUS_COLUMN_POSITION;
     return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;
 }
 
@@ -148,7 +148,8 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
     b.problem = callback_block(&b.calling, &w->system->problem);
     w->trajectories = count;
     motus_status status = travel(&b, &w->why);
-    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
+    const bool lost =
+        status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (status != MOTUS_OK && !lost)
         return status;
     if (lost && count > 1) {

@@ -1,5 +1,6 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
+#include "api/parameters.h"
 
 #include "lang/text/number.h"
 #include "lang/text/words.h"
@@ -34,29 +35,12 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
     return MOTUS_NAME;
 }
 
-/* "x'(0)" → "x'"; false where there is no such bracket. *start: what stands in it. */
-static bool take_bracket(const char *name, char *bare, size_t size, double *start)
-{
-    const char *open = strrchr(name, '(');
-    if (!open || (size_t)(open - name) >= size)
-        return false;
-    snprintf(bare, size, "%.*s", (int)(open - name), name);
-    const bool minus = open[1] == '-';
-    const char *digits = open + 1 + minus;
-    const size_t n = strspn(digits, "0123456789.e+-");
-    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
-        return false;
-    if (minus)
-        *start = -*start;
-    return true;
-}
-
 static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
 {
     size_t first, count;
-    motus_column c;
+    motus_column c = motus_default_column();
     if (motus_column_find(s, bare, &first, &count, NULL) != MOTUS_OK || motus_column_at(s, first, &c) != MOTUS_OK ||
-        (c.kind != MOTUS_POSITION && c.kind != MOTUS_VELOCITY && c.kind != MOTUS_COMPANION))
+        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
         return unknown(s, name, err);
     if (count > 1) {
         fail(err, MOTUS_SHAPE, "%s is %zu numbers, and one is varied at a time", name, count);
@@ -64,18 +48,18 @@ static motus_status initial_value(const motus_system *s, const char *name, const
         hint(err, "name one of them: %s(%s)", c.name, decimal(s->start, at));
         return MOTUS_SHAPE;
     }
-    const bool velocity = c.kind == MOTUS_VELOCITY;
+    const bool velocity = c.kind == MOTUS_COLUMN_VELOCITY;
     size_t at = first - 1, inner;
-    inner = system_number(s, at, velocity || c.kind == MOTUS_COMPANION);
+    inner = system_number(s, at, velocity || c.kind == MOTUS_COLUMN_COMPANION);
     if (!s->model) {
-        *place = velocity || c.kind == MOTUS_COMPANION ? s->problem.nx + inner : inner;
+        *place = velocity || c.kind == MOTUS_COLUMN_COMPANION ? s->problem.nx + inner : inner;
         return MOTUS_OK;
     }
     for (uint32_t i = 0; i < s->state_count; i++) {
         const model_state *st = &s->states[i];
         const size_t numbers = st->hull * (size_t)(st->components ? st->components : 1);
-        const bool of_v = velocity || c.kind == MOTUS_COMPANION;
-        if (inner < st->base || inner >= st->base + numbers || (st->order == 1) != (c.kind == MOTUS_COMPANION))
+        const bool of_v = velocity || c.kind == MOTUS_COLUMN_COMPANION;
+        if (inner < st->base || inner >= st->base + numbers || (st->order == 1) != (c.kind == MOTUS_COLUMN_COMPANION))
             continue;
         *place = s->model->arrays[st->start_array[of_v && st->order == 2]].base + (inner - st->base);
         return MOTUS_OK;
@@ -121,7 +105,7 @@ motus_status ensemble_place(const motus_system *s, const char *name, size_t *pla
     double start;
     if (!name)
         return fail(err, MOTUS_ARGUMENT, "what varies has no name");
-    if (!take_bracket(name, bare, sizeof bare, &start))
+    if (!parameters_bracket(name, bare, sizeof bare, &start))
         return parameter(s, name, place, err);
     if (start != s->start) {
         char at[DECIMAL_MAX];

@@ -133,7 +133,8 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
         s.columns[r] = e->records[r].column;
     w->trajectories = 1;
     motus_status status = travel(&s, p, k, &w->why);
-    const bool lost = status == MOTUS_DIVERGED || status == MOTUS_SOLVE;
+    const bool lost =
+        status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (lost || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++)
             p->results[r][k] = lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);

@@ -33,7 +33,7 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
     if (w->e)
         return MOTUS_OK;
     if (number > 0) {
-        motus_status status = system_again(e->system, &s, err);
+        motus_status status = motus_system_clone(e->system, &s, err);
         if (status == MOTUS_OK && s->model)
             status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
         if (status == MOTUS_OK && !system_sample_gyroscopic(s))
@@ -117,7 +117,7 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
     if (first->status == MOTUS_CANCELLED)
         return fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", atomic_load(&e->done), e->count);
     if (err)
-        *err = first->why;
+        motus_struct_write(MOTUS_DEF_ERROR, &first->why, err);
     return first->status;
 }
 

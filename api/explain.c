@@ -97,18 +97,20 @@ bool system_sample_gradient(motus_system *s)
     return s->sampled_gradient;
 }
 
-void motus_analysis_of(const motus_system *given, motus_analysis *a)
+motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 {
     motus_system *s = (motus_system *)given;
-    *a = (motus_analysis){0};
-    if (!s)
-        return;
-    system_sample_gyroscopic(s);
-    system_sample_gradient(s);
+    if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK)
+        return MOTUS_ARGUMENT;
+    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+        return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
-    *a = (motus_analysis){.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
-                          .constant = t->constant, .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
-                          .exact_recognised = s->model && s->model->exact_recognised};
+    const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v,
+                                 .time_dependent = t->time, .affine = t->affine, .constant = t->constant,
+                                 .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
+                                 .exact_recognised = s->model && s->model->exact_recognised};
+    motus_struct_write(MOTUS_DEF_ANALYSIS, &ours, out);
+    return MOTUS_OK;
 }
 
 /* ---- words ---- */
@@ -223,12 +225,14 @@ const char *motus_explain(motus_system *s)
 {
     if (!s)
         return "";
-    if (s->explanation)
-        return s->explanation;
     if (!s->model)
         return "the acceleration is a callback: nothing can be read off it\n";
     if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
         return "";
+    const traits *t = &s->problem.traits;
+    const char **kept = &s->explanation[t->gyroscopic][t->gradient];
+    if (*kept)
+        return *kept;
     modes m = modes_enter();
     words w = {.arena = &s->arena};
     say_variables(&w, s);
@@ -236,8 +240,7 @@ const char *motus_explain(motus_system *s)
     modes_leave(m);
     if (!w.text || w.failed || s->arena.failed)
         return "";                   /* the whole of it or nothing */
-    s->explanation = w.text;
-    return s->explanation;
+    return *kept = w.text;
 }
 
 const char *motus_equation_text(motus_system *s, size_t k)

@@ -88,6 +88,8 @@ static motus_status jacobian_now(jacobian *j, double *da_dx, double *da_dv, motu
 
 motus_status motus_run_jacobian(motus_run *r, double *da_dx, double *da_dv, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r)
         return fail(err, MOTUS_ARGUMENT, "motus_run_jacobian needs a run");
     const motus_system *s = r->system;

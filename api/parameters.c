@@ -2,14 +2,15 @@
  *
  * Invariant: asking changes nothing, and numbers come in the order of columns: cell by cell, component by component.
  */
-#include "api/system.h"
+#include "api/parameters.h"
 
+#include "api/columns.h"
 #include "lang/model/vary.h"
+#include "lang/text/number.h"
+#include "lang/text/words.h"
 
 #include <stdio.h>
 #include <string.h>
-
-static size_t parts_of(int components) { return components ? (size_t)components : 1; }
 
 /* ---- parameters ---- */
 
@@ -43,17 +44,18 @@ static size_t place_of(const motus_system *s, const model_definition *d) { retur
 motus_status motus_parameter_at(const motus_system *s, size_t k, motus_parameter *out)
 {
     const model_definition *d = parameter(s, k);
-    if (!d || !out)
+    if (!d || !out || motus_struct_check(MOTUS_DEF_PARAMETER, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
-    *out = (motus_parameter){.name = d->name, .components = d->components, .list = d->list, .dimensions = d->dims,
-                             .count = cells_of(d) * parts_of(d->components)};
-    memcpy(out->first, d->first, sizeof out->first);
-    memcpy(out->last, d->last, sizeof out->last);
+    motus_parameter p = {.name = d->name, .components = d->components, .list = d->list, .dimensions = d->dims,
+                             .count = cells_of(d) * columns_parts(d->components)};
+    memcpy(p.first, d->first, sizeof p.first);
+    memcpy(p.last, d->last, sizeof p.last);
     const span at = d->statement->value_at;
-    out->text = s->model->source.texts[at.text].bytes + at.from;
-    out->length = at.to - at.from;
-    if (!vary_decides(s->model, place_of(s, d), out->count, &s->allocator, &out->decides))
-        out->decides = "unknown";
+    p.text = s->model->source.texts[at.text].bytes + at.from;
+    p.length = at.to - at.from;
+    if (!vary_decides(s->model, place_of(s, d), p.count, &s->allocator, &p.decides))
+        p.decides = "unknown";
+    motus_struct_write(MOTUS_DEF_PARAMETER, &p, out);
     return MOTUS_OK;
 }
 
@@ -63,7 +65,7 @@ motus_status motus_parameter_values(const motus_system *s, size_t k, double *out
     if (!d || !out)
         return MOTUS_ARGUMENT;
     const double *pool = s->model->pool + place_of(s, d);
-    const size_t cells = cells_of(d), parts = parts_of(d->components);
+    const size_t cells = cells_of(d), parts = columns_parts(d->components);
     for (size_t c = 0; c < cells; c++)
         for (size_t i = 0; i < parts; i++)
             *out++ = pool[i * cells + c];
@@ -97,11 +99,13 @@ motus_status motus_initial_at(const motus_system *s, size_t k, motus_initial *ou
     uint32_t variable;
     bool velocity;
     const model_state *st = initial(s, k, &variable, &velocity);
-    if (!st || !out)
+    if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     char at[DECIMAL_MAX];
-    *out = (motus_initial){.variable = variable, .is_velocity = velocity, .count = st->cells.count * parts_of(st->components)};
-    snprintf(out->name, sizeof out->name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
+    motus_initial i = {
+        .variable = variable, .is_velocity = velocity, .count = st->cells.count * columns_parts(st->components)};
+    snprintf(i.name, sizeof i.name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
+    motus_struct_write(MOTUS_DEF_INITIAL, &i, out);
     return MOTUS_OK;
 }
 
@@ -114,7 +118,100 @@ motus_status motus_initial_values(const motus_system *s, size_t k, double *out)
         return MOTUS_ARGUMENT;
     const double *from = st->order == 2 && !velocity ? s->x0 : s->v0;
     for (size_t c = 0; c < st->cells.count; c++)
-        for (size_t i = 0; i < parts_of(st->components); i++)
+        for (size_t i = 0; i < columns_parts(st->components); i++)
             *out++ = from[system_place(st, c, (int)i)];
     return MOTUS_OK;
+}
+
+/* ---- by name ---- */
+
+bool parameters_bracket(const char *name, char *bare, size_t size, double *start)
+{
+    const char *open = strrchr(name, '(');
+    if (!open || (size_t)(open - name) >= size)
+        return false;
+    snprintf(bare, size, "%.*s", (int)(open - name), name);
+    const bool minus = open[1] == '-';
+    const char *digits = open + 1 + minus;
+    const size_t n = strspn(digits, "0123456789.e+-");
+    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
+        return false;
+    if (minus)
+        *start = -*start;
+    return true;
+}
+
+static motus_status unknown(const motus_system *s, const char *name, motus_error *err)
+{
+    fail(err, MOTUS_NAME, "%s is neither a parameter nor an initial value of this system", name);
+    char base[MOTUS_NAME_MAX], at[DECIMAL_MAX];
+    snprintf(base, sizeof base, "%.*s", (int)strcspn(name, ".['("), name);
+    for (uint32_t i = 0; i < s->definition_count; i++) {
+        const model_definition *d = &s->definitions[i];
+        if (!strcmp(d->name, base) && d->kind == DEFINED_PARAMETER)
+            hint(err, "%s is set as a whole, by its name alone", base);
+        else if (!strcmp(d->name, base))
+            hint(err, "%s is computed along the way: set what it is computed from", base);
+        else if (d->kind == DEFINED_PARAMETER && words_near(base, d->name))
+            hint(err, "did you mean %s?", d->name);
+        else
+            continue;
+        return MOTUS_NAME;
+    }
+    for (uint32_t i = 0; i < s->state_count; i++)
+        if (!strcmp(s->states[i].name, base))
+            hint(err, "an initial value is set as a whole: %s(%s)", base, decimal(s->start, at));
+    return MOTUS_NAME;
+}
+
+static motus_status find_initial(const motus_system *s, const char *name, char *bare, double start,
+                                 parameters_target *out, motus_error *err)
+{
+    const size_t length = strlen(bare);
+    const bool velocity = length > 0 && bare[length - 1] == '\'';
+    bare[length - velocity] = 0;
+    for (uint32_t i = 0; start == s->start && i < s->state_count; i++) {
+        const model_state *st = &s->states[i];
+        if (strcmp(st->name, bare) || (velocity && st->order == 1))
+            continue;
+        const size_t parts = columns_parts(st->components);
+        *out = (parameters_target){.state = st, .velocity = velocity};
+        out->count = st->cells.count * parts;
+        out->span = st->hull * parts;
+        if (s->model)
+            out->first = s->model->arrays[st->start_array[velocity]].base;
+        return MOTUS_OK;
+    }
+    return unknown(s, name, err);
+}
+
+motus_status parameters_find(const motus_system *s, const char *name, parameters_target *out, motus_error *err)
+{
+    char bare[2 * MOTUS_NAME_MAX];
+    double start;
+    if (parameters_bracket(name, bare, sizeof bare, &start))
+        return find_initial(s, name, bare, start, out, err);
+    for (uint32_t i = 0; s->model && i < s->definition_count; i++) {
+        const model_definition *d = &s->definitions[i];
+        if (d->kind != DEFINED_PARAMETER || strcmp(d->name, name))
+            continue;
+        *out = parameters_of(s, d);
+        return MOTUS_OK;
+    }
+    return unknown(s, name, err);
+}
+
+parameters_target parameters_of(const motus_system *s, const model_definition *d)
+{
+    const size_t count = cells_of(d) * columns_parts(d->components);
+    return (parameters_target){.definition = d, .count = count, .first = place_of(s, d), .span = count};
+}
+
+size_t parameters_place(const parameters_target *t, size_t k)
+{
+    const size_t parts = columns_parts(t->state ? t->state->components : t->definition->components), cell = k / parts,
+                 part = k % parts;
+    if (t->state)
+        return t->first + (system_place(t->state, cell, (int)part) - t->state->base);
+    return t->first + part * (t->count / parts) + cell;
 }

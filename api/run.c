@@ -15,7 +15,7 @@
 
 motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r, motus_error *err)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     double h = isnan(step) ? set.step : step;
     *r = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
@@ -54,17 +54,15 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
     return MOTUS_OK;
 }
 
-static motus_status plan(motus_run *r, const motus_run_def *def, motus_error *err)
+void run_leg(motus_run *r, const timing *t)
 {
-    timing t;
-    motus_status status = run_timing(r->system, &r->chosen, def->step, def->until, def->start, &t, err);
-    r->t0 = t.t0;
-    r->h = t.h;
-    r->until = t.until;
-    r->whole = t.whole;
-    r->total = t.total;
-    r->last = t.last;
-    return status;
+    r->t0 = t->t0;
+    r->h = t->h;
+    r->until = t->until;
+    r->whole = t->whole;
+    r->total = t->total;
+    r->last = t->last;
+    r->legs++;
 }
 
 /* ---- which machine ---- */
@@ -96,6 +94,8 @@ const char *motus_compiled_text(motus_system *s, const char *method, motus_error
     chosen c;
     const motus_method *card;
     size_t length;
+    if (!motus_error_sound(err))
+        return NULL;
     if (!s || !s->model) {
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
@@ -123,14 +123,42 @@ static int tell(void *ctx, double now)
     return r->progress(r->context, r->until != r->t0 ? (stepper_time(r->stepper) - r->t0) / (r->until - r->t0) : 1);
 }
 
-/* Up to n steps more; n = 0 finds out whether there are any. */
-static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
+/* Up to n steps more, without an observer; n = 0 finds out whether there are any. */
+static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
     r->synchronised = r->synchronised && n == 0;
     const motus_status status = pace_advance(&r->pace, r->stepper, (stepper_limit){n, r->until}, &why, err);
     r->arrived = why == STOP_UNTIL;
+    if (isnan(r->first_step) && stepper_steps(r->stepper) > 0)
+        r->first_step = fabs(stepper_last_step(r->stepper));
     return status == MOTUS_CANCELLED ? fail(err, status, "cancelled at t = %g", stepper_time(r->stepper)) : status;
+}
+
+static motus_status observe(motus_run *r, motus_error *err)
+{
+    r->observing = true;
+    const int enough = r->observer(r->context, r);
+    r->observing = false;
+    return enough ? fail(err, MOTUS_CANCELLED, "stopped by the observer at t = %g", stepper_time(r->stepper)) : MOTUS_OK;
+}
+
+static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
+{
+    if (r->observing)
+        return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
+    if (n == 0 || (!r->observer && !isnan(r->first_step)))
+        return advance(r, n, err);
+    /* One step at a time for the observer; and the first step of all, whose size is asked for. */
+    motus_status status = MOTUS_OK;
+    for (; n > 0 && status == MOTUS_OK && !r->arrived; n--) {
+        status = advance(r, 1, err);
+        if (status == MOTUS_OK && !r->observer)
+            return advance(r, n - 1, err);
+        if (status == MOTUS_OK)
+            status = observe(r, err);
+    }
+    return status;
 }
 
 motus_status run_moved(motus_run *r, motus_error *err)
@@ -159,22 +187,24 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
 
 motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
     *out = NULL;
     if (!s)
         return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
-    motus_run_def def = motus_default_run();
-    if (given) {
-        uint32_t theirs = given->size;
-        memcpy(&def, given, theirs < sizeof def ? theirs : sizeof def);
-    }
+    motus_run_def def;
+    motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (status != MOTUS_OK)
+        return status;
     size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1;
     size_t head = (sizeof(motus_run) + 63) / 64 * 64;
     motus_run *r = take(&s->allocator, 1, head + 2 * (nx + nv) * sizeof(double) + nv * sizeof(double));
     if (!r)
         return fail(err, MOTUS_MEMORY, "no memory for the run");
     r->system = s;
+    motus_system_hold(s, true);
     r->allocator = s->allocator;
     double *room = (double *)((char *)r + head);
     r->x = room;
@@ -184,11 +214,16 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->mid_v = r->mid_x + nx;
     r->progress = def.progress;
     r->context = def.context;
+    r->observer = def.observer;
+    r->first_step = NAN;
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
     modes m = modes_enter();
-    motus_status status = choice_method(s, def.method, &r->chosen, &r->card, err);
+    status = choice_method(s, def.method, &r->chosen, &r->card, err);
+    timing leg;
     if (status == MOTUS_OK)
-        status = plan(r, &def, err);
+        status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
+    if (status == MOTUS_OK)
+        run_leg(r, &leg);
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
@@ -210,6 +245,7 @@ void motus_run_destroy(motus_run *r)
     if (!r)
         return;
     motus_allocator a = r->allocator;
+    motus_system_hold(r->system, false);
     stepper_destroy(r->stepper);
     give(&a, r->saved);
     give(&a, r->trace);
@@ -250,6 +286,8 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 
 motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r)
         return fail(err, MOTUS_ARGUMENT, "motus_run_state needs a run");
     modes m = modes_enter();
@@ -262,6 +300,8 @@ motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *er
 
 motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count, double *out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_values needs a run, columns and a place for the values");
     modes m = modes_enter();
@@ -276,6 +316,8 @@ motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count,
 
 motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || n < 0)
         return fail(err, MOTUS_ARGUMENT, "motus_run_step needs a run and a number of steps that is not negative");
     modes m = modes_enter();
@@ -325,6 +367,8 @@ static motus_status sample(motus_run *r, const double *times, size_t n, const si
 
 motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count, double *out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (n && !times) || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
     modes m = modes_enter();

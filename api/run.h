@@ -20,6 +20,11 @@ struct motus_run {
     double last;                     /* size of the short one, 0: none */
     stepper *stepper;
     bool arrived;
+    int legs;                        /* a leg begins at the start and at every motus_run_set_state */
+    int64_t before;                  /* steps taken in earlier legs */
+    double first_step;               /* size of the first step of all; NaN before it */
+    int (*observer)(void *context, motus_run *);
+    bool observing;                  /* the observer is at work */
     double *x, *v, *a;               /* the synchronised state, valid while `synchronised` */
     bool synchronised, with_a;
     double *mid_x, *mid_v;           /* a state between two steps */
@@ -37,5 +42,7 @@ motus_status run_timing(const motus_system *, const chosen *, double step, doubl
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
 /* The stepper stands elsewhere: what was read of it no longer holds, and it may stand at the end. */
 motus_status run_moved(motus_run *, motus_error *);
+/* Takes over when the run's leg begins, and how long it is. */
+void run_leg(motus_run *, const timing *);
 
 #endif

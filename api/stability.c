@@ -209,6 +209,8 @@ static motus_status check(size_t count, const double *re, const double *im, motu
 
 motus_status motus_stability(const char *method, size_t count, const double *re, const double *im, double *radius, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!method || (count && (!re || !im || !radius)))
         return fail(err, MOTUS_ARGUMENT, "motus_stability needs a method, points and a place for the radii");
     plane p;

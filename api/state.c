@@ -136,6 +136,8 @@ static bool read_hex(const char **at, const char *end, double *v)
 
 motus_status motus_run_save(motus_run *r, const char **text, size_t *length, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
     size_t n = stepper_carry(r->stepper), room = HEAD_ROOM + n * NUMBER_ROOM;
@@ -271,6 +273,8 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
 
 motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || !text)
         return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
     modes m = modes_enter();         /* before the first number is read: a subnormal must not be flushed */

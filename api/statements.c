@@ -23,14 +23,15 @@ static motus_statement_kind kind_of(const model *m, const statement *s)
 
 motus_status motus_statement_at(const motus_system *s, size_t k, motus_statement *out)
 {
-    if (!out || k >= motus_statement_count(s))
+    if (!out || k >= motus_statement_count(s) || motus_struct_check(MOTUS_DEF_STATEMENT, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     model *m = s->model;
     const statement *one = &m->statements.item[k];
     bool set = one->at.text != 0;
-    *out = (motus_statement){.kind = kind_of(m, one), .name = one->name, .is_set = set};
+    motus_statement ours = {.kind = kind_of(m, one), .name = one->name, .is_set = set};
     if (!set || one->replaced)
-        out->line = source_line(&m->source, set ? one->stood : one->at);
+        ours.line = source_line(&m->source, set ? one->stood : one->at);
+    motus_struct_write(MOTUS_DEF_STATEMENT, &ours, out);
     return MOTUS_OK;
 }
 

@@ -1,5 +1,5 @@
 /* Systems: from a text or from a callback, and back to nothing. */
-#include "api/system.h"
+#include "api/stand_in.h"
 #include "lang/read/read.h"
 
 #include <math.h>
@@ -25,14 +25,6 @@ void motus_system_destroy(motus_system *s)
     arena_release(&s->arena);
     give(&a, s->mathml);
     give(&a, s);
-}
-
-/* A definition as this library knows it: what an older caller does not have keeps its default. */
-static void read_definition(void *ours, const void *given, uint32_t size)
-{
-    uint32_t theirs;
-    memcpy(&theirs, given, sizeof theirs);
-    memcpy(ours, given, theirs < size ? theirs : size);
 }
 
 /* The text is copied: names in messages and cards point into it. */
@@ -65,19 +57,23 @@ static bool keep_text(motus_system *s, motus_text_def *def)
 
 motus_status motus_system_from_text(const motus_text_def *given, motus_system **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
     *out = NULL;
-    if (!given || !given->text)
+    motus_text_def def;
+    motus_status status = motus_struct_read(MOTUS_DEF_TEXT, given, &def, err);
+    if (status != MOTUS_OK)
+        return status;
+    if (!def.text)
         return fail(err, MOTUS_ARGUMENT, "the definition has no text");
-    motus_text_def def = motus_default_text();
-    read_definition(&def, given, sizeof def);
     motus_system *s = begin(&def.allocator);
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    motus_status status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
-                                             : fail(err, MOTUS_MEMORY, "no memory for the model");
+    status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
+                                : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK)
         status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
@@ -88,6 +84,8 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
         s->v0 = s->model->v0;
         s->states = s->model->states;
         s->state_count = s->model->state_count;
+        s->definitions = s->model->definitions;
+        s->definition_count = s->model->definition_count;
         if (!system_number_columns(s))
             status = fail(err, MOTUS_MEMORY, "no memory for the model");
     }
@@ -100,69 +98,59 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     return MOTUS_OK;
 }
 
-/* x and s of a callback, as families without an equation of their own. */
-static void stand_in(model_state *st, const char *name, int order, size_t count, size_t base)
+/* The initial values are copied, and are numbers. */
+static motus_status take_start(motus_system *s, const motus_callback_def *def, motus_error *err)
 {
-    *st = (model_state){.name = name, .order = order, .dims = 1, .hull = count, .base = base, .cells = {.count = count}};
-    st->last[0] = st->eq_last[0] = (int64_t)count - 1;
+    const size_t nx = s->problem.nx, nv = s->problem.nv;
+    s->start = def->start;
+    s->x0 = arena_grow(&s->arena, NULL, 0, (nx + 1) * sizeof(double));
+    s->v0 = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
+    if (!s->x0 || !s->v0)
+        return fail(err, MOTUS_MEMORY, "no memory for the system");
+    if (nx)
+        memcpy(s->x0, def->x, nx * sizeof(double));
+    memcpy(s->v0, def->v, nv * sizeof(double));
+    for (size_t k = 0; k < nv; k++)
+        if (!isfinite(s->v0[k]) || (k < nx && !isfinite(s->x0[k])) || !isfinite(def->start))
+            return fail(err, MOTUS_ARGUMENT, "the initial values are not all finite");
+    return MOTUS_OK;
 }
 
 motus_status motus_system_from_callback(const motus_callback_def *given, motus_system **out, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!out)
         return fail(err, MOTUS_ARGUMENT, "motus_system_from_callback needs a place for the system");
     *out = NULL;
     if (!given)
         return fail(err, MOTUS_ARGUMENT, "there is no definition");
-    motus_callback_def def = motus_default_callback();
-    read_definition(&def, given, sizeof def);
+    motus_callback_def def;
+    motus_status status = motus_struct_read(MOTUS_DEF_CALLBACK, given, &def, err);
+    if (status != MOTUS_OK)
+        return status;
     motus_system *s = begin(&def.allocator);
     if (!s)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     s->callback = def;
     s->calling.def = &s->callback;
-    motus_status status = callback_problem(&s->calling, &s->problem, err);
+    status = callback_problem(&s->calling, &s->problem, err);
     if (status == MOTUS_OK) {
-        size_t nx = s->problem.nx, nv = s->problem.nv;
         s->machine = (machine){.name = "callback", .problem = &s->problem};
-        s->start = def.start;
-        s->x0 = arena_grow(&s->arena, NULL, 0, (nx + 1) * sizeof(double));
-        s->v0 = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
-        s->states = arena_grow(&s->arena, NULL, 0, 2 * sizeof *s->states);
         if (def.derivative)
-            s->calling.zeros = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
-        if (s->x0 && s->v0 && s->states) {
-            if (nx)
-                memcpy(s->x0, def.x, nx * sizeof(double));
-            memcpy(s->v0, def.v, nv * sizeof(double));
-            if (nx)
-                stand_in(&s->states[s->state_count++], "x", 2, nx, 0);
-            if (nv > nx)
-                stand_in(&s->states[s->state_count++], "s", 1, nv - nx, nx);
-        }
-        if (s->arena.failed || !system_number_columns(s))
-            status = fail(err, MOTUS_MEMORY, "no memory for the system");
-        for (size_t k = 0; status == MOTUS_OK && k < nv; k++)
-            if (!isfinite(s->v0[k]) || (k < nx && !isfinite(s->x0[k])) || !isfinite(def.start))
-                status = fail(err, MOTUS_ARGUMENT, "the initial values are not all finite");
+            s->calling.zeros = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
+        status = take_start(s, &def, err);
     }
+    if (status == MOTUS_OK)
+        status = stand_in_make(s, err);
+    if (status == MOTUS_OK && (!system_number_columns(s) || s->arena.failed))
+        status = fail(err, MOTUS_MEMORY, "no memory for the system");
     if (status != MOTUS_OK) {
         motus_system_destroy(s);
         return status;
     }
     *out = s;
     return MOTUS_OK;
-}
-
-motus_status system_again(const motus_system *s, motus_system **out, motus_error *err)
-{
-    motus_callback_def def = s->callback;
-    def.x = s->x0;                   /* what the caller gave was copied, and may be gone */
-    def.v = s->v0;
-    motus_status status = s->model ? motus_system_from_text(&s->text, out, err) : motus_system_from_callback(&def, out, err);
-    if (status == MOTUS_OK)
-        (*out)->problem.traits = s->problem.traits;
-    return status;
 }
 
 const motus_allocator *motus_system_allocator(const motus_system *s) { return s ? &s->allocator : NULL; }
@@ -173,25 +161,27 @@ int motus_has_exact(const motus_system *s) { return s && s->problem.traits.has_e
 
 motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *v)
 {
-    if (!s || !v || k >= s->state_count)
+    if (!s || !v || k >= s->state_count || motus_struct_check(MOTUS_DEF_VARIABLE, v, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     const model_state *st = &s->states[k];
-    *v = (motus_variable){.name = st->name, .order = st->order, .components = st->components, .dimensions = st->dims,
+    motus_variable ours = {.name = st->name, .order = st->order, .components = st->components, .dimensions = st->dims,
                           .count = st->cells.count * (size_t)(st->components ? st->components : 1)};
-    memcpy(v->first, st->eq_first, sizeof v->first);
-    memcpy(v->last, st->eq_last, sizeof v->last);
+    memcpy(ours.first, st->eq_first, sizeof ours.first);
+    memcpy(ours.last, st->eq_last, sizeof ours.last);
+    motus_struct_write(MOTUS_DEF_VARIABLE, &ours, v);
     return MOTUS_OK;
 }
 
-void motus_settings_of(const motus_system *s, motus_settings *out)
+motus_status motus_settings_of(const motus_system *s, motus_settings *out)
 {
-    *out = (motus_settings){.step = NAN, .from = NAN, .until = NAN, .every_time = NAN};
-    if (!s)
-        return;
-    out->from = s->start;
-    if (!s->model)
-        return;
+    if (!s || !out || motus_struct_check(MOTUS_DEF_SETTINGS, out, NULL) != MOTUS_OK)
+        return MOTUS_ARGUMENT;
+    motus_settings ours = motus_default_settings();
+    ours.from = s->start;
     const model *m = s->model;
-    *out = (motus_settings){.method = m->method, .step = m->step, .from = m->start, .until = m->until,
-                            .every_time = m->every_time, .every_steps = m->every_steps};
+    if (m)
+        ours = (motus_settings){.method = m->method, .step = m->step, .from = m->start,
+                                .until = m->until, .every_time = m->every_time, .every_steps = m->every_steps};
+    motus_struct_write(MOTUS_DEF_SETTINGS, &ours, out);
+    return MOTUS_OK;
 }

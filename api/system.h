@@ -6,6 +6,7 @@
 #ifndef API_SYSTEM_H
 #define API_SYSTEM_H
 
+#include "api/check.h"
 #include "machine/compiled.h"
 
 typedef struct column_group {        /* columns of one name */
@@ -28,22 +29,26 @@ struct motus_system {
     compiled *compiled;              /* once a run asks for it */
     double start;
     double *x0, *v0;
-    model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's x and s */
+    model_state *states; uint32_t state_count;       /* the model's, or stand-ins for a callback's numbers */
+    model_definition *definitions; uint32_t definition_count;      /* likewise */
     size_t positions, velocities;
     column_group *groups; size_t group_count, column_count;
-    double *look;                    /* room for the numbers of any one quantity or invariant */
+    double *look;                    /* room for any one quantity or invariant; of a callback, for all of either */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;
-    char *explanation;
+    size_t held;                     /* by so many: set.c */
+    struct setting *settings;
+    const char *explanation[2][2];   /* by what sampling found: gyroscopic, gradient */
     char *equation;
     char *mathml;                    /* of the statement asked for last, from the hooks */
 };
 
-/* The same system once more, for another thread; what was found out by sampling is known to it too. */
-motus_status system_again(const motus_system *, motus_system **, motus_error *);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
 bool system_sample_gradient(motus_system *);
+/* defaults.c. Structs with a size; and how one fits that says its own, where versions had these, the last one today's. */
+typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
+defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
 /* Between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

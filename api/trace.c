@@ -12,6 +12,7 @@ typedef struct trace {
     double step;
     size_t count;
     motus_trace_entry *entry;
+    const motus_trace_entry **list;  /* to each of them: what the caller gets */
     double *next;                    /* room for numbers that is not used yet */
 } trace;
 
@@ -24,7 +25,8 @@ static trace *make(motus_run *r)
     const trace_room room = trace_room_of(r->stepper);
     const size_t events = room.events + TRACE_ENDS;
     const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions + (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + room.rows;
-    const uint64_t bytes = sizeof(trace) + events * sizeof(motus_trace_entry) + numbers * sizeof(double);
+    const uint64_t bytes =
+        sizeof(trace) + events * (sizeof(motus_trace_entry) + sizeof(motus_trace_entry *)) + numbers * sizeof(double);
     if (!r->trace && bytes <= SIZE_MAX)
         r->trace = take(&r->allocator, 1, (size_t)bytes);
     trace *t = r->trace;
@@ -32,6 +34,9 @@ static trace *make(motus_run *r)
         return NULL;
     t->entry = (motus_trace_entry *)(t + 1);
     t->next = (double *)(t->entry + events);
+    t->list = (const motus_trace_entry **)(t->next + numbers);
+    for (size_t k = 0; k < events; k++)
+        t->list[k] = &t->entry[k];
     t->system = r->system;
     t->count = 0;
     return t;
@@ -136,8 +141,10 @@ static motus_status walk(motus_run *r, motus_error *err)
     return status;
 }
 
-motus_status motus_run_trace(motus_run *r, const motus_trace_entry **entries, size_t *count, motus_error *err)
+motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entries, size_t *count, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || !entries || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
     *entries = NULL;
@@ -149,7 +156,7 @@ motus_status motus_run_trace(motus_run *r, const motus_trace_entry **entries, si
     modes_leave(m);
     if (status != MOTUS_OK)
         return status;
-    *entries = r->trace->entry;
+    *entries = r->trace->list;
     *count = r->trace->count;
     return MOTUS_OK;
 }

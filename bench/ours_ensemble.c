@@ -18,7 +18,7 @@ double ours_ensemble(const char *file, const char *method, int64_t steps, double
     motus_ensemble_def def = motus_default_ensemble();
     motus_system *system = NULL;
     motus_ensemble *ensemble = NULL;
-    const motus_record records[2] = { { MOTUS_FINAL, 1 }, { MOTUS_FINAL, 2 } };       /* columns: t, the position, the velocity */
+    const motus_record records[2] = { { MOTUS_REDUCE_FINAL, 1 }, { MOTUS_REDUCE_FINAL, 2 } };       /* columns: t, the position, the velocity */
     double *const results[2] = { x, v };
     double took = NAN;
     char *words = read_text(file);

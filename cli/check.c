@@ -30,7 +30,7 @@ static void flag(json *j, const char *key, int value)
 
 static void variables_json(json *j, motus_system *system)
 {
-    motus_variable v;
+    motus_variable v = motus_default_variable();
     json_key(j, "variables");
     json_open(j, '[');
     for (size_t k = 0; motus_variable_at(system, k, &v) == MOTUS_OK; k++) {
@@ -57,7 +57,7 @@ static void variables_json(json *j, motus_system *system)
 
 static void print_json(const options *o, const load *m)
 {
-    motus_analysis a;
+    motus_analysis a = motus_default_analysis();
     motus_analysis_of(m->system, &a);
     json j = json_begin(stdout);
     json_open(&j, '{');

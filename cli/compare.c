@@ -44,7 +44,7 @@ static void row_json(json *j, const motus_compare_row *r)
     json_key(j, "invariants");
     json_open(j, '{');
     for (size_t k = 0; k < r->invariant_count; k++) {
-        const motus_drift *d = &r->invariants[k];
+        const motus_drift *d = r->invariants[k];
         json_key(j, d->name);
         json_open(j, '{');
         json_key(j, "initial");
@@ -80,7 +80,7 @@ static void print_json(const options *o, const motus_comparison *c)
     json_key(&j, "rows");
     json_open(&j, '[');
     for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, &c->rows[k]);
+        row_json(&j, c->rows[k]);
     json_close(&j, ']');
     json_key(&j, "remarks");
     json_open(&j, '[');
@@ -104,7 +104,7 @@ static table *error_table(const motus_comparison *c)
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
         table_cell(t, heads[i]);
     for (size_t k = 0; k < c->row_count; k++) {
-        const motus_compare_row *r = &c->rows[k];
+        const motus_compare_row *r = c->rows[k];
         char spent[TEXT_NUMBER];
         text_seconds(r->seconds, spent);
         table_cell(t, r->method);
@@ -127,8 +127,8 @@ static table *drift_table(const motus_comparison *c)
 {
     const motus_compare_row *widest = NULL;
     for (size_t k = 0; k < c->row_count; k++)
-        if (!c->rows[k].status && c->rows[k].invariant_count > (widest ? widest->invariant_count : 0))
-            widest = &c->rows[k];
+        if (!c->rows[k]->status && c->rows[k]->invariant_count > (widest ? widest->invariant_count : 0))
+            widest = c->rows[k];
     if (!widest)
         return NULL;
     enum { MOST = 6 };
@@ -140,19 +140,19 @@ static table *drift_table(const motus_comparison *c)
     table_cell(t, "method");
     for (size_t i = 0; i < shown; i++) {
         char head[MOTUS_NAME_MAX + 16];
-        snprintf(head, sizeof head, "%s drift", widest->invariants[i].name);
+        snprintf(head, sizeof head, "%s drift", widest->invariants[i]->name);
         table_cell(t, head);
         table_cell(t, "trend");
     }
     for (size_t k = 0; k < c->row_count; k++) {
-        const motus_compare_row *r = &c->rows[k];
+        const motus_compare_row *r = c->rows[k];
         table_cell(t, r->method);
         for (size_t i = 0; i < shown; i++) {
             bool known = !r->status && i < r->invariant_count;
             char trend[TEXT_NUMBER] = "none";
-            if (known && r->invariants[i].trending)
-                text_brief(r->invariants[i].trend, -2, trend);
-            table_number(t, known ? r->invariants[i].max_drift : NAN, -2);
+            if (known && r->invariants[i]->trending)
+                text_brief(r->invariants[i]->trend, -2, trend);
+            table_number(t, known ? r->invariants[i]->max_drift : NAN, -2);
             table_cell(t, known ? trend : "-");
         }
     }
@@ -176,10 +176,10 @@ static motus_status print_tables(const load *m, const motus_comparison *c, motus
     }
     bool space = false;
     for (size_t k = 0; k < c->row_count; k++)
-        if (c->rows[k].note && c->rows[k].note[0]) {
+        if (c->rows[k]->note && c->rows[k]->note[0]) {
             char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX];
-            bool named = strncmp(c->rows[k].note, c->rows[k].method, strlen(c->rows[k].method)) == 0;
-            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k].method, named ? "" : ": ", c->rows[k].note);
+            bool named = strncmp(c->rows[k]->note, c->rows[k]->method, strlen(c->rows[k]->method)) == 0;
+            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k]->method, named ? "" : ": ", c->rows[k]->note);
             fputs(space ? "" : "\n", stdout);
             text_wrap(stdout, line, 2, 100);
             space = true;

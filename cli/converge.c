@@ -39,13 +39,13 @@ static void row_json(json *j, const motus_converge_row *r)
     for (size_t i = 0; i < r->point_count; i++) {
         json_open(j, '{');
         json_key(j, "step");
-        json_number(j, r->points[i].step);
+        json_number(j, r->points[i]->step);
         json_key(j, "error");
-        json_number(j, r->points[i].error);
+        json_number(j, r->points[i]->error);
         json_key(j, "evaluations");
-        json_integer(j, r->points[i].evaluations);
+        json_integer(j, r->points[i]->evaluations);
         json_key(j, "used");
-        json_bool(j, r->points[i].used != 0);
+        json_bool(j, r->points[i]->used != 0);
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -67,7 +67,7 @@ static void print_json(const options *o, const motus_convergence *c)
     json_key(&j, "rows");
     json_open(&j, '[');
     for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, &c->rows[k]);
+        row_json(&j, c->rows[k]);
     json_close(&j, ']');
     json_close(&j, '}');
     json_end(&j);
@@ -85,10 +85,10 @@ static bool print_points(const motus_converge_row *r, bool colours)
         table *t = table_create(align);
         table_cell(t, "step");
         for (size_t i = 0; i < count; i++)
-            table_number(t, r->points[first + i].step, 4);
+            table_number(t, r->points[first + i]->step, 4);
         table_cell(t, "error");
         for (size_t i = 0; i < count; i++) {
-            const motus_point *p = &r->points[first + i];
+            const motus_point *p = r->points[first + i];
             char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
             text_brief(p->error, -2, number);
             snprintf(cell, sizeof cell, p->used || r->exact_here ? "%s" : "(%s)", number);
@@ -109,7 +109,7 @@ static motus_status print_tables(const load *m, const motus_convergence *c, motu
         printf(" (itself good to %.1g)", c->reference_error);
     puts("\nin brackets: not in the fit, where instability or round-off rules\n");
     for (size_t k = 0; k < c->row_count && good; k++) {
-        const motus_converge_row *r = &c->rows[k];
+        const motus_converge_row *r = c->rows[k];
         const char *colour = !colours ? "" : r->passed ? "\033[32m" : "\033[31m";
         printf("  %s%s%s: %s", colours ? "\033[1m" : "", r->method, colours ? "\033[0m" : "", colour);
         text_put(stdout, r->certificate && r->certificate[0] ? r->certificate : motus_status_text(r->status));
@@ -127,16 +127,16 @@ static motus_status draw(const options *o, const load *m, const motus_convergenc
     plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "error at the end");
     size_t points = 0, used = 0;
     for (size_t k = 0; k < c->row_count; k++)
-        points += c->rows[k].point_count;
+        points += c->rows[k]->point_count;
     double *numbers = malloc((2 * points + 1) * sizeof *numbers);
     motus_status status = p && numbers ? MOTUS_OK : complain_memory(err);
     for (size_t k = 0; !status && k < c->row_count; k++) {
-        const motus_converge_row *r = &c->rows[k];
+        const motus_converge_row *r = c->rows[k];
         size_t first = used, count = 0;
         for (size_t i = 0; i < r->point_count; i++)
-            if (r->points[i].error > 0) {        /* nothing has no logarithm */
-                numbers[2 * used] = r->points[i].step;
-                numbers[2 * used++ + 1] = r->points[i].error;
+            if (r->points[i]->error > 0) {        /* nothing has no logarithm */
+                numbers[2 * used] = r->points[i]->step;
+                numbers[2 * used++ + 1] = r->points[i]->error;
                 count++;
             }
         char label[PLOT_LABEL];
@@ -186,9 +186,9 @@ static motus_status verdict(const motus_convergence *c, motus_error *err)
 {
     char names[MOTUS_TEXT_MAX / 2] = "";
     for (size_t k = 0; k < c->row_count; k++)
-        if (!c->rows[k].passed && strlen(names) + strlen(c->rows[k].method) + 3 < sizeof names) {
+        if (!c->rows[k]->passed && strlen(names) + strlen(c->rows[k]->method) + 3 < sizeof names) {
             strcat(names, names[0] ? ", " : "");
-            strcat(names, c->rows[k].method);
+            strcat(names, c->rows[k]->method);
         }
     return complain(err, MOTUS_ORDER, "the certificate does not hold for: %s", names);
 }

@@ -113,7 +113,7 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
         return complain_memory(err);
     motus_status status = put_head(c, o, run, err);
     for (size_t k = 0; !status && k < c->count; k++) {
-        motus_column column;
+        motus_column column = motus_default_column();
         status = motus_column_at(c->model->system, c->columns[k], &column);
         if (status)
             return complain(err, status, "column %zu has no name", c->columns[k]);

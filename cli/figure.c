@@ -27,7 +27,7 @@ bool figure_find(const load *m, const motus_variable *v, const char *prefix, con
     if (motus_column_find(m->system, name, &first, &count, NULL) != MOTUS_OK || count != v->count || count == 0)
         return false;
     size_t components = v->components > 0 ? (size_t)v->components : 1, cells = count / components;
-    motus_column second;
+    motus_column second = motus_default_column();
     /* numbers lie cell by cell or component by component: the second one tells */
     bool by_cell = components == 1 || cells == 1 ||
                    (motus_column_at(m->system, first + 1, &second) == MOTUS_OK && second.component == 1);
@@ -42,7 +42,7 @@ static size_t column_at(const figure_place *p, size_t cell, size_t component)
 
 static void column_name(const figure *f, size_t column, char *out, size_t size)
 {
-    motus_column c;
+    motus_column c = motus_default_column();
     snprintf(out, size, "%s", motus_column_at(f->model->system, column, &c) == MOTUS_OK ? c.name : "");
 }
 
@@ -262,7 +262,7 @@ static bool add_everything(figure *f)
     motus_system *system = f->model->system;
     shared s = {SIZE_MAX, SIZE_MAX};
     for (size_t k = 0; k < motus_variable_count(system); k++) {
-        motus_variable v;
+        motus_variable v = motus_default_variable();
         if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s))
             return false;
     }
@@ -289,7 +289,7 @@ static motus_status one_column(const figure *f, const char *name, size_t *column
     size_t count;
     motus_status status = motus_column_find(f->model->system, name, column, &count, err);
     if (!status && count != 1) {
-        motus_column c;
+        motus_column c = motus_default_column();
         complain(err, MOTUS_SHAPE, "--plot-of: %s is %zu numbers", name, count);
         if (motus_column_at(f->model->system, *column, &c) == MOTUS_OK)
             complain_hint(err, "choose one of them, as %s", c.name);

@@ -112,7 +112,7 @@ size_t load_invariant_column(const load *m)
 
 double load_until(const load *m, const options *o)
 {
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(m->system, &settings);
     return isnan(o->until) ? settings.until : o->until;
 }

@@ -45,7 +45,7 @@ static bool add_slot(overlay *v, const char *title, const char *x, const char *y
 static bool add_variable(overlay *v, const motus_variable *var)
 {
     figure_place p, truth;
-    motus_column name[2];
+    motus_column name[2] = {motus_default_column(), motus_default_column()};
     if (!figure_find(v->model, var, "", "", &p))
         return true;
     bool exact = figure_find(v->model, var, "exact ", "", &truth), plane = var->order == 2 && p.components > 1;
@@ -63,7 +63,7 @@ static bool add_variable(overlay *v, const motus_variable *var)
 static bool add_panels(overlay *v)
 {
     motus_system *system = v->model->system;
-    motus_variable variable;
+    motus_variable variable = motus_default_variable();
     for (size_t k = 0; k < PANELS - 1 && motus_variable_at(system, k, &variable) == MOTUS_OK; k++)
         if (!add_variable(v, &variable))
             return false;
@@ -131,15 +131,16 @@ motus_status overlay_draw(const load *m, const motus_comparison *c, const option
     motus_status status = add_panels(&v) ? MOTUS_OK : complain_memory(err);
     size_t left = 0;
     for (size_t k = 0; !status && k < c->row_count; k++) {
-        if (c->rows[k].status)
+        if (c->rows[k]->status)
             continue;
         if (v.record_count == METHODS)
             left++;
         else
-            status = run_method(&v, &c->rows[k], o, progress, err);
+            status = run_method(&v, c->rows[k], o, progress, err);
     }
     if (!status && v.record_count == 0)
-        status = complain(err, c->row_count ? c->rows[0].status : MOTUS_METHOD, "no method got to the end: there is nothing to draw");
+        status = complain(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,
+                          "no method got to the end: there is nothing to draw");
     if (!status)
         status = plot_draw(&v.plot, o->plot, file, err);
     if (!status && left && !o->quiet)

@@ -118,7 +118,7 @@ static motus_status begin(job *j, motus_error *err)
 static walk_watcher rows_watcher(job *j)
 {
     const options *o = j->options;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
     walk_watcher w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;

@@ -123,7 +123,7 @@ static void number_of(double value, const char *typed, char *out, size_t size)
 {
     motus_text_def def = motus_default_text();
     motus_system *system = NULL;
-    motus_settings settings = {0};
+    motus_settings settings = motus_default_settings();
     char model[256];
     int n = snprintf(model, sizeof model, "s' = 0\ns(0) = 0\nuntil %s\n", typed);
     def.text = model;

@@ -38,7 +38,7 @@ static motus_status values_of(const summary *s, size_t first, size_t count, doub
 
 static size_t exact_column(const summary *s, size_t variable, bool velocity, size_t offset)
 {
-    motus_variable v;
+    motus_variable v = motus_default_variable();
     figure_place p;
     if (!motus_has_exact(s->model->system) || motus_variable_at(s->model->system, variable, &v) != MOTUS_OK ||
         !figure_find(s->model, &v, "exact ", velocity ? "'" : "", &p))
@@ -52,7 +52,7 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
 {
     bool truth = state && motus_has_exact(s->model->system);
     for (size_t k = 0; k < count && k < SHOWN; k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         double value[2] = {NAN, NAN};
         size_t columns[2] = {first + k, truth ? exact_column(s, variable, velocity, k) : 0};
         motus_status status = motus_column_at(s->model->system, columns[0], &c);
@@ -91,7 +91,7 @@ static table *state_table(const summary *s, motus_error *err, motus_status *stat
         table_cell(t, "exact");
         table_cell(t, "error");
     }
-    motus_variable v;
+    motus_variable v = motus_default_variable();
     for (size_t k = 0; !*status && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++) {
         figure_place p;
         if (figure_find(s->model, &v, "", "", &p))
@@ -129,7 +129,7 @@ static table *invariant_table(const summary *s)
     table_cell(t, "at the end");
     table_cell(t, "largest drift");
     for (size_t k = 0; k < s->drift->count && k < SHOWN; k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         bool known = motus_column_at(s->model->system, s->drift->columns[k], &c) == MOTUS_OK;
         table_cell(t, known ? c.name : "");
         table_exact(t, s->drift->initial[k]);
@@ -232,7 +232,7 @@ static void variable_json(json *j, const double *values, const figure_place *p, 
 static bool state_json(json *j, const summary *s, const double *values)
 {
     size_t left = SUMMARY_STATE_MAX;
-    motus_variable v;
+    motus_variable v = motus_default_variable();
     json_key(j, "state");
     json_open(j, '{');
     for (size_t k = 0; left > 0 && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++)

@@ -124,7 +124,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
         status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (status)
         return status;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
     s->step = isnan(o->step) ? settings.step : o->step;
     s->until = load_until(&s->model, o);

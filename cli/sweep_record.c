@@ -12,8 +12,8 @@
 #include <string.h>
 
 static const struct { const char *word; motus_reduction how; } reductions[] = {
-    {"final", MOTUS_FINAL}, {"min", MOTUS_MIN}, {"max", MOTUS_MAX}, {"mean", MOTUS_MEAN},
-    {"time_of_min", MOTUS_TIME_OF_MIN}, {"time_of_max", MOTUS_TIME_OF_MAX},
+    {"final", MOTUS_REDUCE_FINAL}, {"min", MOTUS_REDUCE_MIN}, {"max", MOTUS_REDUCE_MAX}, {"mean", MOTUS_REDUCE_MEAN},
+    {"time_of_min", MOTUS_REDUCE_TIME_OF_MIN}, {"time_of_max", MOTUS_REDUCE_TIME_OF_MAX},
 };
 enum { REDUCTIONS = sizeof reductions / sizeof *reductions };
 
@@ -53,8 +53,8 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
 {
     size_t length = strlen(item), first, count;
     if (strcmp(item, "final") == 0)
-        return add(r, MOTUS_FINAL, 1, m->positions + m->velocities, err);
-    motus_reduction how = MOTUS_FINAL;
+        return add(r, MOTUS_REDUCE_FINAL, 1, m->positions + m->velocities, err);
+    motus_reduction how = MOTUS_REDUCE_FINAL;
     char *name = item, *open = strchr(item, '(');
     if (open && item[length - 1] == ')') {
         size_t i = 0, word = (size_t)(open - item);
@@ -91,7 +91,7 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
 
 void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME])
 {
-    motus_column c = {0};
+    motus_column c = motus_default_column();
     motus_column_at(m->system, r->column, &c);
     const char *word = "";
     for (size_t i = 1; i < REDUCTIONS; i++)

@@ -74,7 +74,7 @@ motus_status fail(motus_error *err, motus_status status, const char *format, ...
 {
     if (!err) return status;
     err->status = status;
-    err->line = err->column = 0;
+    err->line = err->column = err->returned = 0;
     err->time = NAN;
     err->variable[0] = err->hint[0] = err->source[0] = err->caret[0] = err->file[0] = 0;
     va_list arguments;

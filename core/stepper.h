@@ -49,6 +49,8 @@ motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_erro
 double stepper_time(const stepper *);
 double stepper_time_of(const stepper *, int64_t n);      /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);              /* size of the present leg's steps, with its sign */
+double stepper_last_step(const stepper *);         /* size of the latest step, with its sign */
+int64_t stepper_refused(const stepper *);
 int64_t stepper_steps(const stepper *);            /* finished since the start of the leg, a shorter last one included */
 int64_t stepper_evaluations(const stepper *);      /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);

@@ -32,10 +32,16 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
         status = fail(err, MOTUS_DIVERGED, "the step that the tolerance asks for no longer moves time on at t = %s", time);
         hint(err, "the motion may have a singularity there; otherwise allow a larger error");
     } else {
-        fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s", time);
+        const bool here = s->problem.returned && *s->problem.returned > 0;
+        fail(err, MOTUS_CALLBACK,
+             here ? "by its callback, the acceleration cannot be evaluated at t = %s"
+                  : "the acceleration callback reported a failure at t = %s",
+             time);
+        if (here) hint(err, "the run is at its last good step; a smaller step may lead around the place");
     }
     if (!err) return status;
     err->time = t;
+    err->returned = bad == STEP_CALLBACK && s->problem.returned ? *s->problem.returned : 0;
     if (bad != STEP_CALLBACK && bad != STEP_STALLED) snprintf(err->variable, sizeof err->variable, "%s", name);
     return status;
 }

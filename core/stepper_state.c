@@ -13,6 +13,8 @@ double stepper_time_of(const stepper *s, int64_t n)
 }
 
 double stepper_step(const stepper *s) { return s->leg_h; }
+double stepper_last_step(const stepper *s) { return s->work.h; }
+int64_t stepper_refused(const stepper *s) { return s->work.refused; }
 int64_t stepper_steps(const stepper *s) { return s->shortened ? s->at.steps + 1 : s->work.n; }
 int64_t stepper_evaluations(const stepper *s) { return s->work.evaluations; }
 int64_t stepper_iterations(const stepper *s) { return s->work.iterations; }

@@ -42,6 +42,7 @@ typedef struct problem {
     int (*exact)(void *ctx, double t, double *x, double *v);            /* NULL: unknown */
     /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
+    const int *returned;      /* what the user's callback returned when it failed last; NULL: there is none */
 } problem;
 
 /* Fill an error (NULL is allowed) and return its status. The texts are made safe for a terminal: control characters go. */

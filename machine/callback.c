@@ -1,42 +1,58 @@
-/* The callback machine: the acceleration is the user's C function. */
+/* The callback machine: the acceleration is the user's C function.
+ *
+ * Invariant: when a function of the user's returns other than 0, that number stands in `returned` of the calling, where
+ * errors find it.
+ */
 #include "machine/machine.h"
+
 
 #include <stdio.h>
 #include <string.h>
 
+static int heard(calling *c, int answer)
+{
+    if (answer)
+        c->returned = answer;
+    return answer;
+}
+
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
-    const calling *c = ctx;
+    calling *c = ctx;
     const motus_callback_def *def = c->def;
     if (c->count || !def->acceleration)
-        return def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a);
-    return def->acceleration(def->context, t, x, v, a);
+        return heard(c, def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a));
+    return heard(c, def->acceleration(def->context, t, x, v, a));
 }
 
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
-    const calling *c = ctx;
-    return c->def->derivative(c->def->context, t, x, v, dx ? dx : c->zeros, dv ? dv : c->zeros, da);
+    calling *c = ctx;
+    return heard(c, c->def->derivative(c->def->context, t, x, v, dx ? dx : c->zeros, dv ? dv : c->zeros, da));
 }
 
 static int exact(void *ctx, double t, double *x, double *v)
 {
-    const motus_callback_def *def = ((const calling *)ctx)->def;
-    return def->exact(def->context, t, x, v);
+    calling *c = ctx;
+    return heard(c, c->def->exact(c->def->context, t, x, v));
 }
 
+/* By the user's names, else x and s, counted from 1 where there are several. */
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     const motus_callback_def *def = ((const calling *)ctx)->def;
-    if (!in_v)
-        snprintf(out, size, "x[%zu]", k);
-    else if (k < def->positions)
-        snprintf(out, size, "x[%zu]'", k);
+    const bool companion = k >= def->positions;
+    const size_t number = companion ? k - def->positions : k, all = companion ? def->companions : def->positions;
+    const char *prime = in_v && !companion ? "'" : "";
+    if (def->names)
+        snprintf(out, size, "%s%s", def->names[k], prime);
+    else if (all == 1)
+        snprintf(out, size, "%s%s", companion ? "s" : "x", prime);
     else
-        snprintf(out, size, "s[%zu]", k - def->positions);
+        snprintf(out, size, "%s[%zu]%s", companion ? "s" : "x", number + 1, prime);
 }
 
-motus_status callback_problem(const calling *c, problem *p, motus_error *err)
+motus_status callback_problem(calling *c, problem *p, motus_error *err)
 {
     const motus_callback_def *def = c->def;
     if (!def->acceleration && !def->block)
@@ -47,17 +63,19 @@ motus_status callback_problem(const calling *c, problem *p, motus_error *err)
         return fail(err, MOTUS_LIMIT, "at most %d positions and companions fit", MODEL_NUMBERS_MAX);
     if ((def->positions && !def->x) || !def->v)
         return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
-    *p = (problem){.ctx = (void *)c, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
-                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name};
+    *p = (problem){.ctx = c, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
+                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name,
+                   .returned = &c->returned};
     p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
                          .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};
     return MOTUS_OK;
 }
 
-problem callback_block(const calling *c, const problem *one)
+problem callback_block(calling *c, const problem *one)
 {
     problem p = *one;
-    p.ctx = (void *)c;
+    p.ctx = c;
+    p.returned = &c->returned;
     p.nx *= c->count;
     p.nv *= c->count;
     p.jvp = NULL;                    /* a derivative that the user wrote knows of one trajectory only */

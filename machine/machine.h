@@ -22,9 +22,10 @@ typedef struct calling {
     const motus_callback_def *def;
     const double *zeros;
     size_t first, count;             /* by `block`: the trajectories that it is asked about; count 0: one, by `acceleration` if there is one */
+    int returned;                    /* by the callback that failed last */
 } calling;
-motus_status callback_problem(const calling *, problem *, motus_error *);
+motus_status callback_problem(calling *, problem *, motus_error *);
 /* The problem of the `count` trajectories that the calling names, side by side. The calling must outlive it. */
-problem callback_block(const calling *, const problem *one);
+problem callback_block(calling *, const problem *one);
 
 #endif

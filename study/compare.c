@@ -32,6 +32,8 @@ typedef struct result {
     char reference[TRUTH_TEXT_MAX], remarks[REMARKS_MAX];
     motus_compare_row *rows;
     motus_drift *drifts;             /* rows × invariants */
+    const motus_compare_row **row_list;              /* to each of them: what the user reads */
+    const motus_drift **drift_list;
     row_text *texts;
     invariant_name *names;
 } result;
@@ -55,6 +57,7 @@ typedef struct compare {
     size_t count;
     size_t axis;
     double acceleration, rate;
+    motus_analysis analysis;
     result *out;
 } compare;
 
@@ -75,7 +78,9 @@ static motus_status make_result(compare *c)
     size_t rows = aligned(c->count * sizeof(motus_compare_row)), texts = aligned(c->count * sizeof(row_text));
     size_t drifts = aligned(c->count * c->invariants * sizeof(motus_drift));
     size_t head = aligned(sizeof(result)), names = aligned(c->invariants * sizeof(invariant_name));
-    char *block = study_take(c->s.allocator, head + rows + drifts + texts + names, 1);
+    size_t row_list = aligned(c->count * sizeof(void *));
+    size_t drift_list = aligned(c->count * c->invariants * sizeof(void *));
+    char *block = study_take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
     if (!block)
         return no_memory(c, "the comparison");
     result *r = c->out = (result *)(void *)block;
@@ -84,16 +89,22 @@ static motus_status make_result(compare *c)
     r->drifts = (motus_drift *)(void *)(block + head + rows);
     r->texts = (row_text *)(void *)(block + head + rows + drifts);
     r->names = (invariant_name *)(void *)(block + head + rows + drifts + texts);
-    r->seen = (motus_comparison){ c->count, r->rows, r->reference, 0, r->remarks };
+    r->row_list = (const motus_compare_row **)(void *)(block + head + rows + drifts + texts + names);
+    r->drift_list = (const motus_drift **)(void *)(block + head + rows + drifts + texts + names + row_list);
+    r->seen = (motus_comparison){ c->count, r->row_list, r->reference, 0, r->remarks };
     for (size_t k = 0; k < c->invariants; k++)
         snprintf(r->names[k].text, sizeof r->names[k].text, "%s", motus_invariant_name(c->s.system, k, NULL));
     for (size_t k = 0; k < c->count; k++) {
         motus_drift *d = r->drifts + k * c->invariants;
-        for (size_t i = 0; i < c->invariants; i++)
+        const motus_drift **list = r->drift_list + k * c->invariants;
+        for (size_t i = 0; i < c->invariants; i++) {
             d[i] = (motus_drift){ r->names[i].text, NAN, NAN, NAN, NAN, 0 };
+            list[i] = &d[i];
+        }
+        r->row_list[k] = &r->rows[k];
         r->rows[k] = (motus_compare_row){ .method = r->texts[k].method, .step = NAN, .error_max_x = NAN, .error_max_v = NAN,
-            .error_final_x = NAN, .error_final_v = NAN, .invariant_count = c->invariants, .invariants = d, .reversal = NAN,
-            .note = r->texts[k].note };
+            .error_final_x = NAN, .error_final_v = NAN, .invariant_count = c->invariants, .invariants = list,
+            .reversal = NAN, .note = r->texts[k].note };
     }
     return MOTUS_OK;
 }
@@ -376,9 +387,9 @@ static motus_status ask(compare *c, const study_grid *g)
     double direction = s->until > s->from ? 1 : -1;
     size_t count = c->truth.known ? PROBES : 1;
     c->rate = c->acceleration = NAN;
-    motus_analysis analysis;
-    motus_analysis_of(s->system, &analysis);
-    if (analysis.constant && probe_acceleration(s, s->from, s->start, c->a))
+    if (motus_analysis_of(s->system, &c->analysis) != MOTUS_OK)
+        return no_memory(c, "what the equations are like");
+    if (c->analysis.constant && probe_acceleration(s, s->from, s->start, c->a))
         for (size_t k = 0; k < s->nx; k++)
             if (k == 0 || fabs(c->a[k]) > fabs(c->acceleration)) {
                 c->axis = k;
@@ -402,7 +413,7 @@ static motus_status ask(compare *c, const study_grid *g)
 static motus_status prepare(compare *c, motus_system *system, motus_error *err)
 {
     study *s = &c->s;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(system, &settings);
     c->step = isnan(c->def.step) ? settings.step : c->def.step;
     if (c->def.evaluations == 0 && !(c->step > 0))
@@ -442,19 +453,20 @@ static motus_status compare_all(compare *c)
         return status;
     snprintf(c->out->reference, sizeof c->out->reference, "%s", c->truth.text);
     c->out->seen.reference_error = c->truth.error;
-    remarks_view view = { .s = s, .truth = &c->truth, .rows = c->out->rows, .facts = c->facts, .count = c->count,
-        .axis = c->axis, .acceleration = c->acceleration, .rate = c->rate };
-    motus_analysis_of(s->system, &view.analysis);
+    remarks_view view = { .s = s, .analysis = c->analysis, .truth = &c->truth, .rows = c->out->rows, .facts = c->facts,
+        .count = c->count, .axis = c->axis, .acceleration = c->acceleration, .rate = c->rate };
     remarks_write(&view, c->out->remarks, sizeof c->out->remarks);
     return MOTUS_OK;
 }
 
 motus_status motus_compare(motus_system *system, const motus_study_def *given, motus_comparison **comparison, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!system || !comparison)
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_compare needs a system and a place for its result");
     *comparison = NULL;
-    compare c = { .rate = NAN };
+    compare c = { .rate = NAN, .analysis = motus_default_analysis() };
     study_modes modes;
     study_enter(&modes);
     motus_status status = study_read(given, &c.def, err);

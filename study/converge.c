@@ -51,6 +51,8 @@ typedef struct result {
     char reference[REFERENCE_MAX];
     motus_converge_row *rows;
     motus_point *points;             /* rows × POINTS_MAX */
+    const motus_converge_row **row_list;             /* to each of them: what the user reads */
+    const motus_point **point_list;
     row_text *texts;
 } result;
 
@@ -74,8 +76,9 @@ static size_t aligned(size_t bytes)
 static motus_status make_result(converge *c)
 {
     size_t head = aligned(sizeof(result)), rows = aligned(c->count * sizeof(motus_converge_row));
-    size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = c->count * sizeof(row_text);
-    char *block = study_take(c->s.allocator, head + rows + points + texts, 1);
+    size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = aligned(c->count * sizeof(row_text));
+    size_t row_list = aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
+    char *block = study_take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
     c->table = study_take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
     if (!block || !c->table) {
         study_give(c->s.allocator, block);
@@ -86,10 +89,15 @@ static motus_status make_result(converge *c)
     r->rows = (motus_converge_row *)(void *)(block + head);
     r->points = (motus_point *)(void *)(block + head + rows);
     r->texts = (row_text *)(void *)(block + head + rows + points);
-    r->seen = (motus_convergence){ c->count, r->rows, r->reference, NAN, 0 };
+    r->row_list = (const motus_converge_row **)(void *)(block + head + rows + points + texts);
+    r->point_list = (const motus_point **)(void *)(block + head + rows + points + texts + row_list);
+    for (size_t i = 0; i < c->count * POINTS_MAX; i++)
+        r->point_list[i] = &r->points[i];
+    r->seen = (motus_convergence){ c->count, r->row_list, r->reference, NAN, 0 };
     for (size_t k = 0; k < c->count; k++) {
         r->rows[k] = (motus_converge_row){ .method = r->texts[k].method, .observed = NAN, .standard_error = NAN,
-            .points = r->points + k * POINTS_MAX, .certificate = r->texts[k].certificate };
+            .points = r->point_list + k * POINTS_MAX, .certificate = r->texts[k].certificate };
+        r->row_list[k] = &r->rows[k];
         snprintf(r->texts[k].method, sizeof r->texts[k].method, "%s", c->methods[k]);
     }
     return MOTUS_OK;
@@ -180,7 +188,7 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
     if (study_fatal(status)) {
         if (s->err && !s->cancelled)
-            *s->err = *e;
+            motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
         return status;
     }
     if (status != MOTUS_OK) {
@@ -267,7 +275,7 @@ static motus_status make_row(converge *c, size_t k)
     }
     if (study_fatal(status)) {
         if (s->err && !s->cancelled)
-            *s->err = e;
+            motus_struct_write(MOTUS_DEF_ERROR, &e, s->err);
         return status;
     }
     if (status != MOTUS_OK) {
@@ -340,6 +348,8 @@ static motus_status converge_all(converge *c)
 
 motus_status motus_converge(motus_system *system, const motus_study_def *given, motus_convergence **convergence, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!system || !convergence)
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_converge needs a system and a place for its result");
     *convergence = NULL;

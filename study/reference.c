@@ -17,6 +17,7 @@ struct motus_reference {
     study_grid grid;
     double *y;                       /* the last answer, */
     double t;                        /*   at this time; NaN: none yet */
+    bool holds;                      /* the system, whose numbers its answers rest on */
 };
 
 static double direction_of(const study *s)
@@ -89,6 +90,8 @@ static bool within(const study *s, double t)
 
 motus_status motus_reference_at(motus_reference *r, const double *times, size_t count, double *x, double *v, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!r || (count && !times))
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_at needs a reference and times");
     study *s = &r->s;
@@ -114,7 +117,7 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
 {
     study *s = &r->s;
     motus_study_def def;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_status status = study_read(given, &def, err);
     if (status != MOTUS_OK)
         return status;
@@ -141,6 +144,8 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
 
 motus_status motus_reference_create(motus_system *system, const motus_study_def *given, motus_reference **reference, motus_error *err)
 {
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
     if (!system || !reference)
         return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_create needs a system and a place for the reference");
     *reference = NULL;
@@ -154,8 +159,10 @@ motus_status motus_reference_create(motus_system *system, const motus_study_def 
     study_leave(&modes);
     if (status != MOTUS_OK)
         motus_reference_destroy(r);
-    else
+    else {
+        motus_system_hold(system, r->holds = true);
         *reference = r;
+    }
     return status;
 }
 
@@ -174,6 +181,8 @@ void motus_reference_destroy(motus_reference *r)
     if (!r)
         return;
     const motus_allocator *allocator = r->s.allocator;
+    if (r->holds)
+        motus_system_hold(r->s.system, false);
     truth_free(&r->s, &r->truth);
     study_give(allocator, r->y);
     study_close(&r->s);

@@ -100,7 +100,7 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
     char behind[LINE_MAX_BYTES / 2], ahead[LINE_MAX_BYTES / 2];
     if (isnan(v->acceleration) || v->acceleration == 0 || !v->truth->known)
         return;
-    motus_column axis = { .name = "x" };
+    motus_column axis = motus_default_column();
     motus_column_at(v->s->system, 1 + v->axis, &axis);
     size_t n = names(v, lags, 0, behind, sizeof behind), m = names(v, leads, 0, ahead, sizeof ahead);
     size_t k = 0;
@@ -133,7 +133,7 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
 
 static const motus_drift *drift(const remarks_view *v, size_t k, size_t i)
 {
-    return &v->rows[k].invariants[i];
+    return v->rows[k].invariants[i];
 }
 
 static bool runs_away(const remarks_view *v, size_t k, size_t i)
@@ -173,7 +173,7 @@ static double largest_drift(const remarks_view *v, member *is, size_t i)
 static void invariant(const remarks_view *v, size_t i, sheet *out)
 {
     char list[LINE_MAX_BYTES / 2];
-    const char *name = v->rows[0].invariants[i].name;
+    const char *name = v->rows[0].invariants[i]->name;
     size_t n = names(v, runs_away, i, list, sizeof list), worst = v->count;
     for (size_t k = 0; k < v->count; k++)
         if (runs_away(v, k, i) && (worst == v->count || drift(v, k, i)->max_drift > drift(v, worst, i)->max_drift))

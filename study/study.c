@@ -47,12 +47,14 @@ motus_status study_fail(motus_error *err, motus_status status, const char *advic
 {
     if (!err)
         return status;
-    *err = (motus_error){ .size = err->size, .status = status, .time = NAN };
+    motus_error e = motus_default_error();
+    e.status = status;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(err->message, sizeof err->message, format, arguments);
+    vsnprintf(e.message, sizeof e.message, format, arguments);
     va_end(arguments);
-    snprintf(err->hint, sizeof err->hint, "%s", advice);
+    snprintf(e.hint, sizeof e.hint, "%s", advice);
+    motus_struct_write(MOTUS_DEF_ERROR, &e, err);
     return status;
 }
 
@@ -140,14 +142,9 @@ static int hook(void *context, double fraction)
 
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err)
 {
-    *def = motus_default_study();
-    if (!given)
-        return MOTUS_OK;
-    if (given->size < sizeof given->size)
-        return study_fail(err, MOTUS_ARGUMENT, "make it with motus_default_study() and edit it",
-                          "the definition of the study has no size");
-    memcpy(def, given, given->size < sizeof *def ? given->size : sizeof *def);
-    def->size = sizeof *def;
+    motus_status status = motus_struct_read(MOTUS_DEF_STUDY, given, def, err);
+    if (status != MOTUS_OK)
+        return status;
     if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY))
         return study_fail(err, MOTUS_ARGUMENT, "a step is a positive number", "the step of the study is %g", def->step);
     if (isinf(def->until))
@@ -163,7 +160,7 @@ static void find_groups(study *s)
     size_t variables = motus_variable_count(s->system);
     s->groups = 2 * (variables + 1);
     for (size_t k = 0; k < s->numbers; k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         size_t variable = variables;
         if (motus_column_at(s->system, k + 1, &c) == MOTUS_OK && c.variable < variables)
             variable = c.variable;
@@ -178,7 +175,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);
     s->numbers = s->nx + s->nv;
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(system, &settings);
     s->from = isnan(settings.from) ? 0 : settings.from;
     s->until = isnan(def->until) ? settings.until : def->until;

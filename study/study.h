@@ -7,11 +7,11 @@
 #ifndef STUDY_STUDY_H
 #define STUDY_STUDY_H
 
+#include "api/check.h"
 #include "motus.h"
 #include <fenv.h>
 #include <stdbool.h>
 #include <stdint.h>
-
 /* Truth and trajectories are looked at about this often; fewer when the states are long. */
 #define STUDY_SAMPLES 100
 #define STUDY_NUMBERS_MAX ((size_t)1 << 22)     /* in one table of samples: 32 MiB */

@@ -122,7 +122,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         motus_status status = study_walk(s, c->card->name, g, per, *now, &spent, &ignored);
         if (study_fatal(status)) {
             if (s->err && !s->cancelled)
-                *s->err = ignored;
+                motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
         /* A run that failed early was cheap, and says nothing about the price of the next. */
@@ -188,7 +188,7 @@ static motus_status check(study *s, const study_grid *g, const candidate *c, tru
     motus_status status = study_walk(s, c->card->name, g, per % 2 ? 3 * per : per / 2 * 3, room, &spent, &ignored);
     if (study_fatal(status)) {
         if (s->err && !s->cancelled)
-            *s->err = ignored;
+            motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
         return status;
     }
     study_distance d = apart(s, room, t->rows + s->numbers, g->points);
@@ -256,7 +256,7 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, double eno
         motus_status status = study_walk(s, exact, g, 1, t->rows + s->numbers, &cost, &ignored);
         if (study_fatal(status)) {
             if (s->err && !s->cancelled)
-                *s->err = ignored;
+                motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
         if (status == MOTUS_OK && finite_rows(s, t->rows, g->points + 1)) {
@@ -288,7 +288,7 @@ motus_status truth_on(study *s, const truth *t, const study_grid *g, double *row
     if (!study_fatal(status))
         return MOTUS_OK;             /* the rows are NaN from the failure on */
     if (s->err && !s->cancelled)
-        *s->err = ignored;
+        motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
     return status;
 }
 

@@ -113,6 +113,7 @@ static bool in_blocks;               /* the callback is one of blocks */
 static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
 {
     static const double x[2] = {1, 2}, v[3] = {0, 1, 0};
+    static const char *const names[] = {"a", "b", "c"};
     motus_callback_def def = motus_default_callback();
     *err = motus_default_error();
     def.positions = 2;
@@ -121,6 +122,7 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
     def.v = v;
     def.acceleration = pull;
     def.invariant = energy;
+    def.names = in_blocks ? NULL : names;
     def.block = in_blocks ? side_by_side : NULL;
     def.allocator = hooks(b);
     return motus_system_from_callback(&def, s, err);
@@ -269,11 +271,12 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
         kept = malloc(length + 1);
         assert_non_null(kept);
         memcpy(kept, text, length + 1);
-        const motus_trace_entry *e;
+        const motus_trace_entry *const *e;
         status = motus_run_trace(r, &e, &length_traced, err);
         for (size_t k = 0; k < length_traced; k++) {
-            h = mix(mix(mix(h, &e[k].kind, sizeof e[k].kind), e[k].x, nx * sizeof(double)), e[k].v, nv * sizeof(double));
-            h = mix(h, e[k].a, e[k].a ? nv * sizeof(double) : 0);
+            h = mix(mix(mix(h, &e[k]->kind, sizeof e[k]->kind), e[k]->x, nx * sizeof(double)), e[k]->v,
+                    nv * sizeof(double));
+            h = mix(h, e[k]->a, e[k]->a ? nv * sizeof(double) : 0);
         }
     }
     if (status == MOTUS_OK)
@@ -344,7 +347,7 @@ static motus_status settings(motus_system *s, const char *method, uint64_t *resu
     (void)method;
     *result = 1;
     for (size_t k = 0; k < motus_parameter_count(s); k++) {
-        motus_parameter p;
+        motus_parameter p = motus_default_parameter();
         assert_int_equal(motus_parameter_at(s, k, &p), MOTUS_OK);
         if (p.decides && !strcmp(p.decides, "unknown")) {
             *err = (motus_error){.status = MOTUS_MEMORY, .message = "unknown"};
@@ -365,6 +368,43 @@ static void what_may_be_set(void **state)
     (void)state;
     assert_true(refuse_each(rich, "", settings, "parameters") >= 4);      /* one for each */
     refuse_each(wide, "", settings, "parameters");
+}
+
+/* Numbers that are set, twice over, and a clone that has them; where there is no memory the numbers stay. */
+static motus_status set(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    (void)method;
+    static const double g[] = {1.5, 2.5}, k[][3] = {{1, 2, 3}, {4, 9, 16}};
+    motus_system *clone = NULL;
+    motus_status status = MOTUS_OK;
+    for (int n = 0; n < 2 && status == MOTUS_OK; n++) {
+        double before[3], now[3];
+        assert_int_equal(motus_parameter_values(s, 2, before), MOTUS_OK);
+        status = motus_system_set(s, "g", &g[n], 1, err);
+        if (status == MOTUS_OK)
+            status = motus_system_set(s, "k", k[n], 3, err);
+        assert_int_equal(motus_parameter_values(s, 2, now), MOTUS_OK);
+        assert_memory_equal(now, status == MOTUS_OK ? k[n] : before, sizeof now);
+    }
+    if (status == MOTUS_OK)
+        status = motus_system_clone(s, &clone, err);
+    *result = 1;
+    for (size_t i = 0; status == MOTUS_OK && i < motus_parameter_count(s); i++) {
+        double values[2][8];
+        assert_int_equal(motus_parameter_values(s, i, values[0]), MOTUS_OK);
+        assert_int_equal(motus_parameter_values(clone, i, values[1]), MOTUS_OK);
+        *result = mix(*result, values[0], (i == 0 || i == 1 ? 1 : 3) * sizeof(double));
+        assert_memory_equal(values[0], values[1], (i == 0 || i == 1 ? 1 : 3) * sizeof(double));
+    }
+    assert_true((status == MOTUS_OK) == (clone != NULL));
+    motus_system_destroy(clone);
+    return status;
+}
+
+static void setting(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(rich, "", set, "set") > 10);
 }
 
 static void admission(void **state)
@@ -437,9 +477,9 @@ static motus_status compare(motus_system *s, const char *methods, uint64_t *resu
         assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++) {
-        assert_int_equal(c->rows[i].status, MOTUS_OK);
-        *result = mix(*result, &c->rows[i].error_final_x, sizeof(double));
-        *result = mix(*result, &c->rows[i].reversal, sizeof(double));
+        assert_int_equal(c->rows[i]->status, MOTUS_OK);
+        *result = mix(*result, &c->rows[i]->error_final_x, sizeof(double));
+        *result = mix(*result, &c->rows[i]->reversal, sizeof(double));
     }
     motus_comparison_destroy(c);
     return status;
@@ -460,7 +500,7 @@ static motus_status converge(motus_system *s, const char *methods, uint64_t *res
         assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++)
-        *result = mix(*result, &c->rows[i].observed, sizeof(double));
+        *result = mix(*result, &c->rows[i]->observed, sizeof(double));
     motus_convergence_destroy(c);
     return status;
 }
@@ -482,7 +522,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     enum { COUNT = 5 };
     motus_ensemble_def def = motus_default_ensemble();
     motus_ensemble *e = NULL;
-    motus_column c;
+    motus_column c = motus_default_column();
     const size_t columns = motus_column_count(s);
     motus_record *records = malloc(columns * sizeof *records);
     double first[COUNT] = {1, 2, 3, INFINITY, 5}, second[COUNT] = {0.1, 0.2, 0.3, 0.4, 0.5}, stopped[COUNT], *room = malloc(columns * COUNT * sizeof *room);
@@ -499,7 +539,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     for (size_t k = 0; k < columns; k++) {
         records[def.record_count] = (motus_record){(motus_reduction)(k % 6), k};
         at[k] = room + k * COUNT;
-        def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_EXACT;
+        def.record_count += motus_column_at(s, k, &c) == MOTUS_OK && c.kind != MOTUS_COLUMN_EXACT;
     }
     def.vary = names;
     def.vary_count = strstr(machine, "callback") ? 1 : 2;
@@ -594,6 +634,7 @@ int main(void)
         cmocka_unit_test(runs),
         cmocka_unit_test(admission),
         cmocka_unit_test(what_may_be_set),
+        cmocka_unit_test(setting),
         cmocka_unit_test(explanations),
         cmocka_unit_test(statements),
         cmocka_unit_test(studies),

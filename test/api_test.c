@@ -2,9 +2,10 @@
  *
  * Runs are in run_test.c, restart states in restart_test.c, memory in alloc_test.c.
  */
+#include "api/system.h"
 #include "test/given.h"
 
-static const char spring[] = "x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 1\n";
+static const char spring[] = "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 1\n";
 
 /* Words ------------------------------------------------------------------------------------------------------------- */
 
@@ -56,7 +57,7 @@ static void defaults_are_what_the_manual_says(void **state)
 static void defaults_fill_what_there_is(void **state)
 {
     (void)state;
-    for (int kind = MOTUS_DEF_ERROR; kind <= MOTUS_DEF_STUDY; kind++)
+    for (int kind = MOTUS_DEF_ERROR; kind <= MOTUS_DEF_STATEMENT; kind++)
         for (uint32_t size = 4; size <= sizeof(motus_error) + 32; size++) {
             _Alignas(16) unsigned char room[sizeof(motus_error) + 64];
             memset(room, 0xA5, sizeof room);
@@ -71,6 +72,19 @@ static void defaults_fill_what_there_is(void **state)
         }
 }
 
+/* A kind that only a newer library knows: nothing is left of what lay there, so that its size of 0 is refused. */
+static void defaults_of_an_unknown_kind_are_zero(void **state)
+{
+    (void)state;
+    unsigned char room[40];
+    memset(room, 0xA5, sizeof room);
+    motus_default((motus_def_kind)1000, room, 32);
+    for (size_t i = 0; i < sizeof room; i++)
+        assert_int_equal(room[i], i < 32 ? 0 : 0xA5);
+}
+
+/* Sizes ------------------------------------------------------------------------------------------------------------- */
+
 static int pull(void *context, double t, const double *x, const double *v, double *a)
 {
     (void)context;
@@ -80,49 +94,254 @@ static int pull(void *context, double t, const double *x, const double *v, doubl
     return 0;
 }
 
-/* Half of a definition, then a page of rubbish; and a whole one, then more rubbish that a newer header would mean something by. */
-static void definitions_may_be_older_or_newer(void **state)
+/* A history that no struct has yet: 16 bytes in the first version, 24 in the second, 40 today. */
+static void sizes_of_versions_fit(void **state)
 {
     (void)state;
-    struct { motus_text_def def; unsigned char more[64]; } text;
-    struct { motus_callback_def def; unsigned char more[64]; } call;
-    struct { motus_run_def def; unsigned char more[64]; } run;
-    struct { motus_study_def def; unsigned char more[64]; } study;
-    const double x[1] = {1}, v[1] = {0};
-    const char *methods[] = {"verlet"};
-    for (int newer = 0; newer < 2; newer++) {
-        memset(&text, 0xFF, sizeof text);
-        memset(&call, 0xFF, sizeof call);
-        memset(&run, 0xFF, sizeof run);
-        memset(&study, 0xFF, sizeof study);
-        motus_default(MOTUS_DEF_TEXT, &text, newer ? sizeof text : offsetof(motus_text_def, length));
-        motus_default(MOTUS_DEF_CALLBACK, &call, newer ? sizeof call : offsetof(motus_callback_def, derivative));
-        motus_default(MOTUS_DEF_RUN, &run, newer ? sizeof run : offsetof(motus_run_def, until));
-        motus_default(MOTUS_DEF_STUDY, &study, newer ? sizeof study : offsetof(motus_study_def, step));
-        text.def.text = spring;
-        call.def.positions = 1;
-        call.def.companions = 0;
-        call.def.x = x;
-        call.def.v = v;
-        call.def.acceleration = pull;
-        run.def.step = 0.25;
-        study.def.methods = methods;
-        study.def.method_count = 1;
-        motus_error err = motus_default_error();
-        motus_system *s = NULL, *c = NULL;
-        motus_run *r = NULL;
-        motus_comparison *result = NULL;
-        must(motus_system_from_text(&text.def, &s, &err), &err, "text");
-        must(motus_system_from_callback(&call.def, &c, &err), &err, "callback");
-        must(motus_run_create(s, &run.def, &r, &err), &err, "run");
-        assert_int_equal(motus_run_steps_total(r), 4);
-        must(motus_compare(s, &study.def, &result, &err), &err, "compare");
-        assert_int_equal(result->row_count, 1);
-        motus_comparison_destroy(result);
-        motus_run_destroy(r);
-        motus_system_destroy(c);
-        motus_system_destroy(s);
+    static const uint32_t history[] = {16, 24, 40};
+    static const struct { uint32_t size; int beyond; defaults_fit fit;
+    } cases[] = {{0, 0, SIZE_MISSING},    {3, 0, SIZE_UNKNOWN},       {15, 0, SIZE_UNKNOWN},
+                 {16, 0, SIZE_FITS},      {17, 0, SIZE_UNKNOWN},      {24, 0, SIZE_FITS},
+                 {32, 0, SIZE_UNKNOWN},   {40, 0, SIZE_FITS},         {40, 1, SIZE_FITS},
+                 {41, 0, SIZE_FITS},      {48, 0, SIZE_FITS},         {48, 1, SIZE_ASKS_MORE},
+                 {64, 1, SIZE_ASKS_MORE}, {0x10000, 0, SIZE_UNKNOWN}, {0xA5A5A5A5, 0, SIZE_UNKNOWN}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        _Alignas(16) unsigned char room[64];
+        memset(room, 0xA5, 40);
+        memset(room + 40, 0, 24);
+        memcpy(room, &cases[i].size, sizeof cases[i].size);
+        room[47] = (unsigned char)cases[i].beyond;
+        if (defaults_judge(history, 3, room) != cases[i].fit)
+            fail_msg("a size of %u, case %zu: %d", cases[i].size, i, (int)defaults_judge(history, 3, room));
     }
+}
+
+/* A call with a definition of each kind, made by `make` and then spoilt or enlarged. */
+typedef struct enlarged {
+    motus_error error;
+    motus_text_def text;
+    motus_callback_def call;
+    motus_run_def run;
+    motus_study_def study;
+    motus_ensemble_def ensemble;
+} enlarged;
+
+static motus_status create_by(motus_def_kind kind, const void *def, motus_system *s, motus_error *err)
+{
+    motus_system *system = NULL;
+    motus_run *run = NULL;
+    motus_comparison *comparison = NULL;
+    motus_convergence *convergence = NULL;
+    motus_reference *reference = NULL;
+    motus_ensemble *ensemble = NULL;
+    motus_status status = MOTUS_OK, others[2] = {MOTUS_OK, MOTUS_OK};
+    switch (kind) {
+    case MOTUS_DEF_TEXT: status = motus_system_from_text(def, &system, err); break;
+    case MOTUS_DEF_CALLBACK: status = motus_system_from_callback(def, &system, err); break;
+    case MOTUS_DEF_RUN: status = motus_run_create(s, def, &run, err); break;
+    case MOTUS_DEF_ENSEMBLE: status = motus_ensemble_create(s, def, &ensemble, err); break;
+    default:
+        others[0] = motus_converge(s, def, &convergence, err);
+        others[1] = motus_reference_create(s, def, &reference, err);
+        status = motus_compare(s, def, &comparison, err);
+        assert_true(others[0] == status && others[1] == status);
+    }
+    assert_true((status != MOTUS_OK) == (!system && !run && !comparison && !ensemble));
+    motus_convergence_destroy(convergence);
+    motus_comparison_destroy(comparison);
+    motus_reference_destroy(reference);
+    motus_ensemble_destroy(ensemble);
+    motus_run_destroy(run);
+    motus_system_destroy(system);
+    return status;
+}
+
+static void definitions_of_every_size(void **state)
+{
+    (void)state;
+    static const double x[1] = {1}, v[1] = {0};
+    static const char *const methods[] = {"verlet"};
+    static const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+    motus_text_def text = motus_default_text();
+    motus_callback_def call = motus_default_callback();
+    motus_run_def run = motus_default_run();
+    motus_study_def study = motus_default_study();
+    motus_ensemble_def ensemble = motus_default_ensemble();
+    text.text = spring;
+    call.positions = 1, call.x = x, call.v = v, call.acceleration = pull;
+    study.methods = methods, study.method_count = 1;
+    ensemble.records = &record, ensemble.record_count = 1, ensemble.machine = "interpreter";
+    const struct { motus_def_kind kind; const void *def; uint32_t size; const char *maker;
+    } all[] = {{MOTUS_DEF_TEXT, &text, sizeof text, "motus_default_text()"},
+               {MOTUS_DEF_CALLBACK, &call, sizeof call, "motus_default_callback()"},
+               {MOTUS_DEF_RUN, &run, sizeof run, "motus_default_run()"},
+               {MOTUS_DEF_STUDY, &study, sizeof study, "motus_default_study()"},
+               {MOTUS_DEF_ENSEMBLE, &ensemble, sizeof ensemble, "motus_default_ensemble()"}};
+    motus_system *s = given_text(spring);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const uint32_t now = all[k].size, sizes[] = {0, 1, 4, 8, now / 2, now - 8, now - 1, now, now + 1, now + 64, 1u << 20};
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+            for (int asks = 0; asks < 2; asks++) {
+                _Alignas(16) unsigned char room[sizeof(enlarged)] = {0};
+                memcpy(room, all[k].def, all[k].size);
+                memcpy(room, &sizes[i], sizeof sizes[i]);
+                room[all[k].size + 60] = (unsigned char)asks;
+                motus_error err = motus_default_error();
+                const bool newer = sizes[i] > all[k].size && sizes[i] <= all[k].size + 64,
+                           more = newer && asks && sizes[i] > all[k].size + 60;
+                const motus_status status = create_by(all[k].kind, room, s, &err),
+                                   due = (sizes[i] == all[k].size || newer) && !more ? MOTUS_OK : MOTUS_ARGUMENT;
+                if (status != due || (due != MOTUS_OK && !strstr(err.hint, all[k].maker)) ||
+                    (more && !strstr(err.message, MOTUS_VERSION)))
+                    fail_msg("%s, %u bytes: %s (%s)", all[k].maker, sizes[i], err.message, err.hint);
+            }
+    }
+    /* Nothing is a definition too, where everything has a default. */
+    assert_int_equal(create_by(MOTUS_DEF_RUN, NULL, s, NULL), MOTUS_OK);
+    motus_system_destroy(s);
+}
+
+/* What a call fills is of a known size as well, and only so much of it is written. */
+static void filled_structs_of_every_size(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(spring);
+    for (int kind = MOTUS_DEF_VARIABLE; kind <= MOTUS_DEF_STATEMENT; kind++) {
+        static const uint32_t known[] = {
+            [MOTUS_DEF_VARIABLE] = sizeof(motus_variable),   [MOTUS_DEF_COLUMN] = sizeof(motus_column),
+            [MOTUS_DEF_PARAMETER] = sizeof(motus_parameter), [MOTUS_DEF_INITIAL] = sizeof(motus_initial),
+            [MOTUS_DEF_SETTINGS] = sizeof(motus_settings),   [MOTUS_DEF_ANALYSIS] = sizeof(motus_analysis),
+            [MOTUS_DEF_STATEMENT] = sizeof(motus_statement)};
+        const uint32_t now = known[kind], sizes[] = {0, 8, now - 4, now, now + 32};
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            union {
+                motus_variable v;
+                motus_column c;
+                motus_parameter p;
+                motus_initial i;
+                motus_settings s;
+                motus_analysis a;
+                motus_statement t;
+                unsigned char bytes[1024];
+            } u;
+            memset(&u, 0xA5, sizeof u);
+            motus_default((motus_def_kind)kind, &u, sizes[i] > now ? sizes[i] : now);
+            memcpy(&u, &sizes[i], sizeof sizes[i]);
+            unsigned char before[sizeof u];
+            memcpy(before, &u, sizeof u);
+            const motus_status status = kind == MOTUS_DEF_VARIABLE    ? motus_variable_at(s, 0, &u.v)
+                                        : kind == MOTUS_DEF_COLUMN    ? motus_column_at(s, 0, &u.c)
+                                        : kind == MOTUS_DEF_PARAMETER ? motus_parameter_at(s, 0, &u.p)
+                                        : kind == MOTUS_DEF_INITIAL   ? motus_initial_at(s, 0, &u.i)
+                                        : kind == MOTUS_DEF_SETTINGS  ? motus_settings_of(s, &u.s)
+                                        : kind == MOTUS_DEF_ANALYSIS  ? motus_analysis_of(s, &u.a)
+                                                                      : motus_statement_at(s, 0, &u.t);
+            assert_int_equal(status, sizes[i] >= now ? MOTUS_OK : MOTUS_ARGUMENT);
+            if (status != MOTUS_OK)
+                assert_memory_equal(&u, before, sizeof u);
+            else
+                assert_int_equal(memcmp(&u, before, sizes[i]) != 0, 1);
+            assert_memory_equal(u.bytes, &sizes[i], sizeof(uint32_t));
+            assert_memory_equal(u.bytes + now, before + now, sizeof u - now);
+        }
+    }
+    assert_int_equal(motus_settings_of(s, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_analysis_of(s, NULL), MOTUS_ARGUMENT);
+    motus_system_destroy(s);
+}
+
+/* Every call that takes an error looks at its size before all else. */
+static void errors_of_every_size(void **state)
+{
+    (void)state;
+    motus_system *s = given_text(spring), *system = NULL;
+    motus_run *r = given_run(s, NULL, NAN, NAN), *run = NULL;
+    motus_text_def text = motus_default_text();
+    motus_callback_def call = motus_default_callback();
+    const double one = 1, *values[1] = {&one};
+    double out[4], *results[1] = {out};
+    const size_t column_one = 1;
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+    const char *kept, *methods[] = {"verlet"};
+    size_t length, count;
+    const motus_method *m;
+    const motus_trace_entry *const *entries;
+    motus_ensemble_def flock = motus_default_ensemble();
+    motus_ensemble *e = NULL, *ensemble = NULL;
+    motus_study_def study = motus_default_study();
+    motus_comparison *comparison = NULL;
+    motus_convergence *convergence = NULL;
+    motus_reference *known = NULL, *reference = NULL;
+    motus_column c = motus_default_column();
+    text.text = spring;
+    call.positions = 1, call.x = &one, call.v = &one, call.acceleration = pull;
+    flock.records = &record, flock.record_count = 1, flock.machine = "interpreter";
+    study.methods = methods, study.method_count = 1;
+    must(motus_ensemble_create(s, &flock, &e, NULL), &(motus_error){0}, "ensemble");
+    must(motus_reference_create(s, &study, &known, NULL), &(motus_error){0}, "reference");
+    must(motus_run_save(r, &kept, &length, NULL), &(motus_error){0}, "save");
+    char *saved = strdup(kept);
+    const uint32_t sizes[] = {
+        0, 12, sizeof(motus_error) - 1, 0xA5A5A5A5, sizeof(motus_error) + 16, sizeof(motus_error) + 8};
+    struct { motus_error error; unsigned char beyond[16]; } u;
+    motus_error *err = &u.error;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const bool sound = i == 5;
+#define REFUSES(call)                                                                                                  \
+    do {                                                                                                               \
+        memset(&u, 0, sizeof u);                                                                                       \
+        u.error.size = sizes[i];                                                                                       \
+        u.beyond[15] = 1;                                                                                              \
+        const bool refused =                                                                                           \
+            (call) == MOTUS_ARGUMENT && err->status == MOTUS_ARGUMENT && strstr(err->hint, "motus_default_error()");   \
+        if (refused == sound || u.error.size != sizes[i])                                                              \
+            fail_msg("%s, an error of %u bytes: %s (%s)", #call, sizes[i], err->message, err->hint);                   \
+    } while (0)
+        REFUSES(motus_system_from_text(&text, &system, err));
+        motus_system_destroy(system);
+        REFUSES(motus_system_from_callback(&call, &system, err));
+        motus_system_destroy(system);
+        system = NULL;
+        REFUSES(motus_column_find(s, "x", &length, &count, err));
+        REFUSES(motus_column_of(s, &c, &count, err));
+        REFUSES(motus_method_find("rk4", &m, err));
+        REFUSES(motus_method_admits(s, "rk4", err));
+        REFUSES(motus_stability("rk4", 1, &one, &one, out, err));
+        REFUSES(motus_run_create(s, NULL, &run, err));
+        motus_run_destroy(run);
+        run = NULL;
+        REFUSES(motus_run_state(r, out, out, err));
+        REFUSES(motus_run_values(r, &column_one, 1, out, err));
+        REFUSES(motus_run_jacobian(r, out, out, err));
+        REFUSES(motus_run_save(r, &kept, &length, err));
+        REFUSES(motus_run_trace(r, &entries, &count, err));
+        REFUSES(motus_run_restore(r, saved, strlen(saved), err));
+        REFUSES(motus_run_step(r, 1, err));
+        REFUSES(motus_run_sample(r, (const double[]){0.5}, 1, &column_one, 1, out, err));
+        REFUSES(motus_run_finish(r, err));
+        REFUSES(motus_run_restore(r, saved, strlen(saved), err));
+        REFUSES(motus_compiled_text(s, NULL, err) ? MOTUS_OK : MOTUS_ARGUMENT);
+        REFUSES(motus_ensemble_create(s, &flock, &ensemble, err));
+        motus_ensemble_destroy(ensemble);
+        ensemble = NULL;
+        REFUSES(motus_ensemble_run(e, 1, values, results, NULL, err));
+        REFUSES(motus_compare(s, &study, &comparison, err));
+        motus_comparison_destroy(comparison);
+        comparison = NULL;
+        REFUSES(motus_converge(s, &study, &convergence, err));
+        motus_convergence_destroy(convergence);
+        convergence = NULL;
+        REFUSES(motus_reference_create(s, &study, &reference, err));
+        motus_reference_destroy(reference);
+        reference = NULL;
+        REFUSES(motus_reference_at(known, &one, 1, out, NULL, err));
+#undef REFUSES
+    }
+    free(saved);
+    motus_reference_destroy(known);
+    motus_ensemble_destroy(e);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
 }
 
 /* Errors ------------------------------------------------------------------------------------------------------------- */
@@ -268,7 +487,7 @@ static void variables(void **state)
     assert_int_equal(motus_variable_count(s), 4);
     assert_int_equal(motus_positions(s), 4 + 2 + 5);
     assert_int_equal(motus_velocities(s), 4 + 2 + 5 + 1);
-    motus_variable v;
+    motus_variable v = motus_default_variable();
     assert_int_equal(motus_variable_at(s, 0, &v), MOTUS_OK);
     assert_string_equal(v.name, "x");
     assert_true(v.order == 2 && v.components == 0 && v.dimensions == 1 && v.first[0] == 1 && v.last[0] == 4 && v.count == 4);
@@ -299,7 +518,7 @@ static void columns_are_found_by_their_own_names(void **state)
     motus_system *s = given_text(rich);
     assert_int_equal(motus_column_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_column_count(s); k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         size_t first = 99, count = 99;
         motus_error err = motus_default_error();
         assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
@@ -309,12 +528,12 @@ static void columns_are_found_by_their_own_names(void **state)
         assert_int_equal(first, k);
         assert_int_equal(count, 1);
     }
-    motus_column c;
+    motus_column c = motus_default_column();
     assert_int_equal(motus_column_at(s, motus_column_count(s), &c), MOTUS_ARGUMENT);
     assert_int_equal(motus_column_at(s, 14, &c), MOTUS_OK);
-    assert_true(c.kind == MOTUS_VELOCITY && c.variable == 0 && c.is_velocity);
+    assert_true(c.kind == MOTUS_COLUMN_VELOCITY && c.variable == 0 && c.is_velocity);
     assert_int_equal(motus_column_at(s, 23, &c), MOTUS_OK);
-    assert_int_equal(c.kind, MOTUS_COMPANION);
+    assert_int_equal(c.kind, MOTUS_COLUMN_COMPANION);
     motus_system_destroy(s);
 }
 
@@ -350,6 +569,90 @@ static void columns_of_whole_variables(void **state)
     size_t first, count;
     assert_int_equal(motus_column_find(s, loud, &first, &count, NULL), MOTUS_NAME);
     free(loud);
+    motus_system_destroy(s);
+}
+
+/* A family of vectors with a gap, a quantity over a plane of indices, an exact motion. */
+static const char gapped[] =
+    "r[i]'' = -r[i]   for i = 2..3\nr[7]'' = -r[7]\nr[i](0) = (i, 0)   for i = 2..3\nr[7](0) = (7, 0)\n"
+    "r[i]'(0) = (0, 0)   for i = 2..3\nr[7]'(0) = (0, 0)\ns' = -s\ns(0) = 1\n"
+    "exact r[i] = r[i](0) cos(t)   for i = 2..3\nexact r[7] = r[7](0) cos(t)\nexact s = exp(-t)\n"
+    "u[i, j] = i r[2].x + j   for i = 0..1, j = -1..1\ninvariant e = |r[2]|^2 + |r[2]'|^2\n";
+
+/* What a column is leads back to its number, and cells and components alone lead to the right name. */
+static void columns_by_cell_and_component(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {rich, gapped, spring};
+    motus_error err = motus_default_error();
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        motus_system *s = given_text(texts[i]);
+        for (size_t k = 0; k < motus_column_count(s); k++) {
+            motus_column c = motus_default_column(), bare = motus_default_column();
+            size_t back = SIZE_MAX;
+            assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
+            bare.kind = c.kind, bare.variable = c.variable, bare.is_velocity = c.is_velocity,
+            bare.component = c.component;
+            memcpy(bare.cell, c.cell, sizeof bare.cell);
+            must(motus_column_of(s, &bare, &back, &err), &err, c.name);
+            assert_int_equal(back, k);
+        }
+        motus_system_destroy(s);
+    }
+    motus_system *s = given_text(gapped);
+    static const struct {
+        motus_column_kind kind;
+        size_t variable;
+        int64_t cell[2];
+        int component, is_velocity;
+        const char *name;
+    } cases[] = {{MOTUS_COLUMN_TIME, 0, {0}, 0, 0, "t"},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, 1, 0, "r[7].y"},
+                 {MOTUS_COLUMN_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
+                 {MOTUS_COLUMN_COMPANION, 1, {0}, 0, 0, "s"},
+                 {MOTUS_COLUMN_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"},
+                 {MOTUS_COLUMN_INVARIANT, 0, {0}, 0, 0, "e"},
+                 {MOTUS_COLUMN_EXACT, 0, {2}, 1, 0, "exact r[2].y"},
+                 {MOTUS_COLUMN_EXACT, 0, {7}, 0, 1, "exact r[7]'.x"},
+                 {MOTUS_COLUMN_EXACT, 1, {0}, 0, 0, "exact s"},
+                 {MOTUS_COLUMN_POSITION, 0, {4}, 0, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {8}, 0, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, 2, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 0, {7}, -1, 0, NULL},
+                 {MOTUS_COLUMN_POSITION, 1, {0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_COMPANION, 1, {0}, 1, 0, NULL},
+                 {MOTUS_COLUMN_QUANTITY, 1, {0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_QUANTITY, 0, {2, 0}, 0, 0, NULL},
+                 {MOTUS_COLUMN_EXACT, 1, {0}, 0, 1, NULL},
+                 {(motus_column_kind)99, 0, {0}, 0, 0, NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        motus_column c = motus_default_column(), found = motus_default_column();
+        size_t k = 77;
+        c.kind = cases[i].kind, c.variable = cases[i].variable, c.component = cases[i].component,
+        c.is_velocity = cases[i].is_velocity;
+        memcpy(c.cell, cases[i].cell, sizeof cases[i].cell);
+        const motus_status status = motus_column_of(s, &c, &k, &err);
+        if (status != (cases[i].name ? MOTUS_OK : MOTUS_NAME))
+            fail_msg("case %zu: %s", i, err.message);
+        if (status != MOTUS_OK) {
+            assert_true(k == 77 && strlen(err.message) > 10);
+            continue;
+        }
+        assert_int_equal(motus_column_at(s, k, &found), MOTUS_OK);
+        assert_string_equal(found.name, cases[i].name);
+        assert_true(found.dimensions ==
+                    (cases[i].variable == 0 && found.kind != MOTUS_COLUMN_TIME && found.kind != MOTUS_COLUMN_INVARIANT
+                         ? (found.kind == MOTUS_COLUMN_QUANTITY ? 2 : 1)
+                         : 0));
+    }
+    motus_column c = motus_default_column();
+    size_t k;
+    assert_int_equal(motus_column_of(NULL, &c, &k, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_column_of(s, NULL, &k, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_column_of(s, &c, NULL, &err), MOTUS_ARGUMENT);
+    c.size = 3;
+    assert_int_equal(motus_column_of(s, &c, &k, &err), MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.hint, "motus_default_column()"));
     motus_system_destroy(s);
 }
 
@@ -389,9 +692,9 @@ static void exact_columns(void **state)
     finish(r);
     near(value(s, r, "exact x"), cos(2), 4 * ROUNDING, "exact x");
     near(value(s, r, "exact x'"), -2 * sin(2), 8 * ROUNDING, "exact x'");
-    motus_column c;
+    motus_column c = motus_default_column();
     assert_int_equal(motus_column_at(s, 4, &c), MOTUS_OK);
-    assert_true(c.kind == MOTUS_EXACT && c.is_velocity && !strcmp(c.name, "exact x'"));
+    assert_true(c.kind == MOTUS_COLUMN_EXACT && c.is_velocity && !strcmp(c.name, "exact x'"));
     motus_run_destroy(r);
     motus_system_destroy(s);
 }
@@ -400,8 +703,8 @@ static void settings_and_analysis(void **state)
 {
     (void)state;
     motus_system *s = given_text(rich);
-    motus_settings set;
-    motus_analysis a;
+    motus_settings set = motus_default_settings();
+    motus_analysis a = motus_default_analysis();
     motus_settings_of(s, &set);
     assert_string_equal(set.method, "rk4");
     assert_true(set.step == 0.01 && set.until == 1 && set.from == 0 && set.every_time == 0.1 && set.every_steps == 0);
@@ -498,7 +801,11 @@ int main(void)
         cmocka_unit_test(statuses_have_words),
         cmocka_unit_test(defaults_are_what_the_manual_says),
         cmocka_unit_test(defaults_fill_what_there_is),
-        cmocka_unit_test(definitions_may_be_older_or_newer),
+        cmocka_unit_test(defaults_of_an_unknown_kind_are_zero),
+        cmocka_unit_test(sizes_of_versions_fit),
+        cmocka_unit_test(definitions_of_every_size),
+        cmocka_unit_test(filled_structs_of_every_size),
+        cmocka_unit_test(errors_of_every_size),
         cmocka_unit_test(every_status_of_a_text_is_reached),
         cmocka_unit_test(errors_name_the_place),
         cmocka_unit_test(refusals),
@@ -506,6 +813,7 @@ int main(void)
         cmocka_unit_test(variables),
         cmocka_unit_test(columns_are_found_by_their_own_names),
         cmocka_unit_test(columns_of_whole_variables),
+        cmocka_unit_test(columns_by_cell_and_component),
         cmocka_unit_test(values_of_columns),
         cmocka_unit_test(exact_columns),
         cmocka_unit_test(settings_and_analysis),

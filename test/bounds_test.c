@@ -105,7 +105,7 @@ static void answer(text t, const char *what, motus_status expected, const char *
     if (status == MOTUS_OK) {
         motus_run *r = NULL;
         motus_run_def run = motus_default_run();
-        motus_settings settings;
+        motus_settings settings = motus_default_settings();
         motus_settings_of(s, &settings);
         run.step = 1e-3;
         run.until = settings.from + 1;

@@ -11,6 +11,7 @@
 typedef struct oscillator {
     double F, k, c;
     int64_t calls, derivatives, fail_at, failures;
+    int answer;                      /* of a call that fails */
 } oscillator;
 
 static motus_system *system_of(const motus_callback_def *def)
@@ -28,7 +29,7 @@ static int driven(void *context, double t, const double *x, const double *v, dou
     (void)v;
     if (++o->calls == o->fail_at) {
         o->failures++;
-        return 1;
+        return o->answer;
     }
     a[0] = fma(o->F, motus_cos(t), fma(x[0] * x[0], x[0], -x[0]));
     return 0;
@@ -51,7 +52,7 @@ static motus_callback_def driven_def(oscillator *o)
 {
     static const double x = 0.25, v = 0.125;
     motus_callback_def def = motus_default_callback();
-    *o = (oscillator){.F = 0.1};
+    *o = (oscillator){.F = 0.1, .answer = -7};
     def.positions = 1;
     def.x = &x;
     def.v = &v;
@@ -146,9 +147,9 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         finish(derived);
         finish(quotient);
         assert_true(with.derivatives > 0 && without.derivatives == 0);
-        near(value(p, derived, "x[0]"), value(s, given, "x"), bound, methods[i]);
-        near(value(q, quotient, "x[0]"), value(s, given, "x"), bound, methods[i]);
-        near(value(q, quotient, "x[0]'"), value(s, given, "x'"), bound, methods[i]);
+        near(value(p, derived, "x"), value(s, given, "x"), bound, methods[i]);
+        near(value(q, quotient, "x"), value(s, given, "x"), bound, methods[i]);
+        near(value(q, quotient, "x'"), value(s, given, "x'"), bound, methods[i]);
         /* And not for want of trying: with an inexact derivative Newton's method takes at most a little longer. */
         assert_true(motus_run_iterations(quotient) <= 2 * motus_run_iterations(derived));
         motus_run_destroy(given);
@@ -230,8 +231,8 @@ static void nonlinear_velocity_terms_and_companions(void **state)
         finish(derived);
         finish(quotient);
         const int64_t calls = without.calls;             /* before anybody looks, which is not counted */
-        static const char *const names[][2] = {{"x", "x[0]"}, {"y", "x[1]"}, {"x'", "x[0]'"}, {"y'", "x[1]'"}, {"s", "s[0]"}, {"e",
-            "invariant"}};
+        static const char *const names[][2] = {{"x", "x[1]"},   {"y", "x[2]"}, {"x'", "x[1]'"},
+                                               {"y'", "x[2]'"}, {"s", "s"},    {"e", "invariant"}};
         /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end of each. */
         const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
         for (size_t k = 0; k < 6; k++) {
@@ -291,8 +292,8 @@ static void linear_velocity_terms_take_one_step(void **state)
         finish(p);
         finish(q);
         assert_int_equal(motus_run_iterations(p), 0);
-        near(value(c, p, "x[0]"), value(s, q, "x"), 1000 * 4 * ROUNDING, "x");
-        near(value(c, p, "x[0]'"), value(s, q, "x'"), 1000 * 4 * ROUNDING, "x'");
+        near(value(c, p, "x"), value(s, q, "x"), 1000 * 4 * ROUNDING, "x");
+        near(value(c, p, "x'"), value(s, q, "x'"), 1000 * 4 * ROUNDING, "x'");
         motus_run_destroy(p);
         motus_run_destroy(q);
         motus_system_destroy(c);
@@ -302,9 +303,11 @@ static void linear_velocity_terms_take_one_step(void **state)
 
 /* Failures and the rest of the definition ------------------------------------------------------------------------------------ */
 
+/* Below 0 the callback gave up, above 0 only this place could not be evaluated: the run is at its last good step. */
 static void a_failing_callback_stops_the_run_and_not_more(void **state)
 {
     (void)state;
+    int answers[] = {-7, 3}, turn = 0;
     static const char *const methods[] = {"verlet", "velocity-verlet", "rk4", "gauss4", "kahan-li8", "newmark", "beeman", "leapfrog"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         for (int64_t when = 1; when < 400; when = when * 2 + 5) {
@@ -314,11 +317,14 @@ static void a_failing_callback_stops_the_run_and_not_more(void **state)
             motus_run *r = given_run(s, methods[i], 0.01, 5), *whole = given_run(g, methods[i], 0.01, 5);
             motus_error err = motus_default_error();
             o.fail_at = when;
+            o.answer = answers[turn++ % 2];
             if (motus_run_finish(r, &err) != MOTUS_CALLBACK)
                 fail_msg("%s, call %lld: %s", methods[i], (long long)when, err.message);
             assert_int_equal(o.failures, 1);
             assert_true(err.time >= 0 && err.time <= 5 && err.status == MOTUS_CALLBACK);
             assert_non_null(strstr(err.message, "callback"));
+            assert_int_equal(err.returned, o.answer);
+            assert_int_equal(strstr(err.message, "cannot be evaluated") != NULL, o.answer > 0);
             assert_false(motus_run_done(r));
             int64_t at = motus_run_steps(r);
             assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01
@@ -384,8 +390,8 @@ static void exact_and_invariant_callbacks(void **state)
     motus_run *r = given_run(s, "leapfrog", 0.1, 2), *e = given_run(s, "exact", 0.1, 2);
     finish(r);
     finish(e);
-    assert_true(value(s, r, "exact x[0]") == cos(2) && value(s, r, "exact x[0]'") == -sin(2));
-    assert_true(value(s, e, "x[0]") == cos(2) && value(s, e, "x[0]'") == -sin(2));
+    assert_true(value(s, r, "exact x") == cos(2) && value(s, r, "exact x'") == -sin(2));
+    assert_true(value(s, e, "x") == cos(2) && value(s, e, "x'") == -sin(2));
     /* A callback that fails says so, and the rest can still be seen. */
     size_t k = column(s, "invariant");
     double out;
@@ -393,19 +399,309 @@ static void exact_and_invariant_callbacks(void **state)
     assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
     assert_non_null(strstr(err.message, "invariant"));
     o.fail_at = -1;
-    k = column(s, "exact x[0]");
+    k = column(s, "exact x");
     assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
     assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK);    /* already seen */
-    assert_true(isfinite(value(s, r, "x[0]")));
+    assert_true(isfinite(value(s, r, "x")));
     /* The words for a system that has no text. */
     assert_true(strlen(motus_explain(s)) > 10);
     assert_null(motus_equation_text(s, 0));
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     assert_true(set.from == 0 && isnan(set.step) && isnan(set.until) && !set.method);
     motus_run_destroy(r);
     motus_run_destroy(e);
     motus_system_destroy(s);
+}
+
+/* Names, quantities, invariants --------------------------------------------------------------------------------------------- */
+
+/* A ring of three masses and the work done on the first, with names or without. */
+typedef struct ring { int64_t looks; int fail; } ring;
+
+static int ring_force(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    for (int k = 0; k < 3; k++)
+        a[k] = x[(k + 1) % 3] - 2 * x[k] + x[(k + 2) % 3];
+    a[3] = a[0] * v[0];
+    a[4] = v[1];
+    return 0;
+}
+
+static int ring_quantity(void *context, double t, const double *x, const double *v, double *values)
+{
+    ring *r = context;
+    (void)v;
+    r->looks++;
+    values[0] = x[0] + x[1];
+    values[1] = t;
+    return r->fail;
+}
+
+static int ring_invariant(void *context, double t, const double *x, const double *v, double *values)
+{
+    ring *r = context;
+    (void)t;
+    r->looks++;
+    values[0] = v[0] + v[1] + v[2];
+    values[1] = 0;
+    for (int k = 0; k < 3; k++)
+        values[1] += v[k] * v[k] / 2 + (x[k] - x[(k + 1) % 3]) * (x[k] - x[(k + 1) % 3]) / 2;
+    return 0;
+}
+
+static motus_callback_def ring_def(ring *r)
+{
+    static const double x[3] = {1, 2, 4}, v[5] = {0.5, 0, -1, 8, 9};
+    motus_callback_def def = motus_default_callback();
+    *r = (ring){0};
+    def.positions = 3;
+    def.companions = 2;
+    def.x = x;
+    def.v = v;
+    def.acceleration = ring_force;
+    def.quantity = ring_quantity;
+    def.quantities = 2;
+    def.invariant = ring_invariant;
+    def.invariants = 2;
+    def.context = r;
+    return def;
+}
+
+static void are_columns(const motus_system *s, const char *const *names, size_t count)
+{
+    assert_int_equal(motus_column_count(s), count);
+    for (size_t k = 0; k < count; k++) {
+        motus_column c = motus_default_column();
+        size_t back = 0;
+        assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
+        assert_string_equal(c.name, names[k]);
+        assert_int_equal(column(s, names[k]), k);
+        assert_int_equal(motus_column_of(s, &c, &back, NULL), MOTUS_OK);
+        assert_int_equal(back, k);
+    }
+}
+
+static void numbers_have_names(void **state)
+{
+    (void)state;
+    static const char *const plain[] = {"t",           "x[1]",         "x[2]",        "x[3]", "x[1]'",
+                                        "x[2]'",       "x[3]'",        "s[1]",        "s[2]", "quantity[1]",
+                                        "quantity[2]", "invariant[1]", "invariant[2]"};
+    static const char *const named[] = {"t",    "left", "θ₁",  "right", "left'",    "θ₁'",   "right'",
+                                        "work", "heat", "sum", "clock", "momentum", "energy"};
+    char copies[9][16];
+    const char *names[5], *quantities[2], *invariants[2];
+    for (int k = 0; k < 9; k++)
+        snprintf(copies[k], sizeof copies[k], "%s", named[k < 3 ? k + 1 : k + 4]);
+    for (int k = 0; k < 5; k++)
+        names[k] = copies[k];
+    for (int k = 0; k < 2; k++) {
+        quantities[k] = copies[5 + k];
+        invariants[k] = copies[7 + k];
+    }
+    ring r;
+    motus_callback_def def = ring_def(&r);
+    motus_system *s = system_of(&def);
+    are_columns(s, plain, 13);
+    motus_variable v = motus_default_variable();
+    assert_int_equal(motus_variable_count(s), 2);
+    assert_int_equal(motus_variable_at(s, 0, &v), MOTUS_OK);
+    assert_true(v.dimensions == 1 && v.first[0] == 1 && v.last[0] == 3 && v.count == 3);
+    assert_int_equal(motus_quantity_count(s), 1);
+    size_t numbers = 0, first, count;
+    assert_string_equal(motus_invariant_name(s, 0, &numbers), "invariant");
+    assert_int_equal(numbers, 2);
+    assert_null(motus_invariant_name(s, 1, NULL));
+    assert_int_equal(motus_column_find(s, "invariant", &first, &count, NULL), MOTUS_OK);
+    assert_true(first == 11 && count == 2);
+    assert_int_equal(motus_column_find(s, "x[0]", &first, &count, NULL), MOTUS_NAME);
+    motus_system_destroy(s);
+
+    def.names = names;
+    def.quantity_names = quantities;
+    def.invariant_names = invariants;
+    s = system_of(&def);
+    memset(copies, '?', sizeof copies);          /* they were copied */
+    memset(names, 0, sizeof names);
+    are_columns(s, named, 13);
+    assert_int_equal(motus_variable_count(s), 5);
+    assert_int_equal(motus_variable_at(s, 3, &v), MOTUS_OK);
+    assert_true(!strcmp(v.name, "work") && v.order == 1 && v.dimensions == 0 && v.count == 1);
+    assert_int_equal(motus_quantity_count(s), 2);
+    assert_string_equal(motus_quantity_name(s, 1, &numbers), "clock");
+    assert_int_equal(numbers, 1);
+    assert_int_equal(motus_invariant_count(s), 2);
+    motus_initial i = motus_default_initial();
+    assert_int_equal(motus_initial_count(s), 3 * 2 + 2);
+    assert_int_equal(motus_initial_at(s, 3, &i), MOTUS_OK);
+    assert_string_equal(i.name, "θ₁'(0)");
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_column_find(s, "momentun", &first, &count, &err), MOTUS_NAME);
+    assert_non_null(strstr(err.hint, "momentum"));
+    motus_system_destroy(s);
+}
+
+/* All quantities come from one call and all invariants from another, whatever columns are asked for. */
+static void quantities_and_invariants(void **state)
+{
+    (void)state;
+    static const char *const invariants[] = {"momentum", "energy"};
+    ring r;
+    motus_callback_def def = ring_def(&r);
+    def.invariant_names = invariants;
+    motus_system *s = system_of(&def);
+    motus_run *run = given_run(s, "rk4", 0.01, 1);
+    finish(run);
+    double x[3], v[5], out[6];
+    motus_error err = motus_default_error();
+    const size_t columns[6] = {column(s, "energy"),      column(s, "momentum"), column(s, "quantity[2]"),
+                               column(s, "quantity[1]"), column(s, "x[2]"),     column(s, "energy")};
+    must(motus_run_state(run, x, v, &err), &err, "state");
+    r.looks = 0;
+    must(motus_run_values(run, columns, 6, out, &err), &err, "values");
+    assert_int_equal(r.looks, 3);                /* invariants, quantities, and invariants again */
+    assert_true(out[0] == out[5] && out[1] == v[0] + v[1] + v[2] && out[2] == motus_run_time(run) &&
+                out[3] == x[0] + x[1] && out[4] == x[1]);
+    near(out[1], -0.5, 100 * 8 * ROUNDING, "the momentum");
+    r.fail = 5;
+    assert_int_equal(motus_run_values(run, columns, 6, out, &err), MOTUS_CALLBACK);
+    assert_true(strstr(err.message, "quantity") && err.returned == 5 && err.time == 1);
+    r.fail = 0;
+    motus_run_destroy(run);
+
+    /* A comparison reports the drift of each, under its name. */
+    motus_study_def study = motus_default_study();
+    const char *methods[] = {"velocity-verlet"};
+    motus_comparison *c = NULL;
+    study.methods = methods, study.method_count = 1, study.step = 0.05, study.until = 2;
+    def.depends_on_velocity = 0;
+    motus_system_destroy(s);
+    s = system_of(&def);
+    must(motus_compare(s, &study, &c, &err), &err, "compare");
+    assert_int_equal(c->rows[0]->status, MOTUS_OK);
+    assert_int_equal(c->rows[0]->invariant_count, 2);
+    assert_string_equal(c->rows[0]->invariants[1]->name, "energy");
+    assert_true(c->rows[0]->invariants[0]->max_drift < 1e-13 && c->rows[0]->invariants[1]->max_drift > 1e-6);
+    motus_comparison_destroy(c);
+    motus_system_destroy(s);
+}
+
+static void names_that_are_refused(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"a", "b", "c", "d", "e"}, *const rest[] = {"f", "g"},
+                             *const twice[] = {"f", "f"}, *const taken[] = {"f", "c"};
+    static const char *const bad[] = {"", "1a", "a b", "x[1]", "t", "a'", "\xff", "a\n", " a", "exact a", NULL,
+                                      "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklm"};
+    ring r;
+    motus_callback_def def = ring_def(&r);
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        for (int k = 0; k < 3; k++) {
+            const char *names[] = {"a", "b", "c", bad[i], "e"}, *more[] = {"f", bad[i]};
+            def.names = k == 0 ? names : good;
+            def.quantity_names = k == 1 ? more : NULL;
+            def.invariant_names = k == 2 ? more : NULL;
+            if (motus_system_from_callback(&def, &s, &err) != (bad[i] ? MOTUS_NAME : MOTUS_ARGUMENT) || s)
+                fail_msg("\"%s\", %d: %s", bad[i] ? bad[i] : "NULL", k, err.message);
+            assert_true(strlen(err.message) > 10);
+        }
+    def.names = good;
+    def.quantity_names = twice;
+    def.invariant_names = NULL;
+    assert_int_equal(motus_system_from_callback(&def, &s, &err), MOTUS_NAME);
+    assert_non_null(strstr(err.message, "called f"));
+    def.quantity_names = rest;
+    def.invariant_names = taken;
+    assert_int_equal(motus_system_from_callback(&def, &s, &err), MOTUS_NAME);
+    def.invariant_names = NULL;
+    def.quantities = SIZE_MAX;
+    assert_int_equal(motus_system_from_callback(&def, &s, &err), MOTUS_LIMIT);
+    def.quantity = NULL;                         /* nobody to ask: none */
+    must(motus_system_from_callback(&def, &s, &err), &err, "no quantities");
+    assert_int_equal(motus_quantity_count(s), 0);
+    motus_system_destroy(s);
+}
+
+/* x'' = -g over a floor below which there is no force to be had. */
+static int over_a_floor(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    (void)v;
+    a[0] = -1;
+    return x[0] < 0;
+}
+
+/* From the last state that could be looked at another run goes on with smaller steps, nearer to the floor. */
+static void a_run_goes_on_from_its_last_good_step(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"velocity-verlet", "verlet", "rk4", "gauss4"};
+    const double height = 1, rest = 0;
+    motus_callback_def def = motus_default_callback();
+    motus_error err = motus_default_error();
+    def.positions = 1, def.x = &height, def.v = &rest, def.acceleration = over_a_floor,
+    def.depends_on_velocity = def.depends_on_time = 0;
+    motus_system *s = system_of(&def);
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+        double x = height, v = rest;
+        motus_run_def how = motus_default_run();
+        how.method = methods[m], how.start = 0, how.until = 10, how.step = 0.25;
+        for (int n = 0; n < 5; n++, how.step /= 8) {
+            motus_run *r = NULL;
+            motus_status status = MOTUS_OK;
+            how.x = &x, how.v = &v;
+            must(motus_run_create(s, &how, &r, &err), &err, methods[m]);
+            while (status == MOTUS_OK) {
+                how.start = motus_run_time(r);
+                status = motus_run_step(r, 1, &err);
+                double ahead[2];
+                if (status == MOTUS_OK && (status = motus_run_state(r, &ahead[0], &ahead[1], &err)) == MOTUS_OK)
+                    x = ahead[0], v = ahead[1];
+            }
+            assert_int_equal(status, MOTUS_CALLBACK);
+            assert_true(err.returned == 1 && strstr(err.message, "cannot be evaluated") && strlen(err.hint) > 10);
+            assert_true(err.time >= how.start && err.time <= how.start + how.step * (1 + 1e-9));
+            motus_run_destroy(r);
+        }
+        near(how.start, sqrt(2), 1e-3, methods[m]);
+    }
+    motus_system_destroy(s);
+}
+
+static int burst(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context;
+    (void)t;
+    (void)v;
+    a[0] = 0;
+    a[1] = exp(x[1]) * exp(x[1]);
+    return 0;
+}
+
+static void errors_know_the_names(void **state)
+{
+    (void)state;
+    static const double x[2] = {0, 1}, v[2] = {0, 1};
+    static const char *const names[] = {"calm", "steep"};
+    for (int named = 0; named < 2; named++) {
+        motus_callback_def def = motus_default_callback();
+        motus_error err = motus_default_error();
+        def.positions = 2, def.x = x, def.v = v, def.acceleration = burst,
+        def.depends_on_velocity = def.depends_on_time = 0;
+        def.names = named ? names : NULL;
+        motus_system *s = system_of(&def);
+        motus_run *r = given_run(s, "velocity-verlet", 0.1, 100);
+        assert_int_equal(motus_run_finish(r, &err), MOTUS_DIVERGED);
+        assert_true(!strncmp(err.variable, named ? "steep" : "x[2]", named ? 5 : 4) && err.returned == 0);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
 }
 
 static void definitions_that_are_refused(void **state)
@@ -468,8 +764,8 @@ static void companions_alone(void **state)
         motus_run *p = given_run(s, methods[i], 0.01, 1), *q = given_run(text, methods[i], 0.01, 1);
         finish(p);
         finish(q);
-        near(value(s, p, "s[0]") + value(s, p, "s[1]"), 1, 100 * 8 * ROUNDING, "the sum");
-        near(value(s, p, "s[0]"), value(text, q, "p"), 100 * 8 * ROUNDING, methods[i]);
+        near(value(s, p, "s[1]") + value(s, p, "s[2]"), 1, 100 * 8 * ROUNDING, "the sum");
+        near(value(s, p, "s[1]"), value(text, q, "p"), 100 * 8 * ROUNDING, methods[i]);
         motus_run_destroy(p);
         motus_run_destroy(q);
     }
@@ -487,6 +783,11 @@ int main(void)
         cmocka_unit_test(linear_velocity_terms_take_one_step),
         cmocka_unit_test(a_failing_callback_stops_the_run_and_not_more),
         cmocka_unit_test(exact_and_invariant_callbacks),
+        cmocka_unit_test(numbers_have_names),
+        cmocka_unit_test(quantities_and_invariants),
+        cmocka_unit_test(names_that_are_refused),
+        cmocka_unit_test(a_run_goes_on_from_its_last_good_step),
+        cmocka_unit_test(errors_know_the_names),
         cmocka_unit_test(definitions_that_are_refused),
         cmocka_unit_test(companions_alone),
     };

@@ -11,7 +11,7 @@
 typedef struct world {
     const double *stiffness;
     atomic_int calls, widest;
-    int fail_at;                     /* the trajectory whose acceleration fails; -1: none */
+    int fail_at, answer;             /* the trajectory whose acceleration fails, and what it returns then; -1: none */
 } world;
 
 static void pull(double k, double t, double x0, double x1, double s, double v0, double *a0, double *a1, double *ds)
@@ -30,7 +30,7 @@ static int blockwise(void *context, size_t first, size_t count, double t, const 
     for (size_t j = 0; j < count; j++) {
         pull(w->stiffness ? w->stiffness[first + j] : 1, t, x[j], x[count + j], v[2 * count + j], v[j], &a[j], &a[count + j], &a[2 * count + j]);
         if ((int)(first + j) == w->fail_at)
-            return 1;
+            return w->answer;
     }
     return 0;
 }
@@ -70,7 +70,7 @@ static motus_system *given_callback(world *w, int how)
     return s;
 }
 
-static const char *const names[] = {"x[0](0.5)", "x[1]'(0.5)", "s[0](0.5)"};
+static const char *const names[] = {"x[1](0.5)", "x[2]'(0.5)", "s(0.5)"};
 enum { NAMES = 3, COUNT = 600, COLUMNS = 7 };
 
 static void spread(double values[NAMES][COUNT], const double *list[NAMES])
@@ -100,8 +100,8 @@ static motus_ensemble_def define(const motus_record *records, size_t count, cons
 static size_t record_all(motus_record out[2 * COLUMNS])
 {
     for (size_t k = 0; k < COLUMNS; k++) {
-        out[2 * k] = (motus_record){MOTUS_FINAL, k};
-        out[2 * k + 1] = (motus_record){(motus_reduction)(MOTUS_MIN + k % 5), k};
+        out[2 * k] = (motus_record){MOTUS_REDUCE_FINAL, k};
+        out[2 * k + 1] = (motus_record){(motus_reduction)(MOTUS_REDUCE_MIN + k % 5), k};
     }
     return 2 * COLUMNS;
 }
@@ -145,7 +145,7 @@ static void blocks_are_trajectories(void **state)
             run.v = y;
             must(motus_run_create(s, &run, &r, &err), &err, method);     /* of a system that has a block alone */
             finish(r);
-            assert_true(same_number(value(s, r, "x[1]"), a.at[4][7]) && same_number(value(s, r, "s[0]"), a.at[10][7]));
+            assert_true(same_number(value(s, r, "x[2]"), a.at[4][7]) && same_number(value(s, r, "s"), a.at[10][7]));
             motus_run_destroy(r);
             forget(&a);
             forget(&b);
@@ -165,7 +165,7 @@ static void trajectories_have_their_own_numbers(void **state)
     (void)state;
     static double values[NAMES][COUNT], stiffness[COUNT];
     const double *list[NAMES];
-    const motus_record records[] = {{MOTUS_FINAL, 1}, {MOTUS_MEAN, 6}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MEAN, 6}};
     spread(values, list);
     for (int i = 0; i < COUNT; i++)
         stiffness[i] = 1 + 0.01 * i;
@@ -217,8 +217,19 @@ static void some_are_lost_and_some_fail(void **state)
     assert_true(a.stopped[256] == 0.5 && a.stopped[COUNT - 1] == 0.5 && a.stopped[255] > 0.5);
     motus_error err = motus_default_error();
     w.fail_at = 300;
+    w.answer = -2;
     assert_int_equal(motus_ensemble_run(blocks, COUNT, list, a.at, NULL, &err), MOTUS_CALLBACK);
-    assert_true(strstr(err.message, "callback") && err.time == 0.5);
+    assert_true(strstr(err.message, "callback") && err.time == 0.5 && err.returned == -2);
+    /* What cannot be evaluated ends its own trajectory and no other. */
+    w.answer = 1;
+    outcome d = go(blocks, COUNT, count, list, "one cannot be evaluated");
+    for (size_t i = 0; i < COUNT; i++) {
+        assert_int_equal(isnan(d.stopped[i]), i != 3 && i != 255 && i != 256 && i != 300 && i != COUNT - 1);
+        for (size_t r = 0; r < count; r++)
+            assert_true(i == 300 ? isnan(d.at[r][i]) : same_number(d.at[r][i], b.at[r][i]));
+    }
+    assert_true(d.stopped[300] == 0.5);
+    forget(&d);
     w.fail_at = -1;
     outcome c = go(blocks, COUNT, count, list, "again");
     same_outcome(&c, &b, "after a failure");
@@ -245,7 +256,7 @@ static void threads_of_models(void **state)
         v[i] = i == 31 ? INFINITY : 0.1 * ((i * 11) % SOME);
     }
     motus_system *s = given_text(text);
-    const motus_record records[] = {{MOTUS_FINAL, 1}, {MOTUS_MAX, column(s, "q")}, {MOTUS_TIME_OF_MIN, 2}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MAX, column(s, "q")}, {MOTUS_REDUCE_TIME_OF_MIN, 2}};
     static const char *const machines[] = {"interpreter", "compiled"};
     for (int m = 0; m < 2; m++) {
         outcome first = {0};
@@ -291,7 +302,7 @@ static void watched(void **state)
     (void)state;
     static double values[NAMES][COUNT];
     const double *list[NAMES];
-    const motus_record records[] = {{MOTUS_FINAL, 1}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}};
     spread(values, list);
     for (int threads = 1; threads <= 3; threads++) {
         world w = {.fail_at = -1};
@@ -330,8 +341,8 @@ static void blocks_are_fast(void **state)
     const size_t count = wanted ? (size_t)atol(wanted) : 2048;
     double *amplitude = calloc(count, sizeof *amplitude), *x = calloc(2 * count, sizeof *x), zero = 0, best[2] = {INFINITY, INFINITY};
     assert_true(amplitude && x);
-    static const char *const vary[] = {"x[0](0)"};
-    const motus_record record = {MOTUS_FINAL, 1};
+    static const char *const vary[] = {"x(0)"};
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     const double *values[] = {x};
     double *at[] = {x + count};
     for (int round = 0; round < 6; round++) {

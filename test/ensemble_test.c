@@ -92,12 +92,12 @@ typedef struct task {
 /* Every column once for its last value and once by one of the other reductions. */
 static void record_all(task *t)
 {
-    motus_column c;
+    motus_column c = motus_default_column();
     for (size_t k = 0; motus_column_at(t->s, k, &c) == MOTUS_OK; k++) {
-        if (c.kind == MOTUS_EXACT || t->record_count + 2 > RECORDS_MAX)
+        if (c.kind == MOTUS_COLUMN_EXACT || t->record_count + 2 > RECORDS_MAX)
             continue;
-        t->records[t->record_count++] = (motus_record){MOTUS_FINAL, k};
-        t->records[t->record_count++] = (motus_record){(motus_reduction)(MOTUS_MIN + k % 5), k};
+        t->records[t->record_count++] = (motus_record){MOTUS_REDUCE_FINAL, k};
+        t->records[t->record_count++] = (motus_record){(motus_reduction)(MOTUS_REDUCE_MIN + k % 5), k};
     }
 }
 
@@ -113,7 +113,7 @@ static void open_task(task *t, const given_case *c)
             t->values[k][i] = c->vary[k].from + c->vary[k].by * (double)((i * (5 + 6 * k) + k) % 23) / 3;
         t->vary_count++;
     }
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(t->s, &set);
     t->step = set.step;
 }
@@ -137,7 +137,7 @@ static void close_task(task *t)
 static void shape(task *t, int k)
 {
     static const struct { double steps; int64_t every; } shapes[] = {{40, 1}, {30.4, 3}, {0.3, 2}, {29.5, 7}, {1060, 7}, {36, 1000}, {530.25, 530}, {1, 1}};
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(t->s, &set);
     t->steps = (int64_t)ceil(shapes[k].steps);
     if (!strcmp(t->method, "verlet-literal"))        /* takes equal steps only */
@@ -173,10 +173,10 @@ static void look_at(const task *t, motus_run *r, double *kept, double *when, int
         const motus_record *one = &t->records[i];
         double now;
         must(motus_run_values(r, &one->column, 1, &now, &err), &err, "look");
-        bool better = looks == 0 || isnan(now) || (one->how == MOTUS_MIN || one->how == MOTUS_TIME_OF_MIN ? now < kept[i] : now > kept[i]);
-        if (one->how == MOTUS_MEAN)
+        bool better = looks == 0 || isnan(now) || (one->how == MOTUS_REDUCE_MIN || one->how == MOTUS_REDUCE_TIME_OF_MIN ? now < kept[i] : now > kept[i]);
+        if (one->how == MOTUS_REDUCE_MEAN)
             kept[i] = looks ? kept[i] + now : now;
-        else if (one->how == MOTUS_FINAL || better)
+        else if (one->how == MOTUS_REDUCE_FINAL || better)
             kept[i] = now;
         if (better && !isnan(now))
             when[i] = motus_run_time(r);
@@ -218,9 +218,9 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
         assert_true(isnan(o->at[k][i]));
     for (size_t k = 0; status == MOTUS_OK && k < t->record_count; k++) {
         const motus_reduction how = t->records[k].how;
-        double expected = how == MOTUS_MEAN ? kept[k] / (double)looks : how == MOTUS_TIME_OF_MIN || how == MOTUS_TIME_OF_MAX ? when[k] : kept[k];
+        double expected = how == MOTUS_REDUCE_MEAN ? kept[k] / (double)looks : how == MOTUS_REDUCE_TIME_OF_MIN || how == MOTUS_REDUCE_TIME_OF_MAX ? when[k] : kept[k];
         /* Which of two zeros of different signs is the least is nobody's business. */
-        if (!same_number(expected, o->at[k][i]) && !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_MIN || how == MOTUS_MAX)))
+        if (!same_number(expected, o->at[k][i]) && !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_REDUCE_MIN || how == MOTUS_REDUCE_MAX)))
             fail_msg("%s by %s, until %g, every %lld: trajectory %zu, record %zu (%d of column %zu) is %a; a run says %a", t->c->model, t->method, t->until,
                 (long long)t->every, i, k, (int)how, t->records[k].column, o->at[k][i], expected);
     }
@@ -383,7 +383,7 @@ static void elsewhere_in_time(void **state)
     motus_system *s = given_text(text);
     static const char *const names[] = {"q", "x'(2)"};
     const double q[3] = {1, 1.5, -0.25}, v[3] = {0, 1, 2}, *const values[] = {q, v};
-    const motus_record records[] = {{MOTUS_FINAL, column(s, "x")}, {MOTUS_TIME_OF_MAX, column(s, "x")}, {MOTUS_FINAL, column(s, "push")}, {MOTUS_MIN, 0}, {MOTUS_FINAL, 0}};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, column(s, "x")}, {MOTUS_REDUCE_TIME_OF_MAX, column(s, "x")}, {MOTUS_REDUCE_FINAL, column(s, "push")}, {MOTUS_REDUCE_MIN, 0}, {MOTUS_REDUCE_FINAL, 0}};
     for (int k = 0; k < 3; k++) {
         motus_ensemble_def def = motus_default_ensemble();
         def.vary = names;

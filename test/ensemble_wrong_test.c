@@ -8,7 +8,7 @@
 enum { FEW = 5 };
 
 /* A definition of one record of each kind of the first position, with one name that varies. */
-static motus_record records[] = {{MOTUS_FINAL, 1}, {MOTUS_MIN, 1}, {MOTUS_MAX, 1}, {MOTUS_MEAN, 1}, {MOTUS_TIME_OF_MAX, 1}, {MOTUS_FINAL, 0}};
+static motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MIN, 1}, {MOTUS_REDUCE_MAX, 1}, {MOTUS_REDUCE_MEAN, 1}, {MOTUS_REDUCE_TIME_OF_MAX, 1}, {MOTUS_REDUCE_FINAL, 0}};
 enum { RECORDS = sizeof records / sizeof *records };
 
 static motus_ensemble_def define(const char *const *names, size_t count, const char *method, double step, double until, const char *machine)
@@ -244,7 +244,7 @@ static void definitions(void **state)
     motus_system *s = given_text(model_text);
     static const char *const vary[] = {"kay"};
     const motus_ensemble_def good = define(vary, 1, "verlet", NAN, 0.05, "interpreter");
-    motus_record bad[] = {{MOTUS_FINAL, 1000}, {(motus_reduction)77, 1}};
+    motus_record bad[] = {{MOTUS_REDUCE_FINAL, 1000}, {(motus_reduction)77, 1}};
     motus_ensemble_def def;
 #define BAD(change, status, part) \
     do {                          \
@@ -302,7 +302,7 @@ static char *everything_about(motus_system *s)
 {
     static char text[20000];
     size_t n = 0;
-    motus_column c;
+    motus_column c = motus_default_column();
     n += (size_t)snprintf(text + n, sizeof text - n, "%s", motus_explain(s));
     for (size_t k = 0; motus_equation_text(s, k) && n < sizeof text; k++)
         n += (size_t)snprintf(text + n, sizeof text - n, "%s\n", motus_equation_text(s, k));
@@ -392,7 +392,7 @@ static void a_method_that_no_longer_fits(void **state)
     static const char *const vary[] = {"k"};
     const double k[2] = {0, 0.5}, *values[] = {k};
     double results[2], *places[] = {results};
-    const motus_record record = {MOTUS_FINAL, 1};
+    const motus_record record = {MOTUS_REDUCE_FINAL, 1};
     motus_ensemble_def def = motus_default_ensemble();
     motus_error err = motus_default_error();
     motus_ensemble *e;

@@ -164,7 +164,7 @@ static void damped_cubic_needs_no_iteration(void **state)
     assert_int_equal(motus_run_iterations(r), 0);
     assert_int_equal(motus_run_steps(r), 3000);
     assert_int_equal(motus_run_evaluations(r), 3000);
-    motus_analysis a;
+    motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);
     assert_true(a.velocity_dependent && a.linear_in_velocity && !a.time_dependent && !a.affine);
     assert_non_null(strstr(motus_explain(s), "closed form"));

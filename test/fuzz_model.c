@@ -84,7 +84,7 @@ static void check_error(const motus_error *err, motus_status status)
 static void check_statements(motus_system *s)
 {
     for (size_t k = 0; k < motus_statement_count(s) && k < NUMBERS; k++) {
-        motus_statement statement;
+        motus_statement statement = motus_default_statement();
         const char *text = motus_statement_mathml(s, k), *wrong;
         CHECK(motus_statement_at(s, k, &statement) == MOTUS_OK && statement.name && (statement.line > 0 || statement.is_set));
         if (!text)
@@ -100,7 +100,7 @@ static void check_statements(motus_system *s)
 static void look(motus_system *s, motus_run *r)
 {
     for (size_t k = 0; k < motus_column_count(s) && k < NUMBERS; k++) {
-        motus_column column;
+        motus_column column = motus_default_column();
         size_t first, count;
         double value;
         motus_error err = motus_default_error();
@@ -120,7 +120,7 @@ static void run(motus_system *s, const char *method)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_run *r = NULL;
     motus_settings_of(s, &settings);
     def.method = method;
@@ -130,7 +130,7 @@ static void run(motus_system *s, const char *method)
     motus_status status = motus_run_create(s, &def, &r, &err);
     if (status == MOTUS_OK)
         status = motus_run_step(r, 3, &err);
-    const motus_trace_entry *entries;
+    const motus_trace_entry *const *entries;
     size_t count = 0;
     if (status == MOTUS_OK)
         status = motus_run_trace(r, &entries, &count, &err);

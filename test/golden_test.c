@@ -47,7 +47,7 @@ static line compute(motus_system *s, const char *model, const char *method)
     line l = {0};
     snprintf(l.model, NAME, "%s", model);
     snprintf(l.method, NAME, "%s", method);
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_run *r = given_run(s, method, set.step, set.from + STEPS * set.step);
     motus_error err = motus_default_error();

@@ -42,7 +42,7 @@ static double at_start(const char *text, const char *const *set, size_t count, c
     def.step = 0.1;
     def.method = "rk4";
     if (read_text(text, set, count, &s, &err) == MOTUS_OK && motus_column_find(s, column, &first, &n, &err) == MOTUS_OK) {
-        motus_settings settings;
+        motus_settings settings = motus_default_settings();
         motus_settings_of(s, &settings);
         def.until = settings.from + 1;
         if (n != 1)
@@ -382,7 +382,7 @@ static void rule_15_parameters_do_not_rewrite(void **unused)
     motus_system *s = given_text(text);
     assert_string_equal(motus_equation_text(s, 0), "x'' = -k x^n");
     assert_null(motus_equation_text(s, 1));
-    motus_analysis a;
+    motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);
     assert_false(a.constant);
     motus_system_destroy(s);
@@ -399,7 +399,7 @@ static void analysis_reads_the_equations(void **unused)
         char text[512];
         snprintf(text, sizeof text, "k = 2\nq = 3 t\nx'' = %s\nx(0) = 1\nx'(0) = 0\n", known[i].force);
         motus_system *s = given_text(text);
-        motus_analysis a;
+        motus_analysis a = motus_default_analysis();
         motus_analysis_of(s, &a);
         if (!!a.velocity_dependent != known[i].velocity || (known[i].velocity && !!a.linear_in_velocity != known[i].linear) || !!a.time_dependent != known[i].time ||
             !!a.affine != known[i].affine || !!a.constant != known[i].constant || !!a.smooth != known[i].smooth)
@@ -413,7 +413,7 @@ static void settings_are_read(void **unused)
 {
     (void)unused;
     static const char still[] = "x'' = 0\nx(2) = 1\nx'(2) = 0\n";
-    motus_settings m;
+    motus_settings m = motus_default_settings();
     motus_system *s = given_text(still);
     motus_settings_of(s, &m);
     assert_null(m.method);

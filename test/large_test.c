@@ -76,7 +76,7 @@ typedef struct end { double *state; int64_t evaluations, steps; motus_status sta
 /* steps in one go, or (cut) in calls of 1, 2, 3, … with looks between. */
 static end go(motus_system *s, const char *machine, int threads, const char *method, int steps, bool cut)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_run_def def = motus_default_run();
     def.machine = machine;

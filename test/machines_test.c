@@ -63,7 +63,7 @@ typedef struct end { double *state; size_t count; int64_t evaluations, iteration
 
 static end run_on(motus_system *s, const char *machine, const char *method)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();

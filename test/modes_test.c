@@ -51,10 +51,10 @@ static uint64_t everything(void)
     def.until = 2;
     must(motus_compare(s, &def, &c, &err), &err, "compare");
     for (size_t i = 0; i < c->row_count; i++) {
-        const motus_compare_row *row = &c->rows[i];
+        const motus_compare_row *row = c->rows[i];
         const double numbers[] = {row->error_max_x, row->error_max_v, row->error_final_x, row->error_final_v, row->reversal,
-            row->invariants[0].max_drift,
-                                  row->invariants[0].trend};
+            row->invariants[0]->max_drift,
+                                  row->invariants[0]->trend};
         for (size_t k = 0; k < sizeof numbers; k++)
             h = (h ^ ((const unsigned char *)numbers)[k]) * 1099511628211u;
     }

@@ -15,7 +15,7 @@ static void check(motus_system *s, const expected *list, size_t count)
 {
     assert_int_equal(motus_parameter_count(s), count);
     for (size_t k = 0; k < count; k++) {
-        motus_parameter p;
+        motus_parameter p = motus_default_parameter();
         double values[8];
         assert_int_equal(motus_parameter_at(s, k, &p), MOTUS_OK);
         assert_string_equal(p.name, list[k].name);
@@ -43,7 +43,7 @@ static void parameters(void **state)
         {"P", "2", 0, 0, 1, {2}, size}, {"Q", "P + 0", 0, 0, 1, {2}, size}, {"q", "i g", 2, 1, 4, {0, -9.81, 0, 2 * -9.81}, NULL},
     };
     motus_system *s = given_text(text);
-    motus_parameter p;
+    motus_parameter p = motus_default_parameter();
     check(s, all, 10);
     motus_parameter_at(s, 9, &p);
     assert_true(p.dimensions == 1 && p.first[0] == 1 && p.last[0] == 2);
@@ -69,7 +69,7 @@ static void decides_what_an_ensemble_refuses(void **state)
     motus_system *s = given_text(text);
     size_t refused = 0;
     for (size_t k = 0; k < motus_parameter_count(s); k++) {
-        motus_parameter p;
+        motus_parameter p = motus_default_parameter();
         motus_parameter_at(s, k, &p);
         char name[80];
         snprintf(name, sizeof name, p.list ? "%s[1]" : p.components ? "%s.x" : "%s", p.name);
@@ -77,7 +77,7 @@ static void decides_what_an_ensemble_refuses(void **state)
         const char *vary[] = {name};
         motus_error e = motus_default_error();
         motus_ensemble_def def = motus_default_ensemble();
-        const motus_record record = {MOTUS_FINAL, 1};
+        const motus_record record = {MOTUS_REDUCE_FINAL, 1};
         def.vary = vary;
         def.vary_count = 1;
         def.records = &record;
@@ -104,7 +104,7 @@ static void initials(void **state)
     motus_system *s = given_text(text);
     assert_int_equal(motus_initial_count(s), 5);
     for (size_t k = 0; k < 5; k++) {
-        motus_initial i;
+        motus_initial i = motus_default_initial();
         double values[4];
         assert_int_equal(motus_initial_at(s, k, &i), MOTUS_OK);
         assert_string_equal(i.name, all[k].name);
@@ -147,14 +147,14 @@ static void callbacks_and_wrong_requests(void **state)
     assert_int_equal(motus_parameter_count(s), 0);
     assert_int_equal(motus_initial_count(s), 3);
     double values[2];
-    motus_initial i;
+    motus_initial i = motus_default_initial();
     assert_int_equal(motus_initial_values(s, 1, values), MOTUS_OK);
     assert_true(values[0] == 3 && values[1] == 4);
     assert_int_equal(motus_initial_values(s, 2, values), MOTUS_OK);
     assert_true(values[0] == 5);
     assert_int_equal(motus_initial_at(s, 2, &i), MOTUS_OK);
     assert_string_equal(i.name, "s(0)");
-    motus_parameter p;
+    motus_parameter p = motus_default_parameter();
     assert_int_equal(motus_parameter_at(s, 0, &p), MOTUS_ARGUMENT);
     assert_int_equal(motus_parameter_values(s, 0, values), MOTUS_ARGUMENT);
     assert_int_equal(motus_initial_at(s, 3, &i), MOTUS_ARGUMENT);

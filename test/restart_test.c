@@ -73,7 +73,7 @@ static void restarted_equals_uninterrupted(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         motus_system *s = given_text(texts[i]);
-        motus_settings set;
+        motus_settings set = motus_default_settings();
         motus_settings_of(s, &set);
         for (size_t k = 0; k < motus_method_count(); k++) {
             const char *method = motus_method_at(k)->name;

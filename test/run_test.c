@@ -245,7 +245,7 @@ static void starts_are_in_the_order_of_the_columns(void **state)
     def.v = v;
     must(motus_run_create(s, &def, &r, &err), &err, "start");
     for (size_t k = 0; k < nx + nv; k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         assert_int_equal(motus_column_at(s, 1 + k, &c), MOTUS_OK);
         assert_true(value(s, r, c.name) == (k < nx ? x[k] : v[k - nx]));
     }

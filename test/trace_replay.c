@@ -274,10 +274,14 @@ static void recurrence(const step *s, const double *before_x, const double *befo
     same(s, "positions at the end", e->x, s->end->x, s->nx);
 }
 
-void trace_replay(const motus_system *system, const motus_method *m, const motus_trace_entry *entry, size_t count, const double *before_x,
-                  const double *before_a, const char *what)
+void trace_replay(const motus_system *system, const motus_method *m, const motus_trace_entry *const *entries,
+                  size_t count, const double *before_x, const double *before_a, const char *what)
 {
     assert_true(count >= 2);
+    motus_trace_entry *entry = calloc(count, sizeof *entry);     /* side by side: each is compared with its neighbours */
+    assert_non_null(entry);
+    for (size_t i = 0; i < count; i++)
+        entry[i] = *entries[i];
     step s = {.system = system, .what = what, .method = m->name, .entry = entry, .start = entry, .end = entry + count - 1, .count = count,
               .nx = motus_positions(system), .nv = motus_velocities(system), .h = entry->step};
     s.a = calloc(s.nv + 1, sizeof *s.a);
@@ -298,4 +302,5 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
     else if (!strcmp(m->family, "two-step")) recurrence(&s, before_x, before_a);
     else assert_int_equal(count, 2);
     free(s.a);
+    free(entry);
 }

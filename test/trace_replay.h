@@ -6,7 +6,7 @@
 
 /* Fails the test where an entry is not what the formula makes of those before it, or a slope not the acceleration where it was taken. `before`:
  * positions and acceleration at the start of the step before, or NULL: two-step methods must name them. */
-void trace_replay(const motus_system *, const motus_method *, const motus_trace_entry *, size_t count, const double *before_x, const double *before_a,
-                  const char *what);
+void trace_replay(const motus_system *, const motus_method *, const motus_trace_entry *const *, size_t count,
+                  const double *before_x, const double *before_a, const char *what);
 
 #endif

@@ -53,21 +53,21 @@ static void one(motus_system *s, const char *name, double h, double until, const
     assert_non_null(kept);
     const int64_t total = motus_run_steps_total(traced);
     for (int64_t n = 0; n < total; n++) {
-        const motus_trace_entry *e;
+        const motus_trace_entry *const *e;
         size_t count;
         const int64_t iterations = motus_run_iterations(traced);
         const double start = motus_run_time(traced);
         must(motus_run_trace(traced, &e, &count, &err), &err, name);
         assert_true(count >= 2);
-        const motus_trace_entry *end = &e[count - 1];
-        assert_true(e->time == start && end->time == motus_run_time(traced));
+        const motus_trace_entry *first = e[0], *end = e[count - 1];
+        assert_true(first->time == start && end->time == motus_run_time(traced));
         assert_int_equal(motus_run_steps(traced), n + 1);
         assert_int_equal(end->iterations, motus_run_iterations(traced) - iterations);
         const bool again = n > 0 && !(n == total - 1 && motus_run_last_step(traced) != 0);      /* the short step starts anew */
         trace_replay(s, m, e, count, again ? now : NULL, again ? before : NULL, what);
-        memcpy(now, e->x, nx * sizeof *now);
-        if (e->a)
-            memcpy(before, e->a, nv * sizeof *before);
+        memcpy(now, first->x, nx * sizeof *now);
+        if (first->a)
+            memcpy(before, first->a, nv * sizeof *before);
         take_steps(plain, 1);
         motus_run *fresh = create(s, name, h, until, "interpreter");
         take_steps(fresh, n + 1);
@@ -89,7 +89,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
         assert_int_equal(motus_run_iterations(r), motus_run_iterations(plain));
         assert_int_equal(motus_run_steps(r), total);
     }
-    const motus_trace_entry *e = (const motus_trace_entry *)kept;
+    const motus_trace_entry *const *e = (const motus_trace_entry *const *)kept;
     size_t count = 7;
     must(motus_run_trace(traced, &e, &count, &err), &err, name);
     assert_true(count == 0 && !e);                       /* nothing is left to take */
@@ -101,7 +101,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
 
 static int every_method(motus_system *s, double h, double way, const char *machine, const char *what)
 {
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     int count = 0;
     for (size_t k = 0; k <= motus_method_count(); k++) {
@@ -126,7 +126,7 @@ static void every_model(void **state)
         char file[64];
         snprintf(file, sizeof file, "%s.motus", models[i]);
         motus_system *s = given_model(file, NULL, 0);
-        motus_settings set;
+        motus_settings set = motus_default_settings();
         motus_settings_of(s, &set);
         assert_true(every_method(s, set.step, 1, "interpreter", models[i]) >= 10);
         motus_system_destroy(s);
@@ -211,7 +211,7 @@ static void compiled(void **state)
                                           {"projectile.motus", "beeman"}};
     for (size_t i = 0; i < sizeof some / sizeof *some; i++) {
         motus_system *s = given_model(some[i][0], NULL, 0);
-        motus_settings set;
+        motus_settings set = motus_default_settings();
         motus_settings_of(s, &set);
         one(s, some[i][1], set.step, set.from + set.step * (STEPS + 0.4), "compiled", some[i][0]);
         motus_system_destroy(s);
@@ -225,7 +225,7 @@ static void compiled(void **state)
         motus_error err = motus_default_error();
         finish(plain);
         while (!motus_run_done(traced)) {
-            const motus_trace_entry *e;
+            const motus_trace_entry *const *e;
             size_t count;
             take_steps(traced, 6);
             must(motus_run_trace(traced, &e, &count, &err), &err, method);
@@ -245,7 +245,7 @@ static void same_failure(motus_system *s, const char *method, double h, motus_st
 {
     motus_run *plain = create(s, method, h, 1000 * h, NULL), *traced = create(s, method, h, 1000 * h, NULL);
     motus_error one = motus_default_error(), two = motus_default_error();
-    const motus_trace_entry *e = NULL;
+    const motus_trace_entry *const *e = NULL;
     size_t count = 0;
     double x[8], v[8];
     motus_status status = MOTUS_OK;
@@ -286,7 +286,7 @@ static void failures(void **state)
     same_failure(hard, "gauss4", 0.1, MOTUS_SOLVE, "rough");
     motus_error err = motus_default_error();
     motus_run *r = given_run(s, "rk4", 0.1, 0.2);
-    const motus_trace_entry *e;
+    const motus_trace_entry *const *e;
     size_t count;
     assert_int_equal(motus_run_trace(NULL, &e, &count, &err), MOTUS_ARGUMENT);
     assert_true(strstr(err.message, "motus_run_trace") != NULL);

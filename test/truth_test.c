@@ -120,7 +120,7 @@ static void is_what_compare_judges_by(void **state)
             last = fabs(x - truth);
             worst = fmax(worst, last);
         }
-        assert_true(worst == c->rows[0].error_max_x && last == c->rows[0].error_final_x && worst > 0);
+        assert_true(worst == c->rows[0]->error_max_x && last == c->rows[0]->error_final_x && worst > 0);
         motus_run_destroy(run);
         motus_reference_destroy(r);
         motus_comparison_destroy(c);

@@ -45,7 +45,7 @@ static void models(void **state)
         assert_null(strstr(out, "⋯"));           /* nothing of them is cut */
         /* Each statement begins with its name in the line it says. */
         for (size_t k = 0; k < motus_statement_count(s); k++) {
-            motus_statement one;
+            motus_statement one = motus_default_statement();
             assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);
             const char *line = text;
             for (int i = 1; i < one.line; i++)
@@ -196,7 +196,7 @@ static void settings(void **state)
     motus_system *s = given_text_with(text, set, 4, "set");
     assert_int_equal(motus_statement_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_statement_count(s); k++) {
-        motus_statement one;
+        motus_statement one = motus_default_statement();
         const char *wrong;
         assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);
         wrong = mathml_read(motus_statement_mathml(s, k), out, ROOM, NULL);
@@ -237,7 +237,7 @@ static void callback(void **state)
     double one = 1;
     motus_callback_def def = motus_default_callback();
     motus_system *s = NULL;
-    motus_statement statement;
+    motus_statement statement = motus_default_statement();
     def.positions = 1;
     def.x = def.v = &one;
     def.acceleration = still;

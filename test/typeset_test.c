@@ -136,7 +136,7 @@ static void kinds(void **state)
         {MOTUS_STATEMENT_START, 13, "u", "{msubsup{u|i|′}@{(0)}}=0 {for_i=1}"}, {MOTUS_STATEMENT_COMPANION, 14, "fed", "msup{fed|′}=x"},
         {MOTUS_STATEMENT_START, 15, "fed", "{fed@{(0)}}=0"}, {MOTUS_STATEMENT_SETTING, 16, "until", "until_1"}, {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"}};
     static char out[ROOM];
-    motus_statement one;
+    motus_statement one = motus_default_statement();
     motus_system *s = given_text("# a comment\nk = 1\n\nx'' = -k x\nx(0) = 1\nx'(0) = 0\ninvariant energy = x'^2/2 + x^2/2\nv =\n x'\n"
                                  "u[i]'' = u[i+1] - u[i] for i = 1..1\nu[2] = sin(t)\nu[i](0) = 0 for i = 1..1\nu[i]'(0) = 0 for i = 1..1\n"
                                  "fed' = x\nfed(0) = 0\nuntil 1\nmethod verlet\n");

@@ -65,7 +65,7 @@ static motus_status go(text t, motus_system **s, motus_run **r, motus_error *err
 {
     motus_text_def def = motus_default_text();
     motus_run_def run = motus_default_run();
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     def.text = t.bytes;
     def.length = t.length;
     *r = NULL;

@@ -8,12 +8,12 @@
 static void describe_columns(json *j, const motus_system *s)
 {
     static const char *const kinds[] = {
-        [MOTUS_TIME] = "time", [MOTUS_POSITION] = "position", [MOTUS_VELOCITY] = "velocity", [MOTUS_COMPANION] = "companion",
-        [MOTUS_QUANTITY] = "quantity", [MOTUS_INVARIANT] = "invariant", [MOTUS_EXACT] = "exact",
+        [MOTUS_COLUMN_TIME] = "time", [MOTUS_COLUMN_POSITION] = "position", [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_COMPANION] = "companion",
+        [MOTUS_COLUMN_QUANTITY] = "quantity", [MOTUS_COLUMN_INVARIANT] = "invariant", [MOTUS_COLUMN_EXACT] = "exact",
     };
     json_open(j, "columns", '[');
     for (size_t k = 0; k < motus_column_count(s); k++) {
-        motus_column c;
+        motus_column c = motus_default_column();
         if (motus_column_at(s, k, &c) != MOTUS_OK)
             continue;
         json_open(j, NULL, '{');
@@ -27,7 +27,7 @@ static void describe_columns(json *j, const motus_system *s)
     json_close(j, ']');
     json_open(j, "variables", '[');
     for (size_t k = 0; k < motus_variable_count(s); k++) {
-        motus_variable v;
+        motus_variable v = motus_default_variable();
         if (motus_variable_at(s, k, &v) != MOTUS_OK)
             continue;
         json_open(j, NULL, '{');
@@ -49,7 +49,7 @@ static void describe_parameters(json *j, const motus_system *s)
     double values[NUMBERS_MAX];
     json_open(j, "parameters", '[');
     for (size_t k = 0; k < motus_parameter_count(s); k++) {
-        motus_parameter p;
+        motus_parameter p = motus_default_parameter();
         if (motus_parameter_at(s, k, &p) != MOTUS_OK || p.count > NUMBERS_MAX || motus_parameter_values(s, k, values) != MOTUS_OK)
             continue;
         json_open(j, NULL, '{');
@@ -63,8 +63,8 @@ static void describe_parameters(json *j, const motus_system *s)
         json_close(j, '}');
     }
     for (size_t k = 0; k < motus_initial_count(s); k++) {
-        motus_initial i;
-        motus_variable v;
+        motus_initial i = motus_default_initial();
+        motus_variable v = motus_default_variable();
         if (motus_initial_at(s, k, &i) != MOTUS_OK || i.count > NUMBERS_MAX || motus_variable_at(s, i.variable, &v) != MOTUS_OK ||
             motus_initial_values(s, k, values) != MOTUS_OK)
             continue;
@@ -83,7 +83,7 @@ static void describe_parameters(json *j, const motus_system *s)
 
 static void describe_analysis(json *j, const motus_system *s)
 {
-    motus_analysis a;
+    motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);
     json_open(j, "analysis", '{');
     json_bool(j, "velocityDependent", a.velocity_dependent);
@@ -121,7 +121,7 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
         [MOTUS_STATEMENT_EXACT] = "exact", [MOTUS_STATEMENT_INVARIANT] = "invariant", [MOTUS_STATEMENT_SETTING] = "setting",
     };
     for (size_t k = 0; k < motus_statement_count(s); k++) {
-        motus_statement t;
+        motus_statement t = motus_default_statement();
         const char *mathml = motus_statement_mathml(s, k);
         if (motus_statement_at(s, k, &t) != MOTUS_OK || !mathml)
             continue;
@@ -136,7 +136,7 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     describe_analysis(j, s);
     describe_columns(j, s);
     describe_parameters(j, s);
-    motus_settings settings;
+    motus_settings settings = motus_default_settings();
     motus_settings_of(s, &settings);
     json_open(j, "settings", '{');
     json_string(j, "method", method_of(&settings));

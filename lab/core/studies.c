@@ -45,7 +45,7 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
         [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick", [MOTUS_EVENT_DRIFT] = "drift", [MOTUS_EVENT_STAGE] = "stage",
         [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor", [MOTUS_EVENT_STEP] = "step", [MOTUS_EVENT_END] = "end",
     };
-    const motus_trace_entry *entries;
+    const motus_trace_entry *const *entries;
     size_t count;
     if (motus_run_trace(l->run, &entries, &count, &l->error) != MOTUS_OK)
         return NULL;
@@ -54,7 +54,7 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
     json_clear(j);
     json_open(j, NULL, '[');
     for (size_t k = 0; k < count; k++) {
-        const motus_trace_entry *e = &entries[k];
+        const motus_trace_entry *e = entries[k];
         json_open(j, NULL, '{');
         json_string(j, "kind", kinds[e->kind]);
         json_number(j, "stage", e->stage);
@@ -94,7 +94,7 @@ LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, siz
     json_open(j, NULL, '{');
     json_open(j, "rows", '[');
     for (size_t k = 0; k < c->row_count; k++) {
-        const motus_converge_row *r = &c->rows[k];
+        const motus_converge_row *r = c->rows[k];
         json_open(j, NULL, '{');
         json_string(j, "method", r->method);
         json_number(j, "declared", r->declared);
@@ -105,10 +105,10 @@ LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, siz
         json_open(j, "points", '[');
         for (size_t i = 0; i < r->point_count; i++) {
             json_open(j, NULL, '{');
-            json_number(j, "step", r->points[i].step);
-            json_number(j, "error", r->points[i].error);
-            json_number(j, "evaluations", (double)r->points[i].evaluations);
-            json_bool(j, "used", r->points[i].used);
+            json_number(j, "step", r->points[i]->step);
+            json_number(j, "error", r->points[i]->error);
+            json_number(j, "evaluations", (double)r->points[i]->evaluations);
+            json_bool(j, "used", r->points[i]->used);
             json_close(j, '}');
         }
         json_close(j, ']');
@@ -138,7 +138,7 @@ static void compare_row(json *j, const motus_compare_row *r)
     json_number(j, "reversal", r->reversal);
     json_open(j, "invariants", '[');
     for (size_t i = 0; i < r->invariant_count; i++) {
-        const motus_drift *d = &r->invariants[i];
+        const motus_drift *d = r->invariants[i];
         json_open(j, NULL, '{');
         json_string(j, "name", d->name);
         json_number(j, "initial", d->initial);
@@ -169,7 +169,7 @@ LAB_CALL(lab_compare) const char *lab_compare(lab *l, const char *methods, size_
     json_open(j, NULL, '{');
     json_open(j, "rows", '[');
     for (size_t k = 0; k < c->row_count; k++)
-        compare_row(j, &c->rows[k]);
+        compare_row(j, c->rows[k]);
     json_close(j, ']');
     json_string(j, "reference", c->reference);
     json_number(j, "referenceError", c->reference_error);

@@ -90,6 +90,8 @@ typedef struct model {
     uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors */
 
     vary_log log;
+    uint8_t *overridden;             /* vary.h: per place of the pool, 1: set, whatever its line says; NULL: none is */
+    struct exact_check *check;       /* analysis.c: of the exact line; NULL: there is none */
     double constant_terms;           /* of sums in constants so far */
     int depth;                       /* expressions within expressions, at present */
     int start_depth;                 /* initial values that use one another, at present */

@@ -43,19 +43,38 @@ static bool entry_changes(const vary_entry *e, const uint8_t *changed)
     return false;
 }
 
-/* Marks the places that an entry writes: its whole hull where it has loops, else its cell. */
+/* Where component k of an entry is written: the beginning of its hull where it runs over an index, else its cell. */
+static size_t place_of(const model *m, const vary_entry *e, int k)
+{
+    const output *o = &e->outputs[k];
+    const array *a = &m->arrays[o->to.array];
+    int64_t at = (int64_t)a->base;
+    for (int d = 0; d < o->to.dims && !o->loops; d++)
+        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) *
+              a->stride[d];
+    return (size_t)at;
+}
+
 static void mark_places(vary *v, const vary_entry *e)
 {
-    const model *m = v->model;
-    for (int k = 0; k < e->parts; k++) {
-        const output *o = &e->outputs[k];
-        const array *a = &m->arrays[o->to.array];
-        int64_t at = (int64_t)a->base;
-        for (int d = 0; d < o->to.dims && !o->loops; d++)
-            at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) * a->stride[d];
-        size_t count = o->loops ? e->hull : 1;
-        memset(v->affected + at, 1, count);
-    }
+    for (int k = 0; k < e->parts; k++)
+        memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
+}
+
+/* What is overridden is so as a whole: one number tells for all. */
+static bool overridden(const model *m, const vary_entry *e)
+{
+    return m->overridden && m->overridden[place_of(m, e, 0)];
+}
+
+bool vary_override(model *m, size_t first, size_t count, bool yes)
+{
+    if (!m->overridden)
+        m->overridden = arena_grow(m->arena, NULL, 0, m->pool_count + 1);
+    if (!m->overridden)
+        return false;
+    memset(m->overridden + first, yes, count);
+    return true;
 }
 
 /* Extends `affected` to all places that follow from those marked so far, and collects the entries that compute them in
@@ -65,7 +84,7 @@ static void follow(vary *v, uint8_t *changed)
     const vary_log *log = &v->model->log;
     mark_nodes(v, changed);
     for (uint32_t k = 0; k < log->count; k++) {
-        if (!entry_changes(&log->entries[k], changed))
+        if (overridden(v->model, &log->entries[k]) || !entry_changes(&log->entries[k], changed))
             continue;
         mark_places(v, &log->entries[k]);
         mark_nodes(v, changed);
@@ -168,6 +187,8 @@ bool vary_apply(vary *v, const double *values)
     for (uint32_t k = 0; k < v->active_count; k++) {
         const vary_entry *e = v->active[k].entry;
         const size_t all = e->map ? e->hull * (size_t)e->parts : 0;
+        if (overridden(m, e))
+            continue;
         memcpy(v->kept, m->pool + e->base, all * sizeof(double));
         if (!tape_bind(v->active[k].tape, &b))
             return false;

@@ -19,6 +19,10 @@ motus_status vary_create(model *, const size_t *places, size_t count, bool own_s
 /* What a change of `count` places from `first` on decides besides numbers: *what is "a size or an index", "step",
  * "until" … (the first that was read), or NULL for nothing. The model is not changed. False: no memory. */
 bool vary_decides(const model *, size_t first, size_t count, const motus_allocator *, const char **what);
+/* From now on numbers [first, first + count) of the pool are what they are set to (yes), or again what the model's lines
+ * make of them: all numbers of a parameter, of a state's x(0) or x'(0), boundary cells included. A vary made before heeds
+ * it too. False: no memory. */
+bool vary_override(model *, size_t first, size_t count, bool yes);
 /* Writes values[k] to places[k] and computes all that follows from them: the pool, x0 and v0. False: no memory. */
 bool vary_apply(vary *, const double *values);
 /* For a machine that does this for many trajectories at once: what to compute, and which places of the pool differ (a

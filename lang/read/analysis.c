@@ -3,7 +3,7 @@
  * found elsewhere, by evaluation. */
 #include "lang/read/read_steps.h"
 
-#include "lang/model/evaluate.h"
+#include "lang/tape/tape.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -103,15 +103,22 @@ static bool differs(const model *m, const double *a, const double *b, size_t n, 
     return false;
 }
 
-static bool verify_exact(model *m)
+/* What the check computes: the motion, the boundary where there is one, the motion's acceleration, the force. */
+struct exact_check { tape *motion, *boundary, *second, *force; double *work; };
+
+static tape *tape_of(model *m, const output *outputs, size_t count)
+{
+    program *p = source_failed(&m->source) ? NULL : program_create(m->graph, outputs, count);
+    return p && !source_failed(&m->source) ? tape_create(m->arena, p) : NULL;
+}
+
+static bool make_check(model *m)
 {
     graph *g = m->graph;
-    size_t n = m->nv + 1;
-    double *work = arena_grow(m->arena, NULL, 0, 5 * n * sizeof *work);
-    output *second = arena_grow(m->arena, NULL, 0, m->exact_count * sizeof *second);
-    if (!work || !second)
+    struct exact_check *c = arena_take(m->arena, sizeof *c);
+    output *second = arena_grow(m->arena, NULL, 0, (m->exact_count + 1) * sizeof *second);
+    if (!second || m->arena->failed)
         return false;
-    double *x = work, *v = work + n, *a = work + 2 * n, *e = work + 3 * n, *scale = work + 4 * n;
     size_t count = 0;
     for (size_t i = 0; i < m->exact_count; i++)
         if (m->arrays[m->exact[i].to.array].space == SPACE_V) {
@@ -120,6 +127,34 @@ static bool verify_exact(model *m)
             o.to.array = (uint16_t)(o.to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
             second[count++] = o;
         }
+    c->work = arena_grow(m->arena, NULL, 0, 5 * (m->nv + 1) * sizeof *c->work);
+    c->motion = tape_of(m, m->exact, m->exact_count);
+    c->boundary = m->boundary_count ? tape_of(m, m->boundary, m->boundary_count) : NULL;
+    c->second = tape_of(m, second, count);
+    c->force = tape_of(m, m->accel, m->accel_count);
+    m->check = c;
+    return !source_failed(&m->source);
+}
+
+static bool bind_check(const model *m)
+{
+    tape *const tapes[] = {m->check->motion, m->check->boundary, m->check->second, m->check->force};
+    const binding b = {m->arrays, m->ints, m->pool};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k] && !tape_bind(tapes[k], &b))
+            return false;
+    return true;
+}
+
+static bool verify_exact(model *m)
+{
+    const size_t n = m->nv + 1;
+    if (!m->check && !make_check(m))
+        return false;
+    if (!bind_check(m))
+        return false;
+    const struct exact_check *c = m->check;
+    double *x = c->work, *v = x + n, *a = v + n, *e = a + n, *scale = e + n;
     const statement *line = exact_line(m);
     double span_ = isfinite(m->until) ? m->until - m->start : 1;
     char name[MOTUS_NAME_MAX + 64];
@@ -131,8 +166,7 @@ static bool verify_exact(model *m)
         memset(a, 0, n * sizeof *a);
         memset(e, 0, n * sizeof *e);
         double *motion[SPACES] = {[SPACE_X] = x, [SPACE_V] = v}, *truth[SPACES] = {[SPACE_A] = e}, *force[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
-        if (!evaluate_outputs(m, m->exact, m->exact_count, t, motion))
-            return false;
+        tape_run(c->motion, t, motion);
         if (k == 0) {
             double big = 0;
             for (size_t i = 0; i < m->nx; i++)
@@ -156,10 +190,10 @@ static bool verify_exact(model *m)
                 return false;
             }
         }
-        if (m->boundary_count && !evaluate_outputs(m, m->boundary, m->boundary_count, t, motion))
-            return false;
-        if (!evaluate_outputs(m, second, count, t, truth) || !evaluate_outputs(m, m->accel, m->accel_count, t, force))
-            return false;
+        if (c->boundary)
+            tape_run(c->boundary, t, motion);
+        tape_run(c->second, t, truth);
+        tape_run(c->force, t, force);
         double big = 0;
         for (size_t i = 0; i < m->nv; i++)
             big = fmax(big, fabs(a[i]) + fabs(e[i]) + 1e-8 * fabs(v[i]));
@@ -174,6 +208,18 @@ static bool verify_exact(model *m)
         }
     }
     return true;
+}
+
+motus_status analysis_exact(model *m, motus_error *err)
+{
+    if (!m->check)
+        return MOTUS_OK;
+    m->source.error = err;
+    const bool good = verify_exact(m);
+    const motus_status status = good ? MOTUS_OK : m->source.failed ? m->source.status : MOTUS_MEMORY;
+    m->source.error = NULL;
+    m->source.failed = false;        /* the model is sound; the numbers are not those of its exact line */
+    return status;
 }
 
 void analysis_all(model *m)

@@ -1,0 +1,148 @@
+/* Names of columns, read: "x", "r'.y", "x[3]'", "exact x" and the columns they stand for. */
+#include "api/columns.h"
+
+#include "lang/text/words.h"
+
+#include <ctype.h>
+#include <string.h>
+
+typedef struct column_name {         /* a name taken apart: [exact] base [indices] primes component */
+    bool exact;
+    char base[MOTUS_NAME_MAX];
+    int dims;
+    int64_t index[MAX_DIMS];
+    int primes;
+    int component;                   /* 1-based, 0: none */
+} column_name;
+
+static const char *read_integer(const char *p, int64_t *value)
+{
+    const bool minus = *p == '-';
+    const char *digit = p += minus;
+    for (*value = 0; isdigit((unsigned char)*p); p++)
+        *value = *value < INT32_MAX ? 10 * *value + (*p - '0') : *value;       /* no index is that far */
+    *value = minus ? -*value : *value;
+    return p == digit ? NULL : p;
+}
+
+static bool take_name(const char *p, column_name *n)
+{
+    *n = (column_name){0};
+    if (!strncmp(p, "exact ", 6)) {
+        n->exact = true;
+        p += 6;
+    }
+    size_t length = strcspn(p, "[.'");
+    if (length == 0 || length >= sizeof n->base)
+        return false;
+    memcpy(n->base, p, length);
+    p += length;
+    if (*p == '[') {
+        do {
+            if (n->dims == MAX_DIMS || !(p = read_integer(p + 1, &n->index[n->dims])))
+                return false;
+            n->dims++;
+        } while (*p == ',');
+        if (*p++ != ']')
+            return false;
+    }
+    while (*p == '\'' && n->primes < 3) {
+        n->primes++;
+        p++;
+    }
+    if (*p == '.') {
+        n->component = p[1] == 'x' ? 1 : p[1] == 'y' ? 2 : p[1] == 'z' ? 3 : -1;
+        p += p[1] ? 2 : 1;
+    } else if (*p == '[') {
+        int64_t k;
+        if (!(p = read_integer(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
+            return false;
+        n->component = (int)k;
+    }
+    return *p == 0 && n->component >= 0;
+}
+
+static const char *group_name(const motus_system *s, const column_group *g)
+{
+    switch (g->kind) {
+    case MOTUS_COLUMN_TIME: return "t";
+    case MOTUS_COLUMN_QUANTITY:
+    case MOTUS_COLUMN_INVARIANT: return s->definitions[g->item].name;
+    default: return s->states[g->item].name;
+    }
+}
+
+static motus_status no_column(const motus_system *s, const char *name, const char *base, motus_error *err)
+{
+    fail(err, MOTUS_NAME, "there is no column %s", name);
+    const char *best = NULL;
+    int least = 7;
+    for (size_t i = 0; i < s->group_count; i++) {
+        const char *other = group_name(s, &s->groups[i]);
+        if (!words_near(base, other))
+            continue;
+        int d = words_distance(base, other, 6);
+        if (d < least) {
+            least = d;
+            best = other;
+        }
+    }
+    motus_column c = motus_default_column();
+    if (best && strcmp(best, base))
+        hint(err, "did you mean %s?", best);
+    else if (s->column_count > 1 && motus_column_at(s, 1, &c) == MOTUS_OK)
+        hint(err, "the columns are t, %s … as a trajectory file names them", c.name);
+    return MOTUS_NAME;
+}
+
+/* The columns of a group that the name stands for; false: there are none. */
+static bool select_columns(const motus_system *s, const column_group *g, column_name n, size_t *first, size_t *count)
+{
+    *first = g->first;
+    *count = g->count;
+    if (g->kind == MOTUS_COLUMN_TIME)
+        return !n.dims && !n.component;
+    const model_state shape = columns_shape(s, g);
+    const size_t parts = columns_parts(shape.components);
+    size_t cell = 0;
+    if (shape.dims == 0 && n.dims == 1 && !n.component && !n.primes) {       /* w[2]: a component of a vector */
+        n.component = n.index[0] > 0 && n.index[0] < INT32_MAX ? (int)n.index[0] : INT32_MAX;
+        n.dims = 0;
+    }
+    if (n.dims && (n.dims != shape.dims || !columns_find_cell(&shape, n.index, &cell)))
+        return false;
+    if (n.component > shape.components || (n.component && shape.dims && !n.dims))
+        return false;
+    if (n.dims) {
+        *first += cell * parts;
+        *count = parts;
+    }
+    if (n.component) {
+        *first += (size_t)n.component - 1;
+        *count = 1;
+    }
+    return true;
+}
+
+motus_status motus_column_find(const motus_system *s, const char *name, size_t *first, size_t *count, motus_error *err)
+{
+    column_name n;
+    if (!motus_error_sound(err))
+        return MOTUS_ARGUMENT;
+    if (!s || !name || !first || !count)
+        return fail(err, MOTUS_ARGUMENT, "motus_column_find needs a system, a name and two places for the answer");
+    if (!take_name(name, &n))
+        return fail(err, MOTUS_NAME, "%s is not the name of a column", name);
+    for (size_t i = 0; i < s->group_count; i++) {
+        const column_group *g = &s->groups[i];
+        size_t from, number;
+        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) || n.primes != (g->prime ? 1 : 0))
+            continue;
+        if (!select_columns(s, g, n, &from, &number))
+            break;
+        *first = from;
+        *count = number;
+        return MOTUS_OK;
+    }
+    return no_column(s, name, n.base, err);
+}
