@@ -405,7 +405,13 @@ typedef struct motus_run_def {
     /* Called now and then (not more often than every 10 ms or so of work), with the part of the way that is done, 0
      * … 1; a value other than 0 cancels. */
     int (*progress)(void *context, double fraction);
-    void *context;
+    void *context;                   /* of `progress` and of `observer` */
+    /* NULL, or called after every step, the shortened last one included, by motus_run_step, motus_run_finish and
+     * motus_run_sample; not at the start, where the run can be looked at before its first step. It may look (state,
+     * values, jacobian, statistics, save), and may not step, restore, set or destroy the run. Other than 0 stops the
+     * run after this step: MOTUS_CANCELLED. The bits are the same; a large system is no longer advanced several
+     * steps at a time. */
+    int (*observer)(void *context, motus_run *);
     /* "interpreter"; "compiled": the equations and the method as machine code, made by the system's C compiler and
      * kept in $XDG_CACHE_HOME/motus; NULL or "auto": compiled where the run is long enough to repay it and a
      * compiler is there. A system from C calls its callback whatever is said here. The bits are the same. */
@@ -441,6 +447,18 @@ MOTUS_API int64_t motus_run_evaluations(const motus_run *);   /* of the accelera
 MOTUS_API int64_t motus_run_iterations(const motus_run *);    /* of Newton's method, in all */
 MOTUS_API const char *motus_run_method(const motus_run *);
 MOTUS_API const char *motus_run_machine(const motus_run *);   /* "interpreter", "compiled", "callback" */
+/* All that a run has done so far, in one struct. */
+typedef struct motus_statistics {
+    uint32_t size;                   /* by motus_default_statistics() */
+    int legs;                        /* 1, and one more for every motus_run_set_state */
+    const char *method, *machine;    /* as motus_run_method and motus_run_machine say */
+    int64_t steps;                   /* taken, in all legs, shortened last ones included */
+    int64_t refused;                 /* tried, and taken back by a method that chooses its own step; 0 of a fixed step */
+    int64_t evaluations;             /* of the acceleration, for both; looking is not counted */
+    int64_t iterations;              /* of Newton's method, for both */
+    double first_step, last_step;    /* sizes of the first and of the latest step taken, > 0; NaN before the first */
+} motus_statistics;
+MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Why "auto" took the interpreter where it would have compiled, or "". */
 MOTUS_API const char *motus_run_note(const motus_run *);
 /* The C text that the compiled machine compiles for a method (NULL: the model's) of this model; owned by the system.
@@ -477,6 +495,15 @@ MOTUS_API motus_status motus_run_sample(motus_run *, const double *times, size_t
  * another system, method, step or start, or lies beyond the end; the run is then where it was. */
 MOTUS_API motus_status motus_run_save(motus_run *, const char **text, size_t *length, motus_error *);
 MOTUS_API motus_status motus_run_restore(motus_run *, const char *text, size_t length, motus_error *);
+
+/* Goes on from another state, a new leg: as a run that was created at time t (NaN: the present one) with x, nx
+ * finite numbers, and v, nv of them (copied; NULL: as they are now), by the same method, step, end and machine.
+ * motus_run_steps, motus_run_steps_total and motus_run_last_step are of this leg, and its times are t + n step, in
+ * the direction of `until` from t; motus_statistics are of all legs. A restart state that is saved from now on is of
+ * a run that starts at t. After a failure the run is where it was. MOTUS_ARGUMENT: a number is not finite, or a step
+ * is lost beside t. MOTUS_METHOD: the last step would be shorter, which the method cannot take. MOTUS_LIMIT: too
+ * many steps. And as motus_run_state, where the present state is asked for. */
+MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *x, const double *v, motus_error *);
 
 /* One step opened up: what the method does inside it, in the order in which it does it; for pictures, and to see why
  * a method errs. It is the step that motus_run_step(r, 1) would take, to the same bits, told as the method stands on
@@ -683,7 +710,7 @@ MOTUS_API void motus_reference_destroy(motus_reference *);
 typedef enum motus_def_kind {
     MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY, MOTUS_DEF_ENSEMBLE,
     MOTUS_DEF_VARIABLE, MOTUS_DEF_COLUMN, MOTUS_DEF_PARAMETER, MOTUS_DEF_INITIAL, MOTUS_DEF_SETTINGS,
-    MOTUS_DEF_ANALYSIS, MOTUS_DEF_STATEMENT
+    MOTUS_DEF_ANALYSIS, MOTUS_DEF_STATEMENT, MOTUS_DEF_STATISTICS
 } motus_def_kind;
 /* Fills the `size` bytes of a struct; the functions below do so with the size that this header knows. What is beyond
  * the library's own size is zero, and so is all of a struct that it does not know. */
@@ -709,6 +736,7 @@ MOTUS_DEFAULT_FUNCTION(initial, INITIAL, motus_initial)
 MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
 MOTUS_DEFAULT_FUNCTION(analysis, ANALYSIS, motus_analysis)
 MOTUS_DEFAULT_FUNCTION(statement, STATEMENT, motus_statement)
+MOTUS_DEFAULT_FUNCTION(statistics, STATISTICS, motus_statistics)
 #undef MOTUS_DEFAULT_FUNCTION
 
 #ifdef __cplusplus
