@@ -291,6 +291,7 @@ static void refusals(void **state)
     assert_int_equal(motus_system_set(NULL, "k", &one, 1, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_system_set(s, NULL, &one, 1, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_system_set(s, "k", NULL, 1, &err), MOTUS_ARGUMENT);
+    motus_system_destroy(before);
     assert_int_equal(motus_system_clone(NULL, &before, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_system_clone(s, NULL, &err), MOTUS_ARGUMENT);
     assert_null(before);
