@@ -48,6 +48,7 @@ typedef struct window {
 /* One end of a step: dense.h. */
 typedef struct dense_end { clock t; const real *x, *v, *a; } dense_end;
 
+/* No member is a `real`: lanes, where that is a vector, are given the library's workspace. */
 typedef struct work {
     const row *row;
     size_t nx, nv, stride;         /* stride: distance of two arrays below; at least nv */
@@ -85,8 +86,7 @@ typedef struct work {
     whole owed_evaluations, owed_iterations;      /* what it cost: counted when the method uses it */
     int moved;                     /* drifts to come that a machine's PASS has made together with a kick */
     int order;                     /* adaptive: of the error estimate, which goes with h^(order + 1) */
-    real error;                    /* adaptive: the candidate's error, in units of what is allowed */
-    real allowed;                  /* adaptive: absolute local tolerance */
+    clock error;                   /* adaptive: the candidate's error, in units of what is allowed */
 
     real *x, *v, *ex, *ev;         /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x;
