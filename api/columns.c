@@ -3,7 +3,6 @@
 
 #include "lang/words.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -265,14 +264,15 @@ typedef struct column_name {         /* a name taken apart: [exact] base [indice
     int component;                   /* 1-based, 0: none */
 } column_name;
 
-static const char *read_integer(const char *p, int64_t *value)
+/* Indices end at INT32_MAX: a larger one is none, but that is not said here. */
+static const char *read_index(const char *p, int64_t *value)
 {
     const bool minus = *p == '-';
-    const char *digit = p += minus;
-    for (*value = 0; isdigit((unsigned char)*p); p++)
-        *value = *value < INT32_MAX ? 10 * *value + (*p - '0') : *value;       /* no index is that far */
+    uint64_t n;
+    const size_t length = decimal_read_whole(p + minus, SIZE_MAX, &n);
+    *value = n > INT32_MAX ? (int64_t)INT32_MAX + 1 : (int64_t)n;
     *value = minus ? -*value : *value;
-    return p == digit ? NULL : p;
+    return length ? p + minus + length : NULL;
 }
 
 static bool take_name(const char *p, column_name *n)
@@ -289,7 +289,7 @@ static bool take_name(const char *p, column_name *n)
     p += length;
     if (*p == '[') {
         do {
-            if (n->dims == MAX_DIMS || !(p = read_integer(p + 1, &n->index[n->dims])))
+            if (n->dims == MAX_DIMS || !(p = read_index(p + 1, &n->index[n->dims])))
                 return false;
             n->dims++;
         } while (*p == ',');
@@ -305,7 +305,7 @@ static bool take_name(const char *p, column_name *n)
         p += p[1] ? 2 : 1;
     } else if (*p == '[') {
         int64_t k;
-        if (!(p = read_integer(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
+        if (!(p = read_index(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
             return false;
         n->component = (int)k;
     }

@@ -1,11 +1,10 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
 
-#include "lang/number.h"
 #include "lang/words.h"
 
+#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static motus_status unknown(const motus_system *s, const char *name, motus_error *err)
@@ -43,8 +42,8 @@ static bool take_bracket(const char *name, char *bare, size_t size, double *star
     snprintf(bare, size, "%.*s", (int)(open - name), name);
     const bool minus = open[1] == '-';
     const char *digits = open + 1 + minus;
-    const size_t n = strspn(digits, "0123456789.e+-");
-    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
+    const size_t n = decimal_read(digits, SIZE_MAX, start);
+    if (!n || strcmp(digits + n, ")") || isinf(*start))
         return false;
     if (minus)
         *start = -*start;
@@ -92,14 +91,15 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
         if (strlen(d->name) != length || strncmp(d->name, name, length) || d->kind != DEFINED_PARAMETER)
             continue;
         const char *rest = name + length;
-        long k = 0;
-        char *end = NULL;
+        uint64_t written = 0;
+        bool closed = true;
         if (*rest == '.' && rest[1] && !rest[2])
-            k = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
+            written = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
         else if (*rest == '[')
-            k = strtol(rest + 1, &end, 10);
-        if ((end && strcmp(end, "]")) || (*rest && k < 1))
+            closed = !strcmp(rest + 1 + decimal_read_whole(rest + 1, SIZE_MAX, &written), "]");
+        if (!closed || (*rest && (written < 1 || written > INT32_MAX)))
             return unknown(s, name, err);
+        const int64_t k = (int64_t)written;
         if (d->list && d->dims == 1 && !d->components && k >= d->first[0] && k <= d->last[0]) {
             *place = s->model->arrays[d->array].base + (size_t)(k - d->first[0]);
             return MOTUS_OK;

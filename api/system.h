@@ -6,6 +6,7 @@
 #ifndef API_SYSTEM_H
 #define API_SYSTEM_H
 
+#include "base/modes.h"
 #include "run/compiled.h"
 
 typedef struct column_group {        /* columns of one name */
@@ -56,10 +57,5 @@ size_t system_number(const motus_system *, size_t outer, bool of_v);
 /* The quantity or invariant of a column, and which of its numbers, in the inside order, that is. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
-
-/* Rounding to nearest, no flushing of subnormals, from enter to leave. */
-typedef struct modes { int rounding; unsigned long control; } modes;
-modes modes_enter(void);
-void modes_leave(modes);
 
 #endif

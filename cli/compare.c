@@ -105,7 +105,7 @@ static table *error_table(const motus_comparison *c)
         table_cell(t, heads[i]);
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = &c->rows[k];
-        char spent[TEXT_NUMBER];
+        char spent[DECIMAL_MAX];
         text_seconds(r->seconds, spent);
         table_cell(t, r->method);
         table_integer(t, r->order);
@@ -149,7 +149,7 @@ static table *drift_table(const motus_comparison *c)
         table_cell(t, r->method);
         for (size_t i = 0; i < shown; i++) {
             bool known = !r->status && i < r->invariant_count;
-            char trend[TEXT_NUMBER] = "none";
+            char trend[DECIMAL_MAX] = "none";
             if (known && r->invariants[i].trending)
                 text_brief(r->invariants[i].trend, -2, trend);
             table_number(t, known ? r->invariants[i].max_drift : NAN, -2);

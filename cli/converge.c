@@ -89,7 +89,7 @@ static bool print_points(const motus_converge_row *r, bool colours)
         table_cell(t, "error");
         for (size_t i = 0; i < count; i++) {
             const motus_point *p = &r->points[first + i];
-            char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
+            char number[DECIMAL_MAX], cell[DECIMAL_MAX + 4];
             text_brief(p->error, -2, number);
             snprintf(cell, sizeof cell, p->used || r->exact_here ? "%s" : "(%s)", number);
             table_cell(t, cell);

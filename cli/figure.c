@@ -351,7 +351,7 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
 
 motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, motus_error *err)
 {
-    char step[TEXT_NUMBER];
+    char step[DECIMAL_MAX];
     int64_t steps = motus_run_steps_total(run);
     *f = (figure){.model = model};
     f->fine = record_for(steps, FINE_LOOKS);

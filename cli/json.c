@@ -4,6 +4,7 @@
  */
 #include "cli/json.h"
 
+#include "base/utf8.h"
 #include "cli/text.h"
 
 #include <inttypes.h>
@@ -49,7 +50,7 @@ static void quoted(json *j, const char *s)
             fprintf(j->out, "\\%c", (char)c);
         else if (c == '\n')
             fputs("\\n", j->out);
-        else if (!text_visible(c))
+        else if (!utf8_visible(c))
             fprintf(j->out, "\\u%04x", (unsigned)c);
         else if (n == 1 && c >= 0x80)
             fputs("\xEF\xBF\xBD", j->out);
@@ -84,8 +85,8 @@ void json_number(json *j, double value)
         fputs("null", j->out);
         return;
     }
-    char text[TEXT_NUMBER];
-    text_number(value, text);
+    char text[DECIMAL_MAX];
+    decimal(value, text);
     fputs(text, j->out);
 }
 

@@ -14,7 +14,7 @@ static const char *forces_text(motus_forces f)
     return f == MOTUS_FORCES_X ? "x" : f == MOTUS_FORCES_XT ? "x, t" : "x, x', t";
 }
 
-static void limit_text(double limit, char out[TEXT_NUMBER])
+static void limit_text(double limit, char out[DECIMAL_MAX])
 {
     if (isinf(limit))
         strcpy(out, "none");
@@ -24,10 +24,10 @@ static void limit_text(double limit, char out[TEXT_NUMBER])
         text_brief(limit, 4, out);
 }
 
-static void evaluations_text(int evaluations, char out[TEXT_NUMBER])
+static void evaluations_text(int evaluations, char out[DECIMAL_MAX])
 {
     if (evaluations > 0)
-        snprintf(out, TEXT_NUMBER, "%d", evaluations);
+        snprintf(out, DECIMAL_MAX, "%d", evaluations);
     else
         strcpy(out, "solves");
 }
@@ -96,7 +96,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         table_cell(t, heads[i]);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER];
+        char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX];
         limit_text(m->stability_limit, limit);
         evaluations_text(m->evaluations, evaluations);
         bool counted = m->order > 0;           /* the exact motion has no order and takes no stages */
@@ -139,7 +139,7 @@ static void print_card(const motus_method *m)
 {
     bool colours = complain_colours(1);
     const char *strong = colours ? "\033[1m" : "", *plain = colours ? "\033[0m" : "";
-    char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER], properties[512];
+    char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX], properties[512];
     limit_text(m->stability_limit, limit);
     evaluations_text(m->evaluations, evaluations);
     printf("%s%s%s, %s, order %d\n", strong, m->name, plain, m->family, m->order);

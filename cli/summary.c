@@ -141,10 +141,10 @@ static table *invariant_table(const summary *s)
 
 static void head(const summary *s, FILE *out, bool colours)
 {
-    char step[TEXT_NUMBER], from[TEXT_NUMBER], to[TEXT_NUMBER], last[TEXT_NUMBER], spent[TEXT_NUMBER];
-    text_number(fabs(motus_run_step_size(s->run)), step);
-    text_number(s->start, from);
-    text_number(motus_run_time(s->run), to);
+    char step[DECIMAL_MAX], from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX];
+    decimal(fabs(motus_run_step_size(s->run)), step);
+    decimal(s->start, from);
+    decimal(motus_run_time(s->run), to);
     text_brief(fabs(motus_run_last_step(s->run)), 6, last);
     text_seconds(s->seconds, spent);
     fprintf(out, "%s%s%s: %s, step %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",

@@ -207,10 +207,10 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     const motus_ensemble *e = s->ensemble;
     bool output = strcmp(f->path, "-") == 0;         /* then this is a message */
     FILE *out = output ? stderr : stdout;
-    char step[TEXT_NUMBER], until[TEXT_NUMBER], inside[TEXT_NUMBER], all[TEXT_NUMBER];
+    char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
-    text_number(s->step, step);
-    text_number(s->until, until);
+    decimal(s->step, step);
+    decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
     fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method, step,

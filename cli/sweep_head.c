@@ -75,8 +75,8 @@ static motus_status option(file_out *f, const char *name, const char *value, mot
 
 static motus_status option_number(file_out *f, const char *name, double value, motus_error *err)
 {
-    char text[TEXT_NUMBER];
-    text_number(value, text);
+    char text[DECIMAL_MAX];
+    decimal(value, text);
     return option(f, name, text, err);
 }
 
@@ -92,10 +92,10 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status && s->grid.zip)
         status = option(f, "--zip", NULL, err);
     if (!status && o->random.count > 0) {
-        char number[TEXT_NUMBER];
-        digits_integer(s->grid.draws, number);
+        char number[DECIMAL_MAX];
+        decimal_write_whole(s->grid.draws, number);
         status = option(f, "--count", number, err);
-        digits_integer(s->grid.seed, number);
+        decimal_write_whole(s->grid.seed, number);
         if (!status)
             status = option(f, "--seed", number, err);
     }
@@ -110,7 +110,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status)
         status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
-        char text[TEXT_NUMBER + 8];
+        char text[DECIMAL_MAX + 8];
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
         status = option(f, "--every", text, err);
     }

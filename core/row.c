@@ -4,7 +4,6 @@
  */
 #include "core/rows.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,46 +98,20 @@ static const char *blanks(const char *s)
     return s;
 }
 
-/* digits[.digits][e[+-]digits]. strtod wants the decimal point of the host's locale. */
-static const char *read_decimal(const char *s, double *value)
-{
-    const char *point = localeconv()->decimal_point;
-    char text[MOTUS_NAME_MAX + 16];
-    size_t n = 0;
-    int digits = 0;
-    const char *end = s;
-    for (; *end >= '0' && *end <= '9'; end++) digits++;
-    if (*end == '.' && digits)
-        for (end++; *end >= '0' && *end <= '9'; end++) digits++;
-    if (!digits) return NULL;
-    if (*end == 'e' || *end == 'E') {
-        const char *exponent = end + 1 + (end[1] == '+' || end[1] == '-');
-        if (*exponent >= '0' && *exponent <= '9')
-            for (end = exponent; *end >= '0' && *end <= '9';) end++;
-    }
-    if (end - s > MOTUS_NAME_MAX) return NULL;
-    for (const char *c = s; c < end; c++) {
-        if (*c != '.') text[n++] = *c;
-        else
-            for (const char *p = point; *p && n + 1 < sizeof text; p++) text[n++] = *p;
-    }
-    text[n < sizeof text ? n : sizeof text - 1] = 0;
-    *value = strtod(text, NULL);
-    return end;
-}
-
 /* A number or a quotient of two. */
 static const char *read_argument(const char *s, double *value)
 {
-    s = read_decimal(blanks(s), value);
-    if (!s) return NULL;
     s = blanks(s);
+    size_t length = decimal_read(s, SIZE_MAX, value);
+    if (!length) return NULL;
+    s = blanks(s + length);
     if (*s == '/') {
         double below = 1;
-        s = read_decimal(blanks(s + 1), &below);
-        if (!s || below == 0) return NULL;
+        s = blanks(s + 1);
+        length = decimal_read(s, SIZE_MAX, &below);
+        if (!length || below == 0) return NULL;
         *value /= below;
-        s = blanks(s);
+        s = blanks(s + length);
     }
     return isfinite(*value) ? s : NULL;
 }

@@ -13,14 +13,11 @@ void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t si
     if (count < *capacity || p->failed)
         return at;
     uint32_t wanted = *capacity ? *capacity * 2 : 32;
-    void *grown = wanted > *capacity ? take(p->hooks, wanted, size) : NULL;
+    void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
         p->failed = true;
         return at;
     }
-    if (count)
-        memcpy(grown, at, count * size);
-    give(p->hooks, at);
     *capacity = wanted;
     return grown;
 }

@@ -1,6 +1,7 @@
 /* Words, and "did you mean". See words.h. */
 #include "lang/words.h"
 
+#include "base/utf8.h"
 #include "lang/tree.h"
 
 #include <stdint.h>
@@ -40,13 +41,12 @@ enum { LETTERS = 64 };
 static int letters(const char *text, uint32_t out[LETTERS])
 {
     int n = 0;
-    const unsigned char *p = (const unsigned char *)text;
-    while (*p && n < LETTERS) {
-        int more = *p < 0x80 ? 0 : *p < 0xE0 ? 1 : *p < 0xF0 ? 2 : 3;
-        uint32_t c = more == 0 ? *p : *p & (0x3Fu >> more);
-        for (p++; more > 0 && (*p & 0xC0) == 0x80; more--)
-            c = c << 6 | (*p++ & 0x3F);
-        out[n++] = c;
+    for (size_t size; *text && n < LETTERS; text += size, n++) {
+        size = utf8_read(text, SIZE_MAX, &out[n]);
+        if (size == 0) {
+            out[n] = (unsigned char)*text;
+            size = 1;
+        }
     }
     return n;
 }

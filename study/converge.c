@@ -75,11 +75,11 @@ static motus_status make_result(converge *c)
 {
     size_t head = aligned(sizeof(result)), rows = aligned(c->count * sizeof(motus_converge_row));
     size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = c->count * sizeof(row_text);
-    char *block = study_take(c->s.allocator, head + rows + points + texts, 1);
-    c->table = study_take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
+    char *block = take(c->s.allocator, head + rows + points + texts, 1);
+    c->table = take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
     if (!block || !c->table) {
-        study_give(c->s.allocator, block);
-        return study_fail(c->s.err, MOTUS_MEMORY, "", "out of memory for the convergence of %zu methods", c->count);
+        give(c->s.allocator, block);
+        return fail(c->s.err, MOTUS_MEMORY, "out of memory for the convergence of %zu methods", c->count);
     }
     result *r = c->out = (result *)(void *)block;
     r->allocator = *c->s.allocator;
@@ -322,9 +322,11 @@ static motus_status converge_all(converge *c)
     study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
     if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK)
         return status;
-    if (!c->truth.known)
-        return study_fail(s->err, MOTUS_DIVERGED, "let the motion end earlier, or give its exact line",
-                          "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+    if (!c->truth.known) {
+        fail(s->err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+        hint(s->err, "let the motion end earlier, or give its exact line");
+        return MOTUS_DIVERGED;
+    }
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
         double share = (1 - TRUTH_SHARE) / (double)c->count;
@@ -341,11 +343,10 @@ static motus_status converge_all(converge *c)
 motus_status motus_converge(motus_system *system, const motus_study_def *given, motus_convergence **convergence, motus_error *err)
 {
     if (!system || !convergence)
-        return study_fail(err, MOTUS_ARGUMENT, "", "motus_converge needs a system and a place for its result");
+        return fail(err, MOTUS_ARGUMENT, "motus_converge needs a system and a place for its result");
     *convergence = NULL;
     converge c = { .whole = NAN };
-    study_modes modes;
-    study_enter(&modes);
+    const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK)
         status = study_open(&c.s, system, &c.def, 0, err);
@@ -357,15 +358,15 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
         status = converge_all(&c);
     if (c.s.allocator) {
         truth_free(&c.s, &c.truth);
-        study_give(c.s.allocator, c.table);
-        study_give(c.s.allocator, (void *)c.methods);
+        give(c.s.allocator, c.table);
+        give(c.s.allocator, (void *)c.methods);
         if (status == MOTUS_OK)
             *convergence = &c.out->seen;
         else
-            study_give(c.s.allocator, c.out);
+            give(c.s.allocator, c.out);
         study_close(&c.s);
     }
-    study_leave(&modes);
+    modes_leave(host);
     return status;
 }
 
@@ -375,5 +376,5 @@ void motus_convergence_destroy(motus_convergence *convergence)
         return;
     result *r = (result *)(void *)convergence;
     motus_allocator allocator = r->allocator;
-    study_give(&allocator, r);
+    give(&allocator, r);
 }

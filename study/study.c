@@ -1,4 +1,4 @@
-/* The ground the experiments stand on: memory, errors, progress, runs along a grid, and the size of a motion.
+/* The ground the experiments stand on: progress, runs along a grid, and the size of a motion.
  *
  * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
  */
@@ -8,9 +8,7 @@
 #include "study.h"
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -19,53 +17,6 @@
 #define SOLVE_PASSES 4.0
 #define SOLVE_FLOPS 3e4              /* of elimination that take as long as an evaluation */
 #define STILL 1e-10               /* a group that moves less than this part of its size does not move */
-
-void *study_take(const motus_allocator *a, size_t count, size_t bytes)
-{
-    if (bytes != 0 && count > SIZE_MAX / bytes)
-        return NULL;
-    size_t size = count * bytes > 0 ? count * bytes : 1;
-    if (!a->allocate)
-        return calloc(1, size);
-    void *block = a->allocate(a->context, size);
-    if (block)
-        memset(block, 0, size);
-    return block;
-}
-
-void study_give(const motus_allocator *a, void *block)
-{
-    if (!block)
-        return;
-    if (!a->allocate)
-        free(block);
-    else if (a->release)
-        a->release(a->context, block);
-}
-
-motus_status study_fail(motus_error *err, motus_status status, const char *advice, const char *format, ...)
-{
-    if (!err)
-        return status;
-    *err = (motus_error){ .size = err->size, .status = status, .time = NAN };
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(err->message, sizeof err->message, format, arguments);
-    va_end(arguments);
-    snprintf(err->hint, sizeof err->hint, "%s", advice);
-    return status;
-}
-
-void study_enter(study_modes *m)
-{
-    fegetenv(&m->saved);
-    fesetenv(FE_DFL_ENV);
-}
-
-void study_leave(const study_modes *m)
-{
-    fesetenv(&m->saved);
-}
 
 double study_seconds(void)
 {
@@ -104,7 +55,7 @@ motus_status study_broken(const study *s)
 {
     if (s->cancelled)
         return MOTUS_CANCELLED;
-    return s->starved ? study_fail(s->err, MOTUS_MEMORY, "", "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
+    return s->starved ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
 /* Progress ------------------------------------------------------------------------------------------------------- */
@@ -128,7 +79,7 @@ motus_status study_tick(study *s, double fraction)
     s->cancelled = s->progress(s->context, s->reached) != 0;
     if (!s->cancelled)
         return MOTUS_OK;
-    return study_fail(s->err, MOTUS_CANCELLED, "", "%s", motus_status_text(MOTUS_CANCELLED));
+    return fail(s->err, MOTUS_CANCELLED, "%s", motus_status_text(MOTUS_CANCELLED));
 }
 
 static int hook(void *context, double fraction)
@@ -143,18 +94,28 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
     *def = motus_default_study();
     if (!given)
         return MOTUS_OK;
-    if (given->size < sizeof given->size)
-        return study_fail(err, MOTUS_ARGUMENT, "make it with motus_default_study() and edit it",
-                          "the definition of the study has no size");
+    if (given->size < sizeof given->size) {
+        fail(err, MOTUS_ARGUMENT, "the definition of the study has no size");
+        hint(err, "make it with motus_default_study() and edit it");
+        return MOTUS_ARGUMENT;
+    }
     memcpy(def, given, given->size < sizeof *def ? given->size : sizeof *def);
     def->size = sizeof *def;
-    if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY))
-        return study_fail(err, MOTUS_ARGUMENT, "a step is a positive number", "the step of the study is %g", def->step);
-    if (isinf(def->until))
-        return study_fail(err, MOTUS_ARGUMENT, "a study ends at a finite time", "the study has no end");
-    if (def->evaluations < 0)
-        return study_fail(err, MOTUS_ARGUMENT, "0 compares at equal step, a positive number at equal work",
-                          "the number of evaluations is %lld", (long long)def->evaluations);
+    if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY)) {
+        fail(err, MOTUS_ARGUMENT, "the step of the study is %g", def->step);
+        hint(err, "a step is a positive number");
+        return MOTUS_ARGUMENT;
+    }
+    if (isinf(def->until)) {
+        fail(err, MOTUS_ARGUMENT, "the study has no end");
+        hint(err, "a study ends at a finite time");
+        return MOTUS_ARGUMENT;
+    }
+    if (def->evaluations < 0) {
+        fail(err, MOTUS_ARGUMENT, "the number of evaluations is %lld", (long long)def->evaluations);
+        hint(err, "0 compares at equal step, a positive number at equal work");
+        return MOTUS_ARGUMENT;
+    }
     return MOTUS_OK;
 }
 
@@ -182,16 +143,19 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     motus_settings_of(system, &settings);
     s->from = isnan(settings.from) ? 0 : settings.from;
     s->until = isnan(def->until) ? settings.until : def->until;
-    if (isnan(s->until))
-        return study_fail(err, MOTUS_ARGUMENT, "say in the model, for example, until 10", "nothing says until when");
+    if (isnan(s->until)) {
+        fail(err, MOTUS_ARGUMENT, "nothing says until when");
+        hint(err, "say in the model, for example, until 10");
+        return MOTUS_ARGUMENT;
+    }
 
     size_t groups = 2 * (motus_variable_count(system) + 1);
-    s->start = study_take(s->allocator, s->numbers, sizeof(double));
-    s->scale = study_take(s->allocator, s->numbers, sizeof(double));
-    s->group = study_take(s->allocator, s->numbers, sizeof(size_t));
-    s->work = study_take(s->allocator, s->numbers + groups, 2 * sizeof(double));
+    s->start = take(s->allocator, s->numbers, sizeof(double));
+    s->scale = take(s->allocator, s->numbers, sizeof(double));
+    s->group = take(s->allocator, s->numbers, sizeof(size_t));
+    s->work = take(s->allocator, s->numbers + groups, 2 * sizeof(double));
     if (!s->start || !s->scale || !s->group || !s->work)
-        return study_fail(err, MOTUS_MEMORY, "", "out of memory for a state of %zu numbers", s->numbers);
+        return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     find_groups(s);
 
     /* The start is wherever a run says it starts, so that a model's rules about it are not written twice. */
@@ -208,9 +172,11 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         s->last_step = fabs(motus_run_last_step(run));
     }
     motus_run_destroy(run);
-    if (status == MOTUS_OK && s->from == s->until)
-        return study_fail(err, MOTUS_ARGUMENT, "let the study end at another time than it starts",
-                          "the motion from %g until %g has no length", s->from, s->until);
+    if (status == MOTUS_OK && s->from == s->until) {
+        fail(err, MOTUS_ARGUMENT, "the motion from %g until %g has no length", s->from, s->until);
+        hint(err, "let the study end at another time than it starts");
+        return MOTUS_ARGUMENT;
+    }
     if (status == MOTUS_OK)
         status = study_tick(s, 0);
     return status;
@@ -220,10 +186,10 @@ void study_close(study *s)
 {
     if (!s->allocator)
         return;
-    study_give(s->allocator, s->work);
-    study_give(s->allocator, s->group);
-    study_give(s->allocator, s->scale);
-    study_give(s->allocator, s->start);
+    give(s->allocator, s->work);
+    give(s->allocator, s->group);
+    give(s->allocator, s->scale);
+    give(s->allocator, s->start);
 }
 
 bool study_admits(study *s, const char *method)
@@ -238,9 +204,9 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     bool all = !def->methods || def->method_count == 0;
     size_t most = all ? motus_method_count() : def->method_count;
     *count = 0;
-    *names = study_take(s->allocator, most, sizeof **names);
+    *names = take(s->allocator, most, sizeof **names);
     if (!*names)
-        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for the names of %zu methods", most);
+        return fail(s->err, MOTUS_MEMORY, "out of memory for the names of %zu methods", most);
     for (size_t k = 0; k < most; k++) {
         const motus_method *m = NULL;
         if (all) {
@@ -251,7 +217,7 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
             continue;
         }
         if (!def->methods[k])
-            return study_fail(s->err, MOTUS_ARGUMENT, "", "name %zu of the methods is NULL", k + 1);
+            return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
         if (status != MOTUS_OK)
             return status;
@@ -259,8 +225,11 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     }
     if (study_broken(s) != MOTUS_OK)
         return study_broken(s);
-    if (*count == 0)
-        return study_fail(s->err, MOTUS_METHOD, "see what the analysis says about each", "no method admits this model");
+    if (*count == 0) {
+        fail(s->err, MOTUS_METHOD, "no method admits this model");
+        hint(s->err, "see what the analysis says about each");
+        return MOTUS_METHOD;
+    }
     return MOTUS_OK;
 }
 

@@ -21,7 +21,7 @@ while IFS='|' read -r _ folder _ may _; do
 done <HOUSE.md
 
 grants[lab/core]=${grants[lab]-}
-for folder in step core lang run api study cli lab/core; do
+for folder in base step core lang run api study cli lab/core; do
     if [ -z "${grants[$folder]+x}" ]; then not_ok "HOUSE.md says who $folder/ may include"; continue; fi
     complaints=
     for file in "$folder"/*.[ch] "$folder"/*.def; do
@@ -52,7 +52,8 @@ judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:s
 # A symbol that other files use starts with its file's name, up to the first underscore or dot. These files' symbols have another
 # word, because it is the word of the house for the thing:
 declare -A also=(
-    [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
+    [base/error.c]='fail hint'
+    [base/memory.c]='take take_more give'
     [lang/derivative.c]='graph_'                    # a part of lang/graph.h
     [lang/words.c]='parse_'                         # the words that lang/tree.h asks for
     [run/interpreter.c]='machine_'                  # a machine is a file; run/run.h names them
@@ -69,11 +70,11 @@ if [ ! -f "$archive" ]; then
 else
     # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
     judge "no two files of the library have the same name" \
-        "$(for f in core lang run api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
+        "$(for f in base core lang run api study; do ls $f/*.c 2>/dev/null; done | sed 's:.*/::' | sort | uniq -d)"
     complaints=
     while read -r member symbol; do
         file=${member%.o}
-        path=$(ls {core,lang,run,api,study}/"$file" 2>/dev/null | head -n 1)
+        path=$(ls {base,core,lang,run,api,study}/"$file" 2>/dev/null | head -n 1)
         prefix=${file%%[_.]*}
         case $symbol in
         motus_*|"$prefix"|"${prefix}"_*) continue ;;
@@ -89,7 +90,7 @@ else
     # Constants and functions only: a writable global is state that two threads would share. .data.rel.ro is constant once loaded.
     judge "no globals that change" "$(
         for object in $(find "$build/CMakeFiles" -name '*.o' -path '*/CMakeFiles/*' ! -path '*/motus_program.dir/*' \
-                \( -path '*/core/*' -o -path '*/lang/*' -o -path '*/run/*' -o -path '*/api/*' -o -path '*/study/*' \)); do
+                \( -path '*/base/*' -o -path '*/core/*' -o -path '*/lang/*' -o -path '*/run/*' -o -path '*/api/*' -o -path '*/study/*' \)); do
             objdump -t "$object" | awk -v file="${object##*.dir/}" '
                 NF >= 5 && $(NF-2) ~ /^\.(data|bss)(\.|$)/ && $(NF-2) !~ /^\.data\.rel\.ro/ && / O / { print file ": " $NF }'
         done | sort -u)"
@@ -112,7 +113,7 @@ else
 fi
 
 # --- files ----------------------------------------------------------------------------------------------------------------
-ours() { find include step core lang run api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
+ours() { find include base step core lang run api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
 judge "every file opens with a comment that says what it is" "$(
     for file in $(ours); do
         case $file in
@@ -124,7 +125,7 @@ judge "no flag lets the compiler change results" "$(
     grep -nE -- '-(ffast-math|fassociative-math|funsafe-math-optimizations|freciprocal-math|ffinite-math-only|Ofast)|ffp-contract=(on|fast)' \
         CMakeLists.txt CMakePresets.json cmake/*.cmake Makefile)"
 judge "no pragma lets the compiler change results" "$(
-    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include step core lang run api study cli)"
+    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include base step core lang run api study cli)"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
