@@ -4,7 +4,6 @@
  */
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/load.h"
 #include "cli/overlay.h"
 #include "cli/share.h"
@@ -12,87 +11,16 @@
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <math.h>
 #include <string.h>
 
-static void row_json(json *j, const motus_compare_row *r)
-{
-    json_open(j, '{');
-    json_key(j, "method");
-    json_string(j, r->method);
-    json_key(j, "order");
-    json_integer(j, r->order);
-    json_key(j, "status");
-    json_string(j, motus_status_word(r->status));
-    json_key(j, "step");
-    json_number(j, r->step);
-    json_key(j, "steps");
-    json_integer(j, r->steps);
-    json_key(j, "evaluations");
-    json_integer(j, r->evaluations);
-    json_key(j, "seconds");
-    json_number(j, r->seconds);
-    json_key(j, "error_max");
-    json_number(j, r->error_max_x);
-    json_key(j, "error_final");
-    json_number(j, r->error_final_x);
-    json_key(j, "error_max_v");
-    json_number(j, r->error_max_v);
-    json_key(j, "error_final_v");
-    json_number(j, r->error_final_v);
-    json_key(j, "invariants");
-    json_open(j, '{');
-    for (size_t k = 0; k < r->invariant_count; k++) {
-        const motus_drift *d = &r->invariants[k];
-        json_key(j, d->name);
-        json_open(j, '{');
-        json_key(j, "initial");
-        json_number(j, d->initial);
-        json_key(j, "final");
-        json_number(j, d->final);
-        json_key(j, "max_drift");
-        json_number(j, d->max_drift);
-        json_key(j, "trend");
-        json_number(j, d->trend);
-        json_key(j, "trending");
-        json_bool(j, d->trending != 0);
-        json_close(j, '}');
-    }
-    json_close(j, '}');
-    json_key(j, "reversal");
-    json_number(j, r->reversal);
-    json_key(j, "note");
-    json_string(j, r->note ? r->note : "");
-    json_close(j, '}');
-}
-
 static void print_json(const options *o, const motus_comparison *c)
 {
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "model");
-    json_string(&j, o->operand);
-    json_key(&j, "reference");
-    json_string(&j, c->reference);
-    json_key(&j, "reference_error");
-    json_number(&j, c->reference_error);
-    json_key(&j, "rows");
-    json_open(&j, '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, &c->rows[k]);
-    json_close(&j, ']');
-    json_key(&j, "remarks");
-    json_open(&j, '[');
-    for (const char *s = c->remarks ? c->remarks : ""; *s; s += *s == '\n') {
-        char line[1024];
-        size_t length = strcspn(s, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), s);
-        json_string(&j, line);
-        s += length;
-    }
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "model", o->operand);
+    tell_comparison(&j, c);
     json_end(&j);
 }
 

@@ -6,8 +6,8 @@
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 
-#include "cli/json.h"
 #include "cli/text.h"
+#include "tell/tell.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -57,19 +57,9 @@ static bool show_json(const motus_error *err)
 {
     char message[2 * MOTUS_TEXT_MAX + 2];
     snprintf(message, sizeof message, "%s%s%s", err->message, err->hint[0] ? "; " : "", err->hint);
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "error");
-    json_open(&j, '{');
-    json_key(&j, "kind");
-    json_string(&j, motus_status_word(err->status));
-    json_key(&j, "message");
-    json_string(&j, message);
-    json_key(&j, "line");
-    json_integer(&j, err->line);
-    json_key(&j, "column");
-    json_integer(&j, err->column);
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_open(&j, "error", '{');
+    tell_error(&j, err, message);
     json_close(&j, '}');
     json_end(&j);
     return fflush(stdout) == 0 && !ferror(stdout);

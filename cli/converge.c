@@ -4,72 +4,22 @@
  */
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/load.h"
 #include "cli/plot.h"
 #include "cli/stop.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static void row_json(json *j, const motus_converge_row *r)
-{
-    json_open(j, '{');
-    json_key(j, "method");
-    json_string(j, r->method);
-    json_key(j, "declared");
-    json_integer(j, r->declared);
-    json_key(j, "observed");
-    json_number(j, r->observed);
-    json_key(j, "standard_error");
-    json_number(j, r->standard_error);
-    json_key(j, "exact_here");
-    json_bool(j, r->exact_here != 0);
-    json_key(j, "passed");
-    json_bool(j, r->passed != 0);
-    json_key(j, "status");
-    json_string(j, motus_status_word(r->status));
-    json_key(j, "certificate");
-    json_string(j, r->certificate ? r->certificate : "");
-    json_key(j, "points");
-    json_open(j, '[');
-    for (size_t i = 0; i < r->point_count; i++) {
-        json_open(j, '{');
-        json_key(j, "step");
-        json_number(j, r->points[i].step);
-        json_key(j, "error");
-        json_number(j, r->points[i].error);
-        json_key(j, "evaluations");
-        json_integer(j, r->points[i].evaluations);
-        json_key(j, "used");
-        json_bool(j, r->points[i].used != 0);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-    json_close(j, '}');
-}
-
 static void print_json(const options *o, const motus_convergence *c)
 {
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "model");
-    json_string(&j, o->operand);
-    json_key(&j, "reference");
-    json_string(&j, c->reference);
-    json_key(&j, "reference_error");
-    json_number(&j, c->reference_error);
-    json_key(&j, "passed");
-    json_bool(&j, c->passed != 0);
-    json_key(&j, "rows");
-    json_open(&j, '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, &c->rows[k]);
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "model", o->operand);
+    tell_convergence(&j, c);
     json_end(&j);
 }
 

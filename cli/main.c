@@ -5,7 +5,6 @@
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/help.h"
-#include "cli/json.h"
 #include "cli/options.h"
 #include "cli/stop.h"
 #include "cli/text.h"
@@ -67,11 +66,8 @@ static void print_version(bool as_json)
         printf("motus %s\n", motus_version());
         return;
     }
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "version");
-    json_string(&j, motus_version());
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "version", motus_version());
     json_end(&j);
 }
 

@@ -1,18 +1,13 @@
 /* motus methods: the catalogue, or the card of one method, from the rows the code runs. */
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <math.h>
 #include <string.h>
-
-static const char *forces_text(motus_forces f)
-{
-    return f == MOTUS_FORCES_X ? "x" : f == MOTUS_FORCES_XT ? "x, t" : "x, x', t";
-}
 
 static void limit_text(double limit, char out[DECIMAL_MAX])
 {
@@ -32,58 +27,10 @@ static void evaluations_text(int evaluations, char out[DECIMAL_MAX])
         strcpy(out, "solves");
 }
 
-static void row_json(json *j, const motus_method *m)
-{
-    json_open(j, '{');
-    json_key(j, "name");
-    json_string(j, m->name);
-    json_key(j, "aliases");
-    json_open(j, '[');
-    for (const char *s = m->aliases ? m->aliases : ""; *s;) {
-        char alias[MOTUS_NAME_MAX];
-        size_t length = strcspn(s, " ");
-        snprintf(alias, sizeof alias, "%.*s", (int)length, s);
-        if (length)
-            json_string(j, alias);
-        s += length + (s[length] == ' ');
-    }
-    json_close(j, ']');
-    json_key(j, "family");
-    json_string(j, m->family);
-    json_key(j, "order");
-    json_integer(j, m->order);
-    json_key(j, "stages");
-    json_integer(j, m->stages);
-    json_key(j, "evaluations");
-    json_integer(j, m->evaluations);
-    json_key(j, "forces");
-    json_string(j, forces_text(m->forces));
-    json_key(j, "symplectic");
-    json_bool(j, m->symplectic != 0);
-    json_key(j, "reversible");
-    json_bool(j, m->reversible != 0);
-    json_key(j, "stability_limit");
-    json_number(j, m->stability_limit);
-    json_key(j, "cite");
-    json_string(j, m->cite);
-    json_key(j, "formula");
-    json_string(j, m->formula);
-    json_key(j, "use");
-    json_string(j, m->use);
-    json_close(j, '}');
-}
-
 static void print_json(const motus_method *only)
 {
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "methods");
-    json_open(&j, '[');
-    for (size_t k = 0; k < motus_method_count(); k++)
-        if (!only || motus_method_at(k) == only)
-            row_json(&j, motus_method_at(k));
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    tell_methods(&j, only);
     json_end(&j);
 }
 
@@ -109,7 +56,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
             table_cell(t, "-");
         }
         table_cell(t, counted ? evaluations : "-");
-        table_cell(t, forces_text(m->forces));
+        table_cell(t, tell_forces(m->forces));
         table_cell(t, m->symplectic ? "yes" : "no");
         table_cell(t, m->reversible ? "yes" : "no");
         table_cell(t, limit);
@@ -149,7 +96,7 @@ static void print_card(const motus_method *m)
     snprintf(properties, sizeof properties,
              "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
              "largest stable h ω: %s",
-             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", forces_text(m->forces),
+             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", tell_forces(m->forces),
              m->symplectic ? "yes" : "no", m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);

@@ -8,7 +8,6 @@
 #include "base/utf8.h"
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/text.h"
 
 #include <stdlib.h>
@@ -211,11 +210,8 @@ motus_status share_verb(const options *o, motus_error *err)
     if (!status)
         status = share_fragment(&m, o, &fragment, err);
     if (!status && o->json) {
-        json j = json_begin(stdout);
-        json_open(&j, '{');
-        json_key(&j, "share");
-        json_string(&j, fragment);
-        json_close(&j, '}');
+        json j = text_json(stdout);
+        json_string(&j, "share", fragment);
         json_end(&j);
     } else if (!status) {
         puts(fragment);

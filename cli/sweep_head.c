@@ -6,7 +6,6 @@
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 #include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/sweep.h"
 #include "cli/text.h"
 
@@ -157,22 +156,15 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
     if (line.stream && fclose(line.stream) != 0 && !status)
         status = complain_memory(err);
     if (!status) {
-        json j = json_begin(f->stream);
-        json_open(&j, '{');
-        json_key(&j, "motus");
-        json_string(&j, motus_version());
-        json_key(&j, "command");
-        json_string(&j, text);
-        json_key(&j, "trajectories");
-        json_integer(&j, (int64_t)s->grid.total);
-        json_key(&j, "fingerprint");
-        json_string(&j, s->fingerprint);
-        json_key(&j, "columns");
-        json_open(&j, '[');
+        json j = text_json(f->stream);
+        json_string(&j, "motus", motus_version());
+        json_string(&j, "command", text);
+        json_integer(&j, "trajectories", (int64_t)s->grid.total);
+        json_string(&j, "fingerprint", s->fingerprint);
+        json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++)
-            json_string(&j, name_of(s, k, name));
+            json_string(&j, NULL, name_of(s, k, name));
         json_close(&j, ']');
-        json_close(&j, '}');
         json_end(&j);
     }
     free(text);

@@ -131,6 +131,15 @@ void text_seconds(double seconds, char out[DECIMAL_MAX])
         snprintf(out, DECIMAL_MAX, "%.3g s", seconds);
 }
 
+static void write_json(void *to, const char *bytes, size_t count) { fwrite(bytes, 1, count, to); }
+
+json text_json(FILE *out)
+{
+    json j = {.write = write_json, .to = out};
+    json_open(&j, NULL, '{');
+    return j;
+}
+
 size_t text_distance(const char *a, const char *b)
 {
     enum { LONGEST = 32 };

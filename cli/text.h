@@ -3,6 +3,7 @@
 #define CLI_TEXT_H
 
 #include "base/decimal.h"
+#include "tell/json.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,6 +25,9 @@ void text_wrap(FILE *out, const char *s, size_t indent, size_t width);
 void text_brief(double value, int digits, char out[DECIMAL_MAX]);
 /* For people: "12.3 ms", "4.56 s". */
 void text_seconds(double seconds, char out[DECIMAL_MAX]);
+
+/* A JSON object to a stream, up to json_end(); failures show in ferror(). */
+json text_json(FILE *);
 
 /* How alike two words are: insertions, deletions, changes and swaps of neighbours between them. */
 size_t text_distance(const char *a, const char *b);

@@ -21,7 +21,7 @@ while IFS='|' read -r _ folder _ may _; do
 done <HOUSE.md
 
 grants[lab/core]=${grants[lab]-}
-for folder in base step core lang run api study cli lab/core; do
+for folder in base step core lang run api study tell cli lab/core; do
     if [ -z "${grants[$folder]+x}" ]; then not_ok "HOUSE.md says who $folder/ may include"; continue; fi
     complaints=
     for file in "$folder"/*.[ch] "$folder"/*.def; do
@@ -113,7 +113,7 @@ else
 fi
 
 # --- files ----------------------------------------------------------------------------------------------------------------
-ours() { find include base step core lang run api study cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
+ours() { find include base step core lang run api study tell cli test ! -path 'test/corpus/*' \( -name '*.[ch]' -o -name '*.def' -o -name '*.sh' \) -type f 2>/dev/null | sort; }
 judge "every file opens with a comment that says what it is" "$(
     for file in $(ours); do
         case $file in
@@ -125,7 +125,7 @@ judge "no flag lets the compiler change results" "$(
     grep -nE -- '-(ffast-math|fassociative-math|funsafe-math-optimizations|freciprocal-math|ffinite-math-only|Ofast)|ffp-contract=(on|fast)' \
         CMakeLists.txt CMakePresets.json cmake/*.cmake Makefile)"
 judge "no pragma lets the compiler change results" "$(
-    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include base step core lang run api study cli)"
+    grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' -r include base step core lang run api study tell cli)"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

@@ -32,7 +32,7 @@ interface Fit { readonly slope: number; readonly x: number; readonly y: number; 
 /** Through the middle of the points used, all in decades. */
 function fitOf(row: ConvergeRow): Fit | null {
   const used = row.points.filter((point) => point.used && errorOf(point) > 0);
-  if (row.observed === null || row.exactHere || used.length < 2) return null;
+  if (row.observed === null || row.exact_here || used.length < 2) return null;
   const x = used.map((point) => Math.log10(point.step)), y = used.map((point) => Math.log10(errorOf(point)));
   const mean = (values: number[]): number => values.reduce((sum, v) => sum + v, 0) / values.length;
   return { slope: row.observed, x: mean(x), y: mean(y), low: Math.min(...x), high: Math.max(...x) };
@@ -55,9 +55,9 @@ function drawTriangle(pen: Pen, frame: Frame, fit: Fit, look: Look, share: numbe
 
 /** What the core has found of a method, in words. */
 export function verdict(row: ConvergeRow): string {
-  if (row.exactHere) return 'exact here: the error is round-off, and a slope has no meaning';
+  if (row.exact_here) return 'exact here: the error is round-off, and a slope has no meaning';
   if (row.observed === null) return row.certificate || 'no slope could be measured';
-  const measured = row.standardError === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standardError, 1)}`;
+  const measured = row.standard_error === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standard_error, 1)}`;
   return row.passed ? `order ${row.declared} confirmed, slope ${measured}` : `order ${row.declared} is declared, but the slope is ${measured} here`;
 }
 
@@ -66,7 +66,7 @@ export function judge(found: Convergence): string {
   const [name = '', ...rest] = found.reference.split('; ');
   const also = rest.length ? ` Taken ${rest.join('; ')}.` : '';
   if (name === 'exact') return `Errors are measured against the exact motion.${also}`;
-  return `No exact motion is known, so errors are measured against ${name}, itself good to ${brief(found.referenceError, 2)}.${also}`;
+  return `No exact motion is known, so errors are measured against ${name}, itself good to ${brief(found.reference_error, 2)}.${also}`;
 }
 
 export const convergence: PanelMaker = (store): Panel => {
@@ -128,8 +128,8 @@ export const convergence: PanelMaker = (store): Panel => {
     summary: () => {
       const names = looks(), found = rows();
       if (found.length === 0) return '';
-      const sloped = found.flatMap((row, i) => (row.observed === null || row.exactHere ? [] : [`${row.observed.toFixed(2)} by ${names[i]!.label}`]));
-      const left = found.some((row) => !row.exactHere && row.points.some((point) => !point.used)) ? ' Small marks are left out of the fit: there round-off rules, or the step is too long.' : '';
+      const sloped = found.flatMap((row, i) => (row.observed === null || row.exact_here ? [] : [`${row.observed.toFixed(2)} by ${names[i]!.label}`]));
+      const left = found.some((row) => !row.exact_here && row.points.some((point) => !point.used)) ? ' Small marks are left out of the fit: there round-off rules, or the step is too long.' : '';
       return sloped.length ? `As the step shrinks, the error falls with the slope ${sloped.join(', ')}.${left}` : 'Every method shown is exact here, whatever the step; what remains is round-off, which grows as steps get more.';
     },
     table: () => ({
@@ -152,7 +152,7 @@ export const convergence: PanelMaker = (store): Panel => {
     listed = key;
     list.replaceChildren(...rows().map((row, i) => {
       const look = names[i]!;
-      return element('li', row.passed || row.exactHere ? {} : { class: 'bad' }, sample(look), `${look.label}: ${verdict(row)}`);
+      return element('li', row.passed || row.exact_here ? {} : { class: 'bad' }, sample(look), `${look.label}: ${verdict(row)}`);
     }));
     note.textContent = study.answer ? judge(study.answer) : '';
   }
