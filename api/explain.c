@@ -85,7 +85,7 @@ bool system_sample_gyroscopic(motus_system *s)
     return s->sampled_gyroscopic;
 }
 
-bool system_sample_gradient(motus_system *s)
+static bool sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
     if (s->sampled_gradient || t->velocity || t->companions || !s->model)
@@ -104,7 +104,7 @@ void motus_analysis_of(const motus_system *given, motus_analysis *a)
     if (!s)
         return;
     system_sample_gyroscopic(s);
-    system_sample_gradient(s);
+    sample_gradient(s);
     const traits *t = &s->problem.traits;
     *a = (motus_analysis){.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v, .time_dependent = t->time, .affine = t->affine,
                           .constant = t->constant, .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
@@ -227,7 +227,7 @@ const char *motus_explain(motus_system *s)
         return s->explanation;
     if (!s->model)
         return "the acceleration is a callback: nothing can be read off it\n";
-    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+    if (!system_sample_gyroscopic(s) || !sample_gradient(s))
         return "";
     modes m = modes_enter();
     words w = {.arena = &s->arena};

@@ -2,7 +2,6 @@
 #include "api/system.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 const motus_allocator *motus_system_allocator(const motus_system *s);

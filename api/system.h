@@ -45,7 +45,6 @@ struct motus_system {
 motus_status system_again(const motus_system *, motus_system **, motus_error *);
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
-bool system_sample_gradient(motus_system *);
 /* Between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

@@ -78,7 +78,7 @@ __extension__ typedef unsigned __int128 wide;
 
 /* 5^(27 a), a = -11 … 12, as 128 leading bits, cut off; and 5^r, r = 0 … 26, whole. Their products are the powers of
  * five that are needed. */
-enum { STRIDE = 27, FIRST = -11, LAST = 12 };
+enum { STRIDE = 27, FIRST = -11 };
 static const struct { uint64_t high, low; } coarse[] = {
     {0xa76c582338ed2621, 0xaf2af2b80af6f24e}, {0x873e4f75e2224e68, 0x5a7744a6e804a291}, {0xda7f5bf590966848, 0xaf39a475506a899e},
     {0xb080392cc4349dec, 0xbd8d794d96aacfb3}, {0x8e938662882af53e, 0x547eb47b7282ee9c}, {0xe65829b3046b0afa, 0x0cb4a5a3112a5112},

@@ -173,13 +173,6 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
 
 /* Admission --------------------------------------------------------------------------------------------------------- */
 
-static const row *row_of(const motus_method *card)
-{
-    for (size_t k = 0; k < methods_count; k++)
-        if (&methods_table[k].card == card) return &methods_table[k];
-    return &methods_newmark_damped;
-}
-
 static const char *reason(const row *row, const traits *traits)
 {
     if (row->family == EXACT)
@@ -197,11 +190,6 @@ static const char *reason(const row *row, const traits *traits)
              : "the acceleration depends on the velocity, and this method's kicks must not";
     if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
     return "";
-}
-
-void row_reason(const motus_method *card, const traits *traits, char *out, size_t size)
-{
-    if (size) snprintf(out, size, "%s", reason(row_of(card), traits));
 }
 
 /* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */

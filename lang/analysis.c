@@ -3,7 +3,6 @@
 #include "lang/lower.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* The constant-velocity-Jacobian test: the derivative along a direction of v depends on nothing but the direction. */

@@ -3,9 +3,7 @@
 #include "lang/lower_parts.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 void lower_start(lowering *l, model *m, lower_place place, const char *what)
 {

@@ -6,7 +6,6 @@
 #include "lang/tape.h"
 
 #include <math.h>
-#include <stdint.h>
 #include "lang/functions.h"
 
 static const operation_row rows[OPERATIONS] = {

@@ -7,7 +7,6 @@
 #include "lang/words.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static bool failed(const model *m) { return source_failed(&m->source); }

@@ -6,7 +6,6 @@
 #include "lang/tape_regions.h"
 #include "lang/graph_walk.h"
 
-#include <string.h>
 
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
 {

@@ -14,7 +14,6 @@
 #include "fit.h"
 #include "probe.h"
 #include "truth.h"
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

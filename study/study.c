@@ -8,7 +8,6 @@
 #include "study.h"
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -66,7 +65,7 @@ void study_part(study *s, double base, double span)
     s->span = span;
 }
 
-motus_status study_tick(study *s, double fraction)
+static motus_status tick(study *s, double fraction)
 {
     if (!s->progress || s->cancelled)
         return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
@@ -84,7 +83,7 @@ motus_status study_tick(study *s, double fraction)
 
 static int hook(void *context, double fraction)
 {
-    return study_tick(context, fraction) != MOTUS_OK;
+    return tick(context, fraction) != MOTUS_OK;
 }
 
 /* Opening -------------------------------------------------------------------------------------------------------- */
@@ -178,7 +177,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         return MOTUS_ARGUMENT;
     }
     if (status == MOTUS_OK)
-        status = study_tick(s, 0);
+        status = tick(s, 0);
     return status;
 }
 
@@ -278,7 +277,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     motus_run *run = NULL;
     size_t done = 0;
     *cost = (study_cost){ 0, 0, 0 };
-    motus_status status = study_tick(s, 0);
+    motus_status status = tick(s, 0);
     if (status == MOTUS_OK)
         status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     for (; status == MOTUS_OK && done < g->points; done++) {

@@ -70,8 +70,6 @@ motus_status study_methods(study *, const motus_study_def *, const char ***names
 
 /* The next walk is this part of the whole. */
 void study_part(study *, double base, double span);
-/* CANCELLED when the user asked for it. */
-motus_status study_tick(study *, double fraction);
 /* Notes a failure that a probe or a survey met, and hands it on as the study's: OK unless memory ran out or the user cancelled. */
 void study_note(study *, motus_status);
 motus_status study_broken(const study *);

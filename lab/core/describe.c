@@ -1,7 +1,6 @@
 /* What a model is, and what methods there are, for the page. */
 #include "lab/core/core.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

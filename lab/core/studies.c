@@ -1,9 +1,7 @@
 /* Studies for the page: truth and errors, one step opened up, convergence, comparison, stability. */
 #include "lab/core/core.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static motus_study_def study(double step, double until)
 {
