@@ -29,18 +29,6 @@ static void print_json(const options *o, const load *m)
     json_end(&j);
 }
 
-/* A text line by line, indented. */
-static void print_lines(const char *text)
-{
-    while (*text) {
-        char line[2048];
-        size_t length = strcspn(text, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), text);
-        text_wrap(stdout, line, 2, 100);
-        text += length + (text[length] == '\n');
-    }
-}
-
 static motus_status print_text(const load *m, motus_error *err)
 {
     bool colours = complain_colours(1);
@@ -53,7 +41,7 @@ static motus_status print_text(const load *m, motus_error *err)
     }
     const char *text = motus_explain(m->system);
     printf("\n%swhat they say%s\n", strong, plain);
-    print_lines(text ? text : "");
+    text_wrap(stdout, text ? text : "", 2, 100);
     printf("\n%smethods%s\n", strong, plain);
     table *t = table_create("llrl");
     table_cell(t, "method");

@@ -14,18 +14,26 @@
 #include <string.h>
 #include <unistd.h>
 
+/* What a sentence says, safe for a terminal. */
+static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list arguments)
+{
+    char raw[MOTUS_TEXT_MAX];
+    vsnprintf(raw, sizeof raw, format, arguments);
+    text_safe(raw, out, MOTUS_TEXT_MAX);
+}
+
 motus_status complain(motus_error *err, motus_status status, const char *format, ...)
 {
     if (!err)
         return status;
-    char raw[MOTUS_TEXT_MAX];
+    char message[MOTUS_TEXT_MAX];    /* the arguments may lie in the error */
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(raw, sizeof raw, format, arguments);
+    compose(message, format, arguments);
     va_end(arguments);
     *err = motus_default_error();
     err->status = status;
-    text_safe(raw, err->message, sizeof err->message);
+    memcpy(err->message, message, sizeof message);
     return status;
 }
 
@@ -33,12 +41,10 @@ void complain_hint(motus_error *err, const char *format, ...)
 {
     if (!err)
         return;
-    char raw[MOTUS_TEXT_MAX];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(raw, sizeof raw, format, arguments);
+    compose(err->hint, format, arguments);
     va_end(arguments);
-    text_safe(raw, err->hint, sizeof err->hint);
 }
 
 motus_status complain_memory(motus_error *err)

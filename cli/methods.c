@@ -73,13 +73,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
 static void section(const char *title, const char *text, const char *strong, const char *plain)
 {
     printf("\n%s%s%s\n", strong, title, plain);
-    while (*text) {
-        char line[2048];
-        size_t length = strcspn(text, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), text);
-        text_wrap(stdout, line, 2, 90);
-        text += length + (text[length] == '\n');
-    }
+    text_wrap(stdout, text, 2, 90);
 }
 
 static void print_card(const motus_method *m)

@@ -81,20 +81,17 @@ size_t text_width(const char *s)
     return width;
 }
 
-void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
+/* Words of a line in lines of at most `width` columns; where the line ends. */
+static const char *wrap_line(FILE *out, const char *s, size_t indent, size_t width)
 {
     char word[512];
     size_t column = 0;
-    while (*s) {
-        size_t blanks = strspn(s, " \n\t"), length = strcspn(s + blanks, " \n\t");
-        s += blanks;
-        if (length == 0)
-            break;
-        size_t part = length < sizeof word ? length : sizeof word - 1;
+    for (s += strspn(s, " \t"); *s && *s != '\n'; s += strspn(s, " \t")) {
+        const size_t length = strcspn(s, " \n\t"), part = length < sizeof word ? length : sizeof word - 1;
         memcpy(word, s, part);
         word[part] = 0;
         s += part;
-        size_t columns = text_width(word);
+        const size_t columns = text_width(word);
         if (column > 0 && column + 1 + columns > width) {
             putc('\n', out);
             column = 0;
@@ -107,6 +104,15 @@ void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
         text_put(out, word);
     }
     putc('\n', out);
+    return s;
+}
+
+void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
+{
+    while (*s) {
+        s = wrap_line(out, s, indent, width);
+        s += *s == '\n';
+    }
 }
 
 void text_brief(double value, int digits, char out[DECIMAL_MAX])

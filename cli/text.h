@@ -18,7 +18,7 @@ void text_safe(const char *s, char *out, size_t size);
 void text_put(FILE *out, const char *s);
 /* Columns that the safe form takes on a terminal. */
 size_t text_width(const char *s);
-/* Words of `s` in lines of at most `width` columns, each indented. */
+/* The words of each line of `s` in lines of at most `width` columns, each indented. */
 void text_wrap(FILE *out, const char *s, size_t indent, size_t width);
 
 /* For tables: `digits` significant ones, negative: always with an exponent; "-" for NaN. */
