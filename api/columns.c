@@ -1,7 +1,7 @@
 /* Columns: one numbering of all that can be looked at, and the names of it. */
 #include "api/system.h"
 
-#include "lang/words.h"
+#include "base/near.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -352,13 +352,8 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     int least = 7;
     for (size_t i = 0; i < s->group_count; i++) {
         const char *other = group_name(s, &s->groups[i]);
-        if (!words_near(base, other))
-            continue;
-        int d = words_distance(base, other, 6);
-        if (d < least) {
-            least = d;
+        if (near_nearer(base, other, &least))
             best = other;
-        }
     }
     motus_column c;
     if (best && strcmp(best, base))

@@ -1,7 +1,7 @@
 /* The names of what varies: F, g.x, x(0), x'(0), r.x(0), x[3](0). See ensemble.h. */
 #include "api/ensemble.h"
 
-#include "lang/words.h"
+#include "base/near.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
             hint(err, "%s is computed along the way: vary what it is computed from", base);
             return MOTUS_NAME;
         }
-        if (strcmp(d->name, base) && d->kind == DEFINED_PARAMETER && words_near(base, d->name)) {
+        if (strcmp(d->name, base) && d->kind == DEFINED_PARAMETER && near_likely(base, d->name)) {
             hint(err, "did you mean %s?", d->name);
             return MOTUS_NAME;
         }

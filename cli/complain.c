@@ -33,7 +33,7 @@ motus_status complain(motus_error *err, motus_status status, const char *format,
     va_end(arguments);
     *err = motus_default_error();
     err->status = status;
-    memcpy(err->message, message, sizeof message);
+    strcpy(err->message, message);
     return status;
 }
 

@@ -2,6 +2,7 @@
  *
  * Invariant: a verb is one row. Each error is shown once, here; the exit status is that of its status.
  */
+#include "base/near.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/help.h"
@@ -41,10 +42,11 @@ static const verb *find(const char *name)
 
 static motus_status unknown(const char *name, motus_error *err)
 {
-    size_t length = strlen(name), best = 3;
+    size_t length = strlen(name);
+    int best = 6;
     const char *near = NULL;
     for (size_t i = 0; i < VERBS; i++) {
-        size_t d = text_distance(verbs[i].name, name);
+        const int d = near_distance(verbs[i].name, name, best);
         if (verbs[i].bit && d < best) {
             best = d;
             near = verbs[i].name;

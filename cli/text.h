@@ -29,7 +29,4 @@ void text_seconds(double seconds, char out[DECIMAL_MAX]);
 /* A JSON object to a stream, up to json_end(); failures show in ferror(). */
 json text_json(FILE *);
 
-/* How alike two words are: insertions, deletions, changes and swaps of neighbours between them. */
-size_t text_distance(const char *a, const char *b);
-
 #endif

@@ -2,6 +2,7 @@
  *
  * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order where there is one.
  */
+#include "base/near.h"
 #include "core/rows.h"
 
 #include <math.h>
@@ -50,34 +51,19 @@ static const row *find(const char *name, size_t length)
     return NULL;
 }
 
-/* Number of insertions, deletions and changes that lead from a to b; both of at most MOTUS_NAME_MAX characters. */
-static int distance(const char *a, size_t length, const char *b, size_t b_length)
-{
-    int above[MOTUS_NAME_MAX + 1];
-    for (size_t j = 0; j <= b_length; j++) above[j] = (int)j;
-    for (size_t i = 1; i <= length; i++) {
-        int corner = above[0];
-        above[0] = (int)i;
-        for (size_t j = 1; j <= b_length; j++) {
-            int change = corner + (lower(a[i - 1]) != lower(b[j - 1]));
-            corner = above[j];
-            int side = above[j] < above[j - 1] ? above[j] : above[j - 1];
-            above[j] = change < side + 1 ? change : side + 1;
-        }
-    }
-    return above[b_length];
-}
-
 static void suggest(motus_error *err, const char *name, size_t length)
 {
+    char given[MOTUS_NAME_MAX + 1], other[MOTUS_NAME_MAX + 1];
     const char *nearest = NULL;
-    int best = (int)length / 3 + 2;
+    int best = 2 * ((int)length / 3 + 2);
+    snprintf(given, sizeof given, "%.*s", (int)length, name);
     for (size_t k = 0; k < methods_count && length <= MOTUS_NAME_MAX; k++) {
         const motus_method *card = &methods_table[k].card;
-        int d = distance(name, length, card->name, strlen(card->name));
+        int d = near_distance(given, card->name, best);
         for (const char *word = card->aliases; *word;) {
             size_t n = strcspn(word, " ");
-            int e = n <= MOTUS_NAME_MAX ? distance(name, length, word, n) : best;
+            snprintf(other, sizeof other, "%.*s", (int)n, word);
+            int e = near_distance(given, other, best);
             if (e < d) d = e;
             word += n + (word[n] == ' ');
         }

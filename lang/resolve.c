@@ -4,7 +4,7 @@
 #include "lang/lower.h"
 #include "lang/tape.h"
 #include "lang/vary.h"
-#include "lang/words.h"
+#include "base/near.h"
 
 #include <math.h>
 #include <string.h>
@@ -669,7 +669,7 @@ static bool check_orphans(model *m)
             if (s->kind == STATEMENT_START && named.definition)
                 source_hint(&m->source, "%s is a %s", s->name, named.definition->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
             for (uint32_t k = 0; k < m->state_count; k++)
-                if (words_near(s->name, m->states[k].name))
+                if (near_likely(s->name, m->states[k].name))
                     source_hint(&m->source, "did you mean %s?", m->states[k].name);
             source_hint(&m->source, "write one: %s'' = …", s->name);
             return false;

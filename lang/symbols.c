@@ -1,6 +1,6 @@
 /* Names: what is defined, by which statement, and what was probably meant. */
 #include "lang/lower.h"
-#include "lang/words.h"
+#include "base/near.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -158,7 +158,7 @@ static bool replace(model *m, uint32_t text)
     source_complain(s, MOTUS_NAME, one->name_at, "the model has no parameter %s", one->name);
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
-        if (old->kind == STATEMENT_DEFINITION && words_near(one->name, old->name)) {
+        if (old->kind == STATEMENT_DEFINITION && near_likely(one->name, old->name)) {
             source_hint(s, "did you mean %s?", old->name);
             break;
         }
@@ -245,16 +245,11 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
         const char *other = i < more_count ? more[i]
                             : i - more_count < m->state_count ? m->states[i - more_count].name
                                                               : m->definitions[i - more_count - m->state_count].name;
-        if (!words_near(name, other))
-            continue;
-        int d = words_distance(name, other, 6);
-        if (d < least) {
-            least = d;
+        if (near_nearer(name, other, &least))
             best = other;
-        }
     }
     char codes[64];
-    if (best && words_look_alike(name, best, codes, sizeof codes))
+    if (best && near_look_alike(name, best, codes, sizeof codes))
         source_hint(&m->source, "it looks like %s, which is defined, but is another character (%s)", best, codes);
     else if (product_of_two(m, name, more, more_count))
         return;

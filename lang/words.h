@@ -5,13 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Edits (insert, delete, replace, swap neighbours) between two names, at most `limit` + 1; letter case and look-alikes (µ and μ) count
- * as less than an edit. In half edits. */
-int words_distance(const char *a, const char *b, int limit);
-/* Is b a plausible misspelling of a? */
-bool words_near(const char *a, const char *b);
+/* The statement that a mistaken word may be meant for; false: none. */
 bool words_nearest_statement(const char *name, char *out, size_t size);
-/* "µ (U+00B5)": a description of the first character in which two look-alikes differ; false if they differ otherwise. */
-bool words_look_alike(const char *a, const char *b, char *out, size_t size);
 
 #endif
