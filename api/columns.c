@@ -39,7 +39,7 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 bool system_number_columns(motus_system *s)
 {
     uint32_t definitions = s->model ? s->model->definition_count : 1;
-    s->groups = arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + definitions) * sizeof *s->groups);
+    s->groups = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + definitions) * sizeof *s->groups);
     if (!s->groups)
         return false;
     add(s, MOTUS_TIME, false, 0, 1);
@@ -64,10 +64,10 @@ bool system_number_columns(motus_system *s)
         add_states(s, MOTUS_POSITION, true, false);
         add_states(s, MOTUS_VELOCITY, true, true);
         add_states(s, MOTUS_COMPANION, true, false);
-        s->exact_x = arena_grow(&s->arena, NULL, 0, (s->problem.nx + 1) * sizeof(double));
-        s->exact_v = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
+        s->exact_x = arena_room(&s->arena, (s->problem.nx + 1) * sizeof(double));
+        s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
-    s->look = arena_grow(&s->arena, NULL, 0, largest * sizeof(double));
+    s->look = arena_room(&s->arena, largest * sizeof(double));
     return !s->arena.failed;
 }
 

@@ -246,7 +246,7 @@ const char *motus_equation_text(motus_system *s, size_t k)
     if (!s || !s->model)
         return NULL;
     if (!s->equation)
-        s->equation = arena_grow(&s->arena, NULL, 0, ROOM);
+        s->equation = arena_room(&s->arena, ROOM);
     if (!s->equation)
         return NULL;
     modes m = modes_enter();

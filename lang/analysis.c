@@ -41,7 +41,7 @@ static void read_traits(model *m)
 static bool recognise_constant(model *m)
 {
     graph *g = m->graph;
-    m->exact = arena_grow(m->arena, NULL, 0, 2 * m->accel_count * sizeof *m->exact);
+    m->exact = arena_room(m->arena, 2 * m->accel_count * sizeof *m->exact);
     if (!m->exact)
         return false;
     node tau = graph_op(g, OP_SUB, graph_time(g), graph_const(g, m->start), 0);
@@ -101,8 +101,8 @@ static bool verify_exact(model *m)
 {
     graph *g = m->graph;
     size_t n = m->nv + 1;
-    double *work = arena_grow(m->arena, NULL, 0, 5 * n * sizeof *work);
-    output *second = arena_grow(m->arena, NULL, 0, m->exact_count * sizeof *second);
+    double *work = arena_room(m->arena, 5 * n * sizeof *work);
+    output *second = arena_room(m->arena, m->exact_count * sizeof *second);
     if (!work || !second)
         return false;
     double *x = work, *v = work + n, *a = work + 2 * n, *e = work + 3 * n, *scale = work + 4 * n;

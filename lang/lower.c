@@ -334,7 +334,7 @@ static value lower_chain(lowering *l, const tree *t)
     const tree *leaf = t;
     for (; operator_kind(leaf->kind); leaf = leaf->item[0])
         depth++;
-    const tree **chain = arena_grow(l->model->arena, NULL, 0, depth * sizeof *chain);
+    const tree **chain = arena_room(l->model->arena, depth * sizeof *chain);
     if (!chain)
         return wrong(l);
     size_t n = depth;

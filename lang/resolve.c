@@ -107,7 +107,7 @@ static bool compute(model *m, const node *nodes, int count, double *out)
     }
     uint32_t arrays = m->array_count;
     uint16_t first;
-    output *o = arena_grow(m->arena, NULL, 0, (size_t)count * sizeof *o);
+    output *o = arena_room(m->arena, (size_t)count * sizeof *o);
     if (!o || !resolve_arrays(m, count, &first))
         return false;
     for (int k = 0; k < count; k++) {
@@ -196,7 +196,7 @@ static bool resolve_plain(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "the parameters have too many components");
         return false;
     }
-    double *out = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *out);
+    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
     if (!out || !compute(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n))
         return false;
     memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
@@ -214,7 +214,7 @@ static bool resolve_list(model *m, model_definition *d)
     int n = (int)list->count;
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
-    value *item = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *item);
+    value *item = arena_room(m->arena, (size_t)n * sizeof *item);
     if (!item)
         return false;
     for (int i = 0; i < n; i++) {
@@ -237,14 +237,14 @@ static bool resolve_list(model *m, model_definition *d)
     if (!resolve_pool(m, (size_t)n * (size_t)parts, &base) || !resolve_arrays(m, parts, &at))
         return false;
     d->array = at;
-    node *column = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *column);
+    node *column = arena_room(m->arena, (size_t)n * sizeof *column);
     if (!column)
         return false;
     for (int k = 0; k < parts; k++) {
         resolve_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++)
             column[i] = item[i].item[k];
-        double *out = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *out);
+        double *out = arena_room(m->arena, (size_t)n * sizeof *out);
         if (!out || !compute(m, column, n, out) || !finite_values(m, d, out, (size_t)n))
             return false;
         memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);
@@ -277,7 +277,7 @@ bool resolve_into_pool(model *m, const output *target, value v, size_t base, con
     int parts = v.count ? v.count : 1;
     uint32_t arrays = m->array_count;
     uint16_t at;
-    output *o = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *o);
+    output *o = arena_room(m->arena, (size_t)parts * sizeof *o);
     if (!o || !resolve_arrays(m, parts, &at))
         return false;
     for (int k = 0; k < parts; k++) {
@@ -498,7 +498,7 @@ static bool mark_owners(model *m, model_state *s)
     s->cells.count = count;
     if (!gap)
         return true;
-    s->cells.offset = arena_grow(m->arena, NULL, 0, count * sizeof *s->cells.offset);
+    s->cells.offset = arena_room(m->arena, count * sizeof *s->cells.offset);
     if (!s->cells.offset)
         return false;
     count = 0;
@@ -529,7 +529,7 @@ bool resolve_hull(model *m, model_state *s)
             return false;
         }
         s->hull = (size_t)numbers;
-        s->owner = arena_grow(m->arena, NULL, 0, s->hull);
+        s->owner = arena_room(m->arena, s->hull);
         if (!s->owner)
             return false;
         memset(s->owner, 0, s->hull);
@@ -579,8 +579,8 @@ static bool lay_out(model *m)
                 resolve_shape(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims, s->first, s->last);
         }
     }
-    m->x0 = arena_grow(m->arena, NULL, 0, (m->nx + 1) * sizeof *m->x0);
-    m->v0 = arena_grow(m->arena, NULL, 0, (m->nv + 1) * sizeof *m->v0);
+    m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
+    m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
     if (!m->x0 || !m->v0)
         return false;
     memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);

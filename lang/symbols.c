@@ -177,9 +177,9 @@ bool symbols_collect(model *m, const motus_text_def *def)
     m->symbol_size = 16;
     while (m->symbol_size < 4 * n)
         m->symbol_size *= 2;
-    m->symbols = arena_grow(m->arena, NULL, 0, m->symbol_size * sizeof *m->symbols);
-    m->states = arena_grow(m->arena, NULL, 0, (n + 1) * sizeof *m->states);
-    m->definitions = arena_grow(m->arena, NULL, 0, (n + 1) * sizeof *m->definitions);
+    m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
+    m->states = arena_room(m->arena, (n + 1) * sizeof *m->states);
+    m->definitions = arena_room(m->arena, (n + 1) * sizeof *m->definitions);
     if (!m->symbols || !m->states || !m->definitions)
         return false;
     memset(m->symbols, 0, m->symbol_size * sizeof *m->symbols);
