@@ -14,7 +14,7 @@ export interface Problem {
 
 export type ColumnKind = 'time' | 'position' | 'velocity' | 'companion' | 'quantity' | 'invariant' | 'exact';
 /** A number that can be looked at along a run; `variable` is the index of the variable, quantity or invariant it belongs to. */
-export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number; readonly component: number; readonly is_velocity: boolean }
+export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number }
 
 /** A state of the model: order 2 has x'' = …, order 1 is a companion. components 0: scalar. */
 export interface Variable { readonly name: string; readonly order: number; readonly components: number; readonly ranges: readonly (readonly [number, number])[]; readonly count: number }

@@ -19,8 +19,6 @@ static void describe_columns(json *j, const motus_system *s)
         json_string(j, "name", c.name);
         json_string(j, "kind", kinds[c.kind]);
         json_integer(j, "variable", (int64_t)c.variable);
-        json_integer(j, "component", c.component);
-        json_bool(j, "is_velocity", c.is_velocity);
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -29,40 +27,33 @@ static void describe_columns(json *j, const motus_system *s)
 /* More numbers than this are no sliders. */
 enum { NUMBERS_MAX = 64 };
 
+typedef struct adjustable { const char *name, *text; size_t length, count; int components, list; bool initial; } adjustable;
+
+static void describe_adjustable(json *j, const adjustable *a, const double *values)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "name", a->name);
+    json_integer(j, "components", a->components);
+    json_bool(j, "list", a->list);
+    json_part(j, "text", a->text, a->length);
+    json_bool(j, "initial", a->initial);
+    json_numbers(j, "values", values, a->count);
+    json_close(j, '}');
+}
+
 static void describe_parameters(json *j, const motus_system *s)
 {
     double values[NUMBERS_MAX];
+    motus_parameter p;
+    motus_initial i;
+    motus_variable v;
     json_open(j, "parameters", '[');
-    for (size_t k = 0; k < motus_parameter_count(s); k++) {
-        motus_parameter p;
-        if (motus_parameter_at(s, k, &p) != MOTUS_OK || p.count > NUMBERS_MAX || motus_parameter_values(s, k, values) != MOTUS_OK)
-            continue;
-        json_open(j, NULL, '{');
-        json_string(j, "name", p.name);
-        json_integer(j, "components", p.components);
-        json_bool(j, "list", p.list);
-        json_part(j, "text", p.text, p.length);
-        json_string(j, "decides", p.decides);
-        json_bool(j, "initial", false);
-        json_numbers(j, "values", values, p.count);
-        json_close(j, '}');
-    }
-    for (size_t k = 0; k < motus_initial_count(s); k++) {
-        motus_initial i;
-        motus_variable v;
-        if (motus_initial_at(s, k, &i) != MOTUS_OK || i.count > NUMBERS_MAX || motus_variable_at(s, i.variable, &v) != MOTUS_OK ||
-            motus_initial_values(s, k, values) != MOTUS_OK)
-            continue;
-        json_open(j, NULL, '{');
-        json_string(j, "name", i.name);
-        json_integer(j, "components", v.components);
-        json_bool(j, "list", v.dimensions > 0);
-        json_string(j, "text", "");
-        json_string(j, "decides", NULL);
-        json_bool(j, "initial", true);
-        json_numbers(j, "values", values, i.count);
-        json_close(j, '}');
-    }
+    for (size_t k = 0; motus_parameter_at(s, k, &p) == MOTUS_OK; k++)
+        if (p.count <= NUMBERS_MAX && motus_parameter_values(s, k, values) == MOTUS_OK)
+            describe_adjustable(j, &(adjustable){p.name, p.text, p.length, p.count, p.components, p.list, false}, values);
+    for (size_t k = 0; motus_initial_at(s, k, &i) == MOTUS_OK; k++)
+        if (i.count <= NUMBERS_MAX && motus_variable_at(s, i.variable, &v) == MOTUS_OK && motus_initial_values(s, k, values) == MOTUS_OK)
+            describe_adjustable(j, &(adjustable){i.name, "", 0, i.count, v.components, v.dimensions > 0, true}, values);
     json_close(j, ']');
 }
 

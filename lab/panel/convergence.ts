@@ -15,9 +15,9 @@ import { convergenceStudy, lookFor, rowsFor, sample, studyBar } from './study';
 /** More triangles than this would hide the lines. */
 const TRIANGLES = 4;
 /** Errors below this are drawn at it: 0 has no logarithm. */
-export const FLOOR = 1e-17;
+const FLOOR = 1e-17;
 /** An error of so many sizes of the motion is an explosion; how large, tells nothing, and would press all else together. */
-export const CEILING = 30;
+const CEILING = 30;
 
 export function errorOf(point: ConvergePoint): number {
   return point.error === null || !Number.isFinite(point.error) ? NaN : Math.max(point.error, FLOOR);
@@ -26,6 +26,18 @@ export function errorOf(point: ConvergePoint): number {
 /** Height for the legend, and for a narrow picture somewhat more: slopes are hard to see in a flat one. */
 export function roomFor(width: number, looks: readonly Look[]): number {
   return looks.length ? legendLayout(width, looks.map((look) => look.label)).height + Math.max(0, 0.5 * (480 - width)) : 0;
+}
+
+/** The legend, and below it errors against what they cost, both logarithmic. */
+export function errorFrame(pen: Pen, ink: Ink, looks: readonly Look[], costs: number[], label: string, errors: number[]): Frame {
+  const layout = legendLayout(pen.width, looks.map((look) => look.label));
+  drawLegend(pen, ink, looks.map(lookEntry), layout);
+  const decades = (values: number[]): { min: number; max: number; log: true } => {
+    const [low, high] = padded(extent([values.map((v) => Math.log10(v))]), 0.05);
+    return { min: 10 ** low, max: 10 ** high, log: true };
+  };
+  return axes(pen, ink, { ...decades(costs), label }, { ...decades(errors.map((e) => Math.min(CEILING, e))), label: 'error, in sizes of the motion' },
+    { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
 }
 
 interface Fit { readonly slope: number; readonly x: number; readonly y: number; readonly low: number; readonly high: number }
@@ -54,7 +66,7 @@ function drawTriangle(pen: Pen, frame: Frame, fit: Fit, look: Look, share: numbe
 }
 
 /** What the core has found of a method, in words. */
-export function verdict(row: ConvergeRow): string {
+function verdict(row: ConvergeRow): string {
   if (row.exact_here) return 'exact here: the error is round-off, and a slope has no meaning';
   if (row.observed === null) return row.certificate || 'no slope could be measured';
   const measured = row.standard_error === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standard_error, 1)}`;
@@ -81,15 +93,8 @@ export const convergence: PanelMaker = (store): Panel => {
   function draw(pen: Pen, ink: Ink): void {
     const found = rows(), shown = looks();
     if (!scene || found.length === 0) return;
-    const layout = legendLayout(pen.width, shown.map((look) => look.label));
-    drawLegend(pen, ink, shown.map(lookEntry), layout);
-    const logs = (values: number[]): [number, number] => padded(extent([values.map((v) => Math.log10(v))]), 0.05);
-    const xs = logs(found.flatMap((row) => row.points.map((point) => point.step)));
-    const ys = logs(found.flatMap((row) => row.points.map((point) => Math.min(CEILING, errorOf(point)))));
-    const frame = axes(pen, ink,
-      { min: 10 ** xs[0], max: 10 ** xs[1], log: true, label: 'step h' },
-      { min: 10 ** ys[0], max: 10 ** ys[1], log: true, label: 'error, in sizes of the motion' },
-      { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
+    const points = found.flatMap((row) => row.points);
+    const frame = errorFrame(pen, ink, shown, points.map((point) => point.step), 'step h', points.map(errorOf));
     const step = scene.solution.tracks[0]?.step ?? 0;
     pen.clip(frame.left, frame.top, frame.width, frame.height, () => {
       if (step > 0) {

@@ -3,15 +3,13 @@
  *
  * Invariant: nothing is measured here; a method's line joins the points that the core has computed.
  */
-import { axes, extent, padded } from '../figure/axes';
 import { button, el as element } from '../dom';
 import { figure } from '../figure/figure';
-import { drawLegend, legendLayout, lookEntry } from '../figure/legend';
 import { brief, readable, tenTo } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { CompareRow, Comparison, ConvergeRow } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
-import { CEILING, errorOf, judge, roomFor } from './convergence';
+import { errorFrame, errorOf, judge, roomFor } from './convergence';
 import { convergenceStudy, lookFor, rowsFor, sample, Study, studyBar } from './study';
 
 const whole = (n: number): string => (n < 1e6 ? String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f') : readable(n, 2));
@@ -123,15 +121,8 @@ export const precision: PanelMaker = (store): Panel => {
   function draw(pen: Pen, ink: Ink): void {
     const found = rows(), names = looks();
     if (!scene || found.length === 0) return;
-    const layout = legendLayout(pen.width, names.map((look) => look.label));
-    drawLegend(pen, ink, names.map(lookEntry), layout);
-    const lines = found.map(pointsOf);
-    const logs = (values: number[]): [number, number] => padded(extent([values.map((v) => Math.log10(v))]), 0.05);
-    const xs = logs(lines.flatMap((line) => line.map((point) => point.work))), ys = logs(lines.flatMap((line) => line.map((point) => Math.min(CEILING, point.error))));
-    const frame = axes(pen, ink,
-      { min: 10 ** xs[0], max: 10 ** xs[1], log: true, label: 'evaluations of the force' },
-      { min: 10 ** ys[0], max: 10 ** ys[1], log: true, label: 'error, in sizes of the motion' },
-      { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
+    const lines = found.map(pointsOf), points = lines.flat();
+    const frame = errorFrame(pen, ink, names, points.map((point) => point.work), 'evaluations of the force', points.map((point) => point.error));
     pen.clip(frame.left, frame.top, frame.width, frame.height, () => {
       const at = 10 ** level(found);
       if (found.length > 1 && at > 0) {

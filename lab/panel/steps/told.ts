@@ -51,8 +51,6 @@ function signed(c: number): string {
   return `${c < 0 ? '−' : '+'} ${size === '1' ? '' : `${size} `}`;
 }
 
-export interface StepTold { readonly trace: Trace; readonly indices: readonly number[] }
-
 /** What event `at` of a trace does to the numbers with these indices. */
 export function tell(trace: Trace, at: number, indices: readonly number[]): Told {
   const e = trace.entries[at]!, start = trace.entries[0]!, before = trace.entries[at - 1] ?? start;
