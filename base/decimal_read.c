@@ -64,7 +64,7 @@ static double rounded(const number *n, int exponent)
     int top = 32 * n->count - 1;
     while (!bit(n, top))
         top--;
-    int last = top - 52;                                             /* the last bit that a double keeps: not below 2^-1074 */
+    int last = top - 52;         /* the last bit that a double keeps: not below 2^-1074 */
     if (last + exponent < -1074)
         last = -1074 - exponent;
     uint64_t mantissa = 0;

@@ -39,7 +39,8 @@ size_t utf8_write(uint32_t c, char out[4])
 bool utf8_visible(uint32_t c)
 {
     const bool control = c < 0x20 || (c >= 0x7F && c <= 0x9F);
-    const bool turns = c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
+    const bool marks = c == 0x061C || c == 0x200E || c == 0x200F;
+    const bool turns = marks || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
     const bool separates = c == 0x2028 || c == 0x2029;
     return !control && !turns && !separates && c != 0xFEFF;
 }

@@ -17,7 +17,7 @@ motus_status constant_read(const char *expression, const char *where, double *va
     motus_status status = MOTUS_OK;
     motus_error inner = motus_default_error();
     const char first = expression[*expression == '-' || *expression == '+'];
-    /* a decimal number is most of what is asked, and worth no model; one that begins with a point is none of the language */
+    /* a decimal number is most of what is asked, and worth no model; in the language none begins with a point */
     if (first == '.' || !typed_decimal(expression, value)) {
         static const char name[] = "x(0)=";
         size_t length = strlen(expression);

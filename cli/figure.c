@@ -257,7 +257,7 @@ static bool add_named(figure *f, const char *name, size_t first, size_t numbers,
     return p != NULL;
 }
 
-static bool add_all_named(figure *f, const char *(*name)(const motus_system *, size_t k, size_t *numbers), size_t column, bool drift)
+static bool add_all_named(figure *f, load_naming *name, size_t column, bool drift)
 {
     const char *one;
     size_t numbers;

@@ -55,7 +55,7 @@ static void name_of(const char *path, char *out, size_t size)
         *dot = 0;
 }
 
-static size_t numbers_of(const motus_system *system, const char *(*name)(const motus_system *, size_t k, size_t *numbers))
+static size_t numbers_of(const motus_system *system, load_naming *name)
 {
     size_t all = 0, numbers;
     for (size_t k = 0; name(system, k, &numbers); k++)

@@ -27,10 +27,11 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
     int code = posix_spawnattr_setsigdefault(&attributes, &plain);
     for (int i = 0; !code && i < 3; i++)
         code = posix_spawn_file_actions_adddup2(&actions, streams[i], i);
+    const int group = apart ? POSIX_SPAWN_SETPGROUP : 0;
     if (!code && apart)
         code = posix_spawnattr_setpgroup(&attributes, 0);
     if (!code)
-        code = posix_spawnattr_setflags(&attributes, (short)(POSIX_SPAWN_SETSIGDEF | (apart ? POSIX_SPAWN_SETPGROUP : 0)));
+        code = posix_spawnattr_setflags(&attributes, (short)(POSIX_SPAWN_SETSIGDEF | group));
     if (!code)
         code = posix_spawnp(process, arguments[0], &actions, &attributes, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);

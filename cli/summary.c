@@ -187,7 +187,8 @@ motus_status summary_print(const summary *s, motus_error *err)
 /* ---- JSON ---- */
 
 /* One number of a vector or a scalar, or a list of components. */
-static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector, size_t *left)
+static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector,
+                      size_t *left)
 {
     if (vector)
         json_open(j, key, '[');
@@ -198,8 +199,8 @@ static void cell_json(json *j, const char *key, const double *values, const figu
 }
 
 /* Lists within lists, one level per index. */
-static void nest_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v, int level,
-                      size_t *cell, size_t *left)
+static void nest_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
+                      int level, size_t *cell, size_t *left)
 {
     if (level == v->dimensions) {
         cell_json(j, key, values, p, (*cell)++, v->components > 0, left);
@@ -211,7 +212,8 @@ static void nest_json(json *j, const char *key, const double *values, const figu
     json_close(j, ']');
 }
 
-static void variable_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v, size_t *left)
+static void variable_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
+                          size_t *left)
 {
     double grid = 1;
     for (int d = 0; d < v->dimensions; d++)

@@ -2,9 +2,10 @@
  *
  * take: a thing that is always there; room: an array that may be too large; grow: a larger one; text: a copy.
  *
- * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory is gone it sets `failed` and returns the spare
- * block, so that callers may write before they look; whoever loops or recurses looks at `failed` first. All other requests that
- * cannot be met return NULL and set `failed`. (No longjmp: the lab's WebAssembly has none.)
+ * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory is gone it sets `failed` and
+ * returns the spare block, so that callers may write before they look; whoever loops or recurses looks at `failed`
+ * first. All other requests that cannot be met return NULL and set `failed`. (No longjmp: the lab's WebAssembly has
+ * none.)
  */
 #ifndef LANG_ARENA_H
 #define LANG_ARENA_H
@@ -22,7 +23,7 @@ typedef struct arena {
 
 void arena_init(arena *, const motus_allocator *);
 void *arena_take(arena *, size_t bytes);                       /* zeroed, 64-byte aligned for requests of 64 bytes and more */
-void *arena_room(arena *, size_t bytes);                       /* the same, but NULL when there is none, however small */
+void *arena_room(arena *, size_t bytes);                       /* the same; NULL when there is none, however small */
 void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes);   /* a copy in larger room */
 char *arena_text(arena *, const char *text, size_t length);    /* a copy that ends with 0 */
 void arena_release(arena *);

@@ -187,7 +187,8 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     if (a->failed)
         return fail(err, MOTUS_MEMORY, "no memory for what varies");
     *v = (vary){.model = m, .count = count, .places = arena_room(a, (count + 1) * sizeof *places),
-                .affected = arena_room(a, m->pool_count + 1), .active = arena_room(a, (m->log.count + 1) * sizeof *v->active)};
+                .affected = arena_room(a, m->pool_count + 1),
+                .active = arena_room(a, (m->log.count + 1) * sizeof *v->active)};
     size_t nodes = m->graph->count;
     uint8_t *changed = arena_room(a, nodes + 1);
     if (!v->places || !v->affected || !v->active || !changed)

@@ -322,7 +322,8 @@ static motus_status converge_all(converge *c)
     if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK)
         return status;
     if (!c->truth.known) {
-        fail(s->err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+        fail(s->err, MOTUS_DIVERGED,
+             "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }

@@ -95,7 +95,8 @@ motus_status motus_reference_at(motus_reference *r, const double *times, size_t 
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < count && status == MOTUS_OK; k++)
         if (!within(s, times[k])) {
-            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k], s->from, s->until);
+            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k], s->from,
+                          s->until);
             hint(err, "a reference knows the motion between its start and its end");
         }
     const modes host = modes_enter();
@@ -130,7 +131,8 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     if ((status = truth_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->truth)) != MOTUS_OK)
         return status;
     if (!r->truth.known) {
-        fail(err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: its truth is not known", s->until);
+        fail(err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: its truth is not known",
+             s->until);
         hint(err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }

@@ -21,7 +21,8 @@ static void escape(json *j, uint32_t c)
     else if (c == '\n')
         put(j, "\\n");
     else
-        j->write(j->to, (char[]){'\\', 'u', digits[c >> 12 & 15], digits[c >> 8 & 15], digits[c >> 4 & 15], digits[c & 15]}, 6);
+        j->write(j->to, (char[]){'\\', 'u', digits[c >> 12 & 15], digits[c >> 8 & 15], digits[c >> 4 & 15],
+                                 digits[c & 15]}, 6);
 }
 
 static void quoted(json *j, const char *s, size_t length)

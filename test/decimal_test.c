@@ -1,4 +1,4 @@
-/* Decimals: what is written are the digits of the C library, for much less; what is read are its doubles, for all kinds of numbers. */
+/* Decimals: what is written are the digits of the C library, for much less; what is read are its doubles. */
 #include "base/decimal.h"
 
 #include <math.h>
@@ -112,7 +112,7 @@ static void test_integers(void **context)
     }
 }
 
-/* What is read is the double of the C library (this program keeps the locale "C"), and all of it, up to what follows. */
+/* What is read is the double of the C library (this program keeps the locale "C"), and all of it. */
 static void read_as(const char *text, size_t length)
 {
     double value, wanted = strtod(text, NULL);
@@ -135,7 +135,10 @@ static void test_reading(void **context)
             text[n++] = (char)('0' + (next() % 3 ? next() % 10 : 0));
         if (whole + digits == 0)
             text[n++] = '7';
-        n += next() % 2 ? snprintf(text + n, 16, "%c%s%d", next() % 2 ? 'e' : 'E', next() % 2 ? "" : next() % 2 ? "+" : "-", (int)(next() % 340)) : 0;
+        if (next() % 2) {
+            const char *sign = next() % 2 ? "" : next() % 2 ? "+" : "-";
+            n += snprintf(text + n, 16, "%c%s%d", next() % 2 ? 'e' : 'E', sign, (int)(next() % 340));
+        }
         snprintf(text + n, 8, "%s", (const char *[]){"", "e", "e+", " ", ".", "x"}[next() % (digits ? 6 : 4)]);
         read_as(text, (size_t)n);
     }
@@ -152,7 +155,8 @@ static void test_reading(void **context)
                 n--;
         }
         for (int k = 0; k < (low < 0x1p60 ? 3 : 1); k++) {
-            snprintf(text + n, sizeof text - (size_t)n, "%s", (const char *[]){"", "0000000000000000000000001", "0"}[k]);
+            static const char *const behind[] = {"", "0000000000000000000000001", "0"};
+            snprintf(text + n, sizeof text - (size_t)n, "%s", behind[k]);
             read_as(text, strlen(text));
         }
     }
@@ -162,8 +166,9 @@ static void test_reading_edges(void **context)
 {
     (void)context;
     static const struct { const char *text; size_t length; double value; } edges[] = {
-        {"0", 1, 0}, {".5", 2, 0.5}, {"5.", 2, 5}, {"00012.50", 8, 12.5}, {"1e400", 5, INFINITY}, {"1e-400", 6, 0}, {"0e999999999999999999", 20, 0},
-        {"1e99999999999999999999999999", 28, INFINITY}, {"1e-99999999999999999999999999", 29, 0}, {"4.9e-324", 8, 0x1p-1074}, {"2.4e-324", 8, 0},
+        {"0", 1, 0}, {".5", 2, 0.5}, {"5.", 2, 5}, {"00012.50", 8, 12.5}, {"1e400", 5, INFINITY}, {"1e-400", 6, 0},
+        {"0e999999999999999999", 20, 0}, {"1e99999999999999999999999999", 28, INFINITY},
+        {"1e-99999999999999999999999999", 29, 0}, {"4.9e-324", 8, 0x1p-1074}, {"2.4e-324", 8, 0},
         {"1.7976931348623159e308", 22, INFINITY}, {"2.5e3.5", 5, 2500}, {"1.2.3", 3, 1.2}, {"0x10", 1, 0}, {"1,5", 1, 1},
         {"", 0, 0}, {".", 0, 0}, {"-1", 0, 0}, {"+1", 0, 0}, {" 1", 0, 0}, {"e5", 0, 0}, {"inf", 0, 0}, {"nan", 0, 0},
     };
@@ -249,8 +254,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_powers), cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
-        cmocka_unit_test(test_integers), cmocka_unit_test(test_reading), cmocka_unit_test(test_reading_edges), cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_fast),
+        cmocka_unit_test(test_integers), cmocka_unit_test(test_reading), cmocka_unit_test(test_reading_edges),
+        cmocka_unit_test(test_whole), cmocka_unit_test(test_fast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

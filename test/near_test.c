@@ -67,6 +67,7 @@ static void test_look_alike(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edits), cmocka_unit_test(test_likely), cmocka_unit_test(test_look_alike)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_edits), cmocka_unit_test(test_likely),
+                                       cmocka_unit_test(test_look_alike)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,12 @@ static void describe_columns(json *j, const motus_system *s)
 /* More numbers than this are no sliders. */
 enum { NUMBERS_MAX = 64 };
 
-typedef struct adjustable { const char *name, *text; size_t length, count; int components, list; bool initial; } adjustable;
+typedef struct adjustable {
+    const char *name, *text;
+    size_t length, count;
+    int components, list;
+    bool initial;
+} adjustable;
 
 static void describe_adjustable(json *j, const adjustable *a, const double *values)
 {
@@ -49,11 +54,16 @@ static void describe_parameters(json *j, const motus_system *s)
     motus_variable v;
     json_open(j, "parameters", '[');
     for (size_t k = 0; motus_parameter_at(s, k, &p) == MOTUS_OK; k++)
-        if (p.count <= NUMBERS_MAX && motus_parameter_values(s, k, values) == MOTUS_OK)
-            describe_adjustable(j, &(adjustable){p.name, p.text, p.length, p.count, p.components, p.list, false}, values);
+        if (p.count <= NUMBERS_MAX && motus_parameter_values(s, k, values) == MOTUS_OK) {
+            const adjustable a = {p.name, p.text, p.length, p.count, p.components, p.list, false};
+            describe_adjustable(j, &a, values);
+        }
     for (size_t k = 0; motus_initial_at(s, k, &i) == MOTUS_OK; k++)
-        if (i.count <= NUMBERS_MAX && motus_variable_at(s, i.variable, &v) == MOTUS_OK && motus_initial_values(s, k, values) == MOTUS_OK)
-            describe_adjustable(j, &(adjustable){i.name, "", 0, i.count, v.components, v.dimensions > 0, true}, values);
+        if (i.count <= NUMBERS_MAX && motus_variable_at(s, i.variable, &v) == MOTUS_OK &&
+            motus_initial_values(s, k, values) == MOTUS_OK) {
+            const adjustable a = {i.name, "", 0, i.count, v.components, v.dimensions > 0, true};
+            describe_adjustable(j, &a, values);
+        }
     json_close(j, ']');
 }
 
