@@ -62,7 +62,7 @@ fuzz:
 tidy:
 	@cmake/need.sh build tidy
 	@$(CMAKE) --preset release >/dev/null
-	@run-clang-tidy -quiet -p build '^$(CURDIR)/(core|lang|machine|api|study|cli)/'
+	@run-clang-tidy -quiet -p build '^$(CURDIR)/(base|core|lang|machine|api|study|tell|cli)/'
 
 functions:
 	@cmake/need.sh build test

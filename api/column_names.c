@@ -1,9 +1,8 @@
 /* Names of columns, read: "x", "r'.y", "x[3]'", "exact x" and the columns they stand for. */
 #include "api/columns.h"
 
-#include "lang/text/words.h"
+#include "base/near.h"
 
-#include <ctype.h>
 #include <string.h>
 
 typedef struct column_name {         /* a name taken apart: [exact] base [indices] primes component */
@@ -15,14 +14,15 @@ typedef struct column_name {         /* a name taken apart: [exact] base [indice
     int component;                   /* 1-based, 0: none */
 } column_name;
 
-static const char *read_integer(const char *p, int64_t *value)
+/* Indices end at INT32_MAX: a larger one is none, but that is not said here. */
+static const char *read_index(const char *p, int64_t *value)
 {
     const bool minus = *p == '-';
-    const char *digit = p += minus;
-    for (*value = 0; isdigit((unsigned char)*p); p++)
-        *value = *value < INT32_MAX ? 10 * *value + (*p - '0') : *value;       /* no index is that far */
+    uint64_t n;
+    const size_t length = decimal_read_whole(p + minus, SIZE_MAX, &n);
+    *value = n > INT32_MAX ? (int64_t)INT32_MAX + 1 : (int64_t)n;
     *value = minus ? -*value : *value;
-    return p == digit ? NULL : p;
+    return length ? p + minus + length : NULL;
 }
 
 static bool take_name(const char *p, column_name *n)
@@ -39,7 +39,7 @@ static bool take_name(const char *p, column_name *n)
     p += length;
     if (*p == '[') {
         do {
-            if (n->dims == MAX_DIMS || !(p = read_integer(p + 1, &n->index[n->dims])))
+            if (n->dims == MAX_DIMS || !(p = read_index(p + 1, &n->index[n->dims])))
                 return false;
             n->dims++;
         } while (*p == ',');
@@ -55,7 +55,7 @@ static bool take_name(const char *p, column_name *n)
         p += p[1] ? 2 : 1;
     } else if (*p == '[') {
         int64_t k;
-        if (!(p = read_integer(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
+        if (!(p = read_index(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
             return false;
         n->component = (int)k;
     }
@@ -79,13 +79,8 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     int least = 7;
     for (size_t i = 0; i < s->group_count; i++) {
         const char *other = group_name(s, &s->groups[i]);
-        if (!words_near(base, other))
-            continue;
-        int d = words_distance(base, other, 6);
-        if (d < least) {
-            least = d;
+        if (near_nearer(base, other, &least))
             best = other;
-        }
     }
     motus_column c = motus_default_column();
     if (best && strcmp(best, base))

@@ -40,7 +40,7 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 bool system_number_columns(motus_system *s)
 {
     s->groups =
-        arena_grow(&s->arena, NULL, 0, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
+        arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
     if (!s->groups)
         return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
@@ -63,10 +63,10 @@ bool system_number_columns(motus_system *s)
         add_states(s, MOTUS_COLUMN_POSITION, true, false);
         add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
         add_states(s, MOTUS_COLUMN_COMPANION, true, false);
-        s->exact_x = arena_grow(&s->arena, NULL, 0, (s->problem.nx + 1) * sizeof(double));
-        s->exact_v = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
+        s->exact_x = arena_room(&s->arena, (s->problem.nx + 1) * sizeof(double));
+        s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
-    s->look = arena_grow(&s->arena, NULL, 0, largest * sizeof(double));
+    s->look = arena_room(&s->arena, largest * sizeof(double));
     return !s->arena.failed;
 }
 

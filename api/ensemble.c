@@ -85,7 +85,7 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
 static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     motus_system *s = e->system;
-    lanes_source *sources = arena_grow(&s->arena, NULL, 0, e->record_count * sizeof *sources);
+    lanes_source *sources = arena_room(&s->arena, e->record_count * sizeof *sources);
     if (!sources)
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (size_t r = 0; r < e->record_count; r++)

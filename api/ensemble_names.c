@@ -2,11 +2,10 @@
 #include "api/ensemble.h"
 #include "api/parameters.h"
 
-#include "lang/text/number.h"
-#include "lang/text/words.h"
+#include "base/near.h"
 
+#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static motus_status unknown(const motus_system *s, const char *name, motus_error *err)
@@ -20,7 +19,7 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
             hint(err, "%s is computed along the way: vary what it is computed from", base);
             return MOTUS_NAME;
         }
-        if (strcmp(d->name, base) && d->kind == DEFINED_PARAMETER && words_near(base, d->name)) {
+        if (strcmp(d->name, base) && d->kind == DEFINED_PARAMETER && near_likely(base, d->name)) {
             hint(err, "did you mean %s?", d->name);
             return MOTUS_NAME;
         }
@@ -76,14 +75,15 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
         if (strlen(d->name) != length || strncmp(d->name, name, length) || d->kind != DEFINED_PARAMETER)
             continue;
         const char *rest = name + length;
-        long k = 0;
-        char *end = NULL;
+        uint64_t written = 0;
+        bool closed = true;
         if (*rest == '.' && rest[1] && !rest[2])
-            k = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
+            written = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
         else if (*rest == '[')
-            k = strtol(rest + 1, &end, 10);
-        if ((end && strcmp(end, "]")) || (*rest && k < 1))
+            closed = !strcmp(rest + 1 + decimal_read_whole(rest + 1, SIZE_MAX, &written), "]");
+        if (!closed || (*rest && (written < 1 || written > INT32_MAX)))
             return unknown(s, name, err);
+        const int64_t k = (int64_t)written;
         if (d->list && d->dims == 1 && !d->components && k >= d->first[0] && k <= d->last[0]) {
             *place = s->model->arrays[d->array].base + (size_t)(k - d->first[0]);
             return MOTUS_OK;

@@ -85,7 +85,7 @@ bool system_sample_gyroscopic(motus_system *s)
     return s->sampled_gyroscopic;
 }
 
-bool system_sample_gradient(motus_system *s)
+static bool sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
     if (s->sampled_gradient || t->velocity || t->companions || !s->model)
@@ -102,7 +102,7 @@ motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
     motus_system *s = (motus_system *)given;
     if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
-    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+    if (!system_sample_gyroscopic(s) || !sample_gradient(s))
         return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
     const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v,
@@ -227,7 +227,7 @@ const char *motus_explain(motus_system *s)
         return "";
     if (!s->model)
         return "the acceleration is a callback: nothing can be read off it\n";
-    if (!system_sample_gyroscopic(s) || !system_sample_gradient(s))
+    if (!system_sample_gyroscopic(s) || !sample_gradient(s))
         return "";
     const traits *t = &s->problem.traits;
     const char **kept = &s->explanation[t->gyroscopic][t->gradient];
@@ -249,7 +249,7 @@ const char *motus_equation_text(motus_system *s, size_t k)
     if (!s || !s->model)
         return NULL;
     if (!s->equation)
-        s->equation = arena_grow(&s->arena, NULL, 0, ROOM);
+        s->equation = arena_room(&s->arena, ROOM);
     if (!s->equation)
         return NULL;
     modes m = modes_enter();

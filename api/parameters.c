@@ -5,10 +5,10 @@
 #include "api/parameters.h"
 
 #include "api/columns.h"
+#include "base/near.h"
 #include "lang/model/vary.h"
-#include "lang/text/number.h"
-#include "lang/text/words.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -133,8 +133,8 @@ bool parameters_bracket(const char *name, char *bare, size_t size, double *start
     snprintf(bare, size, "%.*s", (int)(open - name), name);
     const bool minus = open[1] == '-';
     const char *digits = open + 1 + minus;
-    const size_t n = strspn(digits, "0123456789.e+-");
-    if (!n || strcmp(digits + n, ")") || !number_read(digits, n, start))
+    const size_t n = decimal_read(digits, SIZE_MAX, start);
+    if (!n || strcmp(digits + n, ")") || isinf(*start))
         return false;
     if (minus)
         *start = -*start;
@@ -152,7 +152,7 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
             hint(err, "%s is set as a whole, by its name alone", base);
         else if (!strcmp(d->name, base))
             hint(err, "%s is computed along the way: set what it is computed from", base);
-        else if (d->kind == DEFINED_PARAMETER && words_near(base, d->name))
+        else if (d->kind == DEFINED_PARAMETER && near_likely(base, d->name))
             hint(err, "did you mean %s?", d->name);
         else
             continue;

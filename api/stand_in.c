@@ -35,13 +35,13 @@ static motus_status copy_names(motus_system *s, const char *const **names, size_
 {
     if (!*names)
         return MOTUS_OK;
-    const char **copies = arena_grow(&s->arena, NULL, 0, (count + 1) * sizeof *copies);
+    const char **copies = arena_room(&s->arena, (count + 1) * sizeof *copies);
     for (size_t k = 0; copies && k < count; k++) {
         motus_status status = check_name(s, (*names)[k], of, k, err);
         if (status != MOTUS_OK)
             return status;
         const size_t bytes = strlen((*names)[k]) + 1;
-        char *copy = arena_grow(&s->arena, NULL, 0, bytes);
+        char *copy = arena_room(&s->arena, bytes);
         if (!copy)
             break;
         memcpy(copy, (*names)[k], bytes);
@@ -124,10 +124,9 @@ motus_status stand_in_make(motus_system *s, motus_error *err)
         status = copy_names(s, &def->invariant_names, def->invariants, "invariants", err);
     if (status != MOTUS_OK)
         return status;
-    s->states = arena_grow(&s->arena, NULL, 0, ((def->names ? nx + ns : 2) + 1) * sizeof *s->states);
+    s->states = arena_room(&s->arena, ((def->names ? nx + ns : 2) + 1) * sizeof *s->states);
     s->definitions =
-        arena_grow(&s->arena, NULL, 0,
-                   ((def->quantity_names ? def->quantities : 1) + (def->invariant_names ? def->invariants : 1) + 1) *
+        arena_room(&s->arena, ((def->quantity_names ? def->quantities : 1) + (def->invariant_names ? def->invariants : 1) + 1) *
                        sizeof *s->definitions);
     if (!s->states || !s->definitions)
         return fail(err, MOTUS_MEMORY, "no memory for the system");

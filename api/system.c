@@ -3,7 +3,6 @@
 #include "lang/read/read.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static motus_system *begin(const motus_allocator *a)
@@ -33,15 +32,15 @@ static bool keep_text(motus_system *s, motus_text_def *def)
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (n > SOURCE_BYTES_MAX)
         return true;                 /* refused in a moment, by read_model */
-    char *copy = arena_grow(&s->arena, NULL, 0, n + 1);
-    const char **set = arena_grow(&s->arena, NULL, 0, (def->set_count + 1) * sizeof *set);
+    char *copy = arena_room(&s->arena, n + 1);
+    const char **set = arena_room(&s->arena, (def->set_count + 1) * sizeof *set);
     if (!copy || !set)
         return false;
     memcpy(copy, def->text, n);
     copy[n] = 0;
     for (size_t i = 0; i < def->set_count; i++) {
         size_t m = strlen(def->set[i]) + 1;
-        char *one = arena_grow(&s->arena, NULL, 0, m);
+        char *one = arena_room(&s->arena, m);
         if (!one)
             return false;
         memcpy(one, def->set[i], m);
@@ -103,8 +102,8 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
 {
     const size_t nx = s->problem.nx, nv = s->problem.nv;
     s->start = def->start;
-    s->x0 = arena_grow(&s->arena, NULL, 0, (nx + 1) * sizeof(double));
-    s->v0 = arena_grow(&s->arena, NULL, 0, (nv + 1) * sizeof(double));
+    s->x0 = arena_room(&s->arena, (nx + 1) * sizeof(double));
+    s->v0 = arena_room(&s->arena, (nv + 1) * sizeof(double));
     if (!s->x0 || !s->v0)
         return fail(err, MOTUS_MEMORY, "no memory for the system");
     if (nx)
@@ -138,7 +137,7 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     if (status == MOTUS_OK) {
         s->machine = (machine){.name = "callback", .problem = &s->problem};
         if (def.derivative)
-            s->calling.zeros = arena_grow(&s->arena, NULL, 0, (s->problem.nv + 1) * sizeof(double));
+            s->calling.zeros = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
         status = take_start(s, &def, err);
     }
     if (status == MOTUS_OK)

@@ -7,6 +7,7 @@
 #define API_SYSTEM_H
 
 #include "api/check.h"
+#include "base/modes.h"
 #include "machine/compiled.h"
 
 typedef struct column_group {        /* columns of one name */
@@ -45,7 +46,6 @@ struct motus_system {
 
 /* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
 bool system_sample_gyroscopic(motus_system *);
-bool system_sample_gradient(motus_system *);
 /* defaults.c. Structs with a size; and how one fits that says its own, where versions had these, the last one today's. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
@@ -60,10 +60,5 @@ size_t system_number(const motus_system *, size_t outer, bool of_v);
 /* The quantity or invariant of a column, and which of its numbers, in the inside order, that is. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
-
-/* Rounding to nearest, no flushing of subnormals, from enter to leave. */
-typedef struct modes { int rounding; unsigned long control; } modes;
-modes modes_enter(void);
-void modes_leave(modes);
 
 #endif

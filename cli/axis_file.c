@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct table_file {
     const char *path, *column;
@@ -65,12 +66,15 @@ static motus_status cannot_read(const table_file *f, motus_error *err)
     return complain(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno ? errno : EIO));
 }
 
+/* What programs write for a number, also one that is not finite. */
 static bool is_number(const char *s, double *value)
 {
-    char *end;
-    bool hexadecimal = strpbrk(s, "xX") != NULL;
-    *value = strtod(s, &end);
-    return end != s && *end == 0 && !hexadecimal;
+    s += strspn(s, " \t");
+    if (typed_decimal(s, value))
+        return true;
+    *value = NAN;
+    s += *s == '-' || *s == '+';
+    return strcasecmp(s, "nan") == 0 || strcasecmp(s, "inf") == 0 || strcasecmp(s, "infinity") == 0;
 }
 
 /* Finds the column; the head, if there is one, is then done with. */

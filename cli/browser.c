@@ -6,14 +6,12 @@
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
 
+#include "cli/spawn.h"
+
 #include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-extern char **environ;
 
 #ifdef __APPLE__
 #define OPENER "open"
@@ -21,35 +19,14 @@ extern char **environ;
 #define OPENER "xdg-open"
 #endif
 
-/* A group of its own: Ctrl-C in the terminal is not meant for it. */
-static bool prepare(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes)
-{
-    static const char nothing[] = "/dev/null";
-    sigset_t plain;
-    sigemptyset(&plain);
-    sigaddset(&plain, SIGPIPE);
-    return posix_spawn_file_actions_addopen(actions, STDIN_FILENO, nothing, O_RDONLY, 0) == 0 &&
-           posix_spawn_file_actions_addopen(actions, STDOUT_FILENO, nothing, O_WRONLY, 0) == 0 &&
-           posix_spawn_file_actions_adddup2(actions, STDOUT_FILENO, STDERR_FILENO) == 0 &&
-           posix_spawnattr_setsigdefault(attributes, &plain) == 0 && posix_spawnattr_setpgroup(attributes, 0) == 0 &&
-           posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP) == 0;
-}
-
 static bool start(const char *program, const char *url)
 {
     char *const arguments[] = {(char *)program, (char *)url, NULL};
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     pid_t process;
-    if (posix_spawn_file_actions_init(&actions) != 0)
-        return false;
-    if (posix_spawnattr_init(&attributes) != 0) {
-        posix_spawn_file_actions_destroy(&actions);
-        return false;
-    }
-    bool good = prepare(&actions, &attributes) && posix_spawnp(&process, program, &actions, &attributes, arguments, environ) == 0;
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
+    const bool good = nothing >= 0 && spawn_program(&process, arguments, (int[]){nothing, nothing, nothing}, true) == 0;
+    if (nothing >= 0)
+        close(nothing);
     return good;
 }
 

@@ -1,6 +1,6 @@
 /* motus cache: the compiled models kept between runs. */
 #include "cli/complain.h"
-#include "cli/json.h"
+#include "cli/text.h"
 #include "cli/verbs.h"
 
 #include <stdio.h>
@@ -16,11 +16,8 @@ motus_status cache_verb(const options *o, motus_error *err)
     if (count < 0)
         return complain(err, MOTUS_FILE, "the cache cannot be reached");
     if (o->json) {
-        json j = json_begin(stdout);
-        json_open(&j, '{');
-        json_key(&j, "removed");
-        json_integer(&j, count);
-        json_close(&j, '}');
+        json j = text_json(stdout);
+        json_integer(&j, "removed", count);
         json_end(&j);
     } else if (!o->quiet) {
         printf("%d compiled model%s removed\n", count, count == 1 ? "" : "s");

@@ -3,96 +3,22 @@
  * Invariant: the numbers are the library's; here they are only laid out. A method that failed has a row that says why.
  */
 #include "cli/complain.h"
-#include "cli/file.h"
-#include "cli/json.h"
-#include "cli/load.h"
 #include "cli/overlay.h"
 #include "cli/share.h"
-#include "cli/stop.h"
+#include "cli/studies.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <math.h>
 #include <string.h>
 
-static void row_json(json *j, const motus_compare_row *r)
+static void print_json(const studies *s, const void *result)
 {
-    json_open(j, '{');
-    json_key(j, "method");
-    json_string(j, r->method);
-    json_key(j, "order");
-    json_integer(j, r->order);
-    json_key(j, "status");
-    json_string(j, motus_status_word(r->status));
-    json_key(j, "step");
-    json_number(j, r->step);
-    json_key(j, "steps");
-    json_integer(j, r->steps);
-    json_key(j, "evaluations");
-    json_integer(j, r->evaluations);
-    json_key(j, "seconds");
-    json_number(j, r->seconds);
-    json_key(j, "error_max");
-    json_number(j, r->error_max_x);
-    json_key(j, "error_final");
-    json_number(j, r->error_final_x);
-    json_key(j, "error_max_v");
-    json_number(j, r->error_max_v);
-    json_key(j, "error_final_v");
-    json_number(j, r->error_final_v);
-    json_key(j, "invariants");
-    json_open(j, '{');
-    for (size_t k = 0; k < r->invariant_count; k++) {
-        const motus_drift *d = r->invariants[k];
-        json_key(j, d->name);
-        json_open(j, '{');
-        json_key(j, "initial");
-        json_number(j, d->initial);
-        json_key(j, "final");
-        json_number(j, d->final);
-        json_key(j, "max_drift");
-        json_number(j, d->max_drift);
-        json_key(j, "trend");
-        json_number(j, d->trend);
-        json_key(j, "trending");
-        json_bool(j, d->trending != 0);
-        json_close(j, '}');
-    }
-    json_close(j, '}');
-    json_key(j, "reversal");
-    json_number(j, r->reversal);
-    json_key(j, "note");
-    json_string(j, r->note ? r->note : "");
-    json_close(j, '}');
-}
-
-static void print_json(const options *o, const motus_comparison *c)
-{
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "model");
-    json_string(&j, o->operand);
-    json_key(&j, "reference");
-    json_string(&j, c->reference);
-    json_key(&j, "reference_error");
-    json_number(&j, c->reference_error);
-    json_key(&j, "rows");
-    json_open(&j, '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, c->rows[k]);
-    json_close(&j, ']');
-    json_key(&j, "remarks");
-    json_open(&j, '[');
-    for (const char *s = c->remarks ? c->remarks : ""; *s; s += *s == '\n') {
-        char line[1024];
-        size_t length = strcspn(s, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), s);
-        json_string(&j, line);
-        s += length;
-    }
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "model", s->options->operand);
+    tell_comparison(&j, result);
     json_end(&j);
 }
 
@@ -105,7 +31,7 @@ static table *error_table(const motus_comparison *c)
         table_cell(t, heads[i]);
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = c->rows[k];
-        char spent[TEXT_NUMBER];
+        char spent[DECIMAL_MAX];
         text_seconds(r->seconds, spent);
         table_cell(t, r->method);
         table_integer(t, r->order);
@@ -149,7 +75,7 @@ static table *drift_table(const motus_comparison *c)
         table_cell(t, r->method);
         for (size_t i = 0; i < shown; i++) {
             bool known = !r->status && i < r->invariant_count;
-            char trend[TEXT_NUMBER] = "none";
+            char trend[DECIMAL_MAX] = "none";
             if (known && r->invariants[i]->trending)
                 text_brief(r->invariants[i]->trend, -2, trend);
             table_number(t, known ? r->invariants[i]->max_drift : NAN, -2);
@@ -159,17 +85,14 @@ static table *drift_table(const motus_comparison *c)
     return t;
 }
 
-static motus_status print_tables(const load *m, const motus_comparison *c, motus_error *err)
+static motus_status print_tables(const studies *s, const void *result, motus_error *err)
 {
+    const motus_comparison *c = result;
     bool colours = complain_colours(1);
     table *errors = error_table(c), *drifts = drift_table(c);
-    bool good = true;
-    fprintf(stdout, "%s%s%s, errors against ", colours ? "\033[1m" : "", m->title, colours ? "\033[0m" : "");
-    text_put(stdout, c->reference ? c->reference : "nothing");
-    if (c->reference_error > 0)
-        fprintf(stdout, " (itself good to %.1g)", c->reference_error);
-    fputs("\n\n", stdout);
-    good = table_print(errors, stdout, 2, colours);
+    studies_title(s, c->reference, c->reference_error);
+    fputs("\n", stdout);
+    bool good = table_print(errors, stdout, 2, colours);
     if (drifts) {
         putchar('\n');
         good = table_print(drifts, stdout, 2, colours) && good;
@@ -184,72 +107,38 @@ static motus_status print_tables(const load *m, const motus_comparison *c, motus
             text_wrap(stdout, line, 2, 100);
             space = true;
         }
-    for (const char *s = c->remarks ? c->remarks : ""; *s; s += *s == '\n') {
-        char line[1024];
-        size_t length = strcspn(s, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), s);
-        fputs(s == c->remarks ? "\n" : "", stdout);
-        text_wrap(stdout, line, 2, 100);
-        s += length;
+    if (c->remarks && *c->remarks) {
+        putchar('\n');
+        text_wrap(stdout, c->remarks, 2, 100);
     }
     table_destroy(errors);
     table_destroy(drifts);
     return good ? MOTUS_OK : complain_memory(err);
 }
 
-/* The study, its picture, its tables: in this order, so that nothing is printed of what failed. */
-static motus_status show(const options *o, load *m, const motus_comparison *c, motus_error *err)
+static motus_status draw(studies *s, const void *result, file_out *file, motus_error *err)
 {
-    motus_status status = MOTUS_OK;
-    file_out picture = {0};
-    if (o->plot) {
-        stop_progress progress = stop_progress_begin("plot", o->quiet);
-        status = file_create(&picture, o->plot, err);
-        if (!status)
-            status = overlay_draw(m, c, o, &picture, &progress, err);
-        stop_progress_end(&progress);
-        if (!status)
-            status = file_finish(&picture, err);
-    }
-    if (!status && o->json)
-        print_json(o, c);
-    else if (!status && !o->quiet)
-        status = print_tables(m, c, err);
-    if (!status)
-        status = file_flush_output(err);
-    if (!status)
-        status = file_keep(&picture, err);
-    file_drop(&picture);
+    stop_progress progress = stop_progress_begin("plot", s->options->quiet);
+    motus_status status = overlay_draw(&s->model, result, s->options, file, &progress, err);
+    stop_progress_end(&progress);
     return status;
 }
 
 motus_status compare_verb(const options *o, motus_error *err)
 {
+    static const studies_ways ways = {draw, print_json, print_tables};
     if (o->share)
         return share_verb(o, err);
-    load m = {0};
+    studies s;
+    motus_study_def def;
     motus_comparison *c = NULL;
-    motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
-    if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
-        status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    motus_status status = studies_begin(&s, "compare", o, &def, err);
     if (!status)
-        status = load_model(&m, o, err);
-    if (!status) {
-        stop_progress progress = stop_progress_begin("compare", o->quiet);
-        motus_study_def def = motus_default_study();
-        def.methods = o->methods.count ? o->methods.items : NULL;
-        def.method_count = o->methods.count;
-        def.step = o->step;
-        def.until = o->until;
-        def.evaluations = o->evaluations;
-        def.progress = stop_progress_hook;
-        def.context = &progress;
-        status = motus_compare(m.system, &def, &c, err);
-        stop_progress_end(&progress);
-    }
+        status = motus_compare(s.model.system, &def, &c, err);
+    stop_progress_end(&s.progress);
     if (!status)
-        status = show(o, &m, c, err);
+        status = studies_show(&s, &ways, c, err);
     motus_comparison_destroy(c);
-    load_free(&m);
+    load_free(&s.model);
     return status;
 }

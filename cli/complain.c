@@ -6,26 +6,34 @@
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 
-#include "cli/json.h"
 #include "cli/text.h"
+#include "tell/tell.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+/* What a sentence says, safe for a terminal. */
+static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list arguments)
+{
+    char raw[MOTUS_TEXT_MAX];
+    vsnprintf(raw, sizeof raw, format, arguments);
+    text_safe(raw, out, MOTUS_TEXT_MAX);
+}
+
 motus_status complain(motus_error *err, motus_status status, const char *format, ...)
 {
     if (!err)
         return status;
-    char raw[MOTUS_TEXT_MAX];
+    char message[MOTUS_TEXT_MAX];    /* the arguments may lie in the error */
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(raw, sizeof raw, format, arguments);
+    compose(message, format, arguments);
     va_end(arguments);
     *err = motus_default_error();
     err->status = status;
-    text_safe(raw, err->message, sizeof err->message);
+    strcpy(err->message, message);
     return status;
 }
 
@@ -33,12 +41,10 @@ void complain_hint(motus_error *err, const char *format, ...)
 {
     if (!err)
         return;
-    char raw[MOTUS_TEXT_MAX];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(raw, sizeof raw, format, arguments);
+    compose(err->hint, format, arguments);
     va_end(arguments);
-    text_safe(raw, err->hint, sizeof err->hint);
 }
 
 motus_status complain_memory(motus_error *err)
@@ -57,19 +63,9 @@ static bool show_json(const motus_error *err)
 {
     char message[2 * MOTUS_TEXT_MAX + 2];
     snprintf(message, sizeof message, "%s%s%s", err->message, err->hint[0] ? "; " : "", err->hint);
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "error");
-    json_open(&j, '{');
-    json_key(&j, "kind");
-    json_string(&j, motus_status_word(err->status));
-    json_key(&j, "message");
-    json_string(&j, message);
-    json_key(&j, "line");
-    json_integer(&j, err->line);
-    json_key(&j, "column");
-    json_integer(&j, err->column);
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_open(&j, "error", '{');
+    tell_error(&j, err, message);
     json_close(&j, '}');
     json_end(&j);
     return fflush(stdout) == 0 && !ferror(stdout);

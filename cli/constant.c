@@ -6,29 +6,19 @@
 #include "cli/constant.h"
 
 #include "cli/complain.h"
+#include "cli/typed.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* digits[.digits][e[+-]digits] with a sign: most of what is asked, and worth no model. */
-static bool plain(const char *s, double *value)
-{
-    const char *digits = s + (*s == '-' || *s == '+');
-    size_t length = strlen(digits);
-    if (!(*digits >= '0' && *digits <= '9') || strspn(digits, "0123456789.eE+-") != length)
-        return false;
-    char *end;
-    *value = strtod(s, &end);
-    return *end == 0;
-}
 
 motus_status constant_read(const char *expression, const char *where, double *value, motus_error *err)
 {
     motus_status status = MOTUS_OK;
     motus_error inner = motus_default_error();
-    if (!plain(expression, value)) {
+    const char first = expression[*expression == '-' || *expression == '+'];
+    /* a decimal number is most of what is asked, and worth no model; in the language none begins with a point */
+    if (first == '.' || !typed_decimal(expression, value)) {
         static const char name[] = "x(0)=";
         size_t length = strlen(expression);
         char *set = malloc(sizeof name + length);

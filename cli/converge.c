@@ -3,73 +3,21 @@
  * Invariant: exit status 0 says that every method kept its declared order here.
  */
 #include "cli/complain.h"
-#include "cli/file.h"
-#include "cli/json.h"
-#include "cli/load.h"
 #include "cli/plot.h"
-#include "cli/stop.h"
+#include "cli/studies.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static void row_json(json *j, const motus_converge_row *r)
+static void print_json(const studies *s, const void *result)
 {
-    json_open(j, '{');
-    json_key(j, "method");
-    json_string(j, r->method);
-    json_key(j, "declared");
-    json_integer(j, r->declared);
-    json_key(j, "observed");
-    json_number(j, r->observed);
-    json_key(j, "standard_error");
-    json_number(j, r->standard_error);
-    json_key(j, "exact_here");
-    json_bool(j, r->exact_here != 0);
-    json_key(j, "passed");
-    json_bool(j, r->passed != 0);
-    json_key(j, "status");
-    json_string(j, motus_status_word(r->status));
-    json_key(j, "certificate");
-    json_string(j, r->certificate ? r->certificate : "");
-    json_key(j, "points");
-    json_open(j, '[');
-    for (size_t i = 0; i < r->point_count; i++) {
-        json_open(j, '{');
-        json_key(j, "step");
-        json_number(j, r->points[i]->step);
-        json_key(j, "error");
-        json_number(j, r->points[i]->error);
-        json_key(j, "evaluations");
-        json_integer(j, r->points[i]->evaluations);
-        json_key(j, "used");
-        json_bool(j, r->points[i]->used != 0);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-    json_close(j, '}');
-}
-
-static void print_json(const options *o, const motus_convergence *c)
-{
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "model");
-    json_string(&j, o->operand);
-    json_key(&j, "reference");
-    json_string(&j, c->reference);
-    json_key(&j, "reference_error");
-    json_number(&j, c->reference_error);
-    json_key(&j, "passed");
-    json_bool(&j, c->passed != 0);
-    json_key(&j, "rows");
-    json_open(&j, '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        row_json(&j, c->rows[k]);
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "model", s->options->operand);
+    tell_convergence(&j, result);
     json_end(&j);
 }
 
@@ -89,7 +37,7 @@ static bool print_points(const motus_converge_row *r, bool colours)
         table_cell(t, "error");
         for (size_t i = 0; i < count; i++) {
             const motus_point *p = r->points[first + i];
-            char number[TEXT_NUMBER], cell[TEXT_NUMBER + 4];
+            char number[DECIMAL_MAX], cell[DECIMAL_MAX + 4];
             text_brief(p->error, -2, number);
             snprintf(cell, sizeof cell, p->used || r->exact_here ? "%s" : "(%s)", number);
             table_cell(t, cell);
@@ -100,14 +48,12 @@ static bool print_points(const motus_converge_row *r, bool colours)
     return good;
 }
 
-static motus_status print_tables(const load *m, const motus_convergence *c, motus_error *err)
+static motus_status print_tables(const studies *s, const void *result, motus_error *err)
 {
+    const motus_convergence *c = result;
     bool colours = complain_colours(1), good = true;
-    printf("%s%s%s, errors against ", colours ? "\033[1m" : "", m->title, colours ? "\033[0m" : "");
-    text_put(stdout, c->reference ? c->reference : "nothing");
-    if (c->reference_error > 0)
-        printf(" (itself good to %.1g)", c->reference_error);
-    puts("\nin brackets: not in the fit, where instability or round-off rules\n");
+    studies_title(s, c->reference, c->reference_error);
+    puts("in brackets: not in the fit, where instability or round-off rules\n");
     for (size_t k = 0; k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
         const char *colour = !colours ? "" : r->passed ? "\033[32m" : "\033[31m";
@@ -120,10 +66,11 @@ static motus_status print_tables(const load *m, const motus_convergence *c, motu
 }
 
 /* Error against step, both logarithmic: the slope is the order. */
-static motus_status draw(const options *o, const load *m, const motus_convergence *c, file_out *file, motus_error *err)
+static motus_status draw(studies *s, const void *result, file_out *file, motus_error *err)
 {
+    const motus_convergence *c = result;
     plot_figure figure = {0};
-    snprintf(figure.title, sizeof figure.title, "%s: error against step", m->title);
+    snprintf(figure.title, sizeof figure.title, "%s: error against step", s->model.title);
     plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "error at the end");
     size_t points = 0, used = 0;
     for (size_t k = 0; k < c->row_count; k++)
@@ -151,33 +98,10 @@ static motus_status draw(const options *o, const load *m, const motus_convergenc
         status = complain(err, MOTUS_ARGUMENT, "every error is 0: there is nothing to draw");
     if (!status) {
         p->logarithmic = true;
-        status = plot_draw(&figure, o->plot, file, err);
+        status = plot_draw(&figure, s->options->plot, file, err);
     }
     plot_free(&figure);
     free(numbers);
-    return status;
-}
-
-static motus_status show(const options *o, const load *m, const motus_convergence *c, motus_error *err)
-{
-    motus_status status = MOTUS_OK;
-    file_out picture = {0};
-    if (o->plot) {
-        status = file_create(&picture, o->plot, err);
-        if (!status)
-            status = draw(o, m, c, &picture, err);
-        if (!status)
-            status = file_finish(&picture, err);
-    }
-    if (!status && o->json)
-        print_json(o, c);
-    else if (!status && !o->quiet)
-        status = print_tables(m, c, err);
-    if (!status)
-        status = file_flush_output(err);
-    if (!status)
-        status = file_keep(&picture, err);
-    file_drop(&picture);
     return status;
 }
 
@@ -195,30 +119,19 @@ static motus_status verdict(const motus_convergence *c, motus_error *err)
 
 motus_status converge_verb(const options *o, motus_error *err)
 {
-    load m = {0};
+    static const studies_ways ways = {draw, print_json, print_tables};
+    studies s;
+    motus_study_def def;
     motus_convergence *c = NULL;
-    motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
-    if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
-        status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    motus_status status = studies_begin(&s, "converge", o, &def, err);
     if (!status)
-        status = load_model(&m, o, err);
-    if (!status) {
-        stop_progress progress = stop_progress_begin("converge", o->quiet);
-        motus_study_def def = motus_default_study();
-        def.methods = o->methods.count ? o->methods.items : NULL;
-        def.method_count = o->methods.count;
-        def.step = o->step;
-        def.until = o->until;
-        def.progress = stop_progress_hook;
-        def.context = &progress;
-        status = motus_converge(m.system, &def, &c, err);
-        stop_progress_end(&progress);
-    }
+        status = motus_converge(s.model.system, &def, &c, err);
+    stop_progress_end(&s.progress);
     if (!status)
-        status = show(o, &m, c, err);
+        status = studies_show(&s, &ways, c, err);
     if (!status && !c->passed)
         status = verdict(c, err);
     motus_convergence_destroy(c);
-    load_free(&m);
+    load_free(&s.model);
     return status;
 }

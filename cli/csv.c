@@ -5,6 +5,7 @@
  */
 #include "cli/csv.h"
 
+#include "base/utf8.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 
@@ -64,12 +65,14 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
     bool quote = !*word || word[strspn(word, plain)];
     motus_status status = file_text(f, quote ? " '" : " ", err);
     while (!status && *word) {
-        uint32_t c;
+        uint32_t c = 0;
         char bytes[8];
-        size_t n = text_decode(word, &c);
+        size_t n = utf8_read(word, SIZE_MAX, &c);
+        const bool good = n > 0;
+        n += !good;
         if (c == '\'')
             status = file_text(f, "'\\''", err);
-        else if (!text_visible(c) || (n == 1 && c >= 0x80))
+        else if (!good || !utf8_visible(c))
             for (size_t i = 0; !status && i < n; i++) {
                 snprintf(bytes, sizeof bytes, "\\x%02x", (unsigned)(unsigned char)word[i]);
                 status = file_text(f, bytes, err);
@@ -83,11 +86,11 @@ motus_status csv_word(file_out *f, const char *word, motus_error *err)
 
 static motus_status put_head(csv *c, const options *o, const motus_run *run, motus_error *err)
 {
-    char line[256], step[TEXT_NUMBER];
+    char line[256], step[DECIMAL_MAX];
     motus_status status = file_text(c->file, "# motus", err);
     for (int i = 1; !status && i < o->argc; i++)
         status = csv_word(c->file, o->argv[i], err);
-    text_number(motus_run_step_size(run), step);
+    decimal(motus_run_step_size(run), step);
     snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(), motus_run_method(run), step,
              motus_run_machine(run));
     return status ? status : file_text(c->file, line, err);
@@ -108,7 +111,7 @@ motus_status csv_name(file_out *f, const char *name, motus_error *err)
 motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run *run, motus_error *err)
 {
     c->file = file;
-    c->line = c->count < SIZE_MAX / TEXT_NUMBER - 1 ? malloc((c->count + 1) * TEXT_NUMBER) : NULL;
+    c->line = c->count < SIZE_MAX / DECIMAL_MAX - 1 ? malloc((c->count + 1) * DECIMAL_MAX) : NULL;
     if (!c->line)
         return complain_memory(err);
     motus_status status = put_head(c, o, run, err);
@@ -132,7 +135,7 @@ motus_status csv_row(void *context, const double *values, motus_error *err)
     for (size_t k = 0; k < c->count; k++) {
         if (k > 0)
             *s++ = ',';
-        text_number(values[k], s);
+        decimal(values[k], s);
         s += strlen(s);
     }
     *s++ = '\n';

@@ -257,6 +257,16 @@ static bool add_named(figure *f, const char *name, size_t first, size_t numbers,
     return p != NULL;
 }
 
+static bool add_all_named(figure *f, load_naming *name, size_t column, bool drift)
+{
+    const char *one;
+    size_t numbers;
+    for (size_t k = 0; (one = name(f->model->system, k, &numbers)) != NULL; k++, column += numbers)
+        if (!add_named(f, one, column, numbers, drift))
+            return false;
+    return true;
+}
+
 static bool add_everything(figure *f)
 {
     motus_system *system = f->model->system;
@@ -266,22 +276,8 @@ static bool add_everything(figure *f)
         if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s))
             return false;
     }
-    size_t column = load_quantity_column(f->model);
-    for (size_t k = 0; k < motus_quantity_count(system); k++) {
-        size_t numbers = 0;
-        const char *name = motus_quantity_name(system, k, &numbers);
-        if (!add_named(f, name, column, numbers, false))
-            return false;
-        column += numbers;
-    }
-    for (size_t k = 0; k < motus_invariant_count(system); k++) {
-        size_t numbers = 0;
-        const char *name = motus_invariant_name(system, k, &numbers);
-        if (!add_named(f, name, column, numbers, true))
-            return false;
-        column += numbers;
-    }
-    return true;
+    return add_all_named(f, motus_quantity_name, load_quantity_column(f->model), false)
+        && add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
 }
 
 static motus_status one_column(const figure *f, const char *name, size_t *column, motus_error *err)
@@ -351,7 +347,7 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
 
 motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, motus_error *err)
 {
-    char step[TEXT_NUMBER];
+    char step[DECIMAL_MAX];
     int64_t steps = motus_run_steps_total(run);
     *f = (figure){.model = model};
     f->fine = record_for(steps, FINE_LOOKS);

@@ -8,19 +8,16 @@
 #include "cli/gnuplot.h"
 
 #include "cli/complain.h"
+#include "cli/spawn.h"
 #include "cli/stop.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char **environ;
 
 static motus_status missing(motus_error *err)
 {
@@ -33,32 +30,6 @@ motus_status gnuplot_check(motus_error *err)
 {
     char path[4096];
     return file_program("gnuplot", path, sizeof path) ? MOTUS_OK : missing(err);
-}
-
-static int spawn(pid_t *process, int script, int picture, int complaints)
-{
-    static char name[] = "gnuplot", defaults[] = "-d";
-    char *const arguments[] = {name, defaults, NULL};
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    if (posix_spawn_file_actions_init(&actions) != 0)
-        return ENOMEM;
-    if (posix_spawnattr_init(&attributes) != 0) {
-        posix_spawn_file_actions_destroy(&actions);
-        return ENOMEM;
-    }
-    sigset_t plain;
-    sigemptyset(&plain);
-    sigaddset(&plain, SIGPIPE);
-    int code = posix_spawn_file_actions_adddup2(&actions, script, STDIN_FILENO);
-    code = code ? code : posix_spawn_file_actions_adddup2(&actions, picture, STDOUT_FILENO);
-    code = code ? code : posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
-    code = code ? code : posix_spawnattr_setsigdefault(&attributes, &plain);
-    code = code ? code : posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    code = code ? code : posix_spawnp(process, name, &actions, &attributes, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-    return code;
 }
 
 motus_status gnuplot_open(gnuplot *g, motus_error *err)
@@ -124,7 +95,9 @@ motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
         (void)fcntl(ours[i], F_SETFD, FD_CLOEXEC);
     pid_t process;
-    int code = spawn(&process, fileno(g->script), ends[1], fileno(g->complaints));
+    static char name[] = "gnuplot", defaults[] = "-d";
+    char *const arguments[] = {name, defaults, NULL};
+    int code = spawn_program(&process, arguments, (int[]){fileno(g->script), ends[1], fileno(g->complaints)}, false);
     close(ends[1]);
     if (code) {
         close(ends[0]);

@@ -6,7 +6,6 @@
 #include "cli/browser.h"
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/lab_page.h"
 #include "cli/load.h"
 #include "cli/share.h"
@@ -72,11 +71,8 @@ static motus_status say_where(const job *j, motus_error *err)
     if (strcmp(j->output, "-") == 0)
         return file_flush_output(err);
     if (j->options->json) {
-        json out = json_begin(stdout);
-        json_open(&out, '{');
-        json_key(&out, "output");
-        json_string(&out, j->output);
-        json_close(&out, '}');
+        json out = text_json(stdout);
+        json_string(&out, "output", j->output);
         json_end(&out);
     } else if (!j->options->quiet) {
         /* a program that reads this needs the name itself, a terminal must not get everything that a name may hold */

@@ -55,6 +55,14 @@ static void name_of(const char *path, char *out, size_t size)
         *dot = 0;
 }
 
+static size_t numbers_of(const motus_system *system, load_naming *name)
+{
+    size_t all = 0, numbers;
+    for (size_t k = 0; name(system, k, &numbers); k++)
+        all += numbers;
+    return all;
+}
+
 motus_status load_model(load *m, const options *o, motus_error *err)
 {
     *m = (load){0};
@@ -80,16 +88,8 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     stop_watch();                    /* up to here there is nothing to clean up: signals end the program at once */
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
-    for (size_t k = 0; k < motus_quantity_count(m->system); k++) {
-        size_t numbers = 0;
-        motus_quantity_name(m->system, k, &numbers);
-        m->quantities += numbers;
-    }
-    for (size_t k = 0; k < motus_invariant_count(m->system); k++) {
-        size_t numbers = 0;
-        motus_invariant_name(m->system, k, &numbers);
-        m->invariants += numbers;
-    }
+    m->quantities = numbers_of(m->system, motus_quantity_name);
+    m->invariants = numbers_of(m->system, motus_invariant_name);
     return MOTUS_OK;
 }
 

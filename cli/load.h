@@ -19,6 +19,8 @@ void load_free(load *);
 /* An error in a text at one of its bytes; `path` as a command names it, - is standard input. Returns MOTUS_SYNTAX. */
 motus_status load_complain(const char *text, const char *at, const char *path, const char *what, motus_error *);
 
+/* motus_quantity_name or motus_invariant_name. */
+typedef const char *load_naming(const motus_system *, size_t k, size_t *numbers);
 /* First column of the quantities and of the invariants. */
 size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);

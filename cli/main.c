@@ -2,10 +2,10 @@
  *
  * Invariant: a verb is one row. Each error is shown once, here; the exit status is that of its status.
  */
+#include "base/near.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/help.h"
-#include "cli/json.h"
 #include "cli/options.h"
 #include "cli/stop.h"
 #include "cli/text.h"
@@ -42,10 +42,11 @@ static const verb *find(const char *name)
 
 static motus_status unknown(const char *name, motus_error *err)
 {
-    size_t length = strlen(name), best = 3;
+    size_t length = strlen(name);
+    int best = 6;
     const char *near = NULL;
     for (size_t i = 0; i < VERBS; i++) {
-        size_t d = text_distance(verbs[i].name, name);
+        const int d = near_distance(verbs[i].name, name, best);
         if (verbs[i].bit && d < best) {
             best = d;
             near = verbs[i].name;
@@ -67,11 +68,8 @@ static void print_version(bool as_json)
         printf("motus %s\n", motus_version());
         return;
     }
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "version");
-    json_string(&j, motus_version());
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "version", motus_version());
     json_end(&j);
 }
 

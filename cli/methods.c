@@ -1,20 +1,15 @@
 /* motus methods: the catalogue, or the card of one method, from the rows the code runs. */
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
+#include "tell/tell.h"
 
 #include <math.h>
 #include <string.h>
 
-static const char *forces_text(motus_forces f)
-{
-    return f == MOTUS_FORCES_X ? "x" : f == MOTUS_FORCES_XT ? "x, t" : "x, x', t";
-}
-
-static void limit_text(double limit, char out[TEXT_NUMBER])
+static void limit_text(double limit, char out[DECIMAL_MAX])
 {
     if (isinf(limit))
         strcpy(out, "none");
@@ -24,68 +19,18 @@ static void limit_text(double limit, char out[TEXT_NUMBER])
         text_brief(limit, 4, out);
 }
 
-static void evaluations_text(int evaluations, char out[TEXT_NUMBER])
+static void evaluations_text(int evaluations, char out[DECIMAL_MAX])
 {
     if (evaluations > 0)
-        snprintf(out, TEXT_NUMBER, "%d", evaluations);
+        snprintf(out, DECIMAL_MAX, "%d", evaluations);
     else
         strcpy(out, "solves");
 }
 
-static void row_json(json *j, const motus_method *m)
-{
-    json_open(j, '{');
-    json_key(j, "name");
-    json_string(j, m->name);
-    json_key(j, "aliases");
-    json_open(j, '[');
-    for (const char *s = m->aliases ? m->aliases : ""; *s;) {
-        char alias[MOTUS_NAME_MAX];
-        size_t length = strcspn(s, " ");
-        snprintf(alias, sizeof alias, "%.*s", (int)length, s);
-        if (length)
-            json_string(j, alias);
-        s += length + (s[length] == ' ');
-    }
-    json_close(j, ']');
-    json_key(j, "title");
-    json_string(j, m->title);
-    json_key(j, "family");
-    json_string(j, m->family);
-    json_key(j, "order");
-    json_integer(j, m->order);
-    json_key(j, "stages");
-    json_integer(j, m->stages);
-    json_key(j, "evaluations");
-    json_integer(j, m->evaluations);
-    json_key(j, "forces");
-    json_string(j, forces_text(m->forces));
-    json_key(j, "symplectic");
-    json_bool(j, m->symplectic != 0);
-    json_key(j, "reversible");
-    json_bool(j, m->reversible != 0);
-    json_key(j, "stability_limit");
-    json_number(j, m->stability_limit);
-    json_key(j, "cite");
-    json_string(j, m->cite);
-    json_key(j, "formula");
-    json_string(j, m->formula);
-    json_key(j, "use");
-    json_string(j, m->use);
-    json_close(j, '}');
-}
-
 static void print_json(const motus_method *only)
 {
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "methods");
-    json_open(&j, '[');
-    for (size_t k = 0; k < motus_method_count(); k++)
-        if (!only || motus_method_at(k) == only)
-            row_json(&j, motus_method_at(k));
-    json_close(&j, ']');
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    tell_methods(&j, only);
     json_end(&j);
 }
 
@@ -98,7 +43,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         table_cell(t, heads[i]);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER];
+        char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX];
         limit_text(m->stability_limit, limit);
         evaluations_text(m->evaluations, evaluations);
         bool counted = m->order > 0;           /* the exact motion has no order and takes no stages */
@@ -111,7 +56,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
             table_cell(t, "-");
         }
         table_cell(t, counted ? evaluations : "-");
-        table_cell(t, forces_text(m->forces));
+        table_cell(t, tell_forces(m->forces));
         table_cell(t, m->symplectic ? "yes" : "no");
         table_cell(t, m->reversible ? "yes" : "no");
         table_cell(t, limit);
@@ -128,20 +73,14 @@ static motus_status print_catalogue(const options *o, motus_error *err)
 static void section(const char *title, const char *text, const char *strong, const char *plain)
 {
     printf("\n%s%s%s\n", strong, title, plain);
-    while (*text) {
-        char line[2048];
-        size_t length = strcspn(text, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line - 1), text);
-        text_wrap(stdout, line, 2, 90);
-        text += length + (text[length] == '\n');
-    }
+    text_wrap(stdout, text, 2, 90);
 }
 
 static void print_card(const motus_method *m)
 {
     bool colours = complain_colours(1);
     const char *strong = colours ? "\033[1m" : "", *plain = colours ? "\033[0m" : "";
-    char limit[TEXT_NUMBER], evaluations[TEXT_NUMBER], properties[512];
+    char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX], properties[512];
     limit_text(m->stability_limit, limit);
     evaluations_text(m->evaluations, evaluations);
     printf("%s%s%s, %s, order %d\n", strong, m->name, plain, m->family, m->order);
@@ -151,7 +90,7 @@ static void print_card(const motus_method *m)
     snprintf(properties, sizeof properties,
              "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
              "largest stable h ω: %s",
-             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", forces_text(m->forces),
+             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", tell_forces(m->forces),
              m->symplectic ? "yes" : "no", m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);

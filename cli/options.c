@@ -5,6 +5,7 @@
  */
 #include "cli/options.h"
 
+#include "base/near.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 #include "cli/typed.h"
@@ -84,7 +85,7 @@ static bool matches(const option *o, const char *name)
 static motus_status find(const char *name, unsigned verb, const option **found, motus_error *err)
 {
     const option *elsewhere = NULL, *near = NULL;
-    size_t distance = 3;
+    int distance = 6;
     for (size_t i = 0; i < OPTIONS; i++) {
         const option *o = &table[i];
         if (matches(o, name) && o->verbs & verb) {
@@ -93,7 +94,7 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
         }
         if (matches(o, name))
             elsewhere = o;
-        size_t d = text_distance(o->name, name);
+        const int d = near_distance(o->name, name, distance);
         if (o->verbs & verb && d < distance) {
             near = o;
             distance = d;

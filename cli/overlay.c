@@ -9,7 +9,6 @@
 #include "cli/figure.h"
 #include "cli/record.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { METHODS = 8, PANELS = 5, LOOKS = 50000 };

@@ -10,7 +10,6 @@
 #include "cli/gnuplot.h"
 #include "cli/text.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

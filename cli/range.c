@@ -6,7 +6,7 @@
  */
 #include "cli/range.h"
 
-#include "cli/digits.h"
+#include "base/decimal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,12 +64,12 @@ static range_pair root(range_pair q, uint64_t n)
 }
 
 /* The shortest decimal that reads as `value`, which is what was typed: 0.1 is a tenth. Nobody types more extreme ones. */
-static range_pair decimal(double value)
+static range_pair as_typed(double value)
 {
     if (!(fabs(value) > 1e-280 && fabs(value) < 1e280))
         return (range_pair){value, 0};
-    char text[DIGITS_ROOM];
-    digits_print(fabs(value), text);
+    char text[DECIMAL_MAX];
+    decimal_write(fabs(value), text);
     double digits[2] = {0, 0};                       /* the last eight digits, and those before */
     int places = 0, count = 0;
     const char *s = text;
@@ -80,7 +80,10 @@ static range_pair decimal(double value)
             count++;
         places += point && *s != '.';
     }
-    int power_of_ten = (*s == 'e' ? (int)strtol(s + 1, NULL, 10) : 0) - places;
+    uint64_t exponent = 0;
+    if (*s == 'e')
+        decimal_read_whole(s + 2, DECIMAL_MAX, &exponent);
+    int power_of_ten = (*s == 'e' && s[1] == '-' ? -(int)exponent : (int)exponent) - places;
     for (s = text; *s && *s != 'e'; s++)
         if (*s != '.') {
             double *part = &digits[count-- > 8];
@@ -92,15 +95,15 @@ static range_pair decimal(double value)
 
 range range_linear(double from, double to, uint64_t count)
 {
-    return (range){.from = from, .to = to, .last = count - 1, .low = decimal(from), .high = decimal(to)};
+    return (range){.from = from, .to = to, .last = count - 1, .low = as_typed(from), .high = as_typed(to)};
 }
 
 range range_log(double from, double to, uint64_t count)
 {
     double a = fmin(fabs(from), fabs(to)), b = fmax(fabs(from), fabs(to));
-    range r = {.from = from, .to = to, .last = count - 1, .logarithmic = true, .low = decimal(a), .high = {1, 0}};
+    range r = {.from = from, .to = to, .last = count - 1, .logarithmic = true, .low = as_typed(a), .high = {1, 0}};
     if (r.last > 0)
-        r.high = root(quotient(decimal(b), r.low), r.last);
+        r.high = root(quotient(as_typed(b), r.low), r.last);
     return r;
 }
 

@@ -4,7 +4,6 @@
  */
 #include "cli/record.h"
 
-#include "cli/complain.h"
 
 #include <stdlib.h>
 

@@ -15,7 +15,6 @@
 #include "cli/verbs.h"
 #include "cli/walk.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

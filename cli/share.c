@@ -5,9 +5,9 @@
  */
 #include "cli/share.h"
 
+#include "base/utf8.h"
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/text.h"
 
 #include <stdlib.h>
@@ -51,8 +51,8 @@ static const char *foreign(const char *s)
 {
     uint32_t c;
     for (size_t length; *s; s += length) {
-        length = text_decode(s, &c);
-        if (length == 1 && (unsigned char)*s >= 0x80)
+        length = utf8_read(s, SIZE_MAX, &c);
+        if (length == 0)
             return s;
     }
     return NULL;
@@ -131,8 +131,8 @@ static void number_of(double value, const char *typed, char *out, size_t size)
         motus_settings_of(system, &settings);
     bool same = system && settings.until == value;
     motus_system_destroy(system);
-    char digits[TEXT_NUMBER];
-    text_number(value, digits);
+    char digits[DECIMAL_MAX];
+    decimal(value, digits);
     snprintf(out, size, "%s", same ? typed : digits);
 }
 
@@ -210,11 +210,8 @@ motus_status share_verb(const options *o, motus_error *err)
     if (!status)
         status = share_fragment(&m, o, &fragment, err);
     if (!status && o->json) {
-        json j = json_begin(stdout);
-        json_open(&j, '{');
-        json_key(&j, "share");
-        json_string(&j, fragment);
-        json_close(&j, '}');
+        json j = text_json(stdout);
+        json_string(&j, "share", fragment);
         json_end(&j);
     } else if (!status) {
         puts(fragment);

@@ -7,7 +7,6 @@
 
 #include "cli/complain.h"
 #include "cli/figure.h"
-#include "cli/json.h"
 #include "cli/table.h"
 #include "cli/text.h"
 
@@ -141,10 +140,10 @@ static table *invariant_table(const summary *s)
 
 static void head(const summary *s, FILE *out, bool colours)
 {
-    char step[TEXT_NUMBER], from[TEXT_NUMBER], to[TEXT_NUMBER], last[TEXT_NUMBER], spent[TEXT_NUMBER];
-    text_number(fabs(motus_run_step_size(s->run)), step);
-    text_number(s->start, from);
-    text_number(motus_run_time(s->run), to);
+    char step[DECIMAL_MAX], from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX];
+    decimal(fabs(motus_run_step_size(s->run)), step);
+    decimal(s->start, from);
+    decimal(motus_run_time(s->run), to);
     text_brief(fabs(motus_run_last_step(s->run)), 6, last);
     text_seconds(s->seconds, spent);
     fprintf(out, "%s%s%s: %s, step %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
@@ -188,31 +187,33 @@ motus_status summary_print(const summary *s, motus_error *err)
 /* ---- JSON ---- */
 
 /* One number of a vector or a scalar, or a list of components. */
-static void cell_json(json *j, const double *values, const figure_place *p, size_t cell, bool vector, size_t *left)
+static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector,
+                      size_t *left)
 {
     if (vector)
-        json_open(j, '[');
+        json_open(j, key, '[');
     for (size_t c = 0; c < p->components && *left > 0; c++, --*left)
-        json_number(j, values[cell * p->cell_step + c * p->component_step]);
+        json_number(j, vector ? NULL : key, values[cell * p->cell_step + c * p->component_step]);
     if (vector)
         json_close(j, ']');
 }
 
 /* Lists within lists, one level per index. */
-static void nest_json(json *j, const double *values, const figure_place *p, const motus_variable *v, int level, size_t *cell,
-                      size_t *left)
+static void nest_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
+                      int level, size_t *cell, size_t *left)
 {
     if (level == v->dimensions) {
-        cell_json(j, values, p, (*cell)++, v->components > 0, left);
+        cell_json(j, key, values, p, (*cell)++, v->components > 0, left);
         return;
     }
-    json_open(j, '[');
+    json_open(j, key, '[');
     for (int64_t i = v->first[level]; i <= v->last[level] && *left > 0; i++)
-        nest_json(j, values, p, v, level + 1, cell, left);
+        nest_json(j, NULL, values, p, v, level + 1, cell, left);
     json_close(j, ']');
 }
 
-static void variable_json(json *j, const double *values, const figure_place *p, const motus_variable *v, size_t *left)
+static void variable_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
+                          size_t *left)
 {
     double grid = 1;
     for (int d = 0; d < v->dimensions; d++)
@@ -220,12 +221,12 @@ static void variable_json(json *j, const double *values, const figure_place *p, 
     size_t cell = 0;
     /* a family with holes in its ranges is a plain list of its cells */
     if (v->dimensions == 0 || grid == (double)p->cells) {
-        nest_json(j, values, p, v, 0, &cell, left);
+        nest_json(j, key, values, p, v, 0, &cell, left);
         return;
     }
-    json_open(j, '[');
+    json_open(j, key, '[');
     while (cell < p->cells && *left > 0)
-        cell_json(j, values, p, cell++, v->components > 0, left);
+        cell_json(j, NULL, values, p, cell++, v->components > 0, left);
     json_close(j, ']');
 }
 
@@ -233,8 +234,7 @@ static bool state_json(json *j, const summary *s, const double *values)
 {
     size_t left = SUMMARY_STATE_MAX;
     motus_variable v = motus_default_variable();
-    json_key(j, "state");
-    json_open(j, '{');
+    json_open(j, "state", '{');
     for (size_t k = 0; left > 0 && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++)
         for (int prime = 0; prime < (v.order == 2 ? 2 : 1) && left > 0; prime++) {
             char name[MOTUS_NAME_MAX + 1];
@@ -242,42 +242,35 @@ static bool state_json(json *j, const summary *s, const double *values)
             if (!figure_find(s->model, &v, "", prime ? "'" : "", &p))
                 continue;
             snprintf(name, sizeof name, "%s%s", v.name, prime ? "'" : "");
-            json_key(j, name);
-            variable_json(j, values + (p.first - 1), &p, &v, &left);
+            variable_json(j, name, values + (p.first - 1), &p, &v, &left);
         }
     json_close(j, '}');
     return s->model->positions + s->model->velocities > SUMMARY_STATE_MAX;
 }
 
-static void numbers_json(json *j, const double *values, size_t count)
+static void numbers_json(json *j, const char *key, const double *values, size_t count)
 {
-    if (count != 1)
-        json_open(j, '[');
-    for (size_t k = 0; k < count; k++)
-        json_number(j, values[k]);
-    if (count != 1)
-        json_close(j, ']');
+    if (count == 1)
+        json_number(j, key, values[0]);
+    else
+        json_numbers(j, key, values, count);
 }
 
 static void invariants_json(json *j, const summary *s)
 {
-    json_key(j, "invariants");
-    json_open(j, '{');
+    json_open(j, "invariants", '{');
     size_t at = 0;
     for (size_t k = 0; k < motus_invariant_count(s->model->system); k++) {
         size_t numbers = 0;
-        json_key(j, motus_invariant_name(s->model->system, k, &numbers));
+        const char *name = motus_invariant_name(s->model->system, k, &numbers);
         double most = 0;
         for (size_t i = at; i < at + numbers; i++)
             if (!(s->drift->most[i] <= most) && !isnan(most))
                 most = s->drift->most[i];
-        json_open(j, '{');
-        json_key(j, "initial");
-        numbers_json(j, s->drift->initial + at, numbers);
-        json_key(j, "final");
-        numbers_json(j, s->drift->final + at, numbers);
-        json_key(j, "max_drift");
-        json_number(j, most);
+        json_open(j, name, '{');
+        numbers_json(j, "initial", s->drift->initial + at, numbers);
+        numbers_json(j, "final", s->drift->final + at, numbers);
+        json_number(j, "max_drift", most);
         json_close(j, '}');
         at += numbers;
     }
@@ -286,12 +279,11 @@ static void invariants_json(json *j, const summary *s)
 
 static void quantities_json(json *j, const summary *s, const double *values)
 {
-    json_key(j, "quantities");
-    json_open(j, '{');
+    json_open(j, "quantities", '{');
     for (size_t k = 0; k < motus_quantity_count(s->model->system); k++) {
         size_t numbers = 0;
-        json_key(j, motus_quantity_name(s->model->system, k, &numbers));
-        numbers_json(j, values, numbers);
+        const char *name = motus_quantity_name(s->model->system, k, &numbers);
+        numbers_json(j, name, values, numbers);
         values += numbers;
     }
     json_close(j, '}');
@@ -304,34 +296,20 @@ motus_status summary_json(const summary *s, motus_error *err)
     if (!status)
         status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
     if (!status) {
-        json j = json_begin(stdout);
-        json_open(&j, '{');
-        json_key(&j, "model");
-        json_string(&j, s->options->operand);
-        json_key(&j, "method");
-        json_string(&j, motus_run_method(s->run));
-        json_key(&j, "machine");
-        json_string(&j, motus_run_machine(s->run));
-        json_key(&j, "step");
-        json_number(&j, motus_run_step_size(s->run));
-        json_key(&j, "steps");
-        json_integer(&j, motus_run_steps(s->run));
-        json_key(&j, "evaluations");
-        json_integer(&j, motus_run_evaluations(s->run));
-        json_key(&j, "iterations");
-        json_integer(&j, motus_run_iterations(s->run));
-        json_key(&j, "time");
-        json_number(&j, motus_run_time(s->run));
-        bool cut = state_json(&j, s, state);
-        if (cut) {
-            json_key(&j, "cut");
-            json_bool(&j, true);
-        }
+        json j = text_json(stdout);
+        json_string(&j, "model", s->options->operand);
+        json_string(&j, "method", motus_run_method(s->run));
+        json_string(&j, "machine", motus_run_machine(s->run));
+        json_number(&j, "step", motus_run_step_size(s->run));
+        json_integer(&j, "steps", motus_run_steps(s->run));
+        json_integer(&j, "evaluations", motus_run_evaluations(s->run));
+        json_integer(&j, "iterations", motus_run_iterations(s->run));
+        json_number(&j, "time", motus_run_time(s->run));
+        if (state_json(&j, s, state))
+            json_bool(&j, "cut", true);
         quantities_json(&j, s, quantities);
         invariants_json(&j, s);
-        json_key(&j, "seconds");
-        json_number(&j, s->seconds);
-        json_close(&j, '}');
+        json_number(&j, "seconds", s->seconds);
         json_end(&j);
     }
     free(state);

@@ -7,7 +7,6 @@
 
 #include "cli/complain.h"
 #include "cli/file.h"
-#include "cli/json.h"
 #include "cli/stop.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
@@ -168,37 +167,21 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
 static void report_json(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble *e = s->ensemble;
-    json j = json_begin(stdout);
-    json_open(&j, '{');
-    json_key(&j, "model");
-    json_string(&j, s->options->operand);
-    json_key(&j, "method");
-    json_string(&j, s->method);
-    json_key(&j, "step");
-    json_number(&j, s->step);
-    json_key(&j, "trajectories");
-    json_integer(&j, (int64_t)s->grid.total);
-    json_key(&j, "resumed");
-    json_integer(&j, (int64_t)f->found);
-    json_key(&j, "steps");
-    json_integer(&j, motus_ensemble_steps(e));
-    json_key(&j, "machine");
-    json_string(&j, motus_ensemble_machine(e));
-    json_key(&j, "lanes");
-    json_integer(&j, motus_ensemble_lanes(e));
-    json_key(&j, "threads");
-    json_integer(&j, motus_ensemble_threads(e));
-    json_key(&j, "fast");
-    json_bool(&j, s->options->fast);
-    json_key(&j, "seconds");
-    json_number(&j, motus_ensemble_seconds(e));
-    json_key(&j, "wall");
-    json_number(&j, wall);
-    json_key(&j, "stopped");
-    json_integer(&j, (int64_t)f->stopped);
-    json_key(&j, "output");
-    json_string(&j, f->path);
-    json_close(&j, '}');
+    json j = text_json(stdout);
+    json_string(&j, "model", s->options->operand);
+    json_string(&j, "method", s->method);
+    json_number(&j, "step", s->step);
+    json_integer(&j, "trajectories", (int64_t)s->grid.total);
+    json_integer(&j, "resumed", (int64_t)f->found);
+    json_integer(&j, "steps", motus_ensemble_steps(e));
+    json_string(&j, "machine", motus_ensemble_machine(e));
+    json_integer(&j, "lanes", motus_ensemble_lanes(e));
+    json_integer(&j, "threads", motus_ensemble_threads(e));
+    json_bool(&j, "fast", s->options->fast);
+    json_number(&j, "seconds", motus_ensemble_seconds(e));
+    json_number(&j, "wall", wall);
+    json_integer(&j, "stopped", (int64_t)f->stopped);
+    json_string(&j, "output", f->path);
     json_end(&j);
 }
 
@@ -207,10 +190,10 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     const motus_ensemble *e = s->ensemble;
     bool output = strcmp(f->path, "-") == 0;         /* then this is a message */
     FILE *out = output ? stderr : stdout;
-    char step[TEXT_NUMBER], until[TEXT_NUMBER], inside[TEXT_NUMBER], all[TEXT_NUMBER];
+    char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
-    text_number(s->step, step);
-    text_number(s->until, until);
+    decimal(s->step, step);
+    decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
     fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method, step,

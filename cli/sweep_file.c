@@ -7,7 +7,7 @@
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
 #include "cli/complain.h"
-#include "cli/digits.h"
+#include "base/decimal.h"
 #include "cli/file.h"
 #include "cli/stop.h"
 #include "cli/sweep.h"
@@ -190,7 +190,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     const options *o = s->options;
     *f = (sweep_file){.sweep = s, .path = o->output ? o->output : "-", .descriptor = -1};
     f->npy = ends_with(f->path, ".npy");
-    f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DIGITS_ROOM : 0;
+    f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
     if (!f->buffer)
         return complain_memory(err);
@@ -241,19 +241,19 @@ static void csv_row(sweep_file *f, size_t i, double *const *values, double *cons
 {
     const sweep *s = f->sweep;
     char *out = f->buffer + f->used;
-    out += digits_integer(f->rows, out);
+    out += decimal_write_whole(f->rows, out);
     for (size_t k = 0; k < s->grid.count; k++) {
         *out++ = ',';
-        out += digits_print(values[k][i], out);
+        out += decimal_write(values[k][i], out);
     }
     for (size_t k = 0; k < s->records.count; k++) {
         *out++ = ',';
         if (isnan(stopped))
-            out += digits_print(results[k][i], out);
+            out += decimal_write(results[k][i], out);
     }
     *out++ = ',';
     if (!isnan(stopped))
-        out += digits_print(stopped, out);
+        out += decimal_write(stopped, out);
     *out++ = '\n';
     f->used = (size_t)(out - f->buffer);
 }

@@ -6,7 +6,6 @@
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 #include "cli/csv.h"
-#include "cli/json.h"
 #include "cli/sweep.h"
 #include "cli/text.h"
 
@@ -75,8 +74,8 @@ static motus_status option(file_out *f, const char *name, const char *value, mot
 
 static motus_status option_number(file_out *f, const char *name, double value, motus_error *err)
 {
-    char text[TEXT_NUMBER];
-    text_number(value, text);
+    char text[DECIMAL_MAX];
+    decimal(value, text);
     return option(f, name, text, err);
 }
 
@@ -92,10 +91,10 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status && s->grid.zip)
         status = option(f, "--zip", NULL, err);
     if (!status && o->random.count > 0) {
-        char number[TEXT_NUMBER];
-        digits_integer(s->grid.draws, number);
+        char number[DECIMAL_MAX];
+        decimal_write_whole(s->grid.draws, number);
         status = option(f, "--count", number, err);
-        digits_integer(s->grid.seed, number);
+        decimal_write_whole(s->grid.seed, number);
         if (!status)
             status = option(f, "--seed", number, err);
     }
@@ -110,7 +109,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status)
         status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
-        char text[TEXT_NUMBER + 8];
+        char text[DECIMAL_MAX + 8];
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
         status = option(f, "--every", text, err);
     }
@@ -157,22 +156,15 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
     if (line.stream && fclose(line.stream) != 0 && !status)
         status = complain_memory(err);
     if (!status) {
-        json j = json_begin(f->stream);
-        json_open(&j, '{');
-        json_key(&j, "motus");
-        json_string(&j, motus_version());
-        json_key(&j, "command");
-        json_string(&j, text);
-        json_key(&j, "trajectories");
-        json_integer(&j, (int64_t)s->grid.total);
-        json_key(&j, "fingerprint");
-        json_string(&j, s->fingerprint);
-        json_key(&j, "columns");
-        json_open(&j, '[');
+        json j = text_json(f->stream);
+        json_string(&j, "motus", motus_version());
+        json_string(&j, "command", text);
+        json_integer(&j, "trajectories", (int64_t)s->grid.total);
+        json_string(&j, "fingerprint", s->fingerprint);
+        json_open(&j, "columns", '[');
         for (size_t k = 0; k < s->columns; k++)
-            json_string(&j, name_of(s, k, name));
+            json_string(&j, NULL, name_of(s, k, name));
         json_close(&j, ']');
-        json_close(&j, '}');
         json_end(&j);
     }
     free(text);

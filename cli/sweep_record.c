@@ -4,6 +4,7 @@
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run.
  */
+#include "base/near.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/text.h"
@@ -32,10 +33,10 @@ static motus_status unknown(const char *item, const char *word, size_t length, m
 {
     char given[32] = "";
     const char *near = NULL;
-    size_t best = 4;
+    int best = 8;
     memcpy(given, word, length < sizeof given ? length : sizeof given - 1);
     for (size_t i = 0; i < REDUCTIONS; i++) {
-        size_t d = text_distance(reductions[i].word, given);
+        const int d = near_distance(reductions[i].word, given, best);
         if (d < best) {
             best = d;
             near = reductions[i].word;

@@ -4,7 +4,7 @@
  */
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
-#include "cli/digits.h"
+#include "base/decimal.h"
 #include "cli/file.h"
 #include "cli/sweep.h"
 
@@ -82,7 +82,7 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
 
 /* One row as far as it is read. */
 typedef struct scan {
-    char number[DIGITS_ROOM];    /* the number it should begin with */
+    char number[DECIMAL_MAX];    /* the number it should begin with */
     size_t at, commas;
     bool good, stopped;
 } scan;
@@ -90,7 +90,7 @@ typedef struct scan {
 static void scan_row(scan *r, uint64_t number)
 {
     *r = (scan){.good = true};
-    digits_integer(number, r->number);
+    decimal_write_whole(number, r->number);
 }
 
 static const bool in_numbers[256] = {
@@ -199,7 +199,8 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
         return MOTUS_FILE;
     sweep_npy_head(f->sweep, 0, ours);
     const char *shape = memchr(ours, '(', sizeof ours);
-    uint64_t rows = strtoull(head + (shape + 1 - ours), NULL, 10);     /* ends at the comma */
+    uint64_t rows = 0;
+    decimal_read_whole(head + (shape + 1 - ours), SWEEP_NPY_HEAD, &rows);     /* ends at the comma */
     sweep_npy_head(f->sweep, rows, ours);
     if (memcmp(head, ours, sizeof ours) != 0)
         return another(f, NULL, err);

@@ -66,21 +66,21 @@ void table_cell(table *t, const char *text)
 
 void table_number(table *t, double value, int digits)
 {
-    char text[TEXT_NUMBER];
+    char text[DECIMAL_MAX];
     text_brief(value, digits, text);
     table_cell(t, text);
 }
 
 void table_exact(table *t, double value)
 {
-    char text[TEXT_NUMBER];
-    text_number(value, text);
+    char text[DECIMAL_MAX];
+    decimal(value, text);
     table_cell(t, text);
 }
 
 void table_integer(table *t, long long value)
 {
-    char text[TEXT_NUMBER];
+    char text[DECIMAL_MAX];
     snprintf(text, sizeof text, "%lld", value);
     table_cell(t, text);
 }

@@ -1,9 +1,11 @@
 /* Text as people see it.
  *
  * Invariant: what leaves text_safe() and text_put() is valid UTF-8 without control characters, whatever bytes came in.
- * The program never calls setlocale(), so printf and strtod use the point everywhere.
+ * The program never calls setlocale(), so printf writes a point everywhere.
  */
 #include "cli/text.h"
+
+#include "base/utf8.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,47 +13,12 @@
 
 enum { REPLACEMENT = 0xFFFD };
 
-size_t text_decode(const char *text, uint32_t *character)
+size_t text_decode(const char *s, uint32_t *character)
 {
-    const unsigned char *s = (const unsigned char *)text;
-    *character = s[0];
-    if (s[0] < 0x80)
-        return 1;
-    size_t length = s[0] >= 0xF0 && s[0] < 0xF5 ? 4 : s[0] >= 0xE0 ? 3 : 2;
-    uint32_t c = s[0] & (0xFFu >> (length + 1));
-    bool good = s[0] >= 0xC2 && s[0] < 0xF5;
-    for (size_t i = 1; good && i < length; i++) {
-        good = (s[i] & 0xC0) == 0x80;
-        if (good)
-            c = c << 6 | (s[i] & 0x3Fu);
-    }
-    static const uint32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
-    good = good && c >= smallest[length] && c <= 0x10FFFF && !(c >= 0xD800 && c <= 0xDFFF);
-    *character = good ? c : REPLACEMENT;
-    return good ? length : 1;
-}
-
-bool text_visible(uint32_t c)
-{
-    if (c < 0x20 || (c >= 0x7F && c < 0xA0))
-        return false;
-    if (c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069))
-        return false;
-    return c != 0xFEFF;
-}
-
-static size_t encode(uint32_t c, char out[4])
-{
-    if (c < 0x80) {
-        out[0] = (char)c;
-        return 1;
-    }
-    size_t length = c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
-    for (size_t i = length - 1; i > 0; i--, c >>= 6)
-        out[i] = (char)(0x80 | (c & 0x3F));
-    static const unsigned char lead[] = {0, 0, 0xC0, 0xE0, 0xF0};
-    out[0] = (char)(lead[length] | c);
-    return length;
+    const size_t n = utf8_read(s, SIZE_MAX, character);
+    if (n == 0)
+        *character = REPLACEMENT;
+    return n ? n : 1;
 }
 
 void text_safe(const char *s, char *out, size_t size)
@@ -61,7 +28,7 @@ void text_safe(const char *s, char *out, size_t size)
         uint32_t c;
         char bytes[4];
         s += text_decode(s, &c);
-        size_t n = encode(text_visible(c) ? c : REPLACEMENT, bytes);
+        size_t n = utf8_write(utf8_visible(c) ? c : REPLACEMENT, bytes);
         if (used + n >= size)
             break;
         memcpy(out + used, bytes, n);
@@ -77,7 +44,7 @@ void text_put(FILE *out, const char *s)
         uint32_t c;
         char bytes[4];
         s += text_decode(s, &c);
-        fwrite(bytes, 1, encode(text_visible(c) ? c : REPLACEMENT, bytes), out);
+        fwrite(bytes, 1, utf8_write(utf8_visible(c) ? c : REPLACEMENT, bytes), out);
     }
 }
 
@@ -105,7 +72,7 @@ size_t text_width(const char *s)
     while (*s) {
         uint32_t c;
         s += text_decode(s, &c);
-        if (!text_visible(c))
+        if (!utf8_visible(c))
             c = REPLACEMENT;
         if (within(c, none, sizeof none / sizeof *none))
             continue;
@@ -114,20 +81,17 @@ size_t text_width(const char *s)
     return width;
 }
 
-void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
+/* Words of a line in lines of at most `width` columns; where the line ends. */
+static const char *wrap_line(FILE *out, const char *s, size_t indent, size_t width)
 {
     char word[512];
     size_t column = 0;
-    while (*s) {
-        size_t blanks = strspn(s, " \n\t"), length = strcspn(s + blanks, " \n\t");
-        s += blanks;
-        if (length == 0)
-            break;
-        size_t part = length < sizeof word ? length : sizeof word - 1;
+    for (s += strspn(s, " \t"); *s && *s != '\n'; s += strspn(s, " \t")) {
+        const size_t length = strcspn(s, " \n\t"), part = length < sizeof word ? length : sizeof word - 1;
         memcpy(word, s, part);
         word[part] = 0;
         s += part;
-        size_t columns = text_width(word);
+        const size_t columns = text_width(word);
         if (column > 0 && column + 1 + columns > width) {
             putc('\n', out);
             column = 0;
@@ -140,55 +104,44 @@ void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
         text_put(out, word);
     }
     putc('\n', out);
+    return s;
 }
 
-void text_number(double value, char out[TEXT_NUMBER])
+void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
 {
-    digits_print(value, out);
+    while (*s) {
+        s = wrap_line(out, s, indent, width);
+        s += *s == '\n';
+    }
 }
 
-void text_brief(double value, int digits, char out[TEXT_NUMBER])
+void text_brief(double value, int digits, char out[DECIMAL_MAX])
 {
     if (isnan(value))
         strcpy(out, "-");
     else if (digits < 0 && value != 0 && isfinite(value))
-        snprintf(out, TEXT_NUMBER, "%.*e", -digits - 1, value);
+        snprintf(out, DECIMAL_MAX, "%.*e", -digits - 1, value);
     else
-        snprintf(out, TEXT_NUMBER, "%.*g", digits < 0 ? -digits : digits, value);
+        snprintf(out, DECIMAL_MAX, "%.*g", digits < 0 ? -digits : digits, value);
 }
 
-void text_seconds(double seconds, char out[TEXT_NUMBER])
+void text_seconds(double seconds, char out[DECIMAL_MAX])
 {
     if (!(seconds >= 0))
         strcpy(out, "-");
     else if (seconds < 1e-3)
-        snprintf(out, TEXT_NUMBER, "%.3g µs", seconds * 1e6);
+        snprintf(out, DECIMAL_MAX, "%.3g µs", seconds * 1e6);
     else if (seconds < 1)
-        snprintf(out, TEXT_NUMBER, "%.3g ms", seconds * 1e3);
+        snprintf(out, DECIMAL_MAX, "%.3g ms", seconds * 1e3);
     else
-        snprintf(out, TEXT_NUMBER, "%.3g s", seconds);
+        snprintf(out, DECIMAL_MAX, "%.3g s", seconds);
 }
 
-size_t text_distance(const char *a, const char *b)
+static void write_json(void *to, const char *bytes, size_t count) { fwrite(bytes, 1, count, to); }
+
+json text_json(FILE *out)
 {
-    enum { LONGEST = 32 };
-    size_t m = strlen(a), n = strlen(b), d[LONGEST + 1][LONGEST + 1];
-    if (m > LONGEST || n > LONGEST)
-        return LONGEST;
-    for (size_t i = 0; i <= m; i++)
-        for (size_t j = 0; j <= n; j++) {
-            if (i == 0 || j == 0) {
-                d[i][j] = i + j;
-                continue;
-            }
-            size_t best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            if (d[i - 1][j] + 1 < best)
-                best = d[i - 1][j] + 1;
-            if (d[i][j - 1] + 1 < best)
-                best = d[i][j - 1] + 1;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && d[i - 2][j - 2] + 1 < best)
-                best = d[i - 2][j - 2] + 1;
-            d[i][j] = best;
-        }
-    return d[m][n];
+    json j = {.write = write_json, .to = out};
+    json_open(&j, NULL, '{');
+    return j;
 }

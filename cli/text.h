@@ -1,37 +1,32 @@
-/* Text as people see it: made safe for a terminal, measured in columns, numbers written without loss. */
+/* Text as people see it: made safe for a terminal, measured in columns, numbers for tables. */
 #ifndef CLI_TEXT_H
 #define CLI_TEXT_H
 
-#include "cli/digits.h"
+#include "base/decimal.h"
+#include "tell/json.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
-enum { TEXT_NUMBER = DIGITS_ROOM };          /* room for any number */
-
 /* The character at s and the bytes it takes; bytes that are not UTF-8 read as U+FFFD, one at a time. */
 size_t text_decode(const char *s, uint32_t *character);
-/* Whether a character may reach a terminal: no control characters, none that turn the direction of writing. */
-bool text_visible(uint32_t character);
 
 /* A copy that is safe for a terminal, cut at a whole character if it does not fit. */
 void text_safe(const char *s, char *out, size_t size);
 void text_put(FILE *out, const char *s);
 /* Columns that the safe form takes on a terminal. */
 size_t text_width(const char *s);
-/* Words of `s` in lines of at most `width` columns, each indented. */
+/* The words of each line of `s` in lines of at most `width` columns, each indented. */
 void text_wrap(FILE *out, const char *s, size_t indent, size_t width);
 
-/* The shortest decimal that reads back as the same double; "nan", "inf", "-inf". */
-void text_number(double value, char out[TEXT_NUMBER]);
 /* For tables: `digits` significant ones, negative: always with an exponent; "-" for NaN. */
-void text_brief(double value, int digits, char out[TEXT_NUMBER]);
+void text_brief(double value, int digits, char out[DECIMAL_MAX]);
 /* For people: "12.3 ms", "4.56 s". */
-void text_seconds(double seconds, char out[TEXT_NUMBER]);
+void text_seconds(double seconds, char out[DECIMAL_MAX]);
 
-/* How alike two words are: insertions, deletions, changes and swaps of neighbours between them. */
-size_t text_distance(const char *a, const char *b);
+/* A JSON object to a stream, up to json_end(); failures show in ferror(). */
+json text_json(FILE *);
 
 #endif

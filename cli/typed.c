@@ -1,74 +1,74 @@
 /* Numbers as people type them on a command line. */
 #include "cli/typed.h"
 
-#include <errno.h>
+#include "base/decimal.h"
+
 #include <math.h>
-#include <stdlib.h>
+
+bool typed_decimal(const char *s, double *value)
+{
+    const bool negative = *s == '-';
+    s += negative || *s == '+';
+    const size_t length = decimal_read(s, SIZE_MAX, value);
+    *value = negative ? -*value : *value;
+    return length > 0 && !s[length];
+}
+
+static const char *blanks(const char *s)
+{
+    while (*s == ' ')
+        s++;
+    return s;
+}
 
 bool typed_number(const char *s, double *value)
 {
-    char *end;
-    double result = 1;
-    bool negative = *s == '-', some = false;
+    double result = 1, below = 1;
+    const bool negative = *s == '-';
     s += negative || *s == '+';
-    if ((*s >= '0' && *s <= '9') || *s == '.') {
-        if (s[0] == '0' && (s[1] == 'x' || s[1] == 'X'))
-            return false;
-        result = strtod(s, &end);
-        some = end != s;
-        s = end;
-    }
-    while (*s == ' ')
-        s++;
+    size_t length = decimal_read(s, SIZE_MAX, &result);
+    bool some = length > 0;
+    s = blanks(s + length);
     if (some && *s == '*')
         s++;
-    while (*s == ' ')
-        s++;
+    s = blanks(s);
     if (s[0] == 'p' && s[1] == 'i') {
         result *= 3.14159265358979323846;
         some = true;
         s += 2;
     }
-    while (*s == ' ')
-        s++;
+    s = blanks(s);
     if (*s == '/') {
-        s++;
-        while (*s == ' ')
-            s++;
-        if (!(*s >= '0' && *s <= '9') || (s[0] == '0' && (s[1] == 'x' || s[1] == 'X')))
-            return false;
-        result /= strtod(s, &end);
-        s = end;
+        s = blanks(s + 1);
+        length = decimal_read(s, SIZE_MAX, &below);
+        some = some && length > 0;
+        s += length;
     }
-    *value = negative ? -result : result;
+    *value = (negative ? -result : result) / below;
     return some && *s == 0 && isfinite(*value);
 }
 
 bool typed_count(const char *s, int64_t *count, const char **rest)
 {
-    if (!(*s >= '0' && *s <= '9'))
+    uint64_t n;
+    size_t length = decimal_read_whole(s, SIZE_MAX, &n);
+    if (length == 0)
         return false;
-    char *end;
-    errno = 0;
-    long long n = strtoll(s, &end, 10);
     /* 1e6 is how people write a million */
-    if (*end == 'e' || *end == 'E' || *end == '.') {
-        double d = strtod(s, &end);
+    if (s[length] == 'e' || s[length] == 'E' || s[length] == '.') {
+        double d;
+        length = decimal_read(s, SIZE_MAX, &d);
         if (!(d >= 1 && d < 9e18) || d != trunc(d))
             return false;
-        n = (long long)d;
+        n = (uint64_t)d;
     }
-    *count = n;
-    *rest = end;
-    return errno == 0 && n >= 1;
+    *count = (int64_t)n;
+    *rest = s + length;
+    return n >= 1 && n <= INT64_MAX;
 }
 
 bool typed_seed(const char *s, uint64_t *seed)
 {
-    if (!(*s >= '0' && *s <= '9'))
-        return false;
-    char *end;
-    errno = 0;
-    *seed = strtoull(s, &end, 10);
-    return errno == 0 && *end == 0;
+    const size_t length = decimal_read_whole(s, SIZE_MAX, seed);
+    return length > 0 && !s[length];
 }

@@ -4,7 +4,7 @@
 set(kernels core/stepper_body.c lang/tape/tape_kernels.c lang/tape/tape_run.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-  core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
+  base/*.c core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
 # The page's module takes machine/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
 list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 

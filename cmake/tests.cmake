@@ -60,9 +60,8 @@ endif()
 
 # Parts of the program that have tests of their own.
 if(MOTUS_TESTS)
-  target_sources(digits_test PRIVATE cli/digits.c)
   target_sources(draw_test PRIVATE cli/draw.c)
-  target_sources(range_test PRIVATE cli/range.c cli/digits.c)
+  target_sources(range_test PRIVATE cli/range.c)
 endif()
 
 # MPFR judges the elementary functions. Built twice: with what every machine of this kind has and, vectors in registers, with all that

@@ -20,8 +20,6 @@ const motus_method *row_card(size_t k);
 motus_status row_choose(const char *name, chosen *, const motus_method **card, motus_error *);
 /* MOTUS_OK, or MOTUS_METHOD with reason and nearest fitting method. */
 motus_status row_admits(const chosen *, const traits *, motus_error *);
-/* A short reason alone, "" if admitted. */
-void row_reason(const motus_method *, const traits *, char *out, size_t size);
 /* True: every step must have the same size, so `until` must be a whole number of steps away (verlet-literal). */
 bool row_uniform(const chosen *);
 /* True: step sizes follow from errors, so their number is not known beforehand. */

@@ -2,9 +2,9 @@
  *
  * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order where there is one.
  */
+#include "base/near.h"
 #include "core/rows.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,34 +52,19 @@ static const row *find(const char *name, size_t length)
     return NULL;
 }
 
-/* Number of insertions, deletions and changes that lead from a to b; both of at most MOTUS_NAME_MAX characters. */
-static int distance(const char *a, size_t length, const char *b, size_t b_length)
-{
-    int above[MOTUS_NAME_MAX + 1];
-    for (size_t j = 0; j <= b_length; j++) above[j] = (int)j;
-    for (size_t i = 1; i <= length; i++) {
-        int corner = above[0];
-        above[0] = (int)i;
-        for (size_t j = 1; j <= b_length; j++) {
-            int change = corner + (lower(a[i - 1]) != lower(b[j - 1]));
-            corner = above[j];
-            int side = above[j] < above[j - 1] ? above[j] : above[j - 1];
-            above[j] = change < side + 1 ? change : side + 1;
-        }
-    }
-    return above[b_length];
-}
-
 static void suggest(motus_error *err, const char *name, size_t length)
 {
+    char given[MOTUS_NAME_MAX + 1], other[MOTUS_NAME_MAX + 1];
     const char *nearest = NULL;
-    int best = (int)length / 3 + 2;
+    int best = 2 * ((int)length / 3 + 2);
+    snprintf(given, sizeof given, "%.*s", (int)length, name);
     for (size_t k = 0; k < methods_count && length <= MOTUS_NAME_MAX; k++) {
         const motus_method *card = &methods_table[k].card;
-        int d = distance(name, length, card->name, strlen(card->name));
+        int d = near_distance(given, card->name, best);
         for (const char *word = card->aliases; *word;) {
             size_t n = strcspn(word, " ");
-            int e = n <= MOTUS_NAME_MAX ? distance(name, length, word, n) : best;
+            snprintf(other, sizeof other, "%.*s", (int)n, word);
+            int e = near_distance(given, other, best);
             if (e < d) d = e;
             word += n + (word[n] == ' ');
         }
@@ -100,46 +85,20 @@ static const char *blanks(const char *s)
     return s;
 }
 
-/* digits[.digits][e[+-]digits]. strtod wants the decimal point of the host's locale. */
-static const char *read_decimal(const char *s, double *value)
-{
-    const char *point = localeconv()->decimal_point;
-    char text[MOTUS_NAME_MAX + 16];
-    size_t n = 0;
-    int digits = 0;
-    const char *end = s;
-    for (; *end >= '0' && *end <= '9'; end++) digits++;
-    if (*end == '.' && digits)
-        for (end++; *end >= '0' && *end <= '9'; end++) digits++;
-    if (!digits) return NULL;
-    if (*end == 'e' || *end == 'E') {
-        const char *exponent = end + 1 + (end[1] == '+' || end[1] == '-');
-        if (*exponent >= '0' && *exponent <= '9')
-            for (end = exponent; *end >= '0' && *end <= '9';) end++;
-    }
-    if (end - s > MOTUS_NAME_MAX) return NULL;
-    for (const char *c = s; c < end; c++) {
-        if (*c != '.') text[n++] = *c;
-        else
-            for (const char *p = point; *p && n + 1 < sizeof text; p++) text[n++] = *p;
-    }
-    text[n < sizeof text ? n : sizeof text - 1] = 0;
-    *value = strtod(text, NULL);
-    return end;
-}
-
 /* A number or a quotient of two. */
 static const char *read_argument(const char *s, double *value)
 {
-    s = read_decimal(blanks(s), value);
-    if (!s) return NULL;
     s = blanks(s);
+    size_t length = decimal_read(s, SIZE_MAX, value);
+    if (!length) return NULL;
+    s = blanks(s + length);
     if (*s == '/') {
         double below = 1;
-        s = read_decimal(blanks(s + 1), &below);
-        if (!s || below == 0) return NULL;
+        s = blanks(s + 1);
+        length = decimal_read(s, SIZE_MAX, &below);
+        if (!length || below == 0) return NULL;
         *value /= below;
-        s = blanks(s);
+        s = blanks(s + length);
     }
     return isfinite(*value) ? s : NULL;
 }
@@ -201,13 +160,6 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
 
 /* Admission --------------------------------------------------------------------------------------------------------- */
 
-static const row *row_of(const motus_method *card)
-{
-    for (size_t k = 0; k < methods_count; k++)
-        if (&methods_table[k].card == card) return &methods_table[k];
-    return &methods_newmark_damped;
-}
-
 static const char *reason(const row *row, const traits *traits)
 {
     if (row->family == EXACT)
@@ -225,11 +177,6 @@ static const char *reason(const row *row, const traits *traits)
              : "the acceleration depends on the velocity, and this method's kicks must not";
     if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
     return "";
-}
-
-void row_reason(const motus_method *card, const traits *traits, char *out, size_t size)
-{
-    if (size) snprintf(out, size, "%s", reason(row_of(card), traits));
 }
 
 /* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */

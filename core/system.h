@@ -7,7 +7,10 @@
 #ifndef CORE_SYSTEM_H
 #define CORE_SYSTEM_H
 
-#include "motus.h"
+#include "base/decimal.h"
+#include "base/error.h"
+#include "base/memory.h"
+
 #include <stdbool.h>
 
 typedef struct traits {
@@ -44,17 +47,5 @@ typedef struct problem {
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
     const int *returned;      /* what the user's callback returned when it failed last; NULL: there is none */
 } problem;
-
-/* Fill an error (NULL is allowed) and return its status. The texts are made safe for a terminal: control characters go. */
-motus_status fail(motus_error *, motus_status, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void hint(motus_error *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/* The shortest of 15, 16 or 17 digits that reads back, with a decimal point whatever the locale; returns out. */
-enum { DECIMAL_MAX = 40 };
-char *decimal(double, char out[DECIMAL_MAX]);
-
-/* Memory by the user's hooks; zeroed. NULL when there is none. */
-void *take(const motus_allocator *, size_t count, size_t bytes);
-void give(const motus_allocator *, void *);
 
 #endif

@@ -3,7 +3,7 @@
  * Invariant: every block that is taken from the module's memory is given back, and no view of that memory outlives the call that made it (the memory
  * may move when it grows).
  */
-import { problem, type Comparison, type Convergence, type Description, type Method, type Model, type Problem, type TraceEntry } from './protocol';
+import { problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Method, type Model, type Problem, type TraceEntry } from './protocol';
 import { Refused } from './scene';
 
 /** The exports of core/*.c, as a module of 32-bit addresses shows them. */
@@ -43,12 +43,6 @@ export interface Rows { readonly values: Float64Array; readonly rows: number; re
 
 const NaNs = (value: number | null): number => value ?? NaN;
 const noMemory = problem('memory', 'out of memory', 'a smaller model, fewer steps');
-
-/** JSON has no infinities; the core writes them as texts. */
-function revive(_key: string, value: unknown): unknown {
-  return value === 'inf' ? Infinity : value === '-inf' ? -Infinity : value;
-}
-const lines = (text: string): string[] => text.split('\n').filter((line) => line !== '');
 
 export class Core {
   private readonly exports: Exports;
@@ -92,7 +86,7 @@ export class Core {
   }
   private json<T>(at: number): T {
     if (at === 0) throw new Refused(noMemory);
-    return JSON.parse(this.string(at), revive) as T;
+    return JSON.parse(this.string(at)) as T;
   }
   problem(lab: number): Problem { return this.json<Problem>(this.exports.lab_problem(lab)); }
   private check(lab: number, status: number): void {
@@ -113,8 +107,9 @@ export class Core {
   bytes(): number { return this.exports.memory.buffer.byteLength; }
 
   catalogue(lab: number): Method[] {
-    type Raw = Omit<Method, 'aliases'> & { aliases: string };
-    return this.json<Raw[]>(this.exports.lab_catalogue(lab)).map((row) => ({ ...row, aliases: row.aliases.split(' ').filter((name) => name !== '') }));
+    type Raw = Omit<Method, 'stability_limit'> & { stability_limit: number | null };
+    const { methods } = this.json<{ methods: Raw[] }>(this.exports.lab_catalogue(lab));
+    return methods.map((row) => ({ ...row, stability_limit: row.stability_limit ?? Infinity }));
   }
   open(lab: number, model: Model): void {
     this.texts([model.text], (text, length) => this.texts(model.set, (sets) => {
@@ -122,9 +117,7 @@ export class Core {
     }));
   }
   describe(lab: number): Description {
-    type Raw = Omit<Description, 'explain'> & { explain: string };
-    const raw = this.json<Raw>(this.exports.lab_describe(lab));
-    return { ...raw, explain: lines(raw.explain) };
+    return this.json<Description>(this.exports.lab_describe(lab));
   }
   start(lab: number, method: string, step: number | null, until: number | null): void {
     this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(until))));
@@ -175,14 +168,15 @@ export class Core {
       return { x: this.copy(x, n * nx), v: this.copy(v, n * nv) };
     })));
   }
-  trace(lab: number): TraceEntry[] { return this.answer<TraceEntry[]>(lab, this.exports.lab_trace(lab)); }
+  trace(lab: number): TraceEntry[] { return this.answer<{ entries: TraceEntry[] }>(lab, this.exports.lab_trace(lab)).entries; }
   converge(lab: number, methods: readonly string[], step: number | null, until: number | null): Convergence {
     return this.texts(methods, (at) => this.answer<Convergence>(lab, this.exports.lab_converge(lab, at, methods.length, NaNs(step), NaNs(until))));
   }
   compare(lab: number, methods: readonly string[], step: number | null, until: number | null): Comparison {
-    type Raw = Omit<Comparison, 'remarks'> & { remarks: string };
+    type Row = Omit<CompareRow, 'invariants'> & { invariants: Record<string, Omit<Drift, 'name'>> };
+    type Raw = Omit<Comparison, 'rows'> & { rows: Row[] };
     const raw = this.texts(methods, (at) => this.answer<Raw>(lab, this.exports.lab_compare(lab, at, methods.length, NaNs(step), NaNs(until))));
-    return { ...raw, remarks: lines(raw.remarks) };
+    return { ...raw, rows: raw.rows.map((row) => ({ ...row, invariants: Object.entries(row.invariants).map(([name, drift]) => ({ name, ...drift })) })) };
   }
   stability(lab: number, method: string, re: Float64Array, im: Float64Array): Float64Array {
     return this.texts([method], (name) => this.numbers(re, (x) => this.numbers(im, (y) => this.room(8 * re.length, (out) => {

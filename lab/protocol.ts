@@ -1,4 +1,6 @@
-/* What the page and its workers say to each other. Numbers are those of the core, bit for bit; arrays are one Float64Array per column. */
+/* What the page and its workers say to each other. Numbers are those of the core, bit for bit; arrays are one Float64Array per column.
+ *
+ * What comes from the core as JSON has the names that `motus --json` gives it, or else those of motus.h. */
 
 /** A model and what replaces its parameters and initial values: "F=0.2", "x(0)=1", "r'(0)=(1, 2)", as `--set` of the program says it. */
 export interface Model { readonly text: string; readonly set: readonly string[] }
@@ -12,10 +14,10 @@ export interface Problem {
 
 export type ColumnKind = 'time' | 'position' | 'velocity' | 'companion' | 'quantity' | 'invariant' | 'exact';
 /** A number that can be looked at along a run; `variable` is the index of the variable, quantity or invariant it belongs to. */
-export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number; readonly component: number; readonly isVelocity: boolean }
+export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number }
 
 /** A state of the model: order 2 has x'' = …, order 1 is a companion. components 0: scalar. */
-export interface Variable { readonly name: string; readonly order: number; readonly components: number; readonly dimensions: number; readonly count: number }
+export interface Variable { readonly name: string; readonly order: number; readonly components: number; readonly ranges: readonly (readonly [number, number])[]; readonly count: number }
 
 /** A parameter, or an initial value "x(0)", "r'(0)": what a slider moves. values: its numbers; components 0: scalar; list: [a, b] rather than (a, b). */
 export interface Parameter {
@@ -27,7 +29,7 @@ export interface Parameter {
 /** A statement of the model typeset: one <math> element, well-formed XML. */
 export interface Statement { readonly kind: string; readonly line: number; readonly mathml: string }
 
-export interface Admission { readonly method: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
+export interface Admission { readonly name: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
 
 /** What the page itself has to say against something: no place in a text. */
 export function problem(kind: string, message: string, hint = ''): Problem {
@@ -39,19 +41,18 @@ export const STEPS_MAX = 1e7;
 /** What the core understood of a model. */
 export interface Description {
   readonly statements: readonly Statement[];
-  readonly explain: readonly string[];
-  readonly analysis: Readonly<Record<'velocityDependent' | 'linearInVelocity' | 'timeDependent' | 'affine' | 'constant' | 'gyroscopic' | 'gradient' | 'smooth' | 'exactRecognised', boolean>>;
+  readonly velocity_dependent: boolean; readonly time_dependent: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
   readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number };
-  readonly hasExact: boolean;
-  readonly admissions: readonly Admission[];
+  readonly has_exact: boolean;
+  readonly methods: readonly Admission[];
 }
 
 /** A row of the catalogue of methods. */
 export interface Method {
   readonly name: string; readonly aliases: readonly string[]; readonly title: string; readonly family: string;
   readonly order: number; readonly stages: number; readonly evaluations: number;
-  readonly symplectic: boolean; readonly reversible: boolean; readonly stabilityLimit: number;
+  readonly symplectic: boolean; readonly reversible: boolean; readonly stability_limit: number;
   readonly cite: string; readonly formula: string; readonly use: string;
 }
 
@@ -88,27 +89,27 @@ export interface Solution {
 export interface TraceEntry {
   readonly kind: 'start' | 'kick' | 'drift' | 'stage' | 'solve' | 'taylor' | 'step' | 'end';
   readonly stage: number; readonly stages: number; readonly iterations: number;
-  readonly time: number; readonly step: number; readonly coefficient: number; readonly weight: number; readonly weightX: number;
-  readonly row: readonly number[] | null; readonly rowX: readonly number[] | null;
+  readonly time: number; readonly step: number; readonly coefficient: number; readonly weight: number; readonly weight_x: number;
+  readonly row: readonly number[] | null; readonly row_x: readonly number[] | null;
   readonly x: readonly number[]; readonly v: readonly number[]; readonly a: readonly number[] | null;
-  readonly beforeX: readonly number[] | null; readonly beforeA: readonly number[] | null;
+  readonly before_x: readonly number[] | null; readonly before_a: readonly number[] | null;
 }
 export interface Trace { readonly method: string; readonly step: number; readonly index: number; readonly total: number; readonly entries: readonly TraceEntry[]; readonly names: { readonly x: readonly string[]; readonly v: readonly string[] } }
 
 export interface ConvergePoint { readonly step: number; readonly error: number | null; readonly evaluations: number; readonly used: boolean }
 export interface ConvergeRow {
-  readonly method: string; readonly declared: number; readonly observed: number | null; readonly standardError: number | null;
-  readonly exactHere: boolean; readonly passed: boolean; readonly points: readonly ConvergePoint[]; readonly certificate: string;
+  readonly method: string; readonly declared: number; readonly observed: number | null; readonly standard_error: number | null;
+  readonly exact_here: boolean; readonly passed: boolean; readonly points: readonly ConvergePoint[]; readonly certificate: string;
 }
-export interface Convergence { readonly rows: readonly ConvergeRow[]; readonly reference: string; readonly referenceError: number }
+export interface Convergence { readonly rows: readonly ConvergeRow[]; readonly reference: string; readonly reference_error: number }
 
-export interface Drift { readonly name: string; readonly initial: number; readonly final: number; readonly max: number; readonly trend: number; readonly trending: boolean }
+export interface Drift { readonly name: string; readonly initial: number; readonly final: number; readonly max_drift: number; readonly trend: number; readonly trending: boolean }
 export interface CompareRow {
   readonly method: string; readonly order: number; readonly status: string; readonly step: number; readonly steps: number; readonly evaluations: number;
-  readonly errorMaxX: number | null; readonly errorMaxV: number | null; readonly errorFinalX: number | null; readonly reversal: number | null;
+  readonly error_max: number | null; readonly error_max_v: number | null; readonly error_final: number | null; readonly reversal: number | null;
   readonly invariants: readonly Drift[]; readonly note: string;
 }
-export interface Comparison { readonly rows: readonly CompareRow[]; readonly reference: string; readonly referenceError: number; readonly remarks: readonly string[] }
+export interface Comparison { readonly rows: readonly CompareRow[]; readonly reference: string; readonly reference_error: number; readonly remarks: readonly string[] }
 
 /** Where hλ must lie: growth[i + width j] is the growth of one step at z = re[i] + i im[j]; NaN where the method has no answer. */
 export interface Region { readonly method: string; readonly re: Float64Array; readonly im: Float64Array; readonly growth: Float64Array }

@@ -57,14 +57,14 @@ function placeOfMethod(text: string): { line: number; column: number } {
 export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
   const refused: string[] = [];
   const methods = state.methods.filter(name => {
-    const entry = description.admissions.find(a => a.method === name) ?? description.admissions.find(a => a.method === family(name));
+    const entry = description.methods.find(m => m.name === name) ?? description.methods.find(m => m.name === family(name));
     if (!entry?.admitted) refused.push(name);
     return entry?.admitted ?? false;
   });
   if (!methods.length) {
     const own = description.settings.method || 'verlet';
-    const admitted = (name: string): boolean => description.admissions.some(a => a.method === family(name) && a.admitted);
-    methods.push(admitted(own) ? own : description.admissions.find(a => a.admitted && a.method !== 'exact')?.method ?? own);
+    const admitted = (name: string): boolean => description.methods.some(m => m.name === family(name) && m.admitted);
+    methods.push(admitted(own) ? own : description.methods.find(m => m.admitted && m.name !== 'exact')?.name ?? own);
   }
   return { methods, refused };
 }
@@ -164,7 +164,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const model = await read(of);
     if (!model) { tell('description'); return; }
     const own = model.settings.method;
-    if (own && !model.admissions.some(a => a.method === family(own))) {
+    if (own && !model.methods.some(m => m.name === family(own))) {
       trouble = { ...well, model: { ...problem('method', `there is no method called “${own}”`, 'those there are stand under “All methods”'), ...placeOfMethod(of.text) } };
       tell('description');
       return;
@@ -207,7 +207,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     };
     try {
       // A reference costs more than the methods: while the state still moves it is left out, unless it has proved cheap.
-      const atOnce = model.hasExact || (truthTime > 0 && truthTime < patience.truth);
+      const atOnce = model.has_exact || (truthTime > 0 && truthTime < patience.truth);
       const moving = scene?.state.text === of.text;
       const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce);
       finish(first);

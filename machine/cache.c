@@ -69,7 +69,8 @@ static bool private_directory(int fd)
     return !fstat(fd, &s) && S_ISDIR(s.st_mode) && s.st_uid == geteuid() && !(s.st_mode & 022);
 }
 
-const char *cache_directory(char *out, size_t size)
+/* The directory, or "" where none can be used (under sudo or setuid, no home). */
+static const char *directory_of(char *out, size_t size)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     out[0] = 0;
@@ -223,7 +224,7 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
         return NULL;
     }
     char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
-    cache_directory(directory, sizeof directory);
+    directory_of(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;
     hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(fast)), c.identity));
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
@@ -241,7 +242,7 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
 int cache_clear(void)
 {
     char directory[PATH_MAX];
-    int fd = cache_directory(directory, sizeof directory)[0] ? open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
+    int fd = directory_of(directory, sizeof directory)[0] ? open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
     if (fd < 0)
         return directory[0] && errno == ENOENT ? 0 : -1;
     DIR *d = fdopendir(fd);

@@ -10,7 +10,5 @@ enum { CACHE_FAST = 1, CACHE_KEPT = 2 };
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size);
 /* Removes every entry. How many, or -1. */
 int cache_clear(void);
-/* The directory, or "" where none can be used (under sudo or setuid, no home). */
-const char *cache_directory(char *out, size_t size);
 
 #endif

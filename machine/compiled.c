@@ -62,7 +62,7 @@ static void name(void *ctx, bool in_v, size_t k, char *out, size_t size) { of(ct
 
 motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
-    compiled *c = arena_grow(m->arena, NULL, 0, sizeof *c);
+    compiled *c = arena_room(m->arena, sizeof *c);
     if (!c)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(c, 0, sizeof *c);
@@ -125,8 +125,8 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
 {
     model *m = c->model;
-    c->q = arena_grow(m->arena, NULL, 0, (e->int_count + 1) * sizeof *c->q);
-    c->u = arena_grow(m->arena, NULL, 0, (e->fixed + 1) * sizeof *c->u);
+    c->q = arena_room(m->arena, (e->int_count + 1) * sizeof *c->q);
+    c->u = arena_room(m->arena, (e->fixed + 1) * sizeof *c->u);
     if (!c->q || !c->u)
         return false;
     for (uint32_t k = 0; k < e->int_count; k++)

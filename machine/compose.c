@@ -55,7 +55,7 @@ typedef struct moments { int count, *moment; double *at; } moments;
 static bool find_moments(const work *w, arena *a, moments *m)
 {
     const size_t room = (size_t)w->stages + 1;
-    *m = (moments){0, arena_grow(a, NULL, 0, room * sizeof *m->moment), arena_grow(a, NULL, 0, room * sizeof *m->at)};
+    *m = (moments){0, arena_room(a, room * sizeof *m->moment), arena_room(a, room * sizeof *m->at)};
     if (!m->moment || !m->at)
         return false;
     memset(m->moment, 0, room * sizeof *m->moment);
@@ -98,7 +98,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_text *t = &e->text;
     const row *r = c->chosen->row;
     work w = stepper_plan(c->problem, c->chosen, NULL);
-    coef *memory = arena_grow(t->arena, NULL, 0, (work_plan_size(&w) + 1) * sizeof *memory);
+    coef *memory = arena_room(t->arena, (work_plan_size(&w) + 1) * sizeof *memory);
     if (!memory)
         return false;
     w = stepper_plan(c->problem, c->chosen, memory);

@@ -71,7 +71,7 @@ static tape *derive(interpreter *in, int along)
     model *m = in->model;
     if (in->jvp[along])
         return in->jvp[along];
-    output *o = arena_grow(m->arena, NULL, 0, m->accel_count * sizeof *o);
+    output *o = arena_room(m->arena, m->accel_count * sizeof *o);
     if (!o)
         return NULL;
     direction d = {{(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)}, along};
@@ -171,7 +171,7 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     in->accel = make(m, m->accel, m->accel_count);
     in->boundary = m->boundary_count ? make(m, m->boundary, m->boundary_count) : NULL;
     in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
-    in->looks = arena_grow(m->arena, NULL, 0, (m->definition_count + 1) * sizeof *in->looks);
+    in->looks = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->looks);
     if (m->arena->failed || !in->accel || !in->looks)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(in->looks, 0, (m->definition_count + 1) * sizeof *in->looks);
@@ -191,7 +191,7 @@ bool interpreter_look(interpreter *in, model_definition *d, double t, double *x,
     for (size_t k = 0; k < d->output_count; k++)
         wants_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
     if (wants_a && !in->acceleration)
-        in->acceleration = arena_grow(m->arena, NULL, 0, (m->nv + 1) * sizeof(double));
+        in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
     if (!*look || (wants_a && !in->acceleration))
         return false;
     if (wants_a) {

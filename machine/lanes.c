@@ -136,8 +136,8 @@ static bool write_text(lanes *l)
     const vary_active *active = vary_entries(d->vary, &entries);
     looked looks[LOOKS_MAX];
     const size_t look_count = list_looks(d, looks, &l->outs), count = 2 + entries + look_count;
-    composed_program *programs = arena_grow(m->arena, NULL, 0, count * sizeof *programs);
-    char *names = arena_grow(m->arena, NULL, 0, count * PROGRAM_NAME);
+    composed_program *programs = arena_room(m->arena, count * sizeof *programs);
+    char *names = arena_room(m->arena, count * PROGRAM_NAME);
     if (!programs || !names)
         return false;
     size_t n = 0;
@@ -175,11 +175,11 @@ static bool prepare(lanes *l)
     const lanes_def *d = &l->def;
     model *m = d->model;
     arena *a = m->arena;
-    l->q = arena_grow(a, NULL, 0, (l->e.int_count + 1) * sizeof *l->q);
-    l->u = arena_grow(a, NULL, 0, (l->e.fixed + 1) * sizeof *l->u);
-    l->places = arena_grow(a, NULL, 0, (d->place_count + 1) * sizeof *l->places);
-    l->from_x = arena_grow(a, NULL, 0, (m->nx + 1) * sizeof *l->from_x);
-    l->from_v = arena_grow(a, NULL, 0, (m->nv + 1) * sizeof *l->from_v);
+    l->q = arena_room(a, (l->e.int_count + 1) * sizeof *l->q);
+    l->u = arena_room(a, (l->e.fixed + 1) * sizeof *l->u);
+    l->places = arena_room(a, (d->place_count + 1) * sizeof *l->places);
+    l->from_x = arena_room(a, (m->nx + 1) * sizeof *l->from_x);
+    l->from_v = arena_room(a, (m->nv + 1) * sizeof *l->from_v);
     if (a->failed)
         return false;
     for (uint32_t k = 0; k < l->e.int_count; k++)
@@ -222,7 +222,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
         return MOTUS_TOOL;
     }
     l->plan = stepper_plan(d->problem, d->chosen, NULL);
-    coef *constants = arena_grow(m->arena, NULL, 0, (work_plan_size(&l->plan) + 1) * sizeof *constants);
+    coef *constants = arena_room(m->arena, (work_plan_size(&l->plan) + 1) * sizeof *constants);
     if (!constants)
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     l->plan = stepper_plan(d->problem, d->chosen, constants);

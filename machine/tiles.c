@@ -33,10 +33,10 @@ const tiling *tiles_create(const model *m, const locality *l)
     size_t parts = 0;
     for (uint32_t i = 0; i < m->state_count; i++)
         parts += m->states[i].components ? (size_t)m->states[i].components : 1;
-    tiling *t = arena_grow(m->arena, NULL, 0, sizeof *t);
-    tiling_part *part = arena_grow(m->arena, NULL, 0, (parts + 1) * sizeof *part);
+    tiling *t = arena_room(m->arena, sizeof *t);
+    tiling_part *part = arena_room(m->arena, (parts + 1) * sizeof *part);
     const size_t count = stills(m, NULL);
-    size_t *still = arena_grow(m->arena, NULL, 0, (2 * count + 1) * sizeof *still);
+    size_t *still = arena_room(m->arena, (2 * count + 1) * sizeof *still);
     if (!t || !part || !still)
         return NULL;
     stills(m, still);

@@ -65,7 +65,7 @@ typedef struct compare {
 
 static motus_status no_memory(compare *c, const char *what)
 {
-    return study_fail(c->s.err, MOTUS_MEMORY, "", "out of memory for %s", what);
+    return fail(c->s.err, MOTUS_MEMORY, "out of memory for %s", what);
 }
 
 static size_t aligned(size_t bytes)
@@ -80,7 +80,7 @@ static motus_status make_result(compare *c)
     size_t head = aligned(sizeof(result)), names = aligned(c->invariants * sizeof(invariant_name));
     size_t row_list = aligned(c->count * sizeof(void *));
     size_t drift_list = aligned(c->count * c->invariants * sizeof(void *));
-    char *block = study_take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
+    char *block = take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
     if (!block)
         return no_memory(c, "the comparison");
     result *r = c->out = (result *)(void *)block;
@@ -113,7 +113,7 @@ static motus_status find_columns(compare *c)
 {
     study *s = &c->s;
     c->invariants = motus_invariant_count(s->system);
-    c->first = study_take(s->allocator, c->invariants + 1, sizeof *c->first);
+    c->first = take(s->allocator, c->invariants + 1, sizeof *c->first);
     if (!c->first)
         return no_memory(c, "the names of the invariants");
     for (int pass = 0; pass < 2; pass++) {
@@ -129,17 +129,17 @@ static motus_status find_columns(compare *c)
             c->columns += count;
         }
         c->first[c->invariants] = c->columns;
-        if (!pass && !(c->column = study_take(s->allocator, c->columns, sizeof *c->column)))
+        if (!pass && !(c->column = take(s->allocator, c->columns, sizeof *c->column)))
             return no_memory(c, "the columns of the invariants");
     }
     size_t most = c->columns ? STUDY_NUMBERS_MAX / c->columns : 0;
     c->looks_max = most > LOOKS_MAX ? LOOKS_MAX : most;
-    c->column_scale = study_take(s->allocator, c->columns, sizeof(double));
-    c->t = study_take(s->allocator, c->looks_max, sizeof(double));
-    c->drift = study_take(s->allocator, c->looks_max, sizeof(double));
-    c->series = study_take(s->allocator, c->looks_max * c->columns, sizeof(double));
-    c->y = study_take(s->allocator, s->numbers, sizeof(double));
-    c->a = study_take(s->allocator, s->numbers, sizeof(double));
+    c->column_scale = take(s->allocator, c->columns, sizeof(double));
+    c->t = take(s->allocator, c->looks_max, sizeof(double));
+    c->drift = take(s->allocator, c->looks_max, sizeof(double));
+    c->series = take(s->allocator, c->looks_max * c->columns, sizeof(double));
+    c->y = take(s->allocator, s->numbers, sizeof(double));
+    c->a = take(s->allocator, s->numbers, sizeof(double));
     if (!c->column_scale || !c->t || !c->drift || !c->series || !c->y || !c->a)
         return no_memory(c, "the looks at the invariants");
     return MOTUS_OK;
@@ -346,8 +346,8 @@ static motus_status make_row(compare *c, size_t k)
     study_grid g = study_grid_of(s, row->step, total, last_step, &per);
     const double *truth_rows = c->truth.known ? c->truth.rows + s->numbers : NULL;
     if (c->def.evaluations > 0 && truth_rows) {
-        study_give(s->allocator, c->own_truth);
-        c->own_truth = study_take(s->allocator, g.points * s->numbers, sizeof(double));
+        give(s->allocator, c->own_truth);
+        c->own_truth = take(s->allocator, g.points * s->numbers, sizeof(double));
         status = c->own_truth ? truth_on(s, &c->truth, &g, c->own_truth) : no_memory(c, "the truth at the times of a method");
         truth_rows = c->own_truth;
     }
@@ -416,8 +416,11 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
     motus_settings settings = motus_default_settings();
     motus_settings_of(system, &settings);
     c->step = isnan(c->def.step) ? settings.step : c->def.step;
-    if (c->def.evaluations == 0 && !(c->step > 0))
-        return study_fail(err, MOTUS_ARGUMENT, "say in the model, for example, step 0.01", "nothing says with which step to compare");
+    if (c->def.evaluations == 0 && !(c->step > 0)) {
+        fail(err, MOTUS_ARGUMENT, "nothing says with which step to compare");
+        hint(err, "say in the model, for example, step 0.01");
+        return MOTUS_ARGUMENT;
+    }
     motus_status status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
     if (status == MOTUS_OK)
         status = study_methods(s, &c->def, &c->methods, &c->count);
@@ -425,8 +428,8 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
         status = find_columns(c);
     if (status != MOTUS_OK)
         return status;
-    c->facts = study_take(s->allocator, c->count, sizeof *c->facts);
-    c->roundoff = study_take(s->allocator, c->count * c->invariants, sizeof(double));
+    c->facts = take(s->allocator, c->count, sizeof *c->facts);
+    c->roundoff = take(s->allocator, c->count * c->invariants, sizeof(double));
     if (!c->facts || !c->roundoff)
         return no_memory(c, "the rows of the comparison");
     for (size_t k = 0; k < c->count; k++) {
@@ -464,11 +467,10 @@ motus_status motus_compare(motus_system *system, const motus_study_def *given, m
     if (!motus_error_sound(err))
         return MOTUS_ARGUMENT;
     if (!system || !comparison)
-        return study_fail(err, MOTUS_ARGUMENT, "", "motus_compare needs a system and a place for its result");
+        return fail(err, MOTUS_ARGUMENT, "motus_compare needs a system and a place for its result");
     *comparison = NULL;
     compare c = { .rate = NAN, .analysis = motus_default_analysis() };
-    study_modes modes;
-    study_enter(&modes);
+    const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK)
         status = prepare(&c, system, err);
@@ -480,14 +482,14 @@ motus_status motus_compare(motus_system *system, const motus_study_def *given, m
         void *blocks[] = { c.first, c.column, c.column_scale, c.t, c.drift, c.series, c.y, c.a, c.own_truth, c.roundoff, c.facts,
                            (void *)c.methods };
         for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++)
-            study_give(a, blocks[k]);
+            give(a, blocks[k]);
         if (status == MOTUS_OK)
             *comparison = &c.out->seen;
         else
-            study_give(a, c.out);
+            give(a, c.out);
         study_close(&c.s);
     }
-    study_leave(&modes);
+    modes_leave(host);
     return status;
 }
 
@@ -497,5 +499,5 @@ void motus_comparison_destroy(motus_comparison *comparison)
         return;
     result *r = (result *)(void *)comparison;
     motus_allocator allocator = r->allocator;
-    study_give(&allocator, r);
+    give(&allocator, r);
 }

@@ -14,7 +14,6 @@
 #include "fit.h"
 #include "probe.h"
 #include "truth.h"
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,11 +77,11 @@ static motus_status make_result(converge *c)
     size_t head = aligned(sizeof(result)), rows = aligned(c->count * sizeof(motus_converge_row));
     size_t points = aligned(c->count * POINTS_MAX * sizeof(motus_point)), texts = aligned(c->count * sizeof(row_text));
     size_t row_list = aligned(c->count * sizeof(void *)), point_list = c->count * POINTS_MAX * sizeof(void *);
-    char *block = study_take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
-    c->table = study_take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
+    char *block = take(c->s.allocator, head + rows + points + texts + row_list + point_list, 1);
+    c->table = take(c->s.allocator, INTERVALS * c->s.numbers, sizeof(double));
     if (!block || !c->table) {
-        study_give(c->s.allocator, block);
-        return study_fail(c->s.err, MOTUS_MEMORY, "", "out of memory for the convergence of %zu methods", c->count);
+        give(c->s.allocator, block);
+        return fail(c->s.err, MOTUS_MEMORY, "out of memory for the convergence of %zu methods", c->count);
     }
     result *r = c->out = (result *)(void *)block;
     r->allocator = *c->s.allocator;
@@ -330,9 +329,12 @@ static motus_status converge_all(converge *c)
     study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
     if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK)
         return status;
-    if (!c->truth.known)
-        return study_fail(s->err, MOTUS_DIVERGED, "let the motion end earlier, or give its exact line",
-                          "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+    if (!c->truth.known) {
+        fail(s->err, MOTUS_DIVERGED,
+             "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+        hint(s->err, "let the motion end earlier, or give its exact line");
+        return MOTUS_DIVERGED;
+    }
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
         double share = (1 - TRUTH_SHARE) / (double)c->count;
@@ -351,11 +353,10 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     if (!motus_error_sound(err))
         return MOTUS_ARGUMENT;
     if (!system || !convergence)
-        return study_fail(err, MOTUS_ARGUMENT, "", "motus_converge needs a system and a place for its result");
+        return fail(err, MOTUS_ARGUMENT, "motus_converge needs a system and a place for its result");
     *convergence = NULL;
     converge c = { .whole = NAN };
-    study_modes modes;
-    study_enter(&modes);
+    const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK)
         status = study_open(&c.s, system, &c.def, 0, err);
@@ -367,15 +368,15 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
         status = converge_all(&c);
     if (c.s.allocator) {
         truth_free(&c.s, &c.truth);
-        study_give(c.s.allocator, c.table);
-        study_give(c.s.allocator, (void *)c.methods);
+        give(c.s.allocator, c.table);
+        give(c.s.allocator, (void *)c.methods);
         if (status == MOTUS_OK)
             *convergence = &c.out->seen;
         else
-            study_give(c.s.allocator, c.out);
+            give(c.s.allocator, c.out);
         study_close(&c.s);
     }
-    study_leave(&modes);
+    modes_leave(host);
     return status;
 }
 
@@ -385,5 +386,5 @@ void motus_convergence_destroy(motus_convergence *convergence)
         return;
     result *r = (result *)(void *)convergence;
     motus_allocator allocator = r->allocator;
-    study_give(&allocator, r);
+    give(&allocator, r);
 }

@@ -21,7 +21,6 @@
  * A method is exact here if every error lies under the line that rounding n steps can explain, at coarse steps as at fine ones.
  */
 #include "fit.h"
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 

@@ -60,7 +60,7 @@ static bool jacobian(study *s, double t, const double *y, const double *u, doubl
 
 double probe_speed(study *s, double t, const double *y)
 {
-    double *a = study_take(s->allocator, s->nv, sizeof(double)), most = NAN;
+    double *a = take(s->allocator, s->nv, sizeof(double)), most = NAN;
     if (!a)
         study_note(s, MOTUS_MEMORY);
     if (a && probe_acceleration(s, t, y, a)) {
@@ -70,14 +70,14 @@ double probe_speed(study *s, double t, const double *y)
         for (size_t k = 0; k < s->nv; k++)
             most = fmax(most, fabs(a[k]) / s->scale[s->nx + k]);
     }
-    study_give(s->allocator, a);
+    give(s->allocator, a);
     return most;
 }
 
 double probe_rate(study *s, double t, const double *y)
 {
     size_t n = s->numbers;
-    double *room = study_take(s->allocator, 5 * n, sizeof(double));
+    double *room = take(s->allocator, 5 * n, sizeof(double));
     if (!room) {
         study_note(s, MOTUS_MEMORY);
         return NAN;
@@ -106,15 +106,15 @@ double probe_rate(study *s, double t, const double *y)
         for (size_t k = 0; k < n; k++)
             u[k] = next[k] / size;
     }
-    study_give(s->allocator, room);
+    give(s->allocator, room);
     return rate < RATE_LEAST ? 0 : rate;
 }
 
 motus_status probe_columns(study *s, double t, const double *y, const size_t *columns, size_t column_count, double *scale)
 {
-    double *room = study_take(s->allocator, s->numbers + 2 * column_count, sizeof(double));
+    double *room = take(s->allocator, s->numbers + 2 * column_count, sizeof(double));
     if (!room)
-        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for a state of %zu numbers", s->numbers);
+        return fail(s->err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     double *moved = room, *before = moved + s->numbers, *after = before + column_count;
     for (int pattern = -1; pattern < PATTERNS; pattern++) {
         /* Each pattern flips its signs in a rhythm of its own, so that opposite contributions do not always cancel. */
@@ -138,6 +138,6 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
                 scale[c] = fmax(scale[c], change);
         }
     }
-    study_give(s->allocator, room);
+    give(s->allocator, room);
     return MOTUS_OK;
 }

@@ -93,15 +93,16 @@ motus_status motus_reference_at(motus_reference *r, const double *times, size_t 
     if (!motus_error_sound(err))
         return MOTUS_ARGUMENT;
     if (!r || (count && !times))
-        return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_at needs a reference and times");
+        return fail(err, MOTUS_ARGUMENT, "motus_reference_at needs a reference and times");
     study *s = &r->s;
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < count && status == MOTUS_OK; k++)
-        if (!within(s, times[k]))
-            status = study_fail(err, MOTUS_ARGUMENT, "a reference knows the motion between its start and its end",
-                                "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k], s->from, s->until);
-    study_modes modes;
-    study_enter(&modes);
+        if (!within(s, times[k])) {
+            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k], s->from,
+                          s->until);
+            hint(err, "a reference knows the motion between its start and its end");
+        }
+    const modes host = modes_enter();
     for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
         status = answer(r, times[k], err);
         if (status == MOTUS_OK && x)
@@ -109,7 +110,7 @@ motus_status motus_reference_at(motus_reference *r, const double *times, size_t 
         if (status == MOTUS_OK && v)
             memcpy(v + k * s->nv, r->y + s->nx, s->nv * sizeof(double));
     }
-    study_leave(&modes);
+    modes_leave(host);
     return status;
 }
 
@@ -126,15 +127,18 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     if ((status = study_open(s, system, &def, step, err)) != MOTUS_OK)
         return status;
     r->t = NAN;
-    r->y = study_take(s->allocator, s->numbers, sizeof(double));
+    r->y = take(s->allocator, s->numbers, sizeof(double));
     if (!r->y)
-        return study_fail(err, MOTUS_MEMORY, "", "out of memory for a state of %zu numbers", s->numbers);
+        return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     r->grid = truth_grid(s, step);
     if ((status = truth_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->truth)) != MOTUS_OK)
         return status;
-    if (!r->truth.known)
-        return study_fail(err, MOTUS_DIVERGED, "let the motion end earlier, or give its exact line",
-                          "no method of high order followed the motion to %.6g: its truth is not known", s->until);
+    if (!r->truth.known) {
+        fail(err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: its truth is not known",
+             s->until);
+        hint(err, "let the motion end earlier, or give its exact line");
+        return MOTUS_DIVERGED;
+    }
     /* What was lent for this call alone. */
     s->err = NULL;
     s->progress = NULL;
@@ -147,16 +151,15 @@ motus_status motus_reference_create(motus_system *system, const motus_study_def 
     if (!motus_error_sound(err))
         return MOTUS_ARGUMENT;
     if (!system || !reference)
-        return study_fail(err, MOTUS_ARGUMENT, "", "motus_reference_create needs a system and a place for the reference");
+        return fail(err, MOTUS_ARGUMENT, "motus_reference_create needs a system and a place for the reference");
     *reference = NULL;
-    motus_reference *r = study_take(motus_system_allocator(system), 1, sizeof *r);
+    motus_reference *r = take(motus_system_allocator(system), 1, sizeof *r);
     if (!r)
-        return study_fail(err, MOTUS_MEMORY, "", "out of memory for a reference");
+        return fail(err, MOTUS_MEMORY, "out of memory for a reference");
     r->s.allocator = motus_system_allocator(system);
-    study_modes modes;
-    study_enter(&modes);
+    const modes host = modes_enter();
     motus_status status = prepare(r, system, given, err);
-    study_leave(&modes);
+    modes_leave(host);
     if (status != MOTUS_OK)
         motus_reference_destroy(r);
     else {
@@ -184,7 +187,7 @@ void motus_reference_destroy(motus_reference *r)
     if (r->holds)
         motus_system_hold(r->s.system, false);
     truth_free(&r->s, &r->truth);
-    study_give(allocator, r->y);
+    give(allocator, r->y);
     study_close(&r->s);
-    study_give(allocator, r);
+    give(allocator, r);
 }

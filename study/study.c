@@ -1,4 +1,4 @@
-/* The ground the experiments stand on: memory, errors, progress, runs along a grid, and the size of a motion.
+/* The ground the experiments stand on: progress, runs along a grid, and the size of a motion.
  *
  * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
  */
@@ -8,9 +8,6 @@
 #include "study.h"
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -19,55 +16,6 @@
 #define SOLVE_PASSES 4.0
 #define SOLVE_FLOPS 3e4              /* of elimination that take as long as an evaluation */
 #define STILL 1e-10               /* a group that moves less than this part of its size does not move */
-
-void *study_take(const motus_allocator *a, size_t count, size_t bytes)
-{
-    if (bytes != 0 && count > SIZE_MAX / bytes)
-        return NULL;
-    size_t size = count * bytes > 0 ? count * bytes : 1;
-    if (!a->allocate)
-        return calloc(1, size);
-    void *block = a->allocate(a->context, size);
-    if (block)
-        memset(block, 0, size);
-    return block;
-}
-
-void study_give(const motus_allocator *a, void *block)
-{
-    if (!block)
-        return;
-    if (!a->allocate)
-        free(block);
-    else if (a->release)
-        a->release(a->context, block);
-}
-
-motus_status study_fail(motus_error *err, motus_status status, const char *advice, const char *format, ...)
-{
-    if (!err)
-        return status;
-    motus_error e = motus_default_error();
-    e.status = status;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(e.message, sizeof e.message, format, arguments);
-    va_end(arguments);
-    snprintf(e.hint, sizeof e.hint, "%s", advice);
-    motus_struct_write(MOTUS_DEF_ERROR, &e, err);
-    return status;
-}
-
-void study_enter(study_modes *m)
-{
-    fegetenv(&m->saved);
-    fesetenv(FE_DFL_ENV);
-}
-
-void study_leave(const study_modes *m)
-{
-    fesetenv(&m->saved);
-}
 
 double study_seconds(void)
 {
@@ -106,7 +54,7 @@ motus_status study_broken(const study *s)
 {
     if (s->cancelled)
         return MOTUS_CANCELLED;
-    return s->starved ? study_fail(s->err, MOTUS_MEMORY, "", "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
+    return s->starved ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
 /* Progress ------------------------------------------------------------------------------------------------------- */
@@ -117,7 +65,7 @@ void study_part(study *s, double base, double span)
     s->span = span;
 }
 
-motus_status study_tick(study *s, double fraction)
+static motus_status tick(study *s, double fraction)
 {
     if (!s->progress || s->cancelled)
         return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
@@ -130,12 +78,12 @@ motus_status study_tick(study *s, double fraction)
     s->cancelled = s->progress(s->context, s->reached) != 0;
     if (!s->cancelled)
         return MOTUS_OK;
-    return study_fail(s->err, MOTUS_CANCELLED, "", "%s", motus_status_text(MOTUS_CANCELLED));
+    return fail(s->err, MOTUS_CANCELLED, "%s", motus_status_text(MOTUS_CANCELLED));
 }
 
 static int hook(void *context, double fraction)
 {
-    return study_tick(context, fraction) != MOTUS_OK;
+    return tick(context, fraction) != MOTUS_OK;
 }
 
 /* Opening -------------------------------------------------------------------------------------------------------- */
@@ -145,13 +93,21 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
     motus_status status = motus_struct_read(MOTUS_DEF_STUDY, given, def, err);
     if (status != MOTUS_OK)
         return status;
-    if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY))
-        return study_fail(err, MOTUS_ARGUMENT, "a step is a positive number", "the step of the study is %g", def->step);
-    if (isinf(def->until))
-        return study_fail(err, MOTUS_ARGUMENT, "a study ends at a finite time", "the study has no end");
-    if (def->evaluations < 0)
-        return study_fail(err, MOTUS_ARGUMENT, "0 compares at equal step, a positive number at equal work",
-                          "the number of evaluations is %lld", (long long)def->evaluations);
+    if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY)) {
+        fail(err, MOTUS_ARGUMENT, "the step of the study is %g", def->step);
+        hint(err, "a step is a positive number");
+        return MOTUS_ARGUMENT;
+    }
+    if (isinf(def->until)) {
+        fail(err, MOTUS_ARGUMENT, "the study has no end");
+        hint(err, "a study ends at a finite time");
+        return MOTUS_ARGUMENT;
+    }
+    if (def->evaluations < 0) {
+        fail(err, MOTUS_ARGUMENT, "the number of evaluations is %lld", (long long)def->evaluations);
+        hint(err, "0 compares at equal step, a positive number at equal work");
+        return MOTUS_ARGUMENT;
+    }
     return MOTUS_OK;
 }
 
@@ -179,16 +135,19 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     motus_settings_of(system, &settings);
     s->from = isnan(settings.from) ? 0 : settings.from;
     s->until = isnan(def->until) ? settings.until : def->until;
-    if (isnan(s->until))
-        return study_fail(err, MOTUS_ARGUMENT, "say in the model, for example, until 10", "nothing says until when");
+    if (isnan(s->until)) {
+        fail(err, MOTUS_ARGUMENT, "nothing says until when");
+        hint(err, "say in the model, for example, until 10");
+        return MOTUS_ARGUMENT;
+    }
 
     size_t groups = 2 * (motus_variable_count(system) + 1);
-    s->start = study_take(s->allocator, s->numbers, sizeof(double));
-    s->scale = study_take(s->allocator, s->numbers, sizeof(double));
-    s->group = study_take(s->allocator, s->numbers, sizeof(size_t));
-    s->work = study_take(s->allocator, s->numbers + groups, 2 * sizeof(double));
+    s->start = take(s->allocator, s->numbers, sizeof(double));
+    s->scale = take(s->allocator, s->numbers, sizeof(double));
+    s->group = take(s->allocator, s->numbers, sizeof(size_t));
+    s->work = take(s->allocator, s->numbers + groups, 2 * sizeof(double));
     if (!s->start || !s->scale || !s->group || !s->work)
-        return study_fail(err, MOTUS_MEMORY, "", "out of memory for a state of %zu numbers", s->numbers);
+        return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     find_groups(s);
 
     /* The start is wherever a run says it starts, so that a model's rules about it are not written twice. */
@@ -205,11 +164,13 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         s->last_step = fabs(motus_run_last_step(run));
     }
     motus_run_destroy(run);
-    if (status == MOTUS_OK && s->from == s->until)
-        return study_fail(err, MOTUS_ARGUMENT, "let the study end at another time than it starts",
-                          "the motion from %g until %g has no length", s->from, s->until);
+    if (status == MOTUS_OK && s->from == s->until) {
+        fail(err, MOTUS_ARGUMENT, "the motion from %g until %g has no length", s->from, s->until);
+        hint(err, "let the study end at another time than it starts");
+        return MOTUS_ARGUMENT;
+    }
     if (status == MOTUS_OK)
-        status = study_tick(s, 0);
+        status = tick(s, 0);
     return status;
 }
 
@@ -217,10 +178,10 @@ void study_close(study *s)
 {
     if (!s->allocator)
         return;
-    study_give(s->allocator, s->work);
-    study_give(s->allocator, s->group);
-    study_give(s->allocator, s->scale);
-    study_give(s->allocator, s->start);
+    give(s->allocator, s->work);
+    give(s->allocator, s->group);
+    give(s->allocator, s->scale);
+    give(s->allocator, s->start);
 }
 
 bool study_admits(study *s, const char *method)
@@ -235,9 +196,9 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     bool all = !def->methods || def->method_count == 0;
     size_t most = all ? motus_method_count() : def->method_count;
     *count = 0;
-    *names = study_take(s->allocator, most, sizeof **names);
+    *names = take(s->allocator, most, sizeof **names);
     if (!*names)
-        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for the names of %zu methods", most);
+        return fail(s->err, MOTUS_MEMORY, "out of memory for the names of %zu methods", most);
     for (size_t k = 0; k < most; k++) {
         const motus_method *m = NULL;
         if (all) {
@@ -248,7 +209,7 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
             continue;
         }
         if (!def->methods[k])
-            return study_fail(s->err, MOTUS_ARGUMENT, "", "name %zu of the methods is NULL", k + 1);
+            return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
         if (status != MOTUS_OK)
             return status;
@@ -256,8 +217,11 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     }
     if (study_broken(s) != MOTUS_OK)
         return study_broken(s);
-    if (*count == 0)
-        return study_fail(s->err, MOTUS_METHOD, "see what the analysis says about each", "no method admits this model");
+    if (*count == 0) {
+        fail(s->err, MOTUS_METHOD, "no method admits this model");
+        hint(s->err, "see what the analysis says about each");
+        return MOTUS_METHOD;
+    }
     return MOTUS_OK;
 }
 
@@ -306,7 +270,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     motus_run *run = NULL;
     size_t done = 0;
     *cost = (study_cost){ 0, 0, 0 };
-    motus_status status = study_tick(s, 0);
+    motus_status status = tick(s, 0);
     if (status == MOTUS_OK)
         status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     for (; status == MOTUS_OK && done < g->points; done++) {

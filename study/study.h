@@ -8,8 +8,10 @@
 #define STUDY_STUDY_H
 
 #include "api/check.h"
-#include "motus.h"
-#include <fenv.h>
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/modes.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 /* Truth and trajectories are looked at about this often; fewer when the states are long. */
@@ -53,14 +55,6 @@ typedef struct study_cost {
     double seconds;
 } study_cost;
 
-/* Memory: zeroed; NULL when there is none or count × bytes is too large. */
-void *study_take(const motus_allocator *, size_t count, size_t bytes);
-void study_give(const motus_allocator *, void *);
-
-/* Fills *err (NULL is allowed) and returns the status. */
-motus_status study_fail(motus_error *err, motus_status, const char *advice, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
 /* The definition as this library knows it, checked. */
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err);
 /* Finds the start, the end and the groups; `step` is only a hint for the trial run. study_close in any case. */
@@ -73,8 +67,6 @@ motus_status study_methods(study *, const motus_study_def *, const char ***names
 
 /* The next walk is this part of the whole. */
 void study_part(study *, double base, double span);
-/* CANCELLED when the user asked for it. */
-motus_status study_tick(study *, double fraction);
 /* Notes a failure that a probe or a survey met, and hands it on as the study's: OK unless memory ran out or the user cancelled. */
 void study_note(study *, motus_status);
 motus_status study_broken(const study *);
@@ -93,10 +85,6 @@ motus_status study_look(study *, motus_run *, double *y, motus_error *err);
  * unless study_fatal. */
 motus_status study_walk(study *, const char *method, const study_grid *, int64_t per, double *out, study_cost *,
                         motus_error *err);
-/* Round to nearest with subnormals for the study's own sums too, and the caller's modes back at the end. */
-typedef struct study_modes { fenv_t saved; } study_modes;
-void study_enter(study_modes *);
-void study_leave(const study_modes *);
 /* What so many steps and evaluations cost, in numbers of a state updated by one evaluation; a rough measure, but the same on every
  * machine. evaluations < 0: a guess before the run. */
 double study_work(const study *, const motus_method *, double steps, double evaluations);

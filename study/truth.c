@@ -244,9 +244,9 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
 motus_status truth_find(study *s, const study_grid *g, int64_t steps, double enough, truth *t)
 {
     *t = (truth){ .error = NAN, .scaled = NAN };
-    t->rows = study_take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
+    t->rows = take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
     if (!t->rows)
-        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for %zu states of %zu numbers", g->points, s->numbers);
+        return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
     memcpy(t->rows, s->start, s->numbers * sizeof(double));
 
     const char *exact = exact_method(s);
@@ -269,11 +269,11 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, double eno
         }
     }
     size_t table = g->points * s->numbers;
-    double *room = study_take(s->allocator, 3 * table, sizeof(double));
+    double *room = take(s->allocator, 3 * table, sizeof(double));
     if (!room)
-        return study_fail(s->err, MOTUS_MEMORY, "", "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
+        return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
     motus_status status = find_reference(s, g, steps, enough, t, room, room + table, room + 2 * table);
-    study_give(s->allocator, room);
+    give(s->allocator, room);
     return status;
 }
 
@@ -294,6 +294,6 @@ motus_status truth_on(study *s, const truth *t, const study_grid *g, double *row
 
 void truth_free(study *s, truth *t)
 {
-    study_give(s->allocator, t->rows);
+    give(s->allocator, t->rows);
     t->rows = NULL;
 }

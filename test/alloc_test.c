@@ -9,7 +9,7 @@
 
 /* A bank lends blocks and counts them; each is framed, so that a stray write next to it shows when it comes back. */
 typedef struct bank {
-    int64_t requests, refuse, live, peak_requests;
+    int64_t requests, refuse, live;
     int forever;
     int64_t refused;
 } bank;

@@ -109,7 +109,8 @@ judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:s
 # A symbol that other files use starts with its file's name, up to the first underscore or dot. These files' symbols have another
 # word, because it is the word of the house for the thing:
 declare -A also=(
-    [core/error.c]='fail hint take give decimal'    # the vocabulary of core/system.h
+    [base/error.c]='fail hint'
+    [base/memory.c]='take take_more give'
     [machine/interpreter.c]='machine_'                  # a machine is a file; machine/machine.h names them
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
@@ -143,9 +144,9 @@ else
     # file, symbol, D (defines) or U (uses); of the program's objects those whose source is still there.
     {
         nm -A "$archive" 2>/dev/null | sed 's/^[^:]*://'
-        for file in cli/*.c lab/core/*.c; do
+        for file in cli/*.c tell/*.c lab/core/*.c; do
             object=$scratch/$file.o
-            [[ $file == cli/* ]] && object=$program/$file.o
+            [[ $file == lab/* ]] || object=$program/$file.o
             [ -f "$object" ] && nm -A "$object" | sed "s:^[^ ]*\.o:$file.o:"
         done
     } | awk -v sources="$sources" '

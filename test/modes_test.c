@@ -1,5 +1,6 @@
 /* What a host program may have set and the library must neither suffer from nor change: the rounding mode, the flush modes, the locale.
  */
+#include "base/decimal.h"
 #include "test/given.h"
 
 #include <fenv.h>
@@ -123,6 +124,11 @@ static void a_decimal_comma_changes_nothing(void **state)
         skip();
     }
     uint64_t other = everything();
+    char digits[DECIMAL_MAX], fast[DECIMAL_MAX];
+    double read = 0;
+    decimal_write_plain(-0.1, digits);
+    decimal_write(-0.1, fast);
+    const size_t length = decimal_read("2.5e-1,5", SIZE_MAX, &read);
     motus_system *s = given_text("k = 2.5\nx'' = -k x\nx(0) = 0.5\nx'(0) = 0\nmethod newmark(0.25, 0.5)\n");
     motus_run *r = given_run(s, NULL, 0.125, 1);
     char equation[64], method[64], message[MOTUS_TEXT_MAX];
@@ -133,6 +139,10 @@ static void a_decimal_comma_changes_nothing(void **state)
     motus_error err = motus_default_error();
     motus_status status = motus_run_sample(r, &far, 1, &k, 1, &out, &err);
     snprintf(message, sizeof message, "%s", err.message);
+    motus_study_def study = motus_default_study();
+    motus_comparison *c = NULL;
+    study.step = -1.5;
+    motus_status refused = motus_compare(s, &study, &c, &err);
     motus_run_destroy(r);
     motus_system_destroy(s);
     setlocale(LC_ALL, "C");
@@ -140,6 +150,12 @@ static void a_decimal_comma_changes_nothing(void **state)
     assert_string_equal(method, "newmark(0.25, 0.5)");
     assert_null(strchr(equation, ','));
     assert_non_null(strstr(message, "2.5"));
+    assert_int_equal(refused, MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.message, "-1.5"));
+    assert_string_equal(digits, "-0.1");
+    assert_string_equal(fast, "-0.1");
+    assert_int_equal(length, 6);
+    assert_true(read == 0.25);
 }
 
 int main(void)

@@ -159,11 +159,9 @@ static void refused_requests(void **state)
         {"velocity-verlet", "verlet"}, {"pefrl", "gauss4"}, {"kahan-li6", "gauss6"}, {"kahan-li8", "gauss8"}, {"boris", "verlet"}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         row_choose(pairs[i].method, &c, &card, NULL);
-        char reason[256];
         assert_int_equal(row_admits(&c, &velocity, &err), MOTUS_METHOD);
         assert_int_equal(strncmp(err.hint, pairs[i].hint, strlen(pairs[i].hint)), 0);
-        row_reason(card, &velocity, reason, sizeof reason);
-        assert_non_null(strstr(err.message, reason));
+        assert_non_null(strstr(err.message, " does not admit this model: "));
     }
     row_choose("exact", &c, NULL, NULL);
     assert_int_equal(row_admits(&c, &plain, &err), MOTUS_METHOD);

@@ -4,7 +4,6 @@
  */
 #include "lab/core/core.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +44,7 @@ LAB_CALL(lab_destroy) void lab_destroy(lab *l)
     forget_run(l);
     motus_reference_destroy(l->reference);
     motus_system_destroy(l->system);
-    json_free(&l->json);
+    free(l->answer.text);
     free(l);
 }
 
@@ -75,21 +74,15 @@ LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length
 /* The last problem. */
 LAB_CALL(lab_problem) const char *lab_problem(lab *l)
 {
-    json *j = &l->json;
     const motus_error *e = &l->error;
-    json_clear(j);
-    json_open(j, NULL, '{');
-    json_string(j, "kind", motus_status_word(e->status));
-    json_string(j, "message", e->message[0] ? e->message : motus_status_text(e->status));
-    json_string(j, "hint", e->hint);
-    json_number(j, "line", e->line);
-    json_number(j, "column", e->column);
-    json_string(j, "source", e->source);
-    json_string(j, "caret", e->caret);
-    json_number(j, "time", e->time);
-    json_string(j, "variable", e->variable);
-    json_close(j, '}');
-    return json_text(j);
+    json j = lab_answer(l);
+    tell_error(&j, e, e->message[0] ? e->message : motus_status_text(e->status));
+    json_string(&j, "hint", e->hint);
+    json_string(&j, "source", e->source);
+    json_string(&j, "caret", e->caret);
+    json_number(&j, "time", e->time);
+    json_string(&j, "variable", e->variable);
+    return lab_answered(l, &j);
 }
 
 /* Runs: started, recorded in slices, and looked at. `step`, `until`: NaN is the model's. */

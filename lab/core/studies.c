@@ -1,9 +1,7 @@
 /* Studies for the page: truth and errors, one step opened up, convergence, comparison, stability. */
 #include "lab/core/core.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static motus_study_def study(double step, double until)
 {
@@ -50,32 +48,31 @@ LAB_CALL(lab_trace) const char *lab_trace(lab *l)
     if (motus_run_trace(l->run, &entries, &count, &l->error) != MOTUS_OK)
         return NULL;
     const size_t nx = motus_positions(l->system), nv = motus_velocities(l->system);
-    json *j = &l->json;
-    json_clear(j);
-    json_open(j, NULL, '[');
+    json j = lab_answer(l);
+    json_open(&j, "entries", '[');
     for (size_t k = 0; k < count; k++) {
         const motus_trace_entry *e = entries[k];
-        json_open(j, NULL, '{');
-        json_string(j, "kind", kinds[e->kind]);
-        json_number(j, "stage", e->stage);
-        json_number(j, "stages", e->stages);
-        json_number(j, "iterations", (double)e->iterations);
-        json_number(j, "time", e->time);
-        json_number(j, "step", e->step);
-        json_number(j, "coefficient", e->coefficient);
-        json_number(j, "weight", e->weight);
-        json_number(j, "weightX", e->weight_x);
-        json_numbers(j, "row", e->row, (size_t)e->stages);
-        json_numbers(j, "rowX", e->row_x, (size_t)e->stages);
-        json_numbers(j, "x", e->x, nx);
-        json_numbers(j, "v", e->v, nv);
-        json_numbers(j, "a", e->a, nv);
-        json_numbers(j, "beforeX", e->before_x, nx);
-        json_numbers(j, "beforeA", e->before_a, nv);
-        json_close(j, '}');
+        json_open(&j, NULL, '{');
+        json_string(&j, "kind", kinds[e->kind]);
+        json_integer(&j, "stage", e->stage);
+        json_integer(&j, "stages", e->stages);
+        json_integer(&j, "iterations", e->iterations);
+        json_number(&j, "time", e->time);
+        json_number(&j, "step", e->step);
+        json_number(&j, "coefficient", e->coefficient);
+        json_number(&j, "weight", e->weight);
+        json_number(&j, "weight_x", e->weight_x);
+        json_numbers(&j, "row", e->row, (size_t)e->stages);
+        json_numbers(&j, "row_x", e->row_x, (size_t)e->stages);
+        json_numbers(&j, "x", e->x, nx);
+        json_numbers(&j, "v", e->v, nv);
+        json_numbers(&j, "a", e->a, nv);
+        json_numbers(&j, "before_x", e->before_x, nx);
+        json_numbers(&j, "before_a", e->before_a, nv);
+        json_close(&j, '}');
     }
-    json_close(j, ']');
-    return json_text(j);
+    json_close(&j, ']');
+    return lab_answered(l, &j);
 }
 
 /* Order, by slope (protocol.ts, Convergence). NULL: lab_problem. */
@@ -89,68 +86,10 @@ LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, siz
     free((void *)def.methods);
     if (!c)
         return NULL;
-    json *j = &l->json;
-    json_clear(j);
-    json_open(j, NULL, '{');
-    json_open(j, "rows", '[');
-    for (size_t k = 0; k < c->row_count; k++) {
-        const motus_converge_row *r = c->rows[k];
-        json_open(j, NULL, '{');
-        json_string(j, "method", r->method);
-        json_number(j, "declared", r->declared);
-        json_number(j, "observed", r->observed);
-        json_number(j, "standardError", r->standard_error);
-        json_bool(j, "exactHere", r->exact_here);
-        json_bool(j, "passed", r->passed);
-        json_open(j, "points", '[');
-        for (size_t i = 0; i < r->point_count; i++) {
-            json_open(j, NULL, '{');
-            json_number(j, "step", r->points[i]->step);
-            json_number(j, "error", r->points[i]->error);
-            json_number(j, "evaluations", (double)r->points[i]->evaluations);
-            json_bool(j, "used", r->points[i]->used);
-            json_close(j, '}');
-        }
-        json_close(j, ']');
-        json_string(j, "certificate", r->certificate);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-    json_string(j, "reference", c->reference);
-    json_number(j, "referenceError", c->reference_error);
-    json_close(j, '}');
+    json j = lab_answer(l);
+    tell_convergence(&j, c);
     motus_convergence_destroy(c);
-    return json_text(j);
-}
-
-static void compare_row(json *j, const motus_compare_row *r)
-{
-    json_open(j, NULL, '{');
-    json_string(j, "method", r->method);
-    json_number(j, "order", r->order);
-    json_string(j, "status", motus_status_word(r->status));
-    json_number(j, "step", r->step);
-    json_number(j, "steps", (double)r->steps);
-    json_number(j, "evaluations", (double)r->evaluations);
-    json_number(j, "errorMaxX", r->error_max_x);
-    json_number(j, "errorMaxV", r->error_max_v);
-    json_number(j, "errorFinalX", r->error_final_x);
-    json_number(j, "reversal", r->reversal);
-    json_open(j, "invariants", '[');
-    for (size_t i = 0; i < r->invariant_count; i++) {
-        const motus_drift *d = r->invariants[i];
-        json_open(j, NULL, '{');
-        json_string(j, "name", d->name);
-        json_number(j, "initial", d->initial);
-        json_number(j, "final", d->final);
-        json_number(j, "max", d->max_drift);
-        json_number(j, "trend", d->trend);
-        json_bool(j, "trending", d->trending);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-    json_string(j, "note", r->note ? r->note : "");
-    json_close(j, '}');
+    return lab_answered(l, &j);
 }
 
 /* Every method side by side (protocol.ts, Comparison). NULL: lab_problem. */
@@ -164,19 +103,10 @@ LAB_CALL(lab_compare) const char *lab_compare(lab *l, const char *methods, size_
     free((void *)def.methods);
     if (!c)
         return NULL;
-    json *j = &l->json;
-    json_clear(j);
-    json_open(j, NULL, '{');
-    json_open(j, "rows", '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        compare_row(j, c->rows[k]);
-    json_close(j, ']');
-    json_string(j, "reference", c->reference);
-    json_number(j, "referenceError", c->reference_error);
-    json_string(j, "remarks", c->remarks);
-    json_close(j, '}');
+    json j = lab_answer(l);
+    tell_comparison(&j, c);
     motus_comparison_destroy(c);
-    return json_text(j);
+    return lab_answered(l, &j);
 }
 
 LAB_CALL(lab_stability) motus_status lab_stability(lab *l, const char *method, size_t count, const double *re, const double *im, double *growth)

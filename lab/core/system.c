@@ -1,4 +1,4 @@
-/* What the C library asks of an operating system, in a module that has none: no environment, no files, no way out but a trap, and time stands
+/* What the C library asks of an operating system, in a module that has none: no files, no way out but a trap, and time stands
  * still. These take the place of the calls that the module would otherwise import from its host, so that it imports nothing.
  */
 #include <wasi/api.h>
@@ -6,18 +6,6 @@
 #include <locale.h>
 #include <stddef.h>
 #include <string.h>
-
-__wasi_errno_t __wasi_environ_sizes_get(__wasi_size_t *count, __wasi_size_t *bytes)
-{
-    *count = *bytes = 0;
-    return 0;
-}
-
-__wasi_errno_t __wasi_environ_get(uint8_t **list, uint8_t *bytes)
-{
-    (void)list, (void)bytes;
-    return 0;
-}
 
 __wasi_errno_t __wasi_clock_time_get(__wasi_clockid_t id, __wasi_timestamp_t precision, __wasi_timestamp_t *t)
 {

@@ -15,9 +15,9 @@ import { convergenceStudy, lookFor, rowsFor, sample, studyBar } from './study';
 /** More triangles than this would hide the lines. */
 const TRIANGLES = 4;
 /** Errors below this are drawn at it: 0 has no logarithm. */
-export const FLOOR = 1e-17;
+const FLOOR = 1e-17;
 /** An error of so many sizes of the motion is an explosion; how large, tells nothing, and would press all else together. */
-export const CEILING = 30;
+const CEILING = 30;
 
 export function errorOf(point: ConvergePoint): number {
   return point.error === null || !Number.isFinite(point.error) ? NaN : Math.max(point.error, FLOOR);
@@ -28,11 +28,23 @@ export function roomFor(width: number, looks: readonly Look[]): number {
   return looks.length ? legendLayout(width, looks.map((look) => look.label)).height + Math.max(0, 0.5 * (480 - width)) : 0;
 }
 
+/** The legend, and below it errors against what they cost, both logarithmic. */
+export function errorFrame(pen: Pen, ink: Ink, looks: readonly Look[], costs: number[], label: string, errors: number[]): Frame {
+  const layout = legendLayout(pen.width, looks.map((look) => look.label));
+  drawLegend(pen, ink, looks.map(lookEntry), layout);
+  const decades = (values: number[]): { min: number; max: number; log: true } => {
+    const [low, high] = padded(extent([values.map((v) => Math.log10(v))]), 0.05);
+    return { min: 10 ** low, max: 10 ** high, log: true };
+  };
+  return axes(pen, ink, { ...decades(costs), label }, { ...decades(errors.map((e) => Math.min(CEILING, e))), label: 'error, in sizes of the motion' },
+    { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
+}
+
 interface Fit { readonly slope: number; readonly x: number; readonly y: number; readonly low: number; readonly high: number }
 /** Through the middle of the points used, all in decades. */
 function fitOf(row: ConvergeRow): Fit | null {
   const used = row.points.filter((point) => point.used && errorOf(point) > 0);
-  if (row.observed === null || row.exactHere || used.length < 2) return null;
+  if (row.observed === null || row.exact_here || used.length < 2) return null;
   const x = used.map((point) => Math.log10(point.step)), y = used.map((point) => Math.log10(errorOf(point)));
   const mean = (values: number[]): number => values.reduce((sum, v) => sum + v, 0) / values.length;
   return { slope: row.observed, x: mean(x), y: mean(y), low: Math.min(...x), high: Math.max(...x) };
@@ -54,10 +66,10 @@ function drawTriangle(pen: Pen, frame: Frame, fit: Fit, look: Look, share: numbe
 }
 
 /** What the core has found of a method, in words. */
-export function verdict(row: ConvergeRow): string {
-  if (row.exactHere) return 'exact here: the error is round-off, and a slope has no meaning';
+function verdict(row: ConvergeRow): string {
+  if (row.exact_here) return 'exact here: the error is round-off, and a slope has no meaning';
   if (row.observed === null) return row.certificate || 'no slope could be measured';
-  const measured = row.standardError === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standardError, 1)}`;
+  const measured = row.standard_error === null ? row.observed.toFixed(2) : `${row.observed.toFixed(2)} ± ${brief(row.standard_error, 1)}`;
   return row.passed ? `order ${row.declared} confirmed, slope ${measured}` : `order ${row.declared} is declared, but the slope is ${measured} here`;
 }
 
@@ -66,7 +78,7 @@ export function judge(found: Convergence): string {
   const [name = '', ...rest] = found.reference.split('; ');
   const also = rest.length ? ` Taken ${rest.join('; ')}.` : '';
   if (name === 'exact') return `Errors are measured against the exact motion.${also}`;
-  return `No exact motion is known, so errors are measured against ${name}, itself good to ${brief(found.referenceError, 2)}.${also}`;
+  return `No exact motion is known, so errors are measured against ${name}, itself good to ${brief(found.reference_error, 2)}.${also}`;
 }
 
 export const convergence: PanelMaker = (store): Panel => {
@@ -81,15 +93,8 @@ export const convergence: PanelMaker = (store): Panel => {
   function draw(pen: Pen, ink: Ink): void {
     const found = rows(), shown = looks();
     if (!scene || found.length === 0) return;
-    const layout = legendLayout(pen.width, shown.map((look) => look.label));
-    drawLegend(pen, ink, shown.map(lookEntry), layout);
-    const logs = (values: number[]): [number, number] => padded(extent([values.map((v) => Math.log10(v))]), 0.05);
-    const xs = logs(found.flatMap((row) => row.points.map((point) => point.step)));
-    const ys = logs(found.flatMap((row) => row.points.map((point) => Math.min(CEILING, errorOf(point)))));
-    const frame = axes(pen, ink,
-      { min: 10 ** xs[0], max: 10 ** xs[1], log: true, label: 'step h' },
-      { min: 10 ** ys[0], max: 10 ** ys[1], log: true, label: 'error, in sizes of the motion' },
-      { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
+    const points = found.flatMap((row) => row.points);
+    const frame = errorFrame(pen, ink, shown, points.map((point) => point.step), 'step h', points.map(errorOf));
     const step = scene.solution.tracks[0]?.step ?? 0;
     pen.clip(frame.left, frame.top, frame.width, frame.height, () => {
       if (step > 0) {
@@ -128,8 +133,8 @@ export const convergence: PanelMaker = (store): Panel => {
     summary: () => {
       const names = looks(), found = rows();
       if (found.length === 0) return '';
-      const sloped = found.flatMap((row, i) => (row.observed === null || row.exactHere ? [] : [`${row.observed.toFixed(2)} by ${names[i]!.label}`]));
-      const left = found.some((row) => !row.exactHere && row.points.some((point) => !point.used)) ? ' Small marks are left out of the fit: there round-off rules, or the step is too long.' : '';
+      const sloped = found.flatMap((row, i) => (row.observed === null || row.exact_here ? [] : [`${row.observed.toFixed(2)} by ${names[i]!.label}`]));
+      const left = found.some((row) => !row.exact_here && row.points.some((point) => !point.used)) ? ' Small marks are left out of the fit: there round-off rules, or the step is too long.' : '';
       return sloped.length ? `As the step shrinks, the error falls with the slope ${sloped.join(', ')}.${left}` : 'Every method shown is exact here, whatever the step; what remains is round-off, which grows as steps get more.';
     },
     table: () => ({
@@ -152,7 +157,7 @@ export const convergence: PanelMaker = (store): Panel => {
     listed = key;
     list.replaceChildren(...rows().map((row, i) => {
       const look = names[i]!;
-      return element('li', row.passed || row.exactHere ? {} : { class: 'bad' }, sample(look), `${look.label}: ${verdict(row)}`);
+      return element('li', row.passed || row.exact_here ? {} : { class: 'bad' }, sample(look), `${look.label}: ${verdict(row)}`);
     }));
     note.textContent = study.answer ? judge(study.answer) : '';
   }

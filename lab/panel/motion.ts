@@ -108,7 +108,7 @@ export function motionPanel(store: Store): Panel {
         : subject.kind === 'space' ? `Path in space` : `Path in the plane of ${subject.axes[0]} and ${subject.axes[1]}`;
     const errors = solution.errors.map(e => ({ name: looks.find(l => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN }))
       .filter(e => Number.isFinite(e.last));
-    const told = errors.length === 0 ? '' : ` At the end the distance from the ${scene.description.hasExact ? 'exact motion' : 'reference'} is ${errors.map(e => `${brief(e.last, 3)} for ${e.name}`).join(', ')}.`;
+    const told = errors.length === 0 ? '' : ` At the end the distance from the ${scene.description.has_exact ? 'exact motion' : 'reference'} is ${errors.map(e => `${brief(e.last, 3)} for ${e.name}`).join(', ')}.`;
     const remarks = view.remarks().map(r => ` ${r.charAt(0).toUpperCase()}${r.slice(1)}.`).join('');
     return `${seen}, from t = ${brief(from)} to ${brief(to)}.${told}${remarks}`;
   }
@@ -121,7 +121,7 @@ export function motionPanel(store: Store): Panel {
     const add = (name: string, of: { readonly times: Float64Array; readonly columns: readonly Float64Array[] }): void =>
       of.times.forEach((t, i) => rows.push([name, t, ...columns.map(c => of.columns[c]?.[i] ?? NaN)]));
     solution.tracks.forEach((track, k) => add(looks[k]?.label ?? track.method, track));
-    if (solution.truth && columns.every(c => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.hasExact ? 'exact' : 'reference', solution.truth);
+    if (solution.truth && columns.every(c => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? 'exact' : 'reference', solution.truth);
     return { head, rows };
   }
 

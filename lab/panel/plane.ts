@@ -23,7 +23,7 @@ const LEFT = -2.7, RIGHT = 1.9, TALL = 1.3, WIDTH = 231, HEIGHT = 66, AXIS = 102
 const height = (growth: number): number => (growth > 1e30 ? 69 : growth < 1e-30 ? -69 : Math.log(growth)) - LEVEL;
 
 function halfOf(method: Method): number {
-  const limit = method.stabilityLimit;
+  const limit = method.stability_limit;
   if (!Number.isFinite(limit)) return 5;
   // With 1.25 and TALL the limit lies on a line of the grid, where the border has its corner.
   return Math.max(2.4, 1.25 * limit, method.family === 'runge-kutta' ? 0.9 * method.stages : 0);

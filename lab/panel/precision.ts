@@ -3,15 +3,13 @@
  *
  * Invariant: nothing is measured here; a method's line joins the points that the core has computed.
  */
-import { axes, extent, padded } from '../figure/axes';
 import { button, el as element } from '../dom';
 import { figure } from '../figure/figure';
-import { drawLegend, legendLayout, lookEntry } from '../figure/legend';
 import { brief, readable, tenTo } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { CompareRow, Comparison, ConvergeRow } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
-import { CEILING, errorOf, judge, roomFor } from './convergence';
+import { errorFrame, errorOf, judge, roomFor } from './convergence';
 import { convergenceStudy, lookFor, rowsFor, sample, Study, studyBar } from './study';
 
 const whole = (n: number): string => (n < 1e6 ? String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f') : readable(n, 2));
@@ -34,7 +32,7 @@ function workFor(row: ConvergeRow, error: number): number {
 
 /** The smallest power of ten that all methods reach; those that are exact here do not count. */
 function level(rows: readonly ConvergeRow[]): number {
-  const least = rows.filter((row) => !row.exactHere).map((row) => Math.min(...pointsOf(row).map((point) => point.error)));
+  const least = rows.filter((row) => !row.exact_here).map((row) => Math.min(...pointsOf(row).map((point) => point.error)));
   return least.length ? Math.ceil(Math.log10(Math.max(...least))) : NaN;
 }
 
@@ -50,10 +48,10 @@ function columnsOf(found: Comparison, labels: ReadonlyMap<string, string>): Colu
     { name: 'method', about: '', value: (row) => labels.get(row.method) ?? row.method },
     { name: 'order', about: 'declared', value: (row) => row.order },
     { name: 'evaluations', about: 'of the force', value: (row) => row.evaluations, text: (row) => whole(row.evaluations) },
-    { name: 'error', about: 'largest, of the positions', value: (row) => number(row.errorMaxX) },
+    { name: 'error', about: 'largest, of the positions', value: (row) => number(row.error_max) },
     ...invariants.map((invariant, k): Column => ({
-      name: `absolute drift of ${invariant.name}`, about: 'largest, in its own units; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max ?? null),
-      text: (row) => { const drift = row.invariants[k]; return drift ? `${readable(drift.max, 2)}${drift.trending ? ' ↗' : ''}` : '–'; },
+      name: `absolute drift of ${invariant.name}`, about: 'largest, in its own units; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max_drift ?? null),
+      text: (row) => { const drift = row.invariants[k]; return drift ? `${readable(drift.max_drift, 2)}${drift.trending ? ' ↗' : ''}` : '–'; },
     })),
     { name: 'reversal', about: 'error after going back to the start', value: (row) => number(row.reversal) },
     ...(found.rows.some((row) => row.note) && !common(found) ? [{ name: 'note', about: '', value: (row: CompareRow) => row.note }] : []),
@@ -102,7 +100,7 @@ function comparison(): { readonly element: HTMLElement; show(found: Comparison, 
       return element('th', { scope: 'row' }, ...(look ? [sample(look)] : []), cell(column, row));
     })));
     const [name = ''] = found.reference.split('; ');
-    const judged = name === 'exact' ? 'errors against the exact motion' : `errors against ${name}, itself good to ${brief(found.referenceError, 2)}`;
+    const judged = name === 'exact' ? 'errors against the exact motion' : `errors against ${name}, itself good to ${brief(found.reference_error, 2)}`;
     const step = found.rows[0]?.step;
     about.textContent = `The methods side by side${step ? ` at the step ${brief(step, 4)}` : ''}: ${judged}.`;
     body.replaceChildren(element('table', { 'aria-label': 'The methods side by side' },
@@ -123,15 +121,8 @@ export const precision: PanelMaker = (store): Panel => {
   function draw(pen: Pen, ink: Ink): void {
     const found = rows(), names = looks();
     if (!scene || found.length === 0) return;
-    const layout = legendLayout(pen.width, names.map((look) => look.label));
-    drawLegend(pen, ink, names.map(lookEntry), layout);
-    const lines = found.map(pointsOf);
-    const logs = (values: number[]): [number, number] => padded(extent([values.map((v) => Math.log10(v))]), 0.05);
-    const xs = logs(lines.flatMap((line) => line.map((point) => point.work))), ys = logs(lines.flatMap((line) => line.map((point) => Math.min(CEILING, point.error))));
-    const frame = axes(pen, ink,
-      { min: 10 ** xs[0], max: 10 ** xs[1], log: true, label: 'evaluations of the force' },
-      { min: 10 ** ys[0], max: 10 ** ys[1], log: true, label: 'error, in sizes of the motion' },
-      { region: { left: 0, top: layout.height, width: pen.width, height: pen.height - layout.height } });
+    const lines = found.map(pointsOf), points = lines.flat();
+    const frame = errorFrame(pen, ink, names, points.map((point) => point.work), 'evaluations of the force', points.map((point) => point.error));
     pen.clip(frame.left, frame.top, frame.width, frame.height, () => {
       const at = 10 ** level(found);
       if (found.length > 1 && at > 0) {
@@ -148,9 +139,9 @@ export const precision: PanelMaker = (store): Panel => {
   function sentence(): string {
     const found = rows(), names = looks();
     if (found.length === 0) return '';
-    const power = level(found), exact = names.filter((_, i) => found[i]!.exactHere).map((look) => look.label);
+    const power = level(found), exact = names.filter((_, i) => found[i]!.exact_here).map((look) => look.label);
     const parts: string[] = [];
-    const needs = found.map((row, i) => ({ label: names[i]!.label, work: row.exactHere ? NaN : workFor(row, 10 ** power) })).filter((need) => need.work > 0).sort((a, b) => a.work - b.work);
+    const needs = found.map((row, i) => ({ label: names[i]!.label, work: row.exact_here ? NaN : workFor(row, 10 ** power) })).filter((need) => need.work > 0).sort((a, b) => a.work - b.work);
     if (needs.length) parts.push(`For an error of ${tenTo(power)} of the size of the motion, ${needs.map((need) => `${need.label} needs ${whole(Number(need.work.toPrecision(2)))}`).join(', ')} evaluations of the force.`);
     if (exact.length) parts.push(`Exact here but for round-off: ${exact.join(', ')}.`);
     return parts.join(' ');

@@ -183,7 +183,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (Number.isFinite(of.limit)) {
       for (const sign of [1, -1]) {
         pen.line([x - 7, f.y(sign * of.limit), x + 7, f.y(sign * of.limit)], { colour: ink.text, width: 1.5 });
-        pen.text(x + 12, f.y(sign * of.limit), `${sign < 0 ? '−' : ''}${brief(method()?.stabilityLimit ?? of.limit, 4)} i`, { colour: ink.text, size: 12, baseline: 'middle' });
+        pen.text(x + 12, f.y(sign * of.limit), `${sign < 0 ? '−' : ''}${brief(method()?.stability_limit ?? of.limit, 4)} i`, { colour: ink.text, size: 12, baseline: 'middle' });
       }
     }
   }
@@ -237,7 +237,7 @@ export const stability: PanelMaker = (store): Panel => {
   /* ---- saying ---- */
 
   /** A method that turns the velocity about a field, on a model that has one: no single rate tells what it does. */
-  const turns = (): boolean => method()?.name === 'boris' && scene?.description.analysis.velocityDependent === true;
+  const turns = (): boolean => method()?.name === 'boris' && scene?.description.velocity_dependent === true;
 
   function sentence(): string {
     const m = method(), h = step();
@@ -245,7 +245,7 @@ export const stability: PanelMaker = (store): Panel => {
     const title = scene?.looks[0]?.label ?? methodTitle(m);
     const what = plane.full ? '' : ` Only the imaginary axis, oscillation without friction, has a meaning for ${title}: its force may hold no velocity.`;
     if (turns()) {
-      return `${title} turns the velocity about the field by a rotation, which is stable at any step. The axis shows its other half, oscillation in position alone, stable while hω is below ${brief(m.stabilityLimit, 3)}; `
+      return `${title} turns the velocity about the field by a rotation, which is stable at any step. The axis shows its other half, oscillation in position alone, stable while hω is below ${brief(m.stability_limit, 3)}; `
         + 'the points hλ mix the two, and cannot be judged by it.';
     }
     const points = upper();
@@ -272,7 +272,7 @@ export const stability: PanelMaker = (store): Panel => {
         else if (Math.abs(z.re) <= 1e-9 * Math.hypot(z.re, z.im)) parts.push(`All points are inside. ${title} itself damps: it multiplies by ${growthText(g)} a step at ${where}, where nothing is lost in truth.`);
         else parts.push(`All points are inside; largest growth per step ${growthText(g)}, at ${where}, where the exact motion has ${growthText(Math.exp(h * z.re))}.`);
       }
-      if (points.every((rate) => Math.abs(rate.re) <= 1e-9 * largest) && Number.isFinite(m.stabilityLimit) && m.stabilityLimit > 0) parts.push(`Steps below ${brief(m.stabilityLimit / largest, 3)} are stable.`);
+      if (points.every((rate) => Math.abs(rate.re) <= 1e-9 * largest) && Number.isFinite(m.stability_limit) && m.stability_limit > 0) parts.push(`Steps below ${brief(m.stability_limit / largest, 3)} are stable.`);
     }
     if (own) parts.push('Points to the right of the axis: there the motion itself grows, whatever the method.');
     return `${parts.join(' ')}${what}`.trim();

@@ -60,18 +60,18 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     return {
       element: control, name, repaint,
       refresh(now) {
-        const entry = store.description?.admissions.find(a => a.method === name);
+        const entry = store.description?.methods.find(m => m.name === name);
         const refused = entry !== undefined && !entry.admitted;
         control.setAttribute('aria-pressed', String(now.includes(name) && !refused));
         control.setAttribute('aria-disabled', String(refused));
-        say(reason, refused ? entry.reason.replace(/^\S+ does not admit this model: /, '') : '');
+        say(reason, refused ? entry.reason : '');
         control.title = refused ? [entry.reason, entry.hint].filter(Boolean).join('; ') : usual;
       },
     };
   }
   function build(): void {
     const now = chosen(), names = [...common, ...now.filter(name => !common.includes(name))];
-    const admitted = (name: string): boolean => store.description?.admissions.find(a => a.method === name)?.admitted ?? true;
+    const admitted = (name: string): boolean => store.description?.methods.find(m => m.name === name)?.admitted ?? true;
     const unused = store.catalogue.map(m => m.name).filter(name => !names.includes(name) && name !== 'exact');
     const others = [...unused.filter(admitted), ...unused.filter(name => !admitted(name))];
     const key = names.join() + '|' + others.join();

@@ -35,7 +35,7 @@ export function facts(method: Method): string[] {
     method.family === 'implicit' ? 'solves an equation at each step' : `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step`,
     method.symplectic ? 'symplectic' : 'not symplectic',
     method.reversible ? 'reversible' : 'not reversible',
-    limit(method.stabilityLimit),
+    limit(method.stability_limit),
   ];
 }
 

@@ -82,14 +82,16 @@ void *arena_take(arena *a, size_t bytes)
     return carve(b, bytes, align);
 }
 
+void *arena_room(arena *a, size_t bytes)
+{
+    void *p = arena_take(a, bytes);
+    return p == a->spare ? NULL : p;        /* the next failed request would overwrite the spare */
+}
+
 void *arena_grow(arena *a, void *old, size_t old_bytes, size_t new_bytes)
 {
-    void *p = arena_take(a, new_bytes);
-    if (!p || p == a->spare) {       /* the next failed request would overwrite the spare */
-        a->failed = true;
-        return NULL;
-    }
-    if (old_bytes)
+    void *p = arena_room(a, new_bytes);
+    if (p && old_bytes)
         memcpy(p, old, old_bytes < new_bytes ? old_bytes : new_bytes);
     return p;
 }

@@ -1,8 +1,11 @@
 /* Memory of one model: taken piece by piece, released at once.
  *
+ * take: a thing that is always there; room: an array that may be too large; grow: a larger one; text: a copy.
+ *
  * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory has run out it sets `failed` and
  * returns the spare block, so callers may write before they check; code that loops or recurses checks `failed` first.
- * Larger requests return NULL and set `failed`. (There is no longjmp because WebAssembly has none.)
+ * All other requests that cannot be met return NULL and set `failed`. (There is no longjmp because WebAssembly has
+ * none.)
  */
 #ifndef LANG_BASE_ARENA_H
 #define LANG_BASE_ARENA_H
@@ -20,7 +23,8 @@ typedef struct arena {
 
 void arena_init(arena *, const motus_allocator *);
 void *arena_take(arena *, size_t bytes);                       /* zeroed, 64-byte aligned for requests of 64 bytes and more */
-void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes);   /* copies; NULL and failed when there is none */
+void *arena_room(arena *, size_t bytes);                       /* the same; NULL when there is none, however small */
+void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes);   /* a copy in larger room */
 char *arena_text(arena *, const char *text, size_t length);    /* a copy that ends with 0 */
 void arena_release(arena *);
 

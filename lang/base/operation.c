@@ -6,7 +6,6 @@
 #include "lang/base/operation.h"
 
 #include <math.h>
-#include <stdint.h>
 #include "lang/base/functions.h"
 
 static const operation_row rows[OPERATIONS] = {

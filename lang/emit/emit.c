@@ -60,9 +60,9 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
     writer w = {.e = e, .region = AT_BIND, .depth = 1, .along = -1};
     if (plan_create(&w.plan, e->text.arena, p, false)) {
         const plan_region *bind = &w.plan.regions.at[AT_BIND];
-        w.fixed = arena_grow(e->text.arena, NULL, 0, (w.plan.items.count + 1) * sizeof *w.fixed);
-        w.nature = arena_grow(e->text.arena, NULL, 0, (w.plan.g->count + 1) * sizeof *w.nature);
-        w.term = arena_grow(e->text.arena, NULL, 0, (w.plan.g->count + 1) * sizeof *w.term);
+        w.fixed = arena_room(e->text.arena, (w.plan.items.count + 1) * sizeof *w.fixed);
+        w.nature = arena_room(e->text.arena, (w.plan.g->count + 1) * sizeof *w.nature);
+        w.term = arena_room(e->text.arena, (w.plan.g->count + 1) * sizeof *w.term);
         if (w.fixed && w.nature && w.term) {
             if (emit_natures(&w, false) && e->lanes)
                 emit_natures(&w, true);

@@ -100,8 +100,8 @@ static bool grow_nodes(graph *g)
         return g->too_large = true, false;
     uint32_t capacity = g->capacity * 2, size = capacity * 2;
     graph_node *nodes = arena_grow(g->arena, g->nodes, g->count * sizeof *nodes, capacity * sizeof *nodes);
-    uint32_t *place = nodes ? arena_grow(g->arena, NULL, 0, capacity * sizeof *place) : NULL;
-    node *table = place ? arena_grow(g->arena, NULL, 0, size * sizeof *table) : NULL;
+    uint32_t *place = nodes ? arena_room(g->arena, capacity * sizeof *place) : NULL;
+    node *table = place ? arena_room(g->arena, size * sizeof *table) : NULL;
     if (!table)
         return false;
     for (uint32_t k = 1; k < g->count; k++) {

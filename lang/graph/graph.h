@@ -91,12 +91,11 @@ node graph_kink(graph *, node);
 /* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD) as a node; all else follows by the rules of calculus. */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);
 node graph_derivative(graph *, node, graph_seed, void *ctx);
-/* Seeds for the common cases: directional (X → DX, V → DV; arrays for DX/DV are the state's array number + the given offset), and
- * along the motion (t → 1, X → V, V → A, by the same offset convention). */
+/* Seeds for the common cases: directional (X → DX, V → DV; arrays for DX/DV are the state's array number + the given
+ * offset). */
 typedef struct graph_shift { uint16_t x_to, v_to; } graph_shift;   /* array number of the image = array number + shift, by space of the source */
 node graph_seed_direction(graph *, node leaf, void *graph_shift_ctx);
 node graph_seed_time(graph *, node leaf, void *unused);     /* d/dt where only t moves */
-node graph_seed_motion(graph *, node leaf, void *graph_shift_ctx);
 /* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every nest of sums
  * around it. sums[k] is the range of level first_level + k, k < inside. */
 void graph_loads(graph *, node, space, void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside), void *ctx);

@@ -92,11 +92,10 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
 
 /* Seeds ----------------------------------------------------------------------------------------------------------- */
 
-static node shifted(graph *g, node leaf, const graph_shift *shift, bool along)
+node graph_seed_direction(graph *g, node leaf, void *graph_shift_ctx)
 {
+    const graph_shift *shift = graph_shift_ctx;
     const graph_node *n = &g->nodes[leaf];
-    if (n->op == OP_TIME)
-        return along ? graph_const(g, 1) : 0;
     if (n->op != OP_LOAD)
         return 0;
     reference ref = g->references[n->a];
@@ -105,16 +104,6 @@ static node shifted(graph *g, node leaf, const graph_shift *shift, bool along)
         return 0;
     ref.array = (uint16_t)(ref.array + (s == SPACE_X ? shift->x_to : shift->v_to));
     return graph_load(g, &ref);
-}
-
-node graph_seed_direction(graph *g, node leaf, void *graph_shift_ctx)
-{
-    return shifted(g, leaf, graph_shift_ctx, false);
-}
-
-node graph_seed_motion(graph *g, node leaf, void *graph_shift_ctx)
-{
-    return shifted(g, leaf, graph_shift_ctx, true);
 }
 
 node graph_seed_time(graph *g, node leaf, void *unused)

@@ -51,14 +51,11 @@ static void push(printer *p, task t)
 {
     if (p->count == p->capacity) {
         uint32_t capacity = p->capacity ? 2 * p->capacity : 64;
-        task *tasks = take(&p->g->arena->allocator, capacity, sizeof *tasks);
+        task *tasks = take_more(&p->g->arena->allocator, p->tasks, p->count, capacity, sizeof *tasks);
         if (!tasks) {
             p->failed = true;
             return;
         }
-        if (p->count)
-            memcpy(tasks, p->tasks, p->count * sizeof *tasks);
-        give(&p->g->arena->allocator, p->tasks);
         p->tasks = tasks;
         p->capacity = capacity;
     }

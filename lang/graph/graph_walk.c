@@ -21,12 +21,9 @@ static bool push(graph *g, graph_walk *w, node n)
 {
     if (w->count == w->capacity) {
         uint32_t capacity = w->capacity ? w->capacity * 2 : 64;
-        node *nodes = take(&g->arena->allocator, capacity, sizeof *nodes);
+        node *nodes = take_more(&g->arena->allocator, w->nodes, w->count, capacity, sizeof *nodes);
         if (!nodes)
             return g->arena->failed = true, false;
-        if (w->count)
-            memcpy(nodes, w->nodes, w->count * sizeof *nodes);
-        give(&g->arena->allocator, w->nodes);
         w->nodes = nodes;
         w->capacity = capacity;
     }

@@ -6,21 +6,17 @@
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
 
-#include <string.h>
 
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
 {
     if (count < *capacity || p->failed)
         return at;
     uint32_t wanted = *capacity ? *capacity * 2 : 32;
-    void *grown = wanted > *capacity ? take(p->hooks, wanted, size) : NULL;
+    void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
         p->failed = true;
         return at;
     }
-    if (count)
-        memcpy(grown, at, count * size);
-    give(p->hooks, at);
     *capacity = wanted;
     return grown;
 }

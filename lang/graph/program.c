@@ -161,7 +161,7 @@ program *program_create(graph *g, const output *outputs, size_t count)
     if (count > SIZE_MAX / sizeof(output))
         return g->arena->failed = true, NULL;
     program *p = arena_take(g->arena, sizeof *p);
-    output *copy = arena_grow(g->arena, NULL, 0, (count + !count) * sizeof *copy);
+    output *copy = arena_room(g->arena, (count + !count) * sizeof *copy);
     forming f = { .from = g, .to = graph_create(g->arena) };
     node *roots = take(&g->arena->allocator, count, sizeof *roots);
     if (!roots)

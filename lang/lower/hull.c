@@ -3,7 +3,6 @@
 
 #include "lang/lower/lower.h"
 
-#include <stdio.h>
 #include <string.h>
 
 bool hull_indices_wrong(model *m, const model_state *s, span at)
@@ -102,7 +101,7 @@ static bool mark_owners(model *m, model_state *s)
     s->cells.count = count;
     if (!gap)
         return true;
-    s->cells.offset = arena_grow(m->arena, NULL, 0, count * sizeof *s->cells.offset);
+    s->cells.offset = arena_room(m->arena, count * sizeof *s->cells.offset);
     if (!s->cells.offset)
         return false;
     count = 0;
@@ -134,7 +133,7 @@ bool hull_find(model *m, model_state *s)
             return false;
         }
         s->hull = (size_t)numbers;
-        s->owner = arena_grow(m->arena, NULL, 0, s->hull);
+        s->owner = arena_room(m->arena, s->hull);
         if (!s->owner)
             return false;
         memset(s->owner, 0, s->hull);

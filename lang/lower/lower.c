@@ -5,9 +5,7 @@
 #include "lang/model/symbols.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 void lower_start(lowering *l, model *m, lower_place place, const char *what)
 {
@@ -340,7 +338,7 @@ static value lower_chain(lowering *l, const tree *t)
     const tree *leaf = t;
     for (; operator_kind(leaf->kind); leaf = leaf->item[0])
         depth++;
-    const tree **chain = arena_grow(l->model->arena, NULL, 0, depth * sizeof *chain);
+    const tree **chain = arena_room(l->model->arena, depth * sizeof *chain);
     if (!chain)
         return wrong(l);
     size_t n = depth;

@@ -5,7 +5,6 @@
 #include "lang/model/symbols.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -31,7 +31,7 @@ static inline value vector(lowering *l, int count)
 {
     value v = {.count = count};
     size_t bytes = sizeof(node) * (size_t)(count ? count : 1);
-    v.item = bytes <= ARENA_SPARE ? arena_take(l->model->arena, bytes) : arena_grow(l->model->arena, NULL, 0, bytes);
+    v.item = arena_take(l->model->arena, bytes);
     if (!v.item) {
         v.item = arena_take(l->model->arena, ARENA_SPARE);
         v.count = 0;

@@ -40,7 +40,7 @@ static bool resolve_plain(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "the parameters have too many components");
         return false;
     }
-    double *out = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *out);
+    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
     if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n))
         return false;
     memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
@@ -58,7 +58,7 @@ static bool resolve_list(model *m, model_definition *d)
     int n = (int)list->count;
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
-    value *item = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *item);
+    value *item = arena_room(m->arena, (size_t)n * sizeof *item);
     if (!item)
         return false;
     for (int i = 0; i < n; i++) {
@@ -81,14 +81,14 @@ static bool resolve_list(model *m, model_definition *d)
     if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at))
         return false;
     d->array = at;
-    node *column = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *column);
+    node *column = arena_room(m->arena, (size_t)n * sizeof *column);
     if (!column)
         return false;
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++)
             column[i] = item[i].item[k];
-        double *out = arena_grow(m->arena, NULL, 0, (size_t)n * sizeof *out);
+        double *out = arena_room(m->arena, (size_t)n * sizeof *out);
         if (!out || !evaluate_nodes(m, column, n, out) || !finite_values(m, d, out, (size_t)n))
             return false;
         memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);

@@ -88,7 +88,7 @@ static bool run_start(model *m, model_state *s, const statement *one, const outp
     double *keep = NULL;
     for (size_t i = 0; one->loop_count > 0 && i < s->hull; i++)
         kept += map[i] > rank;
-    if (kept && !(keep = arena_grow(m->arena, NULL, 0, kept * parts * sizeof *keep)))
+    if (kept && !(keep = arena_room(m->arena, kept * parts * sizeof *keep)))
         return false;
     for (size_t i = 0, n = 0; n < kept * parts; i++)
         for (size_t k = 0; k < parts && map[i] > rank; k++)
@@ -162,7 +162,7 @@ static bool start_maps(model *m, model_state *s)
     for (int primes = 0; primes < s->order; primes++) {
         if (s->start_map[primes])
             continue;
-        s->start_map[primes] = arena_grow(m->arena, NULL, 0, s->hull);
+        s->start_map[primes] = arena_room(m->arena, s->hull);
         if (!s->start_map[primes])
             return false;
         memset(s->start_map[primes], 0, s->hull);
@@ -196,7 +196,7 @@ static bool own_lines(model *m, model_state *s, int primes)
 {
     if (s->start_own[primes])
         return true;
-    s->start_own[primes] = arena_grow(m->arena, NULL, 0, s->hull * sizeof *s->start_own[primes]);
+    s->start_own[primes] = arena_room(m->arena, s->hull * sizeof *s->start_own[primes]);
     if (!s->start_own[primes])
         return false;
     memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);

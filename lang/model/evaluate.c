@@ -25,7 +25,7 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
 {
     uint32_t arrays = m->array_count;
     uint16_t at;
-    output *o = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *o);
+    output *o = arena_room(m->arena, (size_t)parts * sizeof *o);
     if (!o || !model_take_arrays(m, parts, &at))
         return false;
     for (int k = 0; k < parts; k++) {
@@ -52,7 +52,7 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     }
     uint32_t arrays = m->array_count;
     uint16_t first;
-    output *o = arena_grow(m->arena, NULL, 0, (size_t)count * sizeof *o);
+    output *o = arena_room(m->arena, (size_t)count * sizeof *o);
     if (!o || !model_take_arrays(m, count, &first))
         return false;
     for (int k = 0; k < count; k++) {

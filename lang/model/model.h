@@ -103,7 +103,7 @@ typedef struct model {
     size_t nx, nv;
     double *x0, *v0;
 
-    output *accel; size_t accel_count, accel_room;
+    output *accel; size_t accel_count;
     output *boundary; size_t boundary_count;         /* into X and V */
     bool driven;                     /* a boundary line depends on t */
     output *exact; size_t exact_count;               /* into X and V */

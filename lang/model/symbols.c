@@ -1,6 +1,7 @@
 /* The symbol table, a hash table with open addressing. See symbols.h. */
 #include "lang/model/symbols.h"
 
+#include "base/near.h"
 #include "lang/text/words.h"
 
 #include <stdio.h>
@@ -76,16 +77,11 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
         const char *other = i < more_count ? more[i]
                             : i - more_count < m->state_count ? m->states[i - more_count].name
                                                               : m->definitions[i - more_count - m->state_count].name;
-        if (!words_near(name, other))
-            continue;
-        int d = words_distance(name, other, 6);
-        if (d < least) {
-            least = d;
+        if (near_nearer(name, other, &least))
             best = other;
-        }
     }
     char codes[64];
-    if (best && words_look_alike(name, best, codes, sizeof codes))
+    if (best && near_look_alike(name, best, codes, sizeof codes))
         source_hint(&m->source, "it looks like %s, which is defined, but is another character (%s)", best, codes);
     else if (product_of_two(m, name, more, more_count))
         return;

@@ -70,7 +70,7 @@ static bool overridden(const model *m, const vary_entry *e)
 bool vary_override(model *m, size_t first, size_t count, bool yes)
 {
     if (!m->overridden)
-        m->overridden = arena_grow(m->arena, NULL, 0, m->pool_count + 1);
+        m->overridden = arena_room(m->arena, m->pool_count + 1);
     if (!m->overridden)
         return false;
     memset(m->overridden + first, yes, count);
@@ -137,10 +137,11 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     vary *v = arena_take(a, sizeof *v);
     if (a->failed)
         return fail(err, MOTUS_MEMORY, "no memory for what varies");
-    *v = (vary){.model = m, .count = count, .places = arena_grow(a, NULL, 0, (count + 1) * sizeof *places),
-                .affected = arena_grow(a, NULL, 0, m->pool_count + 1), .active = arena_grow(a, NULL, 0, (m->log.count + 1) * sizeof *v->active)};
+    *v = (vary){.model = m, .count = count, .places = arena_room(a, (count + 1) * sizeof *places),
+                .affected = arena_room(a, m->pool_count + 1),
+                .active = arena_room(a, (m->log.count + 1) * sizeof *v->active)};
     size_t nodes = m->graph->count;
-    uint8_t *changed = arena_grow(a, NULL, 0, nodes + 1);
+    uint8_t *changed = arena_room(a, nodes + 1);
     if (!v->places || !v->affected || !v->active || !changed)
         return fail(err, MOTUS_MEMORY, "no memory for what varies");
     memset(v->affected, 0, m->pool_count + 1);
@@ -163,7 +164,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
         e->program = program_create(m->graph, e->entry->outputs, (size_t)e->entry->parts);
         e->tape = e->program && !a->failed ? tape_create(a, e->program) : NULL;
     }
-    v->kept = arena_grow(a, NULL, 0, (largest + 1) * sizeof *v->kept);
+    v->kept = arena_room(a, (largest + 1) * sizeof *v->kept);
     if (a->failed)
         return fail(err, MOTUS_MEMORY, "no memory for what varies");
     *out = v;

@@ -31,7 +31,7 @@ bool vary_record(model *m, const output *target, const node *values, int parts, 
         ++*array;
     }
     vary_entry *e = new_entry(m);
-    output *o = e ? arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *o) : NULL;
+    output *o = e ? arena_room(m->arena, (size_t)parts * sizeof *o) : NULL;
     if (!o)
         return false;
     for (int k = 0; k < parts; k++) {

@@ -6,7 +6,6 @@
 #include "lang/tape/tape.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Differentiates along a direction of v; da/dv is constant where the result depends on the direction alone. */
@@ -46,7 +45,7 @@ static void read_traits(model *m)
 static bool recognise_constant(model *m)
 {
     graph *g = m->graph;
-    m->exact = arena_grow(m->arena, NULL, 0, 2 * m->accel_count * sizeof *m->exact);
+    m->exact = arena_room(m->arena, 2 * m->accel_count * sizeof *m->exact);
     if (!m->exact)
         return false;
     node tau = graph_op(g, OP_SUB, graph_time(g), graph_const(g, m->start), 0);
@@ -116,7 +115,7 @@ static bool make_check(model *m)
 {
     graph *g = m->graph;
     struct exact_check *c = arena_take(m->arena, sizeof *c);
-    output *second = arena_grow(m->arena, NULL, 0, (m->exact_count + 1) * sizeof *second);
+    output *second = arena_room(m->arena, (m->exact_count + 1) * sizeof *second);
     if (!second || m->arena->failed)
         return false;
     size_t count = 0;
@@ -127,7 +126,7 @@ static bool make_check(model *m)
             o.to.array = (uint16_t)(o.to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
             second[count++] = o;
         }
-    c->work = arena_grow(m->arena, NULL, 0, 5 * (m->nv + 1) * sizeof *c->work);
+    c->work = arena_room(m->arena, 5 * (m->nv + 1) * sizeof *c->work);
     c->motion = tape_of(m, m->exact, m->exact_count);
     c->boundary = m->boundary_count ? tape_of(m, m->boundary, m->boundary_count) : NULL;
     c->second = tape_of(m, second, count);

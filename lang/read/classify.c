@@ -2,8 +2,8 @@
  * states have one. */
 #include "lang/read/read_steps.h"
 
+#include "base/near.h"
 #include "lang/model/symbols.h"
-#include "lang/text/words.h"
 
 #include <string.h>
 
@@ -120,7 +120,7 @@ static bool check_orphans(model *m)
             if (s->kind == STATEMENT_START && named.definition)
                 source_hint(&m->source, "%s is a %s", s->name, named.definition->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
             for (uint32_t k = 0; k < m->state_count; k++)
-                if (words_near(s->name, m->states[k].name))
+                if (near_likely(s->name, m->states[k].name))
                     source_hint(&m->source, "did you mean %s?", m->states[k].name);
             source_hint(&m->source, "write one: %s'' = …", s->name);
             return false;

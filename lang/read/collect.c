@@ -2,8 +2,8 @@
  * symbol table. */
 #include "lang/read/read_steps.h"
 
+#include "base/near.h"
 #include "lang/model/symbols.h"
-#include "lang/text/words.h"
 
 #include <string.h>
 
@@ -128,7 +128,7 @@ static bool replace(model *m, uint32_t text)
     source_complain(s, MOTUS_NAME, one->name_at, "the model has no parameter %s", one->name);
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
-        if (old->kind == STATEMENT_DEFINITION && words_near(one->name, old->name)) {
+        if (old->kind == STATEMENT_DEFINITION && near_likely(one->name, old->name)) {
             source_hint(s, "did you mean %s?", old->name);
             break;
         }
@@ -147,9 +147,9 @@ bool collect_all(model *m, const motus_text_def *def)
     m->symbol_size = 16;
     while (m->symbol_size < 4 * n)
         m->symbol_size *= 2;
-    m->symbols = arena_grow(m->arena, NULL, 0, m->symbol_size * sizeof *m->symbols);
-    m->states = arena_grow(m->arena, NULL, 0, (n + 1) * sizeof *m->states);
-    m->definitions = arena_grow(m->arena, NULL, 0, (n + 1) * sizeof *m->definitions);
+    m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
+    m->states = arena_room(m->arena, (n + 1) * sizeof *m->states);
+    m->definitions = arena_room(m->arena, (n + 1) * sizeof *m->definitions);
     if (!m->symbols || !m->states || !m->definitions)
         return false;
     memset(m->symbols, 0, m->symbol_size * sizeof *m->symbols);

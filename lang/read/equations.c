@@ -136,7 +136,7 @@ static bool looked_at(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name, d->numbers, MODEL_NUMBERS_MAX);
         return false;
     }
-    d->outputs = arena_grow(m->arena, NULL, 0, (size_t)parts * sizeof *d->outputs);
+    d->outputs = arena_room(m->arena, (size_t)parts * sizeof *d->outputs);
     if (!d->outputs || !model_take_arrays(m, parts, &d->array))
         return false;
     for (int k = 0; k < parts; k++) {

@@ -42,8 +42,8 @@ bool layout_all(model *m)
                             s->first, s->last);
         }
     }
-    m->x0 = arena_grow(m->arena, NULL, 0, (m->nx + 1) * sizeof *m->x0);
-    m->v0 = arena_grow(m->arena, NULL, 0, (m->nv + 1) * sizeof *m->v0);
+    m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
+    m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
     if (!m->x0 || !m->v0)
         return false;
     memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);

@@ -48,13 +48,13 @@ motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_
     size_t length = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (length > SOURCE_BYTES_MAX)
         return fail(err, MOTUS_LIMIT, "the model has %zu bytes; at most %d are read", length, SOURCE_BYTES_MAX);
-    model *m = arena_grow(a, NULL, 0, sizeof *m);
+    model *m = arena_room(a, sizeof *m);
     if (!m)
         return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(m, 0, sizeof *m);
     m->arena = a;
     m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count)};
-    m->source.texts = arena_grow(a, NULL, 0, (1 + def->set_count) * sizeof *m->source.texts);
+    m->source.texts = arena_room(a, (1 + def->set_count) * sizeof *m->source.texts);
     m->graph = graph_create(a);
     if (!m->source.texts || !m->graph || a->failed)
         return fail(err, MOTUS_MEMORY, "no memory for the model");

@@ -138,9 +138,9 @@ static bool take_registers(tape *t, const code *c)
     size_t stride = width + PAD;
     frame *f = &t->frame;
     f->width = width;
-    f->scalars = arena_grow(t->arena, NULL, 0, c->scalars * sizeof *f->scalars);
-    f->pointers = arena_grow(t->arena, NULL, 0, (size_t)(c->blocks + c->pointers + 1) * sizeof *f->pointers);
-    double *blocks = c->blocks ? arena_grow(t->arena, NULL, 0, c->blocks * stride * sizeof *blocks) : NULL;
+    f->scalars = arena_room(t->arena, c->scalars * sizeof *f->scalars);
+    f->pointers = arena_room(t->arena, (size_t)(c->blocks + c->pointers + 1) * sizeof *f->pointers);
+    double *blocks = c->blocks ? arena_room(t->arena, c->blocks * stride * sizeof *blocks) : NULL;
     if (!f->scalars || !f->pointers || (c->blocks && !blocks))
         return false;
     for (uint32_t k = 0; k < c->blocks; k++)

@@ -364,7 +364,7 @@ static code *finish(writer *w, arena *a)
     number_all(w, counts);
     code *c = arena_take(a, sizeof *c);
     *c = (code){ .count = w->text.count, .bind_count = w->bind_count, .site_count = w->sites.count, .loop_count = w->loops.count,
-                 .total_count = w->totals.count, .constant_count = w->constants.count,
+                 .total_count = w->totals.count,
                  .scalars = counts[SCALAR_REGISTER] + 1, .blocks = counts[BLOCK_REGISTER], .pointers = counts[POINTER_REGISTER],
                  .instructions = kept(a, w->text.at, w->text.count, sizeof *w->text.at),
                  .sites = kept(a, w->sites.at, w->sites.count, sizeof *w->sites.at),

@@ -67,7 +67,7 @@ typedef struct code {
     site *sites; uint32_t site_count;
     loop *loops; uint32_t loop_count;
     total *totals; uint32_t total_count;
-    double *constants; uint32_t constant_count;
+    double *constants;
     uint32_t scalars, blocks, pointers;   /* registers; pointers: blocks, then those without memory of their own */
 } code;
 

@@ -1,8 +1,9 @@
 /* Characters to tokens. See lex.h. */
 #include "lang/text/lex.h"
 
-#include "lang/text/number.h"
+#include "base/utf8.h"
 
+#include <math.h>
 #include <string.h>
 
 void lex_start(lexer *l, source *s, uint32_t text)
@@ -13,25 +14,11 @@ void lex_start(lexer *l, source *s, uint32_t text)
         l->at = 3;                   /* a byte order mark */
 }
 
-/* One code point at `at`; 0 bytes long where the bytes are not UTF-8. */
+/* The character at `at`; 0 bytes long where the bytes are not UTF-8. */
 static uint32_t decode(const char *bytes, uint32_t length, uint32_t at, uint32_t *size)
 {
-    const unsigned char *p = (const unsigned char *)bytes + at;
-    uint32_t left = length - at;
-    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    uint32_t n = p[0] < 0x80 ? 1 : p[0] >> 5 == 6 ? 2 : p[0] >> 4 == 14 ? 3 : p[0] >> 3 == 30 ? 4 : 0;
-    *size = 0;
-    if (n == 0 || n > left)
-        return 0;
-    uint32_t c = n == 1 ? p[0] : p[0] & (0x7Fu >> n);
-    for (uint32_t i = 1; i < n; i++) {
-        if ((p[i] & 0xC0) != 0x80)
-            return 0;
-        c = c << 6 | (p[i] & 0x3F);
-    }
-    if (c < least[n] || c > 0x10FFFF || (c >= 0xD800 && c <= 0xDFFF))
-        return 0;
-    *size = n;
+    uint32_t c = 0;
+    *size = (uint32_t)utf8_read(bytes + at, length - at, &c);
     return c;
 }
 
@@ -106,7 +93,8 @@ static token lex_number(lexer *l, bool blank)
         source_complain(l->source, MOTUS_SYNTAX, t.at, "a number has one decimal point");
         return stop(l, from);
     }
-    if (!number_read(b + from, l->at - from, &t.number)) {
+    decimal_read(b + from, l->at - from, &t.number);
+    if (!isfinite(t.number)) {
         source_complain(l->source, MOTUS_LIMIT, t.at, "this number is beyond the range of a double (1.8e308)");
         return stop(l, from);
     }

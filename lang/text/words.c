@@ -1,9 +1,9 @@
-/* Words of the language and the nearest of them. See words.h. */
+/* The words of the language. See words.h. */
 #include "lang/text/words.h"
 
+#include "base/near.h"
 #include "lang/base/operation.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -35,107 +35,15 @@ bool words_reserved(const char *name)
     return false;
 }
 
-enum { LETTERS = 64 };
-
-static int letters(const char *text, uint32_t out[LETTERS])
-{
-    int n = 0;
-    const unsigned char *p = (const unsigned char *)text;
-    while (*p && n < LETTERS) {
-        int more = *p < 0x80 ? 0 : *p < 0xE0 ? 1 : *p < 0xF0 ? 2 : 3;
-        uint32_t c = more == 0 ? *p : *p & (0x3Fu >> more);
-        for (p++; more > 0 && (*p & 0xC0) == 0x80; more--)
-            c = c << 6 | (*p++ & 0x3F);
-        out[n++] = c;
-    }
-    return n;
-}
-
-/* One representative for characters that look alike. */
-static uint32_t face(uint32_t c)
-{
-    static const uint32_t twins[][2] = {{0xB5, 0x3BC}, {0x2126, 0x3A9}, {0x212B, 0xC5}, {0x3B5, 0x3F5}, {0x3D5, 0x3C6},
-                                        {0x3D1, 0x3B8}, {0x210F, 0x127}, {0x430, 'a'}, {0x435, 'e'}, {0x43E, 'o'},
-                                        {0x440, 'p'}, {0x441, 'c'}, {0x445, 'x'}, {0x443, 'y'}, {0x3BD, 'v'}, {0x3BF, 'o'}};
-    for (size_t i = 0; i < sizeof twins / sizeof *twins; i++)
-        if (c == twins[i][0])
-            return twins[i][1];
-    return c;
-}
-
-static uint32_t lower(uint32_t c)
-{
-    if (c >= 'A' && c <= 'Z')
-        return c + 32;
-    if (c >= 0x391 && c <= 0x3A9)    /* Greek capitals */
-        return c + 32;
-    return c;
-}
-
-static int cost(uint32_t a, uint32_t b) { return a == b ? 0 : lower(face(a)) == lower(face(b)) ? 1 : 2; }
-
-int words_distance(const char *first, const char *second, int limit)
-{
-    uint32_t a[LETTERS], b[LETTERS];
-    int n = letters(first, a), m = letters(second, b);
-    if (n - m > limit || m - n > limit)
-        return limit + 1;
-    int row[3][LETTERS + 1];
-    for (int j = 0; j <= m; j++)
-        row[0][j] = 2 * j;
-    for (int i = 1; i <= n; i++) {
-        int *now = row[i % 3], *before = row[(i + 2) % 3], *earlier = row[(i + 1) % 3];
-        now[0] = 2 * i;
-        for (int j = 1; j <= m; j++) {
-            int best = before[j - 1] + cost(a[i - 1], b[j - 1]);
-            if (before[j] + 2 < best)
-                best = before[j] + 2;
-            if (now[j - 1] + 2 < best)
-                best = now[j - 1] + 2;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && earlier[j - 2] + 2 < best)
-                best = earlier[j - 2] + 2;
-            now[j] = best;
-        }
-    }
-    return row[n % 3][m];
-}
-
-bool words_near(const char *a, const char *b)
-{
-    uint32_t buffer[LETTERS];
-    int n = letters(a, buffer);
-    int allowed = n <= 1 ? 1 : n <= 4 ? 2 : n <= 8 ? 4 : 6;
-    return words_distance(a, b, allowed) <= allowed;
-}
-
 bool words_nearest_statement(const char *name, char *out, size_t size)
 {
     int best = 5;
     for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++) {
-        int d = words_distance(name, statements_words[i], 4);
+        int d = near_distance(name, statements_words[i], 4);
         if (d < best) {
             best = d;
             snprintf(out, size, "%s", statements_words[i]);
         }
     }
     return best < 5;
-}
-
-bool words_look_alike(const char *first, const char *second, char *out, size_t size)
-{
-    uint32_t a[LETTERS], b[LETTERS];
-    int n = letters(first, a), m = letters(second, b);
-    if (n != m)
-        return false;
-    int different = -1;
-    for (int i = 0; i < n; i++) {
-        if (face(a[i]) != face(b[i]))
-            return false;
-        if (a[i] != b[i] && different < 0)
-            different = i;
-    }
-    if (different < 0)
-        return false;
-    snprintf(out, size, "U+%04X against U+%04X", a[different], b[different]);
-    return true;
 }

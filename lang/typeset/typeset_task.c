@@ -7,14 +7,11 @@ static void push(typesetter *p, task t)
         return;
     if (p->count == p->capacity) {
         uint32_t capacity = p->capacity ? 2 * p->capacity : 128;
-        task *more = take(p->allocator, capacity, sizeof *more);
+        task *more = take_more(p->allocator, p->tasks, p->count, capacity, sizeof *more);
         if (!more) {
             p->failed = true;
             return;
         }
-        if (p->count)
-            memcpy(more, p->tasks, p->count * sizeof *more);
-        give(p->allocator, p->tasks);
         p->tasks = more;
         p->capacity = capacity;
     }

@@ -4,20 +4,19 @@
  */
 #include "lang/typeset/typeset_parts.h"
 
+#include "base/utf8.h"
+
 static void put(typesetter *p, const char *text, size_t length)
 {
     if (p->failed)
         return;
     if (length >= p->room - p->length) {
         size_t room = 2 * p->room + length + 1024;
-        char *more = take(p->allocator, room, 1);
+        char *more = take_more(p->allocator, p->text, p->length, room, 1);
         if (!more) {
             p->failed = true;
             return;
         }
-        if (p->length)
-            memcpy(more, p->text, p->length);
-        give(p->allocator, p->text);
         p->text = more;
         p->room = room;
     }
@@ -31,18 +30,9 @@ void typeset_put(typesetter *p, const char *text) { put(p, text, strlen(text)); 
 /* The bytes of one character that XML allows; 0: it does not, or the bytes are not UTF-8. */
 static size_t character(const char *text, size_t length)
 {
-    const unsigned char *b = (const unsigned char *)text;
-    size_t n = b[0] < 0x80 ? 1 : b[0] >= 0xC2 && b[0] < 0xE0 ? 2 : b[0] >> 4 == 14 ? 3 : b[0] >> 3 == 30 && b[0] < 0xF5 ? 4 : 0;
-    if (n == 0 || n > length || (n == 1 && (b[0] < 0x20 || b[0] == 0x7F)))
-        return 0;
-    for (size_t i = 1; i < n; i++)
-        if (b[i] >> 6 != 2)
-            return 0;
-    bool low = (b[0] == 0xE0 && b[1] < 0xA0) || (b[0] == 0xF0 && b[1] < 0x90);       /* longer than it need be */
-    bool surrogate = b[0] == 0xED && b[1] >= 0xA0, beyond = b[0] == 0xF4 && b[1] >= 0x90;
-    bool none = b[0] == 0xEF && b[1] == 0xBF && b[2] >= 0xBE;                        /* U+FFFE, U+FFFF */
-    bool control = b[0] == 0xC2 && b[1] < 0xA0;
-    return low || surrogate || beyond || none || control ? 0 : n;
+    uint32_t c = 0;
+    const size_t n = utf8_read(text, length, &c);
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xFFFE || c == 0xFFFF ? 0 : n;
 }
 
 static void escaped(typesetter *p, const char *text, size_t length)

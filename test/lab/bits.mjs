@@ -26,10 +26,10 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   const text = readFileSync(join(models, file), 'utf8');
   const core = new Core(module), lab = core.create();
   core.open(lab, { text, set: [] });
-  const { admissions, settings } = core.describe(lab);
+  const { methods, settings } = core.describe(lab);
   // Some hundred steps, the last of them shortened, but where a method takes whole steps only.
   const end = (method) => settings.start + settings.step * (method === 'verlet-literal' ? 150 : 149.5);
-  for (const { method } of admissions.filter(({ admitted }) => admitted)) {
+  for (const { name: method } of methods.filter(({ admitted }) => admitted)) {
     const until = end(method), state = join(folder, 'state');
     const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--quiet', '-o', join(folder, 'out.csv')],
       { encoding: 'utf8' });

@@ -94,7 +94,7 @@ export function subjects(description: Description, solution: Solution): Subject[
     const of = positions.filter(p => p.column.variable === k);
     if (of.length === 0) return;
     if (variable.components === 2 || variable.components === 3) bodies.push(...vectorBodies(of, variable));
-    else if (of.length > 2 && (variable.dimensions > 0 || variable.components > 3))
+    else if (of.length > 2 && (variable.ranges.length > 0 || variable.components > 3))
       families.push({ id: `shape-${variable.name}`, kind: 'shape', label: `shape of ${variable.name}`, axes: ['i', variable.name],
         bodies: [{ label: variable.name, columns: of.map(p => p.at) }] });
     else scalars.push(...of);

@@ -32,7 +32,7 @@ function names(motion: Motion, ink: Ink): Entry[] {
   if (motion.truth) entries.unshift(exactEntry(ink, truthName(motion)));
   return entries;
 }
-const truthName = (motion: Motion): string => motion.scene.description.hasExact ? 'exact' : 'reference';
+const truthName = (motion: Motion): string => motion.scene.description.has_exact ? 'exact' : 'reference';
 
 export function heightOfNames(motion: Motion, width: number): number {
   const labels = [...(motion.truth ? [truthName(motion)] : []), ...motion.lines.map(l => l.look.label)];

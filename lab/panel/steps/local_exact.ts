@@ -29,7 +29,7 @@ function settingOf(p: Parameter, trace: Trace): string | null {
 
 export async function localExact(client: Client, scene: Scene, trace: Trace): Promise<LocalExact | null> {
   const { description, state } = scene, start = trace.entries[0];
-  if (!start || description.analysis.timeDependent) return null;
+  if (!start || description.time_dependent) return null;
   const initial = description.parameters.filter(p => p.initial);
   const settings = initial.map(p => settingOf(p, trace));
   if (settings.length === 0 || settings.includes(null)) return null;

@@ -69,7 +69,7 @@ export function sketch(trace: Trace, plane: Plane): Mark[][] {
       case 'solve': return [];
       case 'taylor': case 'step': {
         const to = place(e.x, e.time + h);
-        const last = e.beforeX ? place(e.beforeX, start.time - h) : null;
+        const last = e.before_x ? place(e.before_x, start.time - h) : null;
         const straight: Place = last ? [2 * from[0] - last[0], 2 * from[1] - last[1]] : plus(from, along(start.v, 1));
         return [
           ...(last ? [{ kind: 'point', at: last, style: 'stage', label: 'step before' } as Point, { kind: 'line', from: last, to: from, role: 'move' } as Segment] : []),

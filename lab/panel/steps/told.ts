@@ -51,8 +51,6 @@ function signed(c: number): string {
   return `${c < 0 ? '−' : '+'} ${size === '1' ? '' : `${size} `}`;
 }
 
-export interface StepTold { readonly trace: Trace; readonly indices: readonly number[] }
-
 /** What event `at` of a trace does to the numbers with these indices. */
 export function tell(trace: Trace, at: number, indices: readonly number[]): Told {
   const e = trace.entries[at]!, start = trace.entries[0]!, before = trace.entries[at - 1] ?? start;
@@ -98,21 +96,21 @@ export function tell(trace: Trace, at: number, indices: readonly number[]): Told
           w => `${x(k)} ← ${w(start.x[k]!)} + ${bracketed(w(h))} · ${bracketed(w(start.v[k]!))} + 1/2 · ${bracketed(w(h))}² · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.x[k]!)}`)]),
       };
     case 'step':
-      if (e.beforeX) return {
+      if (e.before_x) return {
         title: 'Recurrence', note: 'As far again as in the step before, and the acceleration on top.',
         formulas: each(k => [formula(`${x(k)} ← 2 ${x(k)} − ${x(k)}₋ + h² ${a(k)}`,
-          w => `${x(k)} ← 2 · ${bracketed(w(start.x[k]!))} − ${bracketed(w(e.beforeX?.[k] ?? NaN))} + ${bracketed(w(h))}² · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.x[k]!)}`)]),
+          w => `${x(k)} ← 2 · ${bracketed(w(start.x[k]!))} − ${bracketed(w(e.before_x?.[k] ?? NaN))} + ${bracketed(w(h))}² · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.x[k]!)}`)]),
       };
       return {
         title: 'Position', note: 'The acceleration now and the one a step before tell how it changes.',
         formulas: each(k => [formula(`${x(k)} ← ${x(k)} + h ${v(k)} + h²/6 (4 ${a(k)} − ${a(k)}₋)`,
-          w => `${x(k)} ← ${w(start.x[k]!)} + ${bracketed(w(h))} · ${bracketed(w(start.v[k]!))} + ${bracketed(w(h))}²/6 · (4 · ${bracketed(w(e.a?.[k] ?? NaN))} − ${bracketed(w(e.beforeA?.[k] ?? NaN))}) = ${w(e.x[k]!)}`)]),
+          w => `${x(k)} ← ${w(start.x[k]!)} + ${bracketed(w(h))} · ${bracketed(w(start.v[k]!))} + ${bracketed(w(h))}²/6 · (4 · ${bracketed(w(e.a?.[k] ?? NaN))} − ${bracketed(w(e.before_a?.[k] ?? NaN))}) = ${w(e.x[k]!)}`)]),
       };
     case 'end': return { title: `End, t = ${shortly(e.time)}`, ...ending() };
   }
 
   function positionAt(s: TraceEntry, k: number, name: string): Formula {
-    const row = s.row ?? [], rowX = s.rowX ?? [];
+    const row = s.row ?? [], rowX = s.row_x ?? [];
     if (row.every(c => c === 0) && rowX.every(c => c === 0) && s.coefficient === 0) return formula('', w => `${name} = ${x(k)}₀ = ${w(s.x[k]!)}`);
     if (usable(row, stages.map(q => q.v[k]!), start.x[k]!, s.x[k]!))
       return formula(`${name} = ${x(k)}₀ + h ${weightedNames(row, v(k))}`,
@@ -133,7 +131,7 @@ export function tell(trace: Trace, at: number, indices: readonly number[]): Told
   }
   function ending(): { note: string; formulas: readonly Formula[] } {
     if (stages.length > 0) {
-      const weights = stages.map(s => s.weight), weightsX = stages.map(s => s.weightX);
+      const weights = stages.map(s => s.weight), weightsX = stages.map(s => s.weight_x);
       return {
         note: stages.length === 1 ? 'The one slope, for the whole step.' : 'The slopes, each with its weight.',
         formulas: each(k => [
@@ -146,10 +144,10 @@ export function tell(trace: Trace, at: number, indices: readonly number[]): Told
         ]),
       };
     }
-    if (before.kind === 'step' && !before.beforeX) return {
+    if (before.kind === 'step' && !before.before_x) return {
       note: 'The velocity, with the acceleration at the new place.',
       formulas: each(k => [formula(`${v(k)} ← ${v(k)} + h/6 (2 ${a(k)}₁ + 5 ${a(k)} − ${a(k)}₋)`,
-        w => `${v(k)} ← ${w(start.v[k]!)} + ${bracketed(w(h))}/6 · (2 · ${bracketed(w(e.a?.[k] ?? NaN))} + 5 · ${bracketed(w(before.a?.[k] ?? NaN))} − ${bracketed(w(before.beforeA?.[k] ?? NaN))}) = ${w(e.v[k]!)}`)]),
+        w => `${v(k)} ← ${w(start.v[k]!)} + ${bracketed(w(h))}/6 · (2 · ${bracketed(w(e.a?.[k] ?? NaN))} + 5 · ${bracketed(w(before.a?.[k] ?? NaN))} − ${bracketed(w(before.before_a?.[k] ?? NaN))}) = ${w(e.v[k]!)}`)]),
     };
     if (before.kind === 'step' || before.kind === 'taylor') return {
       note: 'The velocity at the same time as the position: the mean over the step, and half a kick by the acceleration at the new place.',

@@ -1,5 +1,5 @@
 /* The floating-point modes a caller may have changed: saved, set to IEEE defaults, restored. */
-#include "api/system.h"
+#include "base/modes.h"
 
 #include <fenv.h>
 

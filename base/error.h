@@ -1,0 +1,15 @@
+/* What failed, said once: fail(err, MOTUS_…, "what, where") and hint(err, "what would be right").
+ *
+ * The error may be NULL. The texts are made safe for a terminal, and their numbers have a decimal point whatever the
+ * locale.
+ */
+#ifndef BASE_ERROR_H
+#define BASE_ERROR_H
+
+#include "motus.h"
+
+/* Fills the error and returns its status. */
+motus_status fail(motus_error *, motus_status, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void hint(motus_error *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,19 @@
+/* Memory by the user's hooks (motus_allocator; NULL or without functions: malloc and free).
+ *
+ * take and give are one block and its return. What lives as long as a model is a piece of its arena, which takes
+ * such blocks: arena_take, arena_room, arena_grow (lang/arena.h). The program, the page and the tests, which have no
+ * hooks, say malloc and free.
+ */
+#ifndef BASE_MEMORY_H
+#define BASE_MEMORY_H
+
+#include "motus.h"
+
+/* count × bytes, zeroed; NULL when there is none or the product is too large. */
+void *take(const motus_allocator *, size_t count, size_t bytes);
+/* A larger block for a list of `used` elements, which are copied; the old one is given back. NULL when there is
+ * none: the old one stands. */
+void *take_more(const motus_allocator *, void *old, size_t used, size_t count, size_t bytes);
+void give(const motus_allocator *, void *);
+
+#endif

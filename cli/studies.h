@@ -1,0 +1,30 @@
+/* What compare and converge do alike: load a model, study it, show what was found. */
+#ifndef CLI_STUDIES_H
+#define CLI_STUDIES_H
+
+#include "cli/file.h"
+#include "cli/load.h"
+#include "cli/stop.h"
+
+typedef struct studies {
+    const options *options;
+    load model;
+    stop_progress progress;
+} studies;
+
+/* Loads the model and fills the definition. The progress is shown as that of `what` until stop_progress_end(). */
+motus_status studies_begin(studies *, const char *what, const options *, motus_study_def *, motus_error *);
+
+/* The first line of the tables: of what, and against what it is judged. */
+void studies_title(const studies *, const char *reference, double error);
+
+typedef struct studies_ways {
+    motus_status (*draw)(studies *, const void *result, file_out *, motus_error *);
+    void (*json)(const studies *, const void *result);
+    motus_status (*tables)(const studies *, const void *result, motus_error *);
+} studies_ways;
+
+/* The picture, then JSON or tables, so that nothing is printed of what failed; the picture gets its name last. */
+motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
+
+#endif

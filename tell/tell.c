@@ -1,0 +1,214 @@
+/* What is told of a result.
+ *
+ * Invariant: the keys are those of --json, which scripts read: they stay, and what is new gets a new one.
+ */
+#include "tell/tell.h"
+
+#include <string.h>
+
+/* The parts of a text between `separator`s, empty ones left out. */
+static void parts(json *j, const char *key, const char *text, char separator)
+{
+    const char separators[] = {separator, 0};
+    json_open(j, key, '[');
+    for (const char *s = text ? text : ""; *s;) {
+        const size_t length = strcspn(s, separators);
+        if (length)
+            json_part(j, NULL, s, length);
+        s += length + (s[length] == separator);
+    }
+    json_close(j, ']');
+}
+
+/* Methods --------------------------------------------------------------------------------------------------------- */
+
+const char *tell_forces(motus_forces f)
+{
+    return f == MOTUS_FORCES_X ? "x" : f == MOTUS_FORCES_XT ? "x, t" : "x, x', t";
+}
+
+static void method(json *j, const motus_method *m)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "name", m->name);
+    parts(j, "aliases", m->aliases, ' ');
+    json_string(j, "title", m->title);
+    json_string(j, "family", m->family);
+    json_integer(j, "order", m->order);
+    json_integer(j, "stages", m->stages);
+    json_integer(j, "evaluations", m->evaluations);
+    json_string(j, "forces", tell_forces(m->forces));
+    json_bool(j, "symplectic", m->symplectic);
+    json_bool(j, "reversible", m->reversible);
+    json_number(j, "stability_limit", m->stability_limit);           /* null: none */
+    json_string(j, "cite", m->cite);
+    json_string(j, "formula", m->formula);
+    json_string(j, "use", m->use);
+    json_close(j, '}');
+}
+
+void tell_methods(json *j, const motus_method *only)
+{
+    json_open(j, "methods", '[');
+    for (size_t k = 0; k < motus_method_count(); k++)
+        if (!only || motus_method_at(k) == only)
+            method(j, motus_method_at(k));
+    json_close(j, ']');
+}
+
+/* Models ---------------------------------------------------------------------------------------------------------- */
+
+const char *tell_reason(const char *message, const char *method)
+{
+    static const char words[] = " does not admit this model: ";
+    const size_t length = strlen(method);
+    const bool said = strncmp(message, method, length) == 0 && strncmp(message + length, words, sizeof words - 1) == 0;
+    return said ? message + length + sizeof words - 1 : message;
+}
+
+void tell_variables(json *j, const motus_system *system)
+{
+    motus_variable v = motus_default_variable();
+    json_open(j, "variables", '[');
+    for (size_t k = 0; motus_variable_at(system, k, &v) == MOTUS_OK; k++) {
+        json_open(j, NULL, '{');
+        json_string(j, "name", v.name);
+        json_integer(j, "order", v.order);
+        json_integer(j, "components", v.components);
+        json_open(j, "ranges", '[');
+        for (int d = 0; d < v.dimensions; d++) {
+            json_open(j, NULL, '[');
+            json_integer(j, NULL, v.first[d]);
+            json_integer(j, NULL, v.last[d]);
+            json_close(j, ']');
+        }
+        json_close(j, ']');
+        json_integer(j, "count", (int64_t)v.count);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+void tell_analysis(json *j, const motus_system *system)
+{
+    motus_analysis a = motus_default_analysis();
+    motus_analysis_of(system, &a);
+    json_bool(j, "velocity_dependent", a.velocity_dependent);
+    json_bool(j, "linear_in_velocity", a.linear_in_velocity);
+    json_bool(j, "time_dependent", a.time_dependent);
+    json_bool(j, "affine", a.affine);
+    json_bool(j, "constant", a.constant);
+    json_bool(j, "gyroscopic", a.gyroscopic);
+    json_bool(j, "gradient", a.gradient);
+    json_bool(j, "smooth", a.smooth);
+    json_bool(j, "exact_recognised", a.exact_recognised);
+}
+
+void tell_admissions(json *j, const motus_system *system)
+{
+    json_open(j, "methods", '[');
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        motus_error why = motus_default_error();
+        const char *name = motus_method_at(k)->name;
+        const bool admitted = motus_method_admits(system, name, &why) == MOTUS_OK;
+        json_open(j, NULL, '{');
+        json_string(j, "name", name);
+        json_bool(j, "admitted", admitted);
+        json_string(j, "reason", admitted ? "" : tell_reason(why.message, name));
+        json_string(j, "hint", admitted ? "" : why.hint);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+/* Studies --------------------------------------------------------------------------------------------------------- */
+
+static void drift(json *j, const motus_drift *d)
+{
+    json_open(j, d->name, '{');
+    json_number(j, "initial", d->initial);
+    json_number(j, "final", d->final);
+    json_number(j, "max_drift", d->max_drift);
+    json_number(j, "trend", d->trend);
+    json_bool(j, "trending", d->trending);
+    json_close(j, '}');
+}
+
+static void compare_row(json *j, const motus_compare_row *r)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "method", r->method);
+    json_integer(j, "order", r->order);
+    json_string(j, "status", motus_status_word(r->status));
+    json_number(j, "step", r->step);
+    json_integer(j, "steps", r->steps);
+    json_integer(j, "evaluations", r->evaluations);
+    json_number(j, "seconds", r->seconds);
+    json_number(j, "error_max", r->error_max_x);
+    json_number(j, "error_final", r->error_final_x);
+    json_number(j, "error_max_v", r->error_max_v);
+    json_number(j, "error_final_v", r->error_final_v);
+    json_open(j, "invariants", '{');
+    for (size_t k = 0; k < r->invariant_count; k++)
+        drift(j, r->invariants[k]);
+    json_close(j, '}');
+    json_number(j, "reversal", r->reversal);
+    json_string(j, "note", r->note ? r->note : "");
+    json_close(j, '}');
+}
+
+void tell_comparison(json *j, const motus_comparison *c)
+{
+    json_string(j, "reference", c->reference);
+    json_number(j, "reference_error", c->reference_error);
+    json_open(j, "rows", '[');
+    for (size_t k = 0; k < c->row_count; k++)
+        compare_row(j, c->rows[k]);
+    json_close(j, ']');
+    parts(j, "remarks", c->remarks, '\n');
+}
+
+static void converge_row(json *j, const motus_converge_row *r)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "method", r->method);
+    json_integer(j, "declared", r->declared);
+    json_number(j, "observed", r->observed);
+    json_number(j, "standard_error", r->standard_error);
+    json_bool(j, "exact_here", r->exact_here);
+    json_bool(j, "passed", r->passed);
+    json_string(j, "status", motus_status_word(r->status));
+    json_string(j, "certificate", r->certificate ? r->certificate : "");
+    json_open(j, "points", '[');
+    for (size_t i = 0; i < r->point_count; i++) {
+        json_open(j, NULL, '{');
+        json_number(j, "step", r->points[i]->step);
+        json_number(j, "error", r->points[i]->error);
+        json_integer(j, "evaluations", r->points[i]->evaluations);
+        json_bool(j, "used", r->points[i]->used);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_close(j, '}');
+}
+
+void tell_convergence(json *j, const motus_convergence *c)
+{
+    json_string(j, "reference", c->reference);
+    json_number(j, "reference_error", c->reference_error);
+    json_bool(j, "passed", c->passed);
+    json_open(j, "rows", '[');
+    for (size_t k = 0; k < c->row_count; k++)
+        converge_row(j, c->rows[k]);
+    json_close(j, ']');
+}
+
+/* Errors ---------------------------------------------------------------------------------------------------------- */
+
+void tell_error(json *j, const motus_error *err, const char *message)
+{
+    json_string(j, "kind", motus_status_word(err->status));
+    json_string(j, "message", message);
+    json_integer(j, "line", err->line);
+    json_integer(j, "column", err->column);
+}
