@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-enum { SNAPSHOT = 16, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a cache line, to which arrays are aligned */
+enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a cache line, to which arrays are aligned */
 
 const stepper_body *stepper_best_body(void)
 {

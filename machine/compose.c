@@ -123,7 +123,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_c", w.c, w.stages);
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
-    emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants ? constants : 1);
+    emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
              stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX),
              structure ? w.nv : 0);

@@ -41,11 +41,11 @@ int motus_run(work *given, whole steps)
 #if SMALL
         some = steps < SPAN ? steps : SPAN;
         real room[ARRAYS * STRIDE];
-        clock scaled[CONSTANTS];
+        clock scaled[CONSTANTS + 1];
         w->check = false;
         w->stride = STRIDE;
         w->moved = 0;
-        for (int i = 0; i < w->linears + w->squares; i++) scaled[i] = given->scaled[i];
+        WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
         w->scaled = scaled;
         w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
         work_place(w, room);

@@ -170,7 +170,7 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
-    clock scaled[CONSTANTS];
+    clock scaled[CONSTANTS + 1];
     bool fresh = false;              /* the accelerations of all groups are known, because somebody looked */
 #if LANES_LOCAL
     w->stride = NUMBERS;
@@ -181,7 +181,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     w->table = job->table;
     w->first = job->first;
     w->moved = 0;
-    for (int i = 0; i < w->linears + w->squares; i++) scaled[i] = job->plan->scaled[i];
+    WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = job->plan->scaled[i];
     w->scaled = scaled;
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
