@@ -13,7 +13,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { CHUNK = 512, ALIGNMENT = 64, ITEM_BYTES = 256 << 10 };      /* an item's blocks fit the second cache */
+enum { CHUNK = 512, ITEM_BYTES = 256 << 10 };      /* an item's blocks fit the second cache */
 #define LITTLE_WORK 1e6              /* operations: some 0.1 ms in lanes */
 
 /* ---- a block ---- */
@@ -76,6 +76,8 @@ static lanes_job job_of(const batch *b, size_t block)
     j.carry = p + l->own_size + l->bound_size;
     j.kept = j.carry + l->carry_size;
     j.room = b->scratch;
+    j.lost = look + l->look_size;
+    j.solving = (char *)(j.lost + lines(l, 1));
     j.x = look;
     j.v = look + m->nx * n;
     j.a = l->wants_a ? look + (m->nx + m->nv) * n : NULL;
@@ -83,7 +85,7 @@ static lanes_job job_of(const batch *b, size_t block)
     return j;
 }
 
-static double *spare_of(const batch *b) { return b->scratch + b->l->work_size + b->l->look_size; }
+static double *spare_of(const batch *b) { return b->scratch + b->l->work_size + b->l->look_size + b->l->solve_size; }
 
 static void begin_block(const batch *b, size_t block)
 {
@@ -158,6 +160,8 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
             l->first(&j);
         else
             l->run(&j, 1, 0);
+        if (plan.solves)                 /* an equation that could not be solved stops its lane before the step */
+            stop_lanes(l, j.lost, 1, time_now(&plan), stopped);
         plan.n++;
         stop_lanes(l, before, l->carried, time_now(&plan), stopped);
     }
@@ -382,7 +386,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     const size_t threads = little ? 1 : (size_t)d->threads;
     crowd c = {.l = l, .count = count, .values = values, .results = results, .stopped = stopped, .blocks = (count + (size_t)l->block - 1) / (size_t)l->block};
     c.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
-    c.scratch_size = l->work_size + l->look_size + spare;
+    c.scratch_size = l->work_size + l->look_size + l->solve_size + spare;
     c.most = ITEM_BYTES / sizeof(double) / c.block_size;
     if (c.most > (c.blocks + 4 * threads - 1) / (4 * threads))
         c.most = (c.blocks + 4 * threads - 1) / (4 * threads);
