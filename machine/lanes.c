@@ -22,12 +22,13 @@ enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
+    if (plan->solves && !(plan->row->family == IMPLICIT ? plan->direct : plan->linear))
+        return 1;                                    /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     for (uint32_t k = 0; k < g->count; k++)          /* what depends on time alone is in the table */
         operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
     for (size_t k = 0; k < d->source_count; k++)
         operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
-    if (plan->solves) return 1;
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
@@ -39,6 +40,8 @@ const char *lanes_refuse(const lanes_def *d)
         return "the exact motion is computed one trajectory at a time";
     if (!solve_text_admits(d->model, d->problem, d->chosen))
         return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
+    if (d->chosen->row->gyroscopic && (!d->problem->traits.constant_jv || (!d->whole && d->last == 0)))
+        return "whether the velocity term does no work depends on the state: trajectories are computed one at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
     if (d->model->graph->count > OPERATIONS_MAX)

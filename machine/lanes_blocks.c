@@ -26,7 +26,7 @@ typedef struct crowd {               /* all trajectories of a call */
     double *memory;                  /* of every thread: blocks, scratch, table */
     size_t block_size, scratch_size, scaled_size, thread_size;
     atomic_size_t done;              /* items */
-    atomic_bool cancelled;
+    atomic_bool cancelled, refused;      /* refused: the row does not admit the parameters of some lane */
 } crowd;
 
 typedef struct batch {               /* blocks that go through time together, in one thread */
@@ -188,6 +188,9 @@ static void run_block(const batch *b, size_t block)
         l->first(&j);
     else
         l->run(&j, b->steps, b->every);
+    for (size_t i = 0; b->plan.solves && b->plan.n == 0 && i < (size_t)l->block; i++)
+        if (isinf(j.lost[i]))
+            atomic_store(&b->crowd->refused, true);
     if (lost_another(l, j.carry, l->carried, stopped))
         trace(b, j, before, stopped);
 }
@@ -361,7 +364,7 @@ static void run_item(void *ctx, size_t item, int thread)
     crowd *c = ctx;
     const lanes *l = c->l;
     const size_t first = item * c->most, block = (size_t)l->block;
-    if (atomic_load(&c->cancelled))
+    if (atomic_load(&c->cancelled) || atomic_load(&c->refused))
         return;
     batch b = {.l = c->l, .crowd = c, .values = c->values, .results = c->results, .stopped = c->stopped, .block_size = c->block_size, .first = first * block};
     b.blocks = c->blocks - first < c->most ? c->blocks - first : c->most;
@@ -393,7 +396,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     if (c.most == 0)
         c.most = 1;
     c.scaled_size = (work_constants(&l->plan) + 7) / 8 * 8;
-    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 64 + 64) + 7) / 8 * 8;
     c.items = (c.blocks + c.most - 1) / c.most;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)
@@ -401,5 +404,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
     parallel_for((int)threads, c.items, run_item, &c);
     give(d->allocator, memory);
+    if (atomic_load(&c.refused))
+        return MOTUS_METHOD;
     return atomic_load(&c.cancelled) ? fail(err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
 }

@@ -132,6 +132,24 @@ static void write_apply(emit_text *t, const structure *s, size_t nv)
     emit_add(t, "}\n\n");
 }
 
+/* Whether da/dv does no work, as a gyroscopic row wants: exactly antisymmetric, entry by entry. */
+static void write_turns(emit_text *t, const structure *s, bool gyroscopic)
+{
+    emit_add(t, "static inline truth solve_turns(const solving *z)\n{\n    truth turns = ALWAYS;\n    (void)z;\n");
+    for (size_t c = 0; gyroscopic && c < s->v.columns; c++)
+        for (size_t e = s->v.start[c]; e < s->v.start[c + 1]; e++) {
+            const size_t row = s->v.row[e];
+            size_t other = s->v.start[row];
+            while (other < s->v.start[row + 1] && s->v.row[other] != c)
+                other++;
+            if (row == c || other == s->v.start[row + 1])
+                emit_add(t, "    turns = turns & (z->v[%zu] == 0);\n", e);
+            else
+                emit_add(t, "    turns = turns & (z->v[%zu] == -z->v[%zu]);\n", e, other);
+        }
+    emit_add(t, "    return turns;\n}\n\n");
+}
+
 bool solve_text_write(emit_text *t, const composition *c)
 {
     const problem *p = c->problem;
@@ -156,6 +174,7 @@ bool solve_text_write(emit_text *t, const composition *c)
         write_matrix(t, &s);
         write_moves(t, &s, p->nv);
         write_apply(t, &s, p->nv);
+        write_turns(t, &s, c->chosen->row->gyroscopic);
     }
     release(&s, &c->model->arena->allocator);
     return ok && !t->arena->failed;

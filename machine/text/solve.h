@@ -2,9 +2,10 @@
  *
  * Before it stand, written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER diagonals, SOLVE_CONSTANT; the type `solving`;
  * solve_derive (the entries of the derivatives), solve_fill (the matrix, column by column; its diagonal alone where it has no more), solve_take and
- * solve_give (from the stages' order to that of the unknowns, and back), solve_multiply.
+ * solve_give (from the stages' order to that of the unknowns, and back), solve_multiply, solve_turns.
  * Invariant: a lane picks its own pivots, and skips what is skipped for it alone, by choosing; entries outside the band are 0 and stay so. Where
- * a matrix is singular its lane is marked in host->lost. What is constant is factored once in a call.
+ * a matrix is singular its lane is marked in host->lost by a NaN; where a gyroscopic row meets a velocity term that does work, by an infinity. What
+ * is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
 #define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
@@ -129,6 +130,7 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
     truth all = ALWAYS;
     for (int k = 0; k < FACT_nv; k++) none[k] = MANY(0.0);
     solve_renew(host, host->solving, &all, ax, av, t, none, none);
+    *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((clock)INFINITY));
     host->solving->factored = true;
 }
 
