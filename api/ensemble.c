@@ -106,13 +106,19 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
     return status == MOTUS_TOOL ? MOTUS_OK : status;
 }
 
+/* One trajectory at a time, by the interpreter. */
+static void choose_portable(motus_ensemble *e)
+{
+    e->machine = e->system->machine;
+    if (e->system->allocator.allocate)
+        e->threads = 1;              /* its hooks are called by one thread at a time */
+}
+
 /* One trajectory at a time, compiled where that is wanted and possible. */
 static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_error *err)
 {
     motus_system *s = e->system;
-    e->machine = s->machine;
-    if (s->allocator.allocate)
-        e->threads = 1;              /* its hooks are called by one thread at a time */
+    choose_portable(e);
     if (!s->model && s->callback.block)
         e->block = ensemble_block_size(s, &e->chosen);
     if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
@@ -213,8 +219,11 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     for (size_t r = 0; r < e->record_count; r++)
         p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
-    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err)
-                          : !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : MOTUS_METHOD;
+    if (e->lanes && status == MOTUS_METHOD)
+        choose_portable(e);
+    if (status == MOTUS_METHOD)
+        status = !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;

@@ -32,13 +32,16 @@ void stepper_use_body(stepper *s, const stepper_body *body) { s->body = body; }
 
 /* Life ------------------------------------------------------------------------------------------------------------ */
 
+bool stepper_fixed(const problem *p, const work *plan)
+{
+    return (p->traits.affine && !p->traits.time) || (!plan->solves_x && p->traits.linear_v && p->traits.constant_jv);
+}
+
 static motus_status prepare_solver(stepper *s, motus_error *err)
 {
-    const traits *traits = &s->problem.traits;
     const work *w = &s->work;
     if (!w->solves) return MOTUS_OK;
-    const bool fixed = (traits->affine && !traits->time) || (!w->solves_x && traits->linear_v && traits->constant_jv);
-    return solver_create(&s->problem, w->solves, w->solves_x, traits->velocity, fixed, w->stride, &s->allocator, &s->library.solver, err);
+    return solver_create(&s->problem, w->solves, w->solves_x, s->problem.traits.velocity, stepper_fixed(&s->problem, w), w->stride, &s->allocator, &s->library.solver, err);
 }
 
 work stepper_plan(const problem *p, const chosen *method, coef *memory)

@@ -25,7 +25,7 @@ typedef struct stepper_body {
     int (*check)(work *);                                    /* advance_check */
     void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
     /* What a compiled body calls back for. */
-    int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
+    int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
     const real *(*diagonal)(const work *);                   /* solver_diagonal */
@@ -41,6 +41,8 @@ extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 /* A workspace without memory: what follows from the row, its arguments and the problem. With memory for work_plan_size numbers, which must stay, its
  * constants too. */
 work stepper_plan(const problem *, const chosen *, coef *memory);
+/* Whether the matrix of the plan's linear systems is the same at every state and time. */
+bool stepper_fixed(const problem *, const work *plan);
 /* How many arrays a planned workspace needs, and how many of them lead from a step to the next. */
 size_t stepper_arrays(work plan);
 size_t stepper_carried(work plan);

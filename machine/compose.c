@@ -7,6 +7,7 @@
 
 #include "core/stepper_body.h"
 #include "lang/base/operation.h"
+#include "machine/solve_text.h"
 #include "machine/texts.h"
 
 #include <string.h>
@@ -27,8 +28,7 @@ static void add_text(emit_text *t, const char *which)
     emit_add(t, "#error \"%s is not among the embedded texts\"\n", which);
 }
 
-/* Scalar models have as many numbers in every run; families do not. */
-static bool sizes_are_structure(const model *m)
+bool compose_sizes_are_structure(const model *m)
 {
     for (uint32_t i = 0; i < m->state_count; i++)
         if (m->states[i].dims > 0)
@@ -146,7 +146,7 @@ static void add_family(emit_text *t, const composition *c)
     if (stepper_plan(c->problem, c->chosen, NULL).solves)
         add_text(t, "step/newton.h");
     else
-        emit_add(t, "#define newton_increment(w, g, s, u, t) STEP_OK\n#define solve_factor(w, s, ax, av, t, x, v) STEP_OK\n"
+        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
                     "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
     if (*families[r->family].shared)
         add_text(t, families[r->family].shared);
@@ -250,7 +250,7 @@ static void add_windows(emit *e)
 bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
-    const bool structure = sizes_are_structure(c->model), lanes = c->width > 0, windowed = c->locality && c->locality->divisible;
+    const bool structure = compose_sizes_are_structure(c->model), lanes = c->width > 0, windowed = c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
     e->literal = structure;
     e->arrays = c->model->arrays;
@@ -302,6 +302,9 @@ bool compose(emit *e, const composition *c)
     add_text(t, "machine/text/compiled.h");
     if (lanes) {
         add_text(t, "machine/text/lanes_job.h");
+        if (c->solves && !solve_text_write(t, c))
+            return false;
+        add_text(t, c->solves ? "machine/text/solve.h" : "machine/text/solve_none.h");
         emit_add(t, "%s", c->glue);
     }
     if (windowed)

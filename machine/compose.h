@@ -18,11 +18,14 @@ typedef struct composition {
     const composed_program *programs;    /* "compiled_force" first */
     size_t program_count;
     const locality *locality;            /* of the first program, where it may be taken window by window; NULL */
+    bool solves;                         /* lanes: the row solves equations, by solve_text.h */
     int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
     const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
     const char *const *last;             /* the texts that stand last, up to a NULL */
 } composition;
 
+/* Whether the numbers of a state are the same in every run: scalar models have them, families do not. */
+bool compose_sizes_are_structure(const model *);
 /* Doubles in the widest vector that this machine has an instruction for: 1, 2, 4 or 8. */
 int compose_width(void);
 /* Writes into e->text, and e->moments; e->lanes and e->varied must be set. False: the arena failed. */

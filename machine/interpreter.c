@@ -65,12 +65,8 @@ static node seed(graph *g, node leaf, void *ctx)
     return graph_seed_direction(g, leaf, &d->shift);
 }
 
-/* Derived only when a method asks for it: most do not. */
-static tape *derive(interpreter *in, int along)
+static output *derivatives(model *m, int along)
 {
-    model *m = in->model;
-    if (in->jvp[along])
-        return in->jvp[along];
     output *o = arena_room(m->arena, m->accel_count * sizeof *o);
     if (!o)
         return NULL;
@@ -79,7 +75,22 @@ static tape *derive(interpreter *in, int along)
         o[i] = m->accel[i];
         o[i].value = graph_derivative(m->graph, o[i].value, seed, &d);
     }
-    return in->jvp[along] = make(m, o, m->accel_count);
+    return o;
+}
+
+/* Derived only when a method asks for it: most do not. */
+static tape *derive(interpreter *in, int along)
+{
+    if (in->jvp[along])
+        return in->jvp[along];
+    const output *o = derivatives(in->model, along);
+    return o ? in->jvp[along] = make(in->model, o, in->model->accel_count) : NULL;
+}
+
+program *interpreter_derivative(model *m, bool in_v)
+{
+    const output *o = derivatives(m, in_v ? ALONG_V : ALONG_X);
+    return o ? program_create(m->graph, o, m->accel_count) : NULL;
 }
 
 static bool prepare(void *ctx, bool in_v)

@@ -5,6 +5,7 @@
 #include "machine/lanes_parts.h"
 
 #include "machine/cache.h"
+#include "machine/solve_text.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -21,6 +22,8 @@ enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
+    if (plan->solves && !(plan->row->family == IMPLICIT ? plan->direct : plan->linear))
+        return 1;                                    /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     for (uint32_t k = 0; k < g->count; k++)          /* what depends on time alone is in the table */
         operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
@@ -33,8 +36,12 @@ static int best_groups(const lanes_def *d, const work *plan)
 
 const char *lanes_refuse(const lanes_def *d)
 {
-    if (d->chosen->row->family == EXACT || stepper_plan(d->problem, d->chosen, NULL).solves)
-        return "this method solves an equation at every step, one trajectory at a time";
+    if (d->chosen->row->family == EXACT)
+        return "the exact motion is computed one trajectory at a time";
+    if (!solve_text_admits(d->model, d->problem, d->chosen))
+        return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
+    if (d->chosen->row->gyroscopic && (!d->problem->traits.constant_jv || (!d->whole && d->last == 0)))
+        return "whether the velocity term does no work depends on the state: trajectories are computed one at a time";
     if (row_adaptive(d->chosen))
         return "the steps of this method adapt to each trajectory, one at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
@@ -95,13 +102,15 @@ static void write_records(emit_text *t, const lanes_def *d, const looked *looks,
 }
 
 /* The functions of the text that call the programs, all of one kind in one. */
-static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t look_count)
+static char *write_glue(lanes *l, const composed_program *along, size_t entries, const looked *looks, size_t look_count)
 {
     emit_text t = {.arena = l->def.model->arena};
     const bool bounded = l->def.model->boundary_count > 0;
     write_records(&t, &l->def, looks, look_count);
     emit_add(&t, "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s",
              bounded ? "    compiled_boundary_bind(pool, q, u);\n" : "");
+    for (const composed_program *p = along; p->name; p++)
+        emit_add(&t, "    %s_bind(pool, q, u);\n", p->name);
     for (size_t k = 0; k < entries; k++)
         emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
     for (size_t k = 0; k < look_count; k++)
@@ -116,6 +125,8 @@ static char *write_glue(lanes *l, size_t entries, const looked *looks, size_t lo
     emit_add(&t, "}\n\nstatic inline void lanes_bind_lanes(const compiled_host *host)\n{\n"
                  "    compiled_force_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n%s",
              bounded ? "    compiled_boundary_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n" : "");
+    for (const composed_program *p = along; p->name; p++)
+        emit_add(&t, "    %s_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", p->name);
     for (size_t k = 0; k < look_count; k++)
         emit_add(&t, "    look_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", k);
     emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, real *out)\n{\n"
@@ -135,13 +146,17 @@ static bool write_text(lanes *l)
     uint32_t entries;
     const vary_active *active = vary_entries(d->vary, &entries);
     looked looks[LOOKS_MAX];
-    const size_t look_count = list_looks(d, looks, &l->outs), count = 2 + entries + look_count;
+    const size_t look_count = list_looks(d, looks, &l->outs), count = 4 + entries + look_count;
     composed_program *programs = arena_room(m->arena, count * sizeof *programs);
     char *names = arena_room(m->arena, count * PROGRAM_NAME);
     if (!programs || !names)
         return false;
     size_t n = 0;
     programs[n++] = (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", true};
+    composed_program along[3] = {{0}};
+    const size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
+    for (size_t k = 0; k < alongs; k++)
+        programs[n++] = along[k];
     if (m->boundary_count)
         programs[n++] = (composed_program){program_create(m->graph, m->boundary, m->boundary_count), "compiled_boundary", false};
     for (uint32_t k = 0; k < entries; k++) {
@@ -160,7 +175,7 @@ static bool write_text(lanes *l)
     static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
-                           .groups = l->groups, .glue = write_glue(l, entries, looks, look_count), .last = last};
+                           .solves = l->plan.solves > 0, .groups = l->groups, .glue = write_glue(l, along, entries, looks, look_count), .last = last};
     if (m->arena->failed || !compose(&l->e, &c))
         return false;
     return true;
@@ -204,6 +219,7 @@ static bool prepare(lanes *l)
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
+    l->solve_size = (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
     l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
     return true;
 }
@@ -243,11 +259,13 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
     *(void **)&l->look = dlsym(l->handle, "motus_lanes_look");
     *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
-    if (!l->bind || !l->table || !l->begin || !l->set || !l->first || !l->look || !l->run) {
+    const size_t *solving = dlsym(l->handle, "motus_lanes_solving");
+    if (!solving || !l->bind || !l->table || !l->begin || !l->set || !l->first || !l->look || !l->run) {
         snprintf(note, size, "the compiled object is not what was compiled");
         lanes_destroy(l);
         return MOTUS_TOOL;
     }
+    l->solving = *solving;
     if (!prepare(l)) {
         lanes_destroy(l);
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");

@@ -1,5 +1,5 @@
 /* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for the model, the method and what
- * varies. Explicit methods only: what needs a solver goes one trajectory at a time.
+ * varies. Where a method solves equations, they are small and of one structure; those of families go one trajectory at a time.
  */
 #ifndef MACHINE_LANES_H
 #define MACHINE_LANES_H
@@ -37,7 +37,8 @@ const char *lanes_refuse(const lanes_def *);
 /* The definition's pointers must outlive it. note[size]: why there is no object, where the status is MOTUS_TOOL. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
-/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. */
+/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. MOTUS_METHOD, with no error: lanes cannot tell whether the method admits the
+ * parameters of every trajectory; one at a time can. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
 int lanes_in_block(const lanes *);
 

@@ -13,7 +13,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { CHUNK = 512, ALIGNMENT = 64, ITEM_BYTES = 256 << 10 };      /* an item's blocks fit the second cache */
+enum { CHUNK = 512, ITEM_BYTES = 256 << 10 };      /* an item's blocks fit the second cache */
 #define LITTLE_WORK 1e6              /* operations: some 0.1 ms in lanes */
 
 /* ---- a block ---- */
@@ -26,7 +26,7 @@ typedef struct crowd {               /* all trajectories of a call */
     double *memory;                  /* of every thread: blocks, scratch, table */
     size_t block_size, scratch_size, scaled_size, thread_size;
     atomic_size_t done;              /* items */
-    atomic_bool cancelled;
+    atomic_bool cancelled, refused;      /* refused: the row does not admit the parameters of some lane */
 } crowd;
 
 typedef struct batch {               /* blocks that go through time together, in one thread */
@@ -76,6 +76,8 @@ static lanes_job job_of(const batch *b, size_t block)
     j.carry = p + l->own_size + l->bound_size;
     j.kept = j.carry + l->carry_size;
     j.room = b->scratch;
+    j.lost = look + l->look_size;
+    j.solving = (char *)(j.lost + lines(l, 1));
     j.x = look;
     j.v = look + m->nx * n;
     j.a = l->wants_a ? look + (m->nx + m->nv) * n : NULL;
@@ -83,7 +85,7 @@ static lanes_job job_of(const batch *b, size_t block)
     return j;
 }
 
-static double *spare_of(const batch *b) { return b->scratch + b->l->work_size + b->l->look_size; }
+static double *spare_of(const batch *b) { return b->scratch + b->l->work_size + b->l->look_size + b->l->solve_size; }
 
 static void begin_block(const batch *b, size_t block)
 {
@@ -158,6 +160,8 @@ static void trace(const batch *b, lanes_job j, double *before, double *stopped)
             l->first(&j);
         else
             l->run(&j, 1, 0);
+        if (plan.solves)                 /* an equation that could not be solved stops its lane before the step */
+            stop_lanes(l, j.lost, 1, time_now(&plan), stopped);
         plan.n++;
         stop_lanes(l, before, l->carried, time_now(&plan), stopped);
     }
@@ -184,6 +188,9 @@ static void run_block(const batch *b, size_t block)
         l->first(&j);
     else
         l->run(&j, b->steps, b->every);
+    for (size_t i = 0; b->plan.solves && b->plan.n == 0 && i < (size_t)l->block; i++)
+        if (isinf(j.lost[i]))
+            atomic_store(&b->crowd->refused, true);
     if (lost_another(l, j.carry, l->carried, stopped))
         trace(b, j, before, stopped);
 }
@@ -357,7 +364,7 @@ static void run_item(void *ctx, size_t item, int thread)
     crowd *c = ctx;
     const lanes *l = c->l;
     const size_t first = item * c->most, block = (size_t)l->block;
-    if (atomic_load(&c->cancelled))
+    if (atomic_load(&c->cancelled) || atomic_load(&c->refused))
         return;
     batch b = {.l = c->l, .crowd = c, .values = c->values, .results = c->results, .stopped = c->stopped, .block_size = c->block_size, .first = first * block};
     b.blocks = c->blocks - first < c->most ? c->blocks - first : c->most;
@@ -382,14 +389,14 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     const size_t threads = little ? 1 : (size_t)d->threads;
     crowd c = {.l = l, .count = count, .values = values, .results = results, .stopped = stopped, .blocks = (count + (size_t)l->block - 1) / (size_t)l->block};
     c.block_size = l->own_size + l->bound_size + l->carry_size + l->kept_size + lines(l, 1);
-    c.scratch_size = l->work_size + l->look_size + spare;
+    c.scratch_size = l->work_size + l->look_size + l->solve_size + spare;
     c.most = ITEM_BYTES / sizeof(double) / c.block_size;
     if (c.most > (c.blocks + 4 * threads - 1) / (4 * threads))
         c.most = (c.blocks + 4 * threads - 1) / (4 * threads);
     if (c.most == 0)
         c.most = 1;
     c.scaled_size = (work_constants(&l->plan) + 7) / 8 * 8;
-    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 64 + 64) + 7) / 8 * 8;
     c.items = (c.blocks + c.most - 1) / c.most;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)
@@ -397,5 +404,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
     parallel_for((int)threads, c.items, run_item, &c);
     give(d->allocator, memory);
+    if (atomic_load(&c.refused))
+        return MOTUS_METHOD;
     return atomic_load(&c.cancelled) ? fail(err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
 }

@@ -13,6 +13,9 @@ motus_status interpreter_create(model *, interpreter **, problem *, motus_error 
 /* The numbers of a quantity or invariant at a state, into out (definition->numbers of them). False: no memory. */
 bool interpreter_look(interpreter *, model_definition *, double t, double *x, double *v, double *out);
 
+/* The acceleration's derivative along a direction of v (in_v) or of x, as a program. NULL: the arena failed. */
+program *interpreter_derivative(model *, bool in_v);
+
 /* After the model's numbers have changed: everything that was computed from them, and the boundary's places at the start. False: no memory. */
 bool interpreter_rebind(interpreter *);
 

@@ -4,7 +4,7 @@
  * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state multiplied by h; they are iterated
  * until they no longer change. Simplified Newton: one matrix a step, evaluated in the middle of the stages, and again where it does not contract.
  */
-static void implicit_stage(work *w, int i)
+static inline void implicit_stage(work *w, int i)
 {
     real *restrict X = w->xs, *restrict V = w->vs;
     const real *restrict x = w->x, *restrict v = w->v, *restrict K = w->ks;
@@ -15,7 +15,7 @@ static void implicit_stage(work *w, int i)
 }
 
 /* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first iteration. */
-static int implicit_matrix(work *w)
+static inline int implicit_matrix(work *w, truth *where)
 {
     const int first = FACT(w, known), all = FACT(w, stages), s = all - first;
     clock *ax = w->matrix, *av = ax + s * s, c = 0;
@@ -30,17 +30,18 @@ static int implicit_matrix(work *w)
     const real *K = w->ks + (size_t)first * w->stride;
     EACH(k) w->xs[k] = FMA(ch, FMA(ch / 2, K[k], w->v[k]), w->x[k]);
     EACHV(k) w->vs[k] = FMA(ch, K[k], w->v[k]);
-    return solve_factor(w, s, ax, av, time_now(w) + ch, w->xs, w->vs);
+    return solve_factor(w, where, s, ax, av, time_now(w) + ch, w->xs, w->vs);
 }
 
-static int implicit_iterate(work *w)
+static inline int implicit_iterate(work *w)
 {
     enum { PATIENCE = 8, RENEWALS = 6 };
-    int first = FACT(w, known), s = FACT(w, stages) - first, renewed = 0, bad = implicit_matrix(w);
-    size_t stride = w->stride;
-    real *K = w->ks + (size_t)first * stride;
-    clock before = -1;
-    for (int m = 0; m < NEWTON_MAX && !bad; m++) {
+    const int first = FACT(w, known), s = FACT(w, stages) - first;
+    const size_t stride = w->stride;
+    real *K = w->ks + (size_t)first * stride, before = (real){0} - 1, renewed = {0};
+    truth open = ALWAYS;
+    int bad = implicit_matrix(w, &open);
+    for (int m = 0; m < NEWTON_MAX && !bad && SOME(open); m++) {
         for (int i = 0; i < s; i++) {
             real *r = w->r + (size_t)i * stride;
             implicit_stage(w, first + i);
@@ -50,15 +51,22 @@ static int implicit_iterate(work *w)
         }
         solve_back(w, w->r);
         w->iterations++;
-        for (int i = 0; i < s; i++) EACHV(k) K[(size_t)i * stride + k] += w->r[(size_t)i * stride + k];
-        int judged = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
-        if (judged == NEWTON_LOST) return m == 0 ? STEP_DIVERGED : STEP_SOLVE;
-        if (judged == NEWTON_DONE || FACT(w, direct)) return STEP_OK;
-        bool slow = judged == NEWTON_STUCK || m % PATIENCE == PATIENCE - 1;
-        if (slow && renewed++ < RENEWALS) bad = implicit_matrix(w);
-        else if (judged == NEWTON_STUCK) return STEP_SOLVE;
+        for (int i = 0; i < s; i++)
+            EACHV(k) K[(size_t)i * stride + k] = PICK(open, K[(size_t)i * stride + k] + w->r[(size_t)i * stride + k], K[(size_t)i * stride + k]);
+        const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
+        STOP(w, open & now.lost, m == 0 ? STEP_DIVERGED : STEP_SOLVE);
+        open = open & NOT(now.lost | now.done);
+        if (!SOME(open) || FACT(w, direct)) return STEP_OK;
+        const truth stuck = open & now.stuck, slow = m % PATIENCE == PATIENCE - 1 ? open : stuck, renew = slow & (renewed < RENEWALS);
+        truth good = renew;
+        renewed = PICK(slow, renewed + 1, renewed);
+        STOP(w, stuck & NOT(renew), STEP_SOLVE);
+        if (SOME(renew)) bad = implicit_matrix(w, &good);
+        open = open & NOT(stuck & NOT(renew)) & (good == renew);
     }
-    return bad ? bad : STEP_SOLVE;
+    if (bad) return bad;
+    STOP(w, open, STEP_SOLVE);
+    return STEP_OK;
 }
 
 static int implicit_step(work *w)
@@ -77,6 +85,7 @@ static int implicit_step(work *w)
     for (int i = 0; i < s; i++) EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     int bad = implicit_iterate(w);
     if (bad) return bad;
+    for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
     TRACE(w, s - 1);
     if (ROW(w, compensated)) {
         EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], 1, FMA(h, v[k], tableau_sum(w, bb, false, K, k, s)));

@@ -8,6 +8,7 @@ static int literal_observe(work *w)
     real *restrict next = w->next_x;
     const real *x = w->x, *old = w->old;
     const clock t = time_now(w), h = w->h, hh = w->hh, none = 0, slope = h / 2;
+    truth all = ALWAYS;
     int bad = STEP_OK;
     if (FIRST(w)) {
         bad = accel_now(w, w->x, w->v, w->a);
@@ -18,14 +19,14 @@ static int literal_observe(work *w)
     } else if (FACT(w, linear)) {
         EACHV(k) w->vs[k] = (real){0};
         bad = accel_now(w, w->x, w->vs, w->a);
-        if (!bad) bad = solve_factor(w, 1, &none, &slope, t, w->x, w->vs);
+        if (!bad) bad = solve_factor(w, &all, 1, &none, &slope, t, w->x, w->vs);
         if (bad) return bad;
         solve_apply(w, slope, old, w->r);
         EACHV(k) next[k] = 2 * x[k] - w->r[k] + hh * w->a[k];
         solve_back(w, next);
     } else {
         EACHV(k) next[k] = x[k] - old[k];
-        bad = newton_increment(w, hh, w->per_h, next, t);
+        bad = newton_increment(w, hh, w->per_h, next, NEWTON_NOW);
         if (!bad) EACHV(k) next[k] = 2 * x[k] - old[k] + w->delta[k];
     }
     return bad;

@@ -12,7 +12,8 @@
  *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
  *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)     the same at the time of stage i, and of the present step. Macros of this file, unless
  *                                           the includer has its own (and defines both): it may have tabulated what depends on time alone
- *     solve_factor(w, s, ax, av, t, x, v)   factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status
+ *     solve_factor(w, where, s, ax, av, t, x, v)     factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status. Lanes: where *where
+ *                                           holds; it no longer does where the matrix is singular
  *     solve_back(w, r)                      r, stage after stage, becomes the solution
  *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
  *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
@@ -36,6 +37,21 @@ typedef bool mask;
 #define CHOOSE_WHERE(good, a, b) ((good) ? (a) : (b))
 #define NONE(good) (!(good))
 #endif
+
+/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is whether it holds for any. A step
+ * that cannot go on STOPs with its status; of lanes it marks those `where` it cannot, SPOIL makes NaN of what they compute, and the others go on.
+ * BLAME says which entry of v it was. */
+#ifndef ALWAYS
+typedef bool truth;
+#define ALWAYS true
+#define PICK(where, a, b) ((where) ? (a) : (b))
+#define SOME(where) (where)
+#define STOP(w, where, status) do { if (where) return (status); } while (0)
+#define SPOIL(w, y) ((void)0)
+#define BLAME(w, where, k) do { if (where) (w)->which = (k); } while (0)
+#endif
+#define NEVER NOT(ALWAYS)
+#define NOT(where) ((where) == 0)
 
 /* The outer indices that a tile is at, from … to-1, and how they move: tiled.h. Only machines that tile look at it. */
 typedef struct window {

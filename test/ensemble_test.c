@@ -14,32 +14,33 @@ typedef struct given_case {
     const char *model;
     varied vary[VARY_MAX];
     const char *methods;             /* of the short test */
-    bool singly;                     /* what varies here decides a family's initial values: no lanes */
+    /* Of a family, equations are solved one trajectory at a time; where what varies decides its initial values, everything is. */
+    enum { IN_LANES, SOLVES_ALONE, ALONE } how;
 } given_case;
 
 static const given_case cases[] = {
-    {"arenstorf", {{"mu", NULL, 0.0122, 1e-5}, {"y'(0)", NULL, -2, -1e-3}}, "rk4 gauss4", false},
-    {"chain", {{"beta", NULL, 0.5, 0.01}, {"x[3]'(0)", NULL, 0.1, 0.01}}, "velocity-verlet newmark", false},
-    {"chain", {{"A", NULL, 0.5, 0.01}}, "verlet", true},
-    {"charged-particle", {{"q", NULL, 1, 0.01}, {"E.y", "E=(0.5, %s, 0)", 0.1, 0.01}, {"r'.x(0)", "r'(0)=(%s, 0, 0.25)", 1, 0.1}}, "boris", false},
-    {"damped-cubic", {{"x(0)", NULL, 9, 0.1}, {"x'(0)", NULL, -1, 0.1}}, "heun2", false},
-    {"damped-spring", {{"gamma", NULL, 0.05, 0.01}, {"omega0", NULL, 1.5, 0.1}, {"F", NULL, 0, 0.3}}, "rk4", false},
-    {"double-pendulum", {{"l1", NULL, 0.5, 0.1}, {"m2", NULL, 1, -0.01}, {"θ1(0)", NULL, 1, 0.05}}, "rk4", false},
-    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}, {"x(0)", NULL, 0, 0.01}}, "verlet beeman kahan-li8", false},
-    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}}, "velocity-verlet verlet-literal", false},
-    {"duffing", {{"d", NULL, 0.1, 0.01}, {"omega", NULL, 1, 0.05}, {"x'(0)", NULL, 0, 0.1}}, "explicit-euler", false},
-    {"henon-heiles", {{"y(0)", NULL, -0.3, 0.01}, {"x'(0)", NULL, 0.3, 0.01}}, "pefrl", false},
-    {"kepler", {{"e", NULL, 0.1, 0.02}, {"mu", NULL, 0.9, 0.02}}, "kahan-li8 gauss4", false},
+    {"arenstorf", {{"mu", NULL, 0.0122, 1e-5}, {"y'(0)", NULL, -2, -1e-3}}, "rk4 gauss4 gauss8", IN_LANES},
+    {"chain", {{"beta", NULL, 0.5, 0.01}, {"x[3]'(0)", NULL, 0.1, 0.01}}, "velocity-verlet newmark", SOLVES_ALONE},
+    {"chain", {{"A", NULL, 0.5, 0.01}}, "verlet", ALONE},
+    {"charged-particle", {{"q", NULL, 1, 0.01}, {"E.y", "E=(0.5, %s, 0)", 0.1, 0.01}, {"r'.x(0)", "r'(0)=(%s, 0, 0.25)", 1, 0.1}}, "boris gauss8", IN_LANES},
+    {"damped-cubic", {{"x(0)", NULL, 9, 0.1}, {"x'(0)", NULL, -1, 0.1}}, "verlet gauss4", IN_LANES},
+    {"damped-spring", {{"gamma", NULL, 0.05, 0.01}, {"omega0", NULL, 1.5, 0.1}, {"F", NULL, 0, 0.3}}, "verlet newmark", IN_LANES},
+    {"double-pendulum", {{"l1", NULL, 0.5, 0.1}, {"m2", NULL, 1, -0.01}, {"θ1(0)", NULL, 1, 0.05}}, "rk4 verlet gauss6", IN_LANES},
+    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}, {"x(0)", NULL, 0, 0.01}}, "verlet beeman kahan-li8", IN_LANES},
+    {"driven-oscillator", {{"F", NULL, 0.01, 0.01}}, "velocity-verlet verlet-literal", IN_LANES},
+    {"duffing", {{"d", NULL, 0.1, 0.01}, {"omega", NULL, 1, 0.05}, {"x'(0)", NULL, 0, 0.1}}, "explicit-euler verlet-literal gauss4", IN_LANES},
+    {"henon-heiles", {{"y(0)", NULL, -0.3, 0.01}, {"x'(0)", NULL, 0.3, 0.01}}, "pefrl", IN_LANES},
+    {"kepler", {{"e", NULL, 0.1, 0.02}, {"mu", NULL, 0.9, 0.02}}, "kahan-li8 gauss4", IN_LANES},
     {"outer-solar-system", {{"G", NULL, 2.9e-4, 1e-6}, {"m[2]", "m=[1.00000597682, %s, 0.000285583733151, 0.0000437273164546, 0.0000517759138449, 1/1.3e8]", 9e-4, 1e-5},
-                            {"r[3].x(0)", "r[3](0)=(%s, -3.0458353, -1.6483708)", 9, 0.1}}, "leapfrog", false},
-    {"pendulum", {{"omega0", NULL, 0.5, 0.1}, {"theta(0)", NULL, 2, 0.1}}, "blanes-moan6", false},
-    {"penning-trap", {{"wc", NULL, 9, 0.1}, {"wz", NULL, 1.5, 0.05}}, "boris", false},
-    {"projectile-drag", {{"k", NULL, 0.01, 0.01}, {"g", NULL, 9, 0.1}, {"r'.y(0)", "r'(0)=(30, %s)", 40, 1}}, "rk4", false},
-    {"projectile", {{"g.y", "g=(0, %s)", -9, -0.1}, {"m", NULL, 1, 0.5}}, "symplectic-euler-adjoint exact", false},
-    {"spring", {{"k", NULL, 1, 0.1}, {"m", NULL, 1, 0.01}, {"x'(0)", NULL, 0, 0.1}}, "velocity-verlet exact", false},
-    {"three-body-figure-eight", {{"r[1].x(0)", "r[1](0)=(%s, -0.24308753)", 0.9, 0.001}, {"r[2]'.y(0)", "r[2]'(0)=(0.466203685, %s)", 0.43, 0.001}}, "verlet", false},
-    {"three-body-figure-eight", {{"vx[2]", "vx=[0.466203685, %s, -0.93240737]", 0.46, 0.001}}, "kahan-li6", true},
-    {"van-der-pol", {{"mu", NULL, 4, 0.1}, {"fed(0)", NULL, 0, 1}, {"x(0)", NULL, 2, 0.01}}, "rk4", false},
+                            {"r[3].x(0)", "r[3](0)=(%s, -3.0458353, -1.6483708)", 9, 0.1}}, "leapfrog", SOLVES_ALONE},
+    {"pendulum", {{"omega0", NULL, 0.5, 0.1}, {"theta(0)", NULL, 2, 0.1}}, "blanes-moan6", IN_LANES},
+    {"penning-trap", {{"wc", NULL, 9, 0.1}, {"wz", NULL, 1.5, 0.05}}, "boris verlet-literal", IN_LANES},
+    {"projectile-drag", {{"k", NULL, 0.01, 0.01}, {"g", NULL, 9, 0.1}, {"r'.y(0)", "r'(0)=(30, %s)", 40, 1}}, "rk4 verlet", IN_LANES},
+    {"projectile", {{"g.y", "g=(0, %s)", -9, -0.1}, {"m", NULL, 1, 0.5}}, "symplectic-euler-adjoint exact", IN_LANES},
+    {"spring", {{"k", NULL, 1, 0.1}, {"m", NULL, 1, 0.01}, {"x'(0)", NULL, 0, 0.1}}, "velocity-verlet exact", IN_LANES},
+    {"three-body-figure-eight", {{"r[1].x(0)", "r[1](0)=(%s, -0.24308753)", 0.9, 0.001}, {"r[2]'.y(0)", "r[2]'(0)=(0.466203685, %s)", 0.43, 0.001}}, "verlet", SOLVES_ALONE},
+    {"three-body-figure-eight", {{"vx[2]", "vx=[0.466203685, %s, -0.93240737]", 0.46, 0.001}}, "kahan-li6", ALONE},
+    {"van-der-pol", {{"mu", NULL, 4, 0.1}, {"fed(0)", NULL, 0, 1}, {"x(0)", NULL, 2, 0.01}}, "rk4 verlet implicit-midpoint", IN_LANES},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -231,11 +232,15 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
 
 /* The same bits ------------------------------------------------------------------------------------------------------------------ */
 
-static bool solves(const char *method)
+/* In lanes wherever that can be: a fallback would agree with itself. The matrices of families have no lanes, the exact motion has none. */
+static bool goes_alone(const task *t)
 {
     const motus_method *m;
-    assert_int_equal(motus_method_find(method, &m, NULL), MOTUS_OK);
-    return !strcmp(m->family, "implicit") || !strcmp(m->family, "exact");
+    motus_analysis a;
+    assert_int_equal(motus_method_find(t->method, &m, NULL), MOTUS_OK);
+    motus_analysis_of(t->s, &a);
+    const bool solves = !strcmp(m->family, "implicit") || (a.velocity_dependent && strncmp(m->name, "verlet", 6) == 0);
+    return t->c->how == ALONE || !strcmp(m->family, "exact") || (solves && t->c->how == SOLVES_ALONE);
 }
 
 /* One shape: one at a time, and some of these against runs. */
@@ -267,9 +272,8 @@ static void compare(task *t, int k, int lanes, int threads)
     const outcome *plain = one_by_one(t, k, what);
     motus_ensemble *fast = make(t, "compiled", lanes, threads);
     assert_string_equal(motus_ensemble_machine(fast), "compiled");
-    /* In lanes wherever that can be: a fallback would agree with itself. */
     const bool alone = motus_ensemble_note(fast)[0] != 0;
-    if (alone != (t->c->singly || solves(t->method) || strstr(motus_ensemble_note(fast), "equation at every step") != NULL))
+    if (alone != goes_alone(t))
         fail_msg("%s: %s", what, motus_ensemble_note(fast));
     if (lanes && !alone)
         assert_int_equal(motus_ensemble_lanes(fast), lanes);
@@ -329,7 +333,7 @@ static void every_model(void **state)
                     continue;
                 for (int w = 0; w < WIDTHS; w++)
                     /* What goes one at a time has no lanes. */
-                    if (all_rows() ? w == 0 || !(t.c->singly || solves(t.method)) : w == (pairs / 2) % (WIDTHS - 2))
+                    if (all_rows() ? w == 0 || !goes_alone(&t) : w == (pairs / 2) % (WIDTHS - 2))
                         for (int f = 0; f < SHAPES; f++)
                             compare(&t, f, widths[w], 1 + f % 2);
             }
@@ -343,7 +347,7 @@ static void every_model(void **state)
 #endif
 }
 
-static const given_case everything = {rich, {{"q", NULL, 0.1, 0.05}, {"m[2]", "m=[1, %s, 3]", 1, 0.1}}, "rk4", false};
+static const given_case everything = {rich, {{"q", NULL, 0.1, 0.05}, {"m[2]", "m=[1, %s, 3]", 1, 0.1}}, "rk4", IN_LANES};
 
 /* One small model and one with everything, in lanes of every width by both compilers. */
 static void every_width(void **state)

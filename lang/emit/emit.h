@@ -50,6 +50,7 @@ typedef struct emit {
  *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are lanes
  *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with `terms`, and where e->terms > 0
  *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of machine/text/window.h
+ * A program along a direction has no outputs there: `out` is the direction.
  * The text around it defines real, reals, MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how many doubles reals has.
  * False: the arena failed. */
 bool emit_program(emit *, const program *, const char *name, bool terms);

@@ -95,16 +95,16 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 /* Who asks for the exact motion asks the library. */
 #define exact_at(w, t, x, v) STEP_OK
 
-/* Lanes cannot call back: what needs a solver is run one trajectory at a time. */
+/* Lanes have a text of their own: solve.h. */
 #ifndef GROUPS
 /* One equation in v alone: its diagonal, where it is constant, is fetched once. */
 #define ONE_SLOPE (FACT(w, solves) == 1 && !FACT(w, solves_x))
-static inline int solve_factor(work *w, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
+static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     const compiled_host *host = w->host;
-    if (!ONE_SLOPE) return host->factor(w, s, ax, av, t, x, v);
+    if (!ONE_SLOPE) return host->factor(w, where, s, ax, av, t, x, v);
     if (w->diagonal && w->slope == *av) return STEP_OK;
-    int bad = host->factor(w, s, ax, av, t, x, v);
+    int bad = host->factor(w, where, s, ax, av, t, x, v);
     w->diagonal = bad ? NULL : host->diagonal(w);
     w->slope = *av;
     return bad;

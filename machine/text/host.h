@@ -6,8 +6,10 @@ struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
     real *own, *bound;               /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
+    struct solving *solving;         /* of lanes: their linear systems, and which of them */
+    real *lost;                      /*   could not be solved */
     int (*run)(work *, whole steps);                       /* the library's own loop */
-    int (*factor)(work *, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
+    int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
     const real *(*diagonal)(const work *);                   /* the factored matrix, where it is that and stays so; else NULL */

@@ -22,12 +22,14 @@ static inline compiled_host lanes_host(const lanes_job *job, size_t group)
     compiled_host host = job->host;
     host.own += group * job->own_size;
     host.bound += group * job->bound_size;
+    solve_begin(&host, job, group);
     return host;
 }
 
 static inline void lanes_place(work *w, const compiled_host *host, real *room)
 {
     w->host = host;
+    w->matrix = solve_coefficients(host);
     w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = (real *)0;
     work_place(w, room);
 }

@@ -19,6 +19,9 @@ typedef struct lanes_job {
 
     real *carry;                     /* what a trajectory carries from step to step: CARRIED arrays of each group */
     real *room;                      /* ARRAYS arrays of each group, where they are not local */
+    real *lost;                      /* of each group: NaN in lanes whose equation could not be solved in this call; infinite where the row
+                                      * does not admit the lane's parameters; else 0 */
+    char *solving;                   /* room for motus_lanes_solving bytes of each group */
     real *x, *v, *a, *out;           /* the state when it was looked at; quantities, out_size of each group */
     size_t out_size;
 

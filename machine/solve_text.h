@@ -1,0 +1,16 @@
+/* Linear systems of lanes as C text: what core/solver.c finds out when a run begins is found out here when the text is written. */
+#ifndef MACHINE_SOLVE_TEXT_H
+#define MACHINE_SOLVE_TEXT_H
+
+#include "machine/compose.h"
+
+enum { SOLVE_TEXT_MAX = 12 };            /* unknowns of all stages together: their matrix is in the text, entry by entry */
+
+/* Whether a row's linear systems, if it has any, can be a text. */
+bool solve_text_admits(const model *, const problem *, const chosen *);
+/* The programs of da along dx and along dv that the row needs, by these names; returns how many: 0, 1 or 2. */
+size_t solve_text_programs(model *, const problem *, const chosen *, composed_program programs[2]);
+/* Structure, derivatives and matrix, for machine/text/solve.h, which follows. False: the arena failed. */
+bool solve_text_write(emit_text *, const composition *);
+
+#endif
