@@ -10,11 +10,6 @@ enum { NEWTON_MAX = 100 };
 /* What follows from a correction; where none of them holds, the iteration goes on. */
 typedef struct newton_verdict { truth done, stuck, lost; } newton_verdict;
 
-/* Whether the next correction, worst (worst/last), would be lost. */
-#ifndef newton_lost_beside
-#define newton_lost_beside(worst, last) ((worst) * ((worst) / (last)) < EPSILON / 64)
-#endif
-
 /* Judges the correction r of `value` (`count` vectors each), an increment to `unit` times `base`. *before: the last
  * judgement; start with a negative number. */
 static inline newton_verdict newton_judge(work *w, const real *r, const real *value, int count, const real *base,
@@ -45,7 +40,7 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     const real last = *before;
     const truth shrinks = worst < last, second = last >= 0;
     *before = worst;
-    const truth small = (shrinks & newton_lost_beside(worst, last)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
+    const truth small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
     newton_verdict verdict = {.lost = lost};
     verdict.done = NOT(lost) & ((worst == 0) | (second & small));
     verdict.stuck = NOT(lost) & NOT(verdict.done) & second & NOT(shrinks);
