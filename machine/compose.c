@@ -54,12 +54,14 @@ typedef struct moments { int count, *moment; double *at; } moments;
 /* False: no memory. */
 static bool find_moments(const work *w, arena *a, moments *m)
 {
-    const size_t room = (size_t)w->stages + 1;
+    const size_t room = (size_t)w->stages + 2;
     *m = (moments){0, arena_room(a, room * sizeof *m->moment), arena_room(a, room * sizeof *m->at)};
     if (!m->moment || !m->at)
         return false;
     memset(m->moment, 0, room * sizeof *m->moment);
     const int stages = w->stages - w->fsal;
+    if (w->row->family == IMPLICIT)                        /* it begins with the acceleration there */
+        m->at[m->count++] = 0;
     for (int start = 1; start >= 0; start--)               /* the start of the step first, where the force is evaluated there */
         for (int i = 0; i < stages; i++) {
             if ((w->c[i] == 0) != start || (w->row->family == SPLITTING && w->unit[i] == 0))

@@ -396,7 +396,7 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, doub
     if (c.most == 0)
         c.most = 1;
     c.scaled_size = (work_constants(&l->plan) + 7) / 8 * 8;
-    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 64 + 64) + 7) / 8 * 8;
+    c.thread_size = c.most * c.block_size + c.scratch_size + c.scaled_size + ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
     c.items = (c.blocks + c.most - 1) / c.most;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)

@@ -1,6 +1,7 @@
 /* See solve_text.h.
  *
- * Invariant: order of the unknowns, bandwidths, colours of columns and the order of all operations are core/solver.c's, so the bits are.
+ * Invariant: order of the unknowns, bandwidths, colours of columns and the order of all operations are
+ * core/solver.c's, so the bits are.
  */
 #include "machine/solve_text.h"
 
@@ -20,7 +21,8 @@ typedef struct structure {
 bool solve_text_admits(const model *m, const problem *p, const chosen *chosen)
 {
     const size_t stages = (size_t)stepper_plan(p, chosen, NULL).solves;
-    return !stages || (compose_sizes_are_structure(m) && stages * m->nv <= SOLVE_TEXT_MAX);
+    return !stages || (compose_sizes_are_structure(m) && stages * m->nv <= SOLVE_TEXT_MAX &&
+                       m->graph->count <= SOLVE_OPERATIONS_MAX);
 }
 
 size_t solve_text_programs(model *m, const problem *p, const chosen *chosen, composed_program programs[2])
@@ -47,9 +49,13 @@ static void release(structure *s, const motus_allocator *a)
 static bool find(structure *s, const problem *p, const work *plan, const motus_allocator *a)
 {
     bool broken = false;
-    *s = (structure){.stages = (size_t)plan->solves, .n = (size_t)plan->solves * p->nv, .use_x = plan->solves_x, .use_v = p->traits.velocity};
+    *s = (structure){.stages = (size_t)plan->solves,
+                     .n = (size_t)plan->solves * p->nv,
+                     .use_x = plan->solves_x,
+                     .use_v = p->traits.velocity};
     s->place = take(a, p->nv, sizeof *s->place);
-    bool ok = s->place && (!s->use_x || solver_pattern(p, false, &s->x, a, &broken)) && (!s->use_v || solver_pattern(p, true, &s->v, a, &broken));
+    bool ok = s->place && (!s->use_x || solver_pattern(p, false, &s->x, a, &broken)) &&
+              (!s->use_v || solver_pattern(p, true, &s->v, a, &broken));
     ok = ok && solver_order(p->nv, s->use_x ? &s->x : NULL, s->use_v ? &s->v : NULL, s->place, &s->lower, &s->upper, a);
     ok = ok && (!s->use_x || solver_colour(p->nv, &s->x, a)) && (!s->use_v || solver_colour(p->nv, &s->v, a));
     s->lower = s->lower * s->stages + s->stages - 1;
@@ -66,7 +72,10 @@ static void write_derivative(emit_text *t, const sparse *m, const char *name)
         const size_t first = m->colour_start[colour], end = m->colour_start[colour + 1];
         for (size_t i = first; i < end; i++)
             emit_add(t, "    d[%u] = MANY(1.0);\n", m->colour_column[i]);
-        emit_add(t, "    compiled_along_%s(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, image, d);\n", name);
+        emit_add(t,
+                 "    compiled_along_%s(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, "
+                 "v, image, d);\n",
+                 name);
         for (size_t i = first; i < end; i++) {
             const size_t c = m->colour_column[i];
             emit_add(t, "    d[%zu] = MANY(0.0);\n", c);
@@ -85,14 +94,16 @@ static void write_entries(emit_text *t, const structure *s, const sparse *m, con
             for (size_t i = 0; i < s->stages; i++)
                 for (size_t j = 0; j < s->stages; j++) {
                     const size_t row = s->place[m->row[e]] * s->stages + i, column = s->place[c] * s->stages + j;
-                    emit_add(t, "    m[%zu] -= a%s[%zu] * z->%s[%zu];\n", diagonal ? row : column * s->n + row, name, i * s->stages + j, name, e);
+                    emit_add(t, "    m[%zu] -= a%s[%zu] * z->%s[%zu];\n", diagonal ? row : column * s->n + row, name,
+                             i * s->stages + j, name, e);
                 }
 }
 
 static void write_matrix(emit_text *t, const structure *s)
 {
     const bool diagonal = s->lower + s->upper == 0;
-    emit_add(t, "static inline void solve_fill(const solving *z, const clock *ax, const clock *av, real *restrict m)\n{\n    (void)z, (void)ax, (void)av;\n");
+    emit_add(t, "static inline void solve_fill(const solving *z, const clock *ax, const clock *av, real *restrict "
+                "m)\n{\n    (void)z, (void)ax, (void)av;\n");
     for (size_t k = 0; k < (diagonal ? s->n : s->n * s->n); k++)
         emit_add(t, "    m[%zu] = MANY(%s);\n", k, diagonal || k % (s->n + 1) == 0 ? "1.0" : "0.0");
     if (s->use_x)
@@ -105,11 +116,13 @@ static void write_matrix(emit_text *t, const structure *s)
 /* Between the stages' arrays and the order of the unknowns. */
 static void write_moves(emit_text *t, const structure *s, size_t nv)
 {
-    emit_add(t, "static inline void solve_take(const real *restrict r, size_t stride, real *restrict b)\n{\n    (void)stride;\n");
+    emit_add(t, "static inline void solve_take(const real *restrict r, size_t stride, real *restrict b)\n{\n    "
+                "(void)stride;\n");
     for (size_t k = 0; k < nv; k++)
         for (size_t i = 0; i < s->stages; i++)
             emit_add(t, "    b[%zu] = r[%zu * stride + %zu];\n", s->place[k] * s->stages + i, i, k);
-    emit_add(t, "}\n\nstatic inline void solve_give(real *restrict r, size_t stride, const real *restrict b)\n{\n    (void)stride;\n");
+    emit_add(t, "}\n\nstatic inline void solve_give(real *restrict r, size_t stride, const real *restrict b)\n{\n    "
+                "(void)stride;\n");
     for (size_t k = 0; k < nv; k++)
         for (size_t i = 0; i < s->stages; i++)
             emit_add(t, "    r[%zu * stride + %zu] = b[%zu];\n", i, k, s->place[k] * s->stages + i);
@@ -119,7 +132,8 @@ static void write_moves(emit_text *t, const structure *s, size_t nv)
 /* As solver_apply: the diagonal first. */
 static void write_apply(emit_text *t, const structure *s, size_t nv)
 {
-    emit_add(t, "static inline void solve_multiply(const solving *z, clock c, const real *restrict y, real *restrict out)\n{\n    (void)z, (void)c;\n");
+    emit_add(t, "static inline void solve_multiply(const solving *z, clock c, const real *restrict y, real *restrict "
+                "out)\n{\n    (void)z, (void)c;\n");
     for (size_t k = 0; k < nv; k++)
         emit_add(t, "    out[%zu] = y[%zu];\n", k, k);
     for (int off = 0; off < 2; off++)
@@ -158,12 +172,20 @@ bool solve_text_write(emit_text *t, const composition *c)
     const bool ok = find(&s, p, &plan, &c->model->arena->allocator);
     if (ok) {
         const size_t diagonal = s.lower + s.upper == 0;
-        emit_add(t, "#define SOLVE_N %zu\n#define SOLVE_LOWER %zu\n#define SOLVE_UPPER %zu\n#define SOLVE_STAGES %zu\n#define SOLVE_CONSTANT %d\n", s.n, s.lower, s.upper,
-                 s.stages, stepper_fixed(p, &plan));
-        emit_add(t, "typedef struct solving { real x[%zu], v[%zu], matrix[%zu], pivot[%zu]; clock a[2 * SOLVE_STAGES * SOLVE_STAGES]; bool factored; } solving;\n\n",
-                 s.use_x ? s.x.start[s.x.columns] + 1 : 1, s.use_v ? s.v.start[s.v.columns] + 1 : 1, diagonal ? s.n : s.n * s.n, s.n);
-        emit_add(t, "static inline void solve_derive(const compiled_host *host, clock t, real *x, real *v, solving *z)\n{\n"
-                    "    real d[%zu], image[%zu];\n    (void)host, (void)t, (void)x, (void)v, (void)z, (void)image;\n", p->nv, p->nv);
+        emit_add(t,
+                 "#define SOLVE_N %zu\n#define SOLVE_LOWER %zu\n#define SOLVE_UPPER %zu\n#define SOLVE_STAGES "
+                 "%zu\n#define SOLVE_CONSTANT %d\n",
+                 s.n, s.lower, s.upper, s.stages, stepper_fixed(p, &plan));
+        emit_add(t,
+                 "typedef struct solving { real x[%zu], v[%zu], matrix[%zu], pivot[%zu]; clock a[2 * SOLVE_STAGES * "
+                 "SOLVE_STAGES]; bool factored; } solving;\n\n",
+                 s.use_x ? s.x.start[s.x.columns] + 1 : 1, s.use_v ? s.v.start[s.v.columns] + 1 : 1,
+                 diagonal ? s.n : s.n * s.n, s.n);
+        emit_add(
+            t,
+            "static inline void solve_derive(const compiled_host *host, clock t, real *x, real *v, solving *z)\n{\n"
+            "    real d[%zu], image[%zu];\n    (void)host, (void)t, (void)x, (void)v, (void)z, (void)image;\n",
+            p->nv, p->nv);
         for (size_t k = 0; k < p->nv; k++)
             emit_add(t, "    d[%zu] = MANY(0.0);\n", k);
         if (s.use_x)

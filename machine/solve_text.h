@@ -1,10 +1,15 @@
-/* Linear systems of lanes as C text: what core/solver.c finds out when a run begins is found out here when the text is written. */
+/* Linear systems of lanes as C text: what core/solver.c finds out when a run begins is found out here when the text
+ * is written.
+ */
 #ifndef MACHINE_SOLVE_TEXT_H
 #define MACHINE_SOLVE_TEXT_H
 
 #include "machine/compose.h"
 
-enum { SOLVE_TEXT_MAX = 12 };            /* unknowns of all stages together: their matrix is in the text, entry by entry */
+enum {
+    SOLVE_TEXT_MAX = 12,                 /* unknowns of all stages: their matrix is in the text, entry by entry */
+    SOLVE_OPERATIONS_MAX = OPERATIONS_MAX / 8      /* of the graph: a derivative is some times as long */
+};
 
 /* Whether a row's linear systems, if it has any, can be a text. */
 bool solve_text_admits(const model *, const problem *, const chosen *);

@@ -51,8 +51,7 @@ static inline int implicit_iterate(work *w)
         }
         solve_back(w, w->r);
         w->iterations++;
-        for (int i = 0; i < s; i++)
-            EACHV(k) K[(size_t)i * stride + k] = PICK(open, K[(size_t)i * stride + k] + w->r[(size_t)i * stride + k], K[(size_t)i * stride + k]);
+        for (int i = 0; i < s; i++) newton_correct(w, open, K + (size_t)i * stride, w->r + (size_t)i * stride);
         const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
         STOP(w, open & now.lost, m == 0 ? STEP_DIVERGED : STEP_SOLVE);
         open = open & NOT(now.lost | now.done);

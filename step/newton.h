@@ -1,22 +1,19 @@
 /* NEWTON'S METHOD for implicit kicks and implicit stages, and the implicit kick itself.
  *
- * Invariant: an equation is solved to round-off or reported. The iteration ends when the next correction would be lost beside the numbers that it
- * goes to, or when the corrections no longer shrink at a size that rounding alone explains. Of lanes, those whose equation is solved keep their
- * values while the others go on, so each makes the iterations that it would make alone.
+ * Invariant: an equation is solved to round-off or reported. The iteration ends when the next correction would be
+ * lost beside the numbers that it goes to, or when the corrections no longer shrink at a size that rounding alone
+ * explains. Of lanes, those whose equation is solved keep their values while the others go on, so each makes the
+ * iterations that it would make alone.
  */
 enum { NEWTON_MAX = 100 };
 
 /* What follows from a correction; where none of them holds, the iteration goes on. */
 typedef struct newton_verdict { truth done, stuck, lost; } newton_verdict;
 
-/* Whether the next correction, worst (worst/last), would be lost. */
-#ifndef newton_lost_beside
-#define newton_lost_beside(worst, last) ((worst) * ((worst) / (last)) < EPSILON / 64)
-#endif
-
-/* Judges the correction r of `value` (`count` vectors each), an increment to `unit` times `base`. *before: the last judgement; start
- * with a negative number. */
-static inline newton_verdict newton_judge(work *w, const real *r, const real *value, int count, const real *base, clock unit, real *before)
+/* Judges the correction r of `value` (`count` vectors each), an increment to `unit` times `base`. *before: the last
+ * judgement; start with a negative number. */
+static inline newton_verdict newton_judge(work *w, const real *r, const real *value, int count, const real *base,
+                                          clock unit, real *before)
 {
     real largest = {0}, worst = {0};
     truth lost = NEVER;
@@ -43,15 +40,24 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     const real last = *before;
     const truth shrinks = worst < last, second = last >= 0;
     *before = worst;
-    const truth small = (shrinks & newton_lost_beside(worst, last)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
+    const truth small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
     newton_verdict verdict = {.lost = lost};
     verdict.done = NOT(lost) & ((worst == 0) | (second & small));
     verdict.stuck = NOT(lost) & NOT(verdict.done) & second & NOT(shrinks);
     return verdict;
 }
 
-/* w->delta solves delta = g a(x, s (u + delta/2), t), at the time of stage `stage`, or of the present step: NEWTON_NOW. Where a is linear in v that
- * is one evaluation and one linear system, (I - (g s/2) da/dv) delta = g a(x, s u, t); else Newton's method with that matrix at every iterate. */
+/* y += r where the equation is open. That it is open in all lanes is the common case: then nothing waits for the
+ * last judgement. */
+static inline void newton_correct(const work *w, truth open, real *restrict y, const real *restrict r)
+{
+    if (!SOME(NOT(open))) EACHV(k) y[k] += r[k];
+    else EACHV(k) y[k] = PICK(open, y[k] + r[k], y[k]);
+}
+
+/* w->delta solves delta = g a(x, s (u + delta/2), t), at the time of stage `stage`, or of the present step:
+ * NEWTON_NOW. Where a is linear in v that is one evaluation and one linear system, (I - (g s/2) da/dv) delta = g
+ * a(x, s u, t); else Newton's method with that matrix at every iterate. */
 enum { NEWTON_NOW = -1 };
 static inline int newton_increment(work *w, clock g, clock s, const real *u, int stage)
 {
@@ -72,7 +78,7 @@ static inline int newton_increment(work *w, clock g, clock s, const real *u, int
             EACHV(k) delta[k] += r[k];
             return STEP_OK;
         }
-        EACHV(k) delta[k] = PICK(open, delta[k] + r[k], delta[k]);
+        newton_correct(w, open, delta, r);
         w->iterations++;
         const newton_verdict now = newton_judge(w, r, delta, 1, u, 1, &before);
         STOP(w, open & now.lost, i == 0 ? STEP_DIVERGED : STEP_SOLVE);

@@ -1,6 +1,7 @@
 /* Equations solved in lanes: every lane makes the iterations, picks the pivots and fails where it would alone.
  *
- * Invariant: the interpreter, one trajectory at a time, is the oracle, of every bit and of the time at which a trajectory stops.
+ * Invariant: the interpreter, one trajectory at a time, is the oracle, of every bit and of the time at which a
+ * trajectory stops.
  */
 #include "test/ensemble_given.h"
 
@@ -20,14 +21,16 @@ static void ask(const question *q, double steps, int64_t every, int lanes)
 {
     char what[300];
     motus_system *s = given_text(q->text);
-    const motus_record records[] = {{MOTUS_REDUCE_FINAL, column(s, "x")}, {MOTUS_REDUCE_FINAL, column(s, "x'")}, {MOTUS_REDUCE_MAX, column(s, "x")},
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, column(s, "x")},
+                                    {MOTUS_REDUCE_FINAL, column(s, "x'")},
+                                    {MOTUS_REDUCE_MAX, column(s, "x")},
                                     {every % 2 ? MOTUS_REDUCE_TIME_OF_MAX : MOTUS_REDUCE_MIN, column(s, every > 2 ? "x" : "x'")}};
     enum { RECORDS = sizeof records / sizeof *records };
     double values[COUNT];
     const double *list[] = {values};
     for (int i = 0; i < COUNT; i++)
         values[i] = q->from + q->by * (i * 5 % COUNT);
-    motus_settings set;
+    motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_ensemble_def def = motus_default_ensemble();
     def.vary = &q->vary;
@@ -43,7 +46,8 @@ static void ask(const question *q, double steps, int64_t every, int lanes)
     def.machine = "compiled";
     def.lanes = lanes;
     motus_ensemble *fast = given_ensemble(s, &def, q->method);
-    snprintf(what, sizeof what, "%s, %g steps, every %lld, %d lanes: %s", q->method, steps, (long long)every, lanes, q->text);
+    snprintf(what, sizeof what, "%s, %g steps, every %lld, %d lanes: %s", q->method, steps, (long long)every, lanes,
+             q->text);
     if (motus_ensemble_note(fast)[0])
         fail_msg("%s: %s", what, motus_ensemble_note(fast));
     outcome a = go(alone, COUNT, RECORDS, list, what), b = go(fast, COUNT, RECORDS, list, what);
@@ -67,7 +71,10 @@ static void ask(const question *q, double steps, int64_t every, int lanes)
 
 static void ask_all(const question *list, size_t count)
 {
-    static const struct { double steps; int64_t every; } shapes[] = {{60, 1}, {41.4, 3}, {600, 7}, {1, 1}, {40, 2}, {33, 1000}, {0.5, 1}};
+    static const struct {
+        double steps;
+        int64_t every;
+    } shapes[] = {{60, 1}, {41.4, 3}, {600, 7}, {1, 1}, {40, 2}, {33, 1000}, {0.5, 1}};
     static const int lanes[] = {1, 2, 4, 8, 16};         /* a compiler run each: two for every question */
     for (size_t k = 0; k < count; k++)
         for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
@@ -81,9 +88,12 @@ static void friction_that_is_not_linear(void **state)
 {
     (void)state;
     static const char square[] = "c = 1\nx'' = -x - c x' |x'|\nx(0) = 1\nx'(0) = 2\nstep 0.1\nuntil 1\n";
-    static const char coupled[] = "c = 1\nx'' = -x - c x'^3 - y'\ny'' = -y + sin(c x' y')\nx(0) = 1\nx'(0) = 2\ny(0) = 0\ny'(0) = 1\nstep 0.1\nuntil 1\n";
-    static const question list[] = {{square, "verlet", "c", 0, 0.3, 0, 0}, {square, "verlet-literal", "c", 0, 0.3, 0, 0}, {square, "newmark", "c", 0, 0.3, 0, 0},
-                                    {square, "newmark(0, 1/2)", "c", 0, 0.3, 0, 0}, {coupled, "verlet", "c", 0, 0.05, 0, 0}, {coupled, "gauss4", "c", 0, 0.3, 0, 0}};
+    static const char coupled[] = "c = 1\nx'' = -x - c x'^3 - y'\ny'' = -y + sin(c x' y')\nx(0) = 1\nx'(0) = 2\ny(0) = "
+                                  "0\ny'(0) = 1\nstep 0.1\nuntil 1\n";
+    static const question list[] = {
+        {square, "verlet", "c", 0, 0.3, 0, 0},   {square, "verlet-literal", "c", 0, 0.3, 0, 0},
+        {square, "newmark", "c", 0, 0.3, 0, 0},  {square, "newmark(0, 1/2)", "c", 0, 0.3, 0, 0},
+        {coupled, "verlet", "c", 0, 0.05, 0, 0}, {coupled, "gauss4", "c", 0, 0.3, 0, 0}};
     ASK(list);
 }
 
@@ -91,11 +101,18 @@ static void friction_that_is_not_linear(void **state)
 static void pivots_of_its_own(void **state)
 {
     (void)state;
-    static const char pair[] = "c = 1\nx'' = c y - x\ny'' = c x - 2 y + 0.1 cos(t)\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nstep 0.5\nuntil 1\n";
-    static const char three[] = "c = 1\nx'' = c y' - x\ny'' = -c x' + 2 c z' - y^3\nz'' = -z - 2 c y'\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nz(0) = 0\nz'(0) = 0\nstep 0.2\nuntil 1\n";
-    static const char line[] = "c = 1\nx'' = c (y - 2 x)\ny'' = c (x - 2 y + z) - y^3\nz'' = c (y - 2 z)\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nz(0) = 0\nz'(0) = 0\nstep 0.2\nuntil 1\n";
-    static const question list[] = {{pair, "implicit-midpoint", "c", -40, 2.3, 0, 0}, {pair, "gauss4", "c", -40, 2.3, 0, 0}, {pair, "newmark", "c", -40, 2.3, 0, 0},
-                                    {three, "verlet", "c", -20, 1.3, 0, 0}, {three, "verlet-literal", "c", -20, 1.3, 0, 0}, {three, "gauss6", "c", -4, 0.3, 0, 0},
+    static const char pair[] = "c = 1\nx'' = c y - x\ny'' = c x - 2 y + 0.1 cos(t)\nx(0) = 1\nx'(0) = 0\ny(0) = "
+                               "0\ny'(0) = 1\nstep 0.5\nuntil 1\n";
+    static const char three[] = "c = 1\nx'' = c y' - x\ny'' = -c x' + 2 c z' - y^3\nz'' = -z - 2 c y'\nx(0) = 1\nx'(0) "
+                                "= 0\ny(0) = 0\ny'(0) = 1\nz(0) = 0\nz'(0) = 0\nstep 0.2\nuntil 1\n";
+    static const char line[] = "c = 1\nx'' = c (y - 2 x)\ny'' = c (x - 2 y + z) - y^3\nz'' = c (y - 2 z)\nx(0) = "
+                               "1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nz(0) = 0\nz'(0) = 0\nstep 0.2\nuntil 1\n";
+    static const question list[] = {{pair, "implicit-midpoint", "c", -40, 2.3, 0, 0},
+                                    {pair, "gauss4", "c", -40, 2.3, 0, 0},
+                                    {pair, "newmark", "c", -40, 2.3, 0, 0},
+                                    {three, "verlet", "c", -20, 1.3, 0, 0},
+                                    {three, "verlet-literal", "c", -20, 1.3, 0, 0},
+                                    {three, "gauss6", "c", -4, 0.3, 0, 0},
                                     {line, "gauss4", "c", 0, 3, 0, 0}};
     ASK(list);
 }
@@ -106,8 +123,10 @@ static void lanes_that_fail(void **state)
     (void)state;
     static const char runaway[] = "x'' = x^3\nx(0) = 1\nx'(0) = 0\nstep 0.05\nuntil 1\n";
     static const char brake[] = "c = 1\nx'' = c exp(x'^2) - x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 1\n";
-    static const question list[] = {{runaway, "gauss4", "x(0)", 0, 0.1, 3, 3}, {runaway, "gauss6", "x(0)", 0, 0.1, 3, 3}, {runaway, "newmark", "x(0)", 0, 0.1, 3, 3},
-                                    {brake, "verlet", "c", -1, 0.1, 3, 3}, {brake, "verlet-literal", "c", -1, 0.1, 3, 3}, {brake, "implicit-midpoint", "c", -1, 0.1, 3, 3}};
+    static const question list[] = {
+        {runaway, "gauss4", "x(0)", 0, 0.1, 3, 3},     {runaway, "gauss6", "x(0)", 0, 0.1, 3, 3},
+        {runaway, "newmark", "x(0)", 0, 0.1, 3, 3},    {brake, "verlet", "c", -1, 0.1, 3, 3},
+        {brake, "verlet-literal", "c", -1, 0.1, 3, 3}, {brake, "implicit-midpoint", "c", -1, 0.1, 3, 3}};
     ASK(list);
 }
 
@@ -116,11 +135,17 @@ static void singular_in_one_lane(void **state)
 {
     (void)state;
     static const char one[] = "g = 1\nx'' = -x + g x'\nx(0) = 1\nx'(0) = 0\nstep 0.5\nuntil 1\n";
-    static const char two[] = "g = 1\nx'' = g y'\ny'' = g x' - y\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nstep 0.5\nuntil 1\n";
+    static const char two[] =
+        "g = 1\nx'' = g y'\ny'' = g x' - y\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nstep 0.5\nuntil 1\n";
     static const char later[] = "g = 1\nx'' = -x + g t x'\nx(0) = 1\nx'(0) = 0\nstep 0.5\nuntil 1\n";
-    static const question list[] = {{one, "verlet", "g", -8, 1, 1, 1}, {one, "verlet-literal", "g", -8, 1, 1, 1}, {one, "implicit-midpoint", "g", -8, 1, 0, 0},
-                                    {two, "verlet", "g", -9, 1, 1, 1}, {two, "verlet-literal", "g", -9, 1, 1, 1},
-                                    {later, "verlet", "g", -3.5, 0.25, 2, 2}, {later, "verlet-literal", "g", -3.5, 0.25, 2, 2}, {later, "newmark(0, 1/2)", "g", -3.5, 0.25, 2, 2}};
+    static const question list[] = {{one, "verlet", "g", -8, 1, 1, 1},
+                                    {one, "verlet-literal", "g", -8, 1, 1, 1},
+                                    {one, "implicit-midpoint", "g", -8, 1, 0, 0},
+                                    {two, "verlet", "g", -9, 1, 1, 1},
+                                    {two, "verlet-literal", "g", -9, 1, 1, 1},
+                                    {later, "verlet", "g", -3.5, 0.25, 2, 2},
+                                    {later, "verlet-literal", "g", -3.5, 0.25, 2, 2},
+                                    {later, "newmark(0, 1/2)", "g", -3.5, 0.25, 2, 2}};
     ASK(list);
 }
 
@@ -128,7 +153,8 @@ static void singular_in_one_lane(void **state)
 static void turns_or_brakes(void **state)
 {
     (void)state;
-    static const char text[] = "k = 0\nB = 2\nx'' = B y' - k x'\ny'' = -B x'\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = 1\nmethod boris\nstep 0.1\nuntil 3\n";
+    static const char text[] = "k = 0\nB = 2\nx'' = B y' - k x'\ny'' = -B x'\nx(0) = 1\nx'(0) = 0\ny(0) = 0\ny'(0) = "
+                               "1\nmethod boris\nstep 0.1\nuntil 3\n";
     motus_system *s = given_text(text);
     const char *const names[] = {"B", "k"};
     const double B[3] = {1, 2, -3}, none[3] = {0, 0, 0}, some[3] = {0, 0, 0.25};
@@ -162,7 +188,8 @@ static void turns_or_brakes(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(friction_that_is_not_linear), cmocka_unit_test(pivots_of_its_own), cmocka_unit_test(lanes_that_fail),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(friction_that_is_not_linear),
+                                       cmocka_unit_test(pivots_of_its_own), cmocka_unit_test(lanes_that_fail),
                                        cmocka_unit_test(singular_in_one_lane), cmocka_unit_test(turns_or_brakes)};
     int failed = cmocka_run_group_tests_name("equations in lanes", tests, NULL, NULL);
     close_cache();

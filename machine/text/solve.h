@@ -1,11 +1,13 @@
-/* Linear systems of lanes: every lane its own matrix, factored and solved by the operations of core/solver.c and solver_band.c, in their order.
+/* Linear systems of lanes: every lane its own matrix, factored and solved by the operations of core/solver.c and
+ * solver_band.c, in their order.
  *
- * Before it stand, written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER diagonals, SOLVE_CONSTANT; the type `solving`;
- * solve_derive (the entries of the derivatives), solve_fill (the matrix, column by column; its diagonal alone where it has no more), solve_take and
- * solve_give (from the stages' order to that of the unknowns, and back), solve_multiply, solve_turns.
- * Invariant: a lane picks its own pivots, and skips what is skipped for it alone, by choosing; entries outside the band are 0 and stay so. Where
- * a matrix is singular its lane is marked in host->lost by a NaN; where a gyroscopic row meets a velocity term that does work, by an infinity. What
- * is constant is factored once in a call.
+ * Before it stand, written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER diagonals,
+ * SOLVE_CONSTANT; the type `solving`; solve_derive (the entries of the derivatives), solve_fill (the matrix, column
+ * by column; its diagonal alone where it has no more), solve_take and solve_give (from the stages' order to that of
+ * the unknowns, and back), solve_multiply, solve_turns.
+ * Invariant: a lane picks its own pivots, and skips what is skipped for it alone, by choosing; entries outside the
+ * band are 0 and stay so. Where a matrix is singular its lane is marked in host->lost by a NaN; where a gyroscopic
+ * row meets a velocity term that does work, by an infinity. What is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
 #define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
@@ -110,21 +112,25 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
 }
 #endif
 
-/* Factors for the lanes `where`, which lose those that are singular: NaN in their matrix makes NaN of what they solve. */
-static inline void solve_renew(const compiled_host *host, solving *z, truth *where, const clock *ax, const clock *av, clock t, real *x, real *v)
+/* Factors for the lanes `where`, which lose those that are singular: NaN in their matrix makes NaN of what they
+ * solve. */
+static inline void solve_renew(const compiled_host *host, solving *z, truth *where, const clock *ax, const clock *av,
+                               clock t, real *x, real *v)
 {
     real m[SOLVE_MATRIX], pivot[SOLVE_N];
     solve_derive(host, t, x, v, z);
     solve_fill(z, ax, av, m);
     const truth regular = solve_lu(m, pivot), singular = *where & NOT(regular);
     *host->lost = PICK(singular, MANY((clock)NAN), *host->lost);
-    for (int k = 0; k < SOLVE_MATRIX; k++) z->matrix[k] = PICK(*where, PICK(singular, MANY((clock)NAN), m[k]), z->matrix[k]);
+    for (int k = 0; k < SOLVE_MATRIX; k++)
+        z->matrix[k] = PICK(*where, PICK(singular, MANY((clock)NAN), m[k]), z->matrix[k]);
     for (int k = 0; k < SOLVE_N && !SOLVE_DIAGONAL; k++) z->pivot[k] = PICK(*where, pivot[k], z->pivot[k]);
     *where = *where & regular;
 }
 
 /* A constant matrix does not depend on the state, which therefore stays out of memory. */
-__attribute__((noinline, cold, unused)) static void solve_once(const compiled_host *host, const clock *ax, const clock *av, clock t)
+__attribute__((noinline, cold, unused)) static void solve_once(const compiled_host *host, const clock *ax,
+                                                               const clock *av, clock t)
 {
     real none[FACT_nv];
     truth all = ALWAYS;
@@ -134,7 +140,8 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
     host->solving->factored = true;
 }
 
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
+static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
+                               real *v)
 {
     const compiled_host *host = w->host;
     (void)s;
@@ -152,4 +159,7 @@ static inline void solve_back(work *w, real *r)
     solve_give(r, w->stride, b);
 }
 
-static inline void solve_apply(work *w, clock c, const real *y, real *out) { solve_multiply(w->host->solving, c, y, out); }
+static inline void solve_apply(work *w, clock c, const real *y, real *out)
+{
+    solve_multiply(w->host->solving, c, y, out);
+}
