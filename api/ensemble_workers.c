@@ -8,7 +8,6 @@
 
 #include "machine/parallel.h"
 
-#include <math.h>
 
 /* ---- who works ---- */
 

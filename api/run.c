@@ -6,7 +6,6 @@
 #include "machine/cache.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define STEPS_MAX 1e15               /* between the start and `until`; a nanosecond each would be eleven days */

@@ -183,17 +183,6 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
     return MOTUS_OK;
 }
 
-/* Back to the main line, from the shorter last step. */
-static void unshorten(stepper *s)
-{
-    work *w = &s->work;
-    w->t0 = s->main_t0;
-    work_scale(w, s->leg_h);
-    if (s->library.solver) solver_forget(s->library.solver);
-    stepper_put(s, s->at, s->snapshot);
-    s->shortened = false;
-}
-
 /* The shorter last step begins a leg of its own from the synchronised state: two-step methods take it in their one-step form. */
 static motus_status short_step(stepper *s, double last, const stepper_body *body, motus_error *err)
 {
@@ -211,7 +200,7 @@ static motus_status short_step(stepper *s, double last, const stepper_body *body
     const int bad = take_steps(s, body, 1);
     if (!bad) return MOTUS_OK;
     status = stepper_report(s, bad, time_now(w), err);
-    unshorten(s);
+    go_back(s);
     s->at.steps = -1;
     return status;
 }
@@ -260,8 +249,7 @@ motus_status stepper_again(stepper *s, motus_error *err)
     const bool shortened = s->shortened, arrived = s->arrived;
     if (s->at.steps < 0 || (!shortened && s->at.steps >= end)) return MOTUS_OK;      /* no step has been taken since the start or a restart */
     s->arrived = false;
-    if (shortened) unshorten(s);
-    else go_back(s);
+    go_back(s);
     int bad = shortened || end - 1 == w->n ? STEP_OK : s->body->run(w, end - 1 - w->n);
     motus_status status = bad ? stepper_report(s, bad, time_now(w), err) : stepper_mark(s, err);
     if (status) return status;

@@ -30,7 +30,7 @@ struct stepper {
 
 /* The status for a STEP_ status, with the sentence: at time t. */
 motus_status stepper_report(const stepper *, int bad, double t, motus_error *);
-/* The carried numbers into the main line. */
+/* The carried numbers into the main line; ends a shorter last step. */
 void stepper_put(stepper *, stepper_count, const double *carry);
 stepper_count stepper_get(const stepper *, double *carry);
 /* A leg's first state, without checks. */

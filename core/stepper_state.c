@@ -44,6 +44,12 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
 {
     double *list[CARRY_MAX];
     work *w = &s->work;
+    if (s->shortened) {                /* the shorter last step had a start and a size of its own */
+        w->t0 = s->main_t0;
+        work_scale(w, s->leg_h);
+        if (s->library.solver) solver_forget(s->library.solver);
+        s->shortened = false;
+    }
     w->n = at.steps;                   /* first: what is carried depends on it */
     w->evaluations = at.evaluations;
     w->iterations = at.iterations;
@@ -76,11 +82,6 @@ motus_status stepper_load(stepper *s, stepper_count at, const double *carry, mot
     const size_t count = stepper_carry(s);
     for (size_t k = 0; k < count; k++)
         if (!isfinite(carry[k])) return fail(err, MOTUS_STATE, "number %zu of the restart state is not finite", k + 1);
-    if (s->shortened) {
-        s->work.t0 = s->main_t0;
-        work_scale(&s->work, s->leg_h);
-        if (s->library.solver) solver_forget(s->library.solver);
-    }
     stepper_put(s, at, carry);
     s->shortened = s->arrived = s->left = s->right = false;
     s->left_steps = -1;

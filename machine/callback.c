@@ -7,7 +7,6 @@
 
 
 #include <stdio.h>
-#include <string.h>
 
 static int heard(calling *c, int answer)
 {
