@@ -5,7 +5,8 @@
 # make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
 # make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
-# make functions   the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
+# make format       the layout of the C, by .clang-format
+# make functions    the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
 # make clean
 #
 # demo, lab, test, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
@@ -18,7 +19,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo lab test bench install clean fuzz tidy functions manual need-demo
+.PHONY: all demo lab test bench install clean fuzz format tidy functions manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -58,6 +59,11 @@ fuzz:
 	@cmake/need.sh build fuzz
 	@$(CMAKE) --preset fuzz >/dev/null && $(CMAKE) --build --preset fuzz
 	@FUZZ_SECONDS=$(FUZZ_SECONDS) cmake/fuzz.sh
+
+# The layout of every C file, by .clang-format; test/format.sh asks whether there is something to change.
+format:
+	@cmake/need.sh format
+	@git ls-files '*.[ch]' | xargs clang-format -i
 
 tidy:
 	@cmake/need.sh build tidy

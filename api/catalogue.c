@@ -6,31 +6,24 @@ const motus_method *motus_method_at(size_t k) { return row_card(k); }
 
 motus_status motus_method_find(const char *name, const motus_method **out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     chosen c;
     const motus_method *card = NULL;
-    if (!name)
-        return fail(err, MOTUS_ARGUMENT, "motus_method_find needs a name");
+    if (!name) return fail(err, MOTUS_ARGUMENT, "motus_method_find needs a name");
     motus_status status = row_choose(name, &c, &card, err);
-    if (out)
-        *out = status == MOTUS_OK ? card : NULL;
+    if (out) *out = status == MOTUS_OK ? card : NULL;
     return status;
 }
 
 motus_status motus_method_admits(const motus_system *given, const char *name, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     motus_system *s = (motus_system *)given;
     chosen c;
     const motus_method *card;
-    if (!s || !name)
-        return fail(err, MOTUS_ARGUMENT, "motus_method_admits needs a system and a name");
+    if (!s || !name) return fail(err, MOTUS_ARGUMENT, "motus_method_admits needs a system and a name");
     motus_status status = row_choose(name, &c, &card, err);
-    if (status != MOTUS_OK)
-        return status;
-    if (!system_sample_gyroscopic(s))
-        return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+    if (status != MOTUS_OK) return status;
+    if (!system_sample_gyroscopic(s)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     return row_admits(&c, &s->problem.traits, err);
 }

@@ -1,4 +1,5 @@
-/* What every public call does first, and the studies, which are public calls too: structs with a size, errors, and a system that must not change. */
+/* What every public call does first, and the studies, which are public calls too: structs with a size, errors, and a
+ * system that must not change. */
 #ifndef API_CHECK_H
 #define API_CHECK_H
 

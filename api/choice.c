@@ -3,13 +3,13 @@
 
 #include <string.h>
 
-motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card, motus_error *err)
+motus_status choice_method(motus_system *s, const char *name, chosen *chosen, const motus_method **card,
+                           motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_status status = row_choose(name ? name : set.method ? set.method : "verlet", chosen, card, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     const bool may_turn = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
     if (may_turn && !system_sample_gyroscopic(s))
         return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
@@ -20,28 +20,24 @@ motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled,
 {
     *automatic = !wanted || !strcmp(wanted, "auto");
     *compiled = *automatic || !strcmp(wanted, "compiled");
-    if (*compiled || !strcmp(wanted, "interpreter"))
-        return MOTUS_OK;
+    if (*compiled || !strcmp(wanted, "interpreter")) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "there is no machine %s", wanted);
     hint(err, "the machines are auto, interpreter and compiled");
     return MOTUS_ARGUMENT;
 }
 
-motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bool kept, machine *out, const char **why, motus_error *err)
+motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bool kept, machine *out, const char **why,
+                            motus_error *err)
 {
     *why = NULL;
     if (!s->compiled) {
         motus_status status = compiled_create(s->model, &s->problem, &s->compiled, err);
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
     }
     *why = compiled_prepare(s->compiled, chosen, kept);
-    if (*why && s->arena.failed)
-        return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
-    if (!*why)
-        return compiled_machine(s->compiled, chosen, out, err);
-    if (!must)
-        return MOTUS_OK;
+    if (*why && s->arena.failed) return fail(err, MOTUS_MEMORY, "no memory for the compiled model");
+    if (!*why) return compiled_machine(s->compiled, chosen, out, err);
+    if (!must) return MOTUS_OK;
     fail(err, MOTUS_TOOL, "the model could not be compiled: %s", *why);
     hint(err, "--machine interpreter needs no compiler");
     return MOTUS_TOOL;
@@ -55,6 +51,7 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
 double choice_worth(const motus_system *s, const motus_method *card, double steps)
 {
     const double nodes = (double)s->model->graph->count;
-    const double operations = steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
+    const double operations =
+        steps * (card->evaluations ? card->evaluations : 4 * card->stages) * (nodes + 4 * (double)s->problem.nv);
     return operations / (WORTH_COMPILING + WORTH_AN_OPERATION * nodes);
 }

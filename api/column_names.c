@@ -5,13 +5,13 @@
 
 #include <string.h>
 
-typedef struct column_name {         /* a name taken apart: [exact] base [indices] primes component */
+typedef struct column_name { /* a name taken apart: [exact] base [indices] primes component */
     bool exact;
     char base[MOTUS_NAME_MAX];
     int dims;
     int64_t index[MAX_DIMS];
     int primes;
-    int component;                   /* 1-based, 0: none */
+    int component; /* 1-based, 0: none */
 } column_name;
 
 /* Indices end at INT32_MAX: a larger one is none, but that is not said here. */
@@ -33,18 +33,15 @@ static bool take_name(const char *p, column_name *n)
         p += 6;
     }
     size_t length = strcspn(p, "[.'");
-    if (length == 0 || length >= sizeof n->base)
-        return false;
+    if (length == 0 || length >= sizeof n->base) return false;
     memcpy(n->base, p, length);
     p += length;
     if (*p == '[') {
         do {
-            if (n->dims == MAX_DIMS || !(p = read_index(p + 1, &n->index[n->dims])))
-                return false;
+            if (n->dims == MAX_DIMS || !(p = read_index(p + 1, &n->index[n->dims]))) return false;
             n->dims++;
         } while (*p == ',');
-        if (*p++ != ']')
-            return false;
+        if (*p++ != ']') return false;
     }
     while (*p == '\'' && n->primes < 3) {
         n->primes++;
@@ -55,8 +52,7 @@ static bool take_name(const char *p, column_name *n)
         p += p[1] ? 2 : 1;
     } else if (*p == '[') {
         int64_t k;
-        if (!(p = read_index(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX)
-            return false;
+        if (!(p = read_index(p + 1, &k)) || *p++ != ']' || k < 1 || k > INT32_MAX) return false;
         n->component = (int)k;
     }
     return *p == 0 && n->component >= 0;
@@ -79,8 +75,7 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     int least = 7;
     for (size_t i = 0; i < s->group_count; i++) {
         const char *other = group_name(s, &s->groups[i]);
-        if (near_nearer(base, other, &least))
-            best = other;
+        if (near_nearer(base, other, &least)) best = other;
     }
     motus_column c = motus_default_column();
     if (best && strcmp(best, base))
@@ -95,19 +90,16 @@ static bool select_columns(const motus_system *s, const column_group *g, column_
 {
     *first = g->first;
     *count = g->count;
-    if (g->kind == MOTUS_COLUMN_TIME)
-        return !n.dims && !n.component;
+    if (g->kind == MOTUS_COLUMN_TIME) return !n.dims && !n.component;
     const model_state shape = columns_shape(s, g);
     const size_t parts = columns_parts(shape.components);
     size_t cell = 0;
-    if (shape.dims == 0 && n.dims == 1 && !n.component && !n.primes) {       /* w[2]: a component of a vector */
+    if (shape.dims == 0 && n.dims == 1 && !n.component && !n.primes) { /* w[2]: a component of a vector */
         n.component = n.index[0] > 0 && n.index[0] < INT32_MAX ? (int)n.index[0] : INT32_MAX;
         n.dims = 0;
     }
-    if (n.dims && (n.dims != shape.dims || !columns_find_cell(&shape, n.index, &cell)))
-        return false;
-    if (n.component > shape.components || (n.component && shape.dims && !n.dims))
-        return false;
+    if (n.dims && (n.dims != shape.dims || !columns_find_cell(&shape, n.index, &cell))) return false;
+    if (n.component > shape.components || (n.component && shape.dims && !n.dims)) return false;
     if (n.dims) {
         *first += cell * parts;
         *count = parts;
@@ -122,19 +114,17 @@ static bool select_columns(const motus_system *s, const column_group *g, column_
 motus_status motus_column_find(const motus_system *s, const char *name, size_t *first, size_t *count, motus_error *err)
 {
     column_name n;
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!s || !name || !first || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_column_find needs a system, a name and two places for the answer");
-    if (!take_name(name, &n))
-        return fail(err, MOTUS_NAME, "%s is not the name of a column", name);
+    if (!take_name(name, &n)) return fail(err, MOTUS_NAME, "%s is not the name of a column", name);
     for (size_t i = 0; i < s->group_count; i++) {
         const column_group *g = &s->groups[i];
         size_t from, number;
-        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) || n.primes != (g->prime ? 1 : 0))
+        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) ||
+            n.primes != (g->prime ? 1 : 0))
             continue;
-        if (!select_columns(s, g, n, &from, &number))
-            break;
+        if (!select_columns(s, g, n, &from, &number)) break;
         *first = from;
         *count = number;
         return MOTUS_OK;

@@ -19,7 +19,8 @@ static const model_definition *definition(const motus_system *s, const column_gr
 
 static bool of_state(motus_column_kind kind)
 {
-    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION || kind == MOTUS_COLUMN_EXACT;
+    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION ||
+           kind == MOTUS_COLUMN_EXACT;
 }
 
 static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t item, size_t count)
@@ -39,10 +40,8 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 
 bool system_number_columns(motus_system *s)
 {
-    s->groups =
-        arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
-    if (!s->groups)
-        return false;
+    s->groups = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
+    if (!s->groups) return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
     s->positions = s->column_count - 1;
@@ -53,8 +52,7 @@ bool system_number_columns(motus_system *s)
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t i = 0; i < s->definition_count; i++) {
             const model_definition *d = &s->definitions[i];
-            if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY))
-                continue;
+            if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY)) continue;
             add(s, pass ? MOTUS_COLUMN_INVARIANT : MOTUS_COLUMN_QUANTITY, false, i, d->numbers);
             const size_t room = s->model ? d->numbers : d->slot + d->numbers;
             largest = room > largest ? room : largest;
@@ -86,20 +84,18 @@ const column_group *columns_group(const motus_system *s, size_t k)
 /* ---- values ---- */
 
 /* Moves every number that is seen outside, in the outside order; outer_x, outer_v may be NULL. */
-static void each_number(const motus_system *s, double *x, double *v, double *outer_x, double *outer_v, void (*move)(double *inner, double *outer))
+static void each_number(const motus_system *s, double *x, double *v, double *outer_x, double *outer_v,
+                        void (*move)(double *inner, double *outer))
 {
     for (int order = 2; order >= 1; order--)
         for (uint32_t i = 0; i < s->state_count; i++) {
             const model_state *st = &s->states[i];
-            if (st->order != order)
-                continue;
+            if (st->order != order) continue;
             for (size_t c = 0; c < st->cells.count; c++)
                 for (size_t k = 0; k < columns_parts(st->components); k++) {
                     size_t at = system_place(st, c, (int)k);
-                    if (order == 2 && outer_x)
-                        move(&x[at], outer_x++);
-                    if (outer_v)
-                        move(&v[at], outer_v++);
+                    if (order == 2 && outer_x) move(&x[at], outer_x++);
+                    if (outer_v) move(&v[at], outer_v++);
                 }
         }
 }
@@ -127,17 +123,14 @@ const model_definition *system_definition(const motus_system *s, size_t column, 
 
 size_t system_number(const motus_system *s, size_t outer, bool of_v)
 {
-    if (of_v)
-        outer -= s->positions;
+    if (of_v) outer -= s->positions;
     size_t seen = 0;
     for (int order = 2; order >= (of_v ? 1 : 2); order--)
         for (uint32_t i = 0; i < s->state_count; i++) {
             const model_state *st = &s->states[i];
             size_t parts = columns_parts(st->components), numbers = st->cells.count * parts;
-            if (st->order != order)
-                continue;
-            if (outer < seen + numbers)
-                return system_place(st, (outer - seen) / parts, (int)((outer - seen) % parts));
+            if (st->order != order) continue;
+            if (outer < seen + numbers) return system_place(st, (outer - seen) / parts, (int)((outer - seen) % parts));
             seen += numbers;
         }
     return 0;
@@ -150,8 +143,7 @@ static motus_status ask(motus_system *s, motus_column_kind kind, double t, const
     const motus_callback_def *def = &s->callback;
     const bool invariant = kind == MOTUS_COLUMN_INVARIANT;
     const int answer = (invariant ? def->invariant : def->quantity)(def->context, t, x, v, s->look);
-    if (!answer)
-        return MOTUS_OK;
+    if (!answer) return MOTUS_OK;
     return columns_callback_failed(invariant ? "invariant" : "quantity", t, answer, err);
 }
 
@@ -171,8 +163,7 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
     switch (g->kind) {
     case MOTUS_COLUMN_QUANTITY:
     case MOTUS_COLUMN_INVARIANT:
-        if (!s->model)
-            return ask(s, g->kind, t, x, v, err);
+        if (!s->model) return ask(s, g->kind, t, x, v, err);
         if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->look))
             return fail(err, MOTUS_MEMORY, "no memory to compute %s", definition(s, g)->name);
         return MOTUS_OK;
@@ -180,8 +171,7 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
         if (p->exact(p->ctx, t, s->exact_x, s->exact_v))
             return columns_callback_failed("exact", t, p->returned ? *p->returned : 0, err);
         return MOTUS_OK;
-    default:
-        return MOTUS_OK;
+    default: return MOTUS_OK;
     }
 }
 
@@ -192,10 +182,11 @@ static bool evaluated(const motus_system *s, const column_group *g, const column
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
-motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count, double *out, motus_error *err)
+motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,
+                           double *out, motus_error *err)
 {
     const column_group *done = NULL;
-    if (s->problem.refresh)          /* the end of a run is `until`, not t0 + n h: for all columns alike */
+    if (s->problem.refresh) /* the end of a run is `until`, not t0 + n h: for all columns alike */
         s->problem.refresh(s->problem.ctx, t, x, v);
     for (size_t i = 0; i < count; i++) {
         if (columns[i] >= s->column_count)
@@ -208,14 +199,14 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
         }
         if (!evaluated(s, g, done)) {
             motus_status status = evaluate(s, g, t, x, v, err);
-            if (status != MOTUS_OK)
-                return status;
+            if (status != MOTUS_OK) return status;
             done = g;
         }
         if (of_state(g->kind)) {
             const model_state *st = &s->states[g->item];
             size_t parts = columns_parts(st->components), at = system_place(st, k / parts, (int)(k % parts));
-            const double *from_x = g->kind == MOTUS_COLUMN_EXACT ? s->exact_x : x, *from_v = g->kind == MOTUS_COLUMN_EXACT ? s->exact_v : v;
+            const double *from_x = g->kind == MOTUS_COLUMN_EXACT ? s->exact_x : x,
+                         *from_v = g->kind == MOTUS_COLUMN_EXACT ? s->exact_v : v;
             out[i] = st->order == 2 && !g->prime ? from_x[at] : from_v[at];
         } else if (s->model) {
             size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts;
@@ -231,11 +222,14 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
 
 model_state columns_shape(const motus_system *s, const column_group *g)
 {
-    if (of_state(g->kind))
-        return s->states[g->item];
+    if (of_state(g->kind)) return s->states[g->item];
     const model_definition *d = definition(s, g);
     const size_t hull = d->numbers / columns_parts(d->components);
-    model_state shape = {.name = d->name, .order = 2, .components = d->components, .dims = d->dims, .hull = hull,
+    model_state shape = {.name = d->name,
+                         .order = 2,
+                         .components = d->components,
+                         .dims = d->dims,
+                         .hull = hull,
                          .cells = {.count = hull}};
     memcpy(shape.first, d->first, sizeof shape.first);
     memcpy(shape.last, d->last, sizeof shape.last);
@@ -247,8 +241,7 @@ bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
 {
     size_t offset = 0;
     for (int d = 0; d < s->dims; d++) {
-        if (index[d] < s->first[d] || index[d] > s->last[d])
-            return false;
+        if (index[d] < s->first[d] || index[d] > s->last[d]) return false;
         offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(index[d] - s->first[d]);
     }
     if (!s->cells.offset) {
@@ -267,7 +260,6 @@ bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
     return s->cells.count > 0 && s->cells.offset[low] == offset;
 }
 
-
 /* The other way: the indices of a place in the hull. */
 static void indices_of(const model_state *s, size_t offset, int64_t *index)
 {
@@ -282,8 +274,7 @@ static void indices_of(const model_state *s, size_t offset, int64_t *index)
 static size_t rank_of(const motus_system *s, const column_group *g)
 {
     size_t rank = 0;
-    while (g > s->groups && g[-1].kind == g->kind)
-        g--, rank++;
+    while (g > s->groups && g[-1].kind == g->kind) g--, rank++;
     return rank;
 }
 
@@ -298,8 +289,7 @@ static motus_column describe(const motus_system *s, size_t k)
     const model_state shape = columns_shape(s, g);
     const size_t parts = columns_parts(shape.components), cell = (k - g->first) / parts;
     const size_t offset = shape.cells.offset ? shape.cells.offset[cell] : cell;
-    if (!of_state(g->kind))
-        c.variable = rank_of(s, g);
+    if (!of_state(g->kind)) c.variable = rank_of(s, g);
     c.component = (int)((k - g->first) % parts);
     c.dimensions = shape.dims;
     indices_of(&shape, offset, c.cell);
@@ -325,28 +315,23 @@ static const column_group *group_of(const motus_system *s, const motus_column *c
     size_t rank = 0;
     for (size_t i = 0; i < s->group_count; i++) {
         const column_group *g = &s->groups[i];
-        if (g->kind != c->kind)
-            continue;
+        if (g->kind != c->kind) continue;
         const size_t variable = of_state(g->kind) ? g->item : rank++;
-        if (variable == c->variable && (g->kind != MOTUS_COLUMN_EXACT || g->prime == (c->is_velocity != 0)))
-            return g;
+        if (variable == c->variable && (g->kind != MOTUS_COLUMN_EXACT || g->prime == (c->is_velocity != 0))) return g;
     }
     return NULL;
 }
 
 motus_status motus_column_of(const motus_system *s, const motus_column *given, size_t *k, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!s || !given || !k)
         return fail(err, MOTUS_ARGUMENT, "motus_column_of needs a system, a column and a place for its number");
     motus_column c;
     motus_status status = motus_struct_read(MOTUS_DEF_COLUMN, given, &c, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     const column_group *g = group_of(s, &c);
-    if (!g)
-        return fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
+    if (!g) return fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
     if (g->kind == MOTUS_COLUMN_TIME) {
         *k = g->first;
         return MOTUS_OK;
@@ -373,10 +358,8 @@ static const char *definition_name(const motus_system *s, definition_kind kind, 
 {
     for (uint32_t i = 0; s && i < s->definition_count; i++) {
         const model_definition *d = &s->definitions[i];
-        if (d->kind != kind || k-- > 0)
-            continue;
-        if (numbers)
-            *numbers = d->numbers;
+        if (d->kind != kind || k-- > 0) continue;
+        if (numbers) *numbers = d->numbers;
         return d->name;
     }
     return NULL;
@@ -385,8 +368,7 @@ static const char *definition_name(const motus_system *s, definition_kind kind, 
 static size_t definition_count(const motus_system *s, definition_kind kind)
 {
     size_t n = 0;
-    for (uint32_t i = 0; s && i < s->definition_count; i++)
-        n += s->definitions[i].kind == kind;
+    for (uint32_t i = 0; s && i < s->definition_count; i++) n += s->definitions[i].kind == kind;
     return n;
 }
 

@@ -1,10 +1,10 @@
-/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version. And
- * the words of statuses, which need no system.
+/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version.
+ * And the words of statuses, which need no system.
  *
- * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what it
- * adds has no padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a struct of
- * an older caller is a beginning of ours, and one of a newer caller is ours and zeros, unless it asks for what this
- * library does not have.
+ * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what
+ * it adds has no padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a
+ * struct of an older caller is a beginning of ours, and one of a newer caller is ours and zeros, unless it asks for
+ * what this library does not have.
  */
 #include "api/system.h"
 
@@ -18,7 +18,7 @@ typedef struct layout {
     const char *type, *maker;
     const uint32_t *sizes;
     size_t count;
-    const void *start;               /* what a new one holds, but for its size; NULL: zeros */
+    const void *start; /* what a new one holds, but for its size; NULL: zeros */
 } layout;
 
 static const layout layouts[] = {
@@ -38,8 +38,7 @@ static const layout layouts[] = {
     [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},
     [MOTUS_DEF_INITIAL] = {"motus_initial", "initial", SIZES(motus_initial), NULL},
     [MOTUS_DEF_SETTINGS] = {"motus_settings", "settings", SIZES(motus_settings),
-                            &(const motus_settings){
-                                .step = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
+                            &(const motus_settings){.step = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
     [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
     [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
     [MOTUS_DEF_STATISTICS] = {"motus_statistics", "statistics", SIZES(motus_statistics),
@@ -58,13 +57,11 @@ static uint32_t size_said(const void *made)
 void motus_default(motus_def_kind kind, void *made, uint32_t size)
 {
     memset(made, 0, size);
-    if ((unsigned)kind >= sizeof layouts / sizeof *layouts || size < sizeof size)
-        return;
+    if ((unsigned)kind >= sizeof layouts / sizeof *layouts || size < sizeof size) return;
     const layout *l = &layouts[kind];
-    if (l->start)
-        memcpy(made, l->start, size < size_now(l) ? size : size_now(l));
+    if (l->start) memcpy(made, l->start, size < size_now(l) ? size : size_now(l));
     if (kind == MOTUS_DEF_ERROR && size >= offsetof(motus_error, time) + sizeof(double))
-        ((motus_error *)made)->time = NAN;       /* here: nearly all of an error is room for texts */
+        ((motus_error *)made)->time = NAN; /* here: nearly all of an error is room for texts */
     memcpy(made, &size, sizeof size);
 }
 
@@ -77,16 +74,12 @@ defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *mad
 {
     const uint32_t size = size_said(made), now = sizes[count - 1];
     const unsigned char *bytes = made;
-    if (size == 0)
-        return SIZE_MISSING;
+    if (size == 0) return SIZE_MISSING;
     for (size_t i = 0; i < count; i++)
-        if (sizes[i] == size)
-            return SIZE_FITS;
-    if (size < now || size > SIZE_BOUND)
-        return SIZE_UNKNOWN;
+        if (sizes[i] == size) return SIZE_FITS;
+    if (size < now || size > SIZE_BOUND) return SIZE_UNKNOWN;
     for (uint32_t i = now; i < size; i++)
-        if (bytes[i])
-            return SIZE_ASKS_MORE;
+        if (bytes[i]) return SIZE_ASKS_MORE;
     return SIZE_FITS;
 }
 
@@ -125,8 +118,7 @@ motus_status motus_struct_read(motus_def_kind kind, const void *given, void *our
 {
     motus_default(kind, ours, size_now(&layouts[kind]));
     motus_status status = given ? motus_struct_check(kind, given, err) : MOTUS_OK;
-    if (given && status == MOTUS_OK)
-        copy(kind, ours, given, size_said(given));
+    if (given && status == MOTUS_OK) copy(kind, ours, given, size_said(given));
     return status;
 }
 
@@ -137,7 +129,10 @@ void motus_struct_write(motus_def_kind kind, const void *ours, void *to) { copy(
 const char *motus_version(void) { return MOTUS_VERSION; }
 
 #define STATUS_ROW(name, word, text, exit) {word, text, exit},
-static const struct { const char *word, *text; int exit; } statuses[] = {MOTUS_STATUS_MAP(STATUS_ROW)};
+static const struct {
+    const char *word, *text;
+    int exit;
+} statuses[] = {MOTUS_STATUS_MAP(STATUS_ROW)};
 
 static size_t known(motus_status s) { return (unsigned)s < MOTUS_STATUS_COUNT ? (size_t)s : MOTUS_ARGUMENT; }
 

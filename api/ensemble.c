@@ -9,7 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-_Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX, "the reductions are the same list");
+_Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF_MAX == (int)MOTUS_REDUCE_TIME_OF_MAX,
+               "the reductions are the same list");
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
@@ -17,27 +18,26 @@ int ensemble_watched(void *context, double fraction)
 {
     motus_ensemble *e = context;
     const double t = e->progress ? pace_now() : 0;
-    if (!e->progress || t - e->told < 0.01)
-        return 0;
+    if (!e->progress || t - e->told < 0.01) return 0;
     e->told = t;
     return e->progress(e->context, fraction);
 }
 
 static motus_status check(const motus_system *s, const motus_ensemble_def *d, motus_error *err)
 {
-    if (d->vary_count && !d->vary)
-        return fail(err, MOTUS_ARGUMENT, "vary is NULL");
-    if (!d->record_count || !d->records)
-        return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
+    if (d->vary_count && !d->vary) return fail(err, MOTUS_ARGUMENT, "vary is NULL");
+    if (!d->record_count || !d->records) return fail(err, MOTUS_ARGUMENT, "nothing is recorded");
     for (size_t r = 0; r < d->record_count; r++)
         if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TIME_OF_MAX)
-            return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r, d->records[r].column, s->column_count);
-    if (d->every < 1)
-        return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
+            return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
+                        d->records[r].column, s->column_count);
+    if (d->every < 1) return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
     if (d->threads < 0 || d->threads > MOTUS_THREADS_MAX)
-        return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d", MOTUS_THREADS_MAX, d->threads);
+        return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d",
+                    MOTUS_THREADS_MAX, d->threads);
     if (d->lanes < 0 || d->lanes > ENSEMBLE_LANES_MAX || (d->lanes & (d->lanes - 1)))
-        return fail(err, MOTUS_ARGUMENT, "lanes are 0 (as many as suits) or a power of two up to %d, not %d", ENSEMBLE_LANES_MAX, d->lanes);
+        return fail(err, MOTUS_ARGUMENT, "lanes are 0 (as many as suits) or a power of two up to %d, not %d",
+                    ENSEMBLE_LANES_MAX, d->lanes);
     return MOTUS_OK;
 }
 
@@ -46,10 +46,8 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
     for (size_t k = 0; k < e->vary_count; k++) {
         motus_status status = ensemble_place(e->system, d->vary[k], &e->places[k], err);
         for (size_t i = 0; i < k && status == MOTUS_OK; i++)
-            if (e->places[i] == e->places[k])
-                status = fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
-        if (status != MOTUS_OK)
-            return status;
+            if (e->places[i] == e->places[k]) status = fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
+        if (status != MOTUS_OK) return status;
     }
     return MOTUS_OK;
 }
@@ -58,8 +56,7 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
 {
     motus_column c = motus_default_column();
-    if (motus_column_at(s, r->column, &c) != MOTUS_OK)
-        return false;
+    if (motus_column_at(s, r->column, &c) != MOTUS_OK) return false;
     *out = (lanes_source){.how = (int)r->how};
     switch (c.kind) {
     case MOTUS_COLUMN_TIME: out->kind = SOURCE_TIME; return true;
@@ -86,17 +83,32 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
 {
     motus_system *s = e->system;
     lanes_source *sources = arena_room(&s->arena, e->record_count * sizeof *sources);
-    if (!sources)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (!sources) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (size_t r = 0; r < e->record_count; r++)
         if (!source_of(s, &e->records[r], &sources[r])) {
             snprintf(e->note, sizeof e->note, "the exact motion is recorded, one trajectory at a time");
             return MOTUS_OK;
         }
-    const lanes_def def = {.model = s->model, .problem = &s->problem, .chosen = &e->chosen, .vary = e->vary, .places = e->places, .place_count = e->vary_count,
-                           .sources = sources, .source_count = e->record_count, .t0 = e->timing.t0, .h = e->timing.h, .last = e->timing.last,
-                           .until = e->timing.until, .whole = e->timing.whole, .every = e->every, .lanes = d->lanes, .threads = e->threads,
-                           .fast = d->fast != 0, .allocator = &e->allocator, .progress = e->progress ? ensemble_watched : NULL, .context = e};
+    const lanes_def def = {.model = s->model,
+                           .problem = &s->problem,
+                           .chosen = &e->chosen,
+                           .vary = e->vary,
+                           .places = e->places,
+                           .place_count = e->vary_count,
+                           .sources = sources,
+                           .source_count = e->record_count,
+                           .t0 = e->timing.t0,
+                           .h = e->timing.h,
+                           .last = e->timing.last,
+                           .until = e->timing.until,
+                           .whole = e->timing.whole,
+                           .every = e->every,
+                           .lanes = d->lanes,
+                           .threads = e->threads,
+                           .fast = d->fast != 0,
+                           .allocator = &e->allocator,
+                           .progress = e->progress ? ensemble_watched : NULL,
+                           .context = e};
     const char *why = lanes_refuse(&def);
     if (why) {
         snprintf(e->note, sizeof e->note, "%s", why);
@@ -110,8 +122,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
 static void choose_portable(motus_ensemble *e)
 {
     e->machine = e->system->machine;
-    if (e->system->allocator.allocate)
-        e->threads = 1;              /* its hooks are called by one thread at a time */
+    if (e->system->allocator.allocate) e->threads = 1; /* its hooks are called by one thread at a time */
 }
 
 /* One trajectory at a time, compiled where that is wanted and possible. */
@@ -119,17 +130,13 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 {
     motus_system *s = e->system;
     choose_portable(e);
-    if (!s->model && s->callback.block)
-        e->block = ensemble_block_size(s, &e->chosen);
-    if (!s->model || (wanted && !strcmp(wanted, "interpreter")))
-        return MOTUS_OK;
+    if (!s->model && s->callback.block) e->block = ensemble_block_size(s, &e->chosen);
+    if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why;
-    motus_status status = choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
-    if (status != MOTUS_OK)
-        return status;
-    if (!why) {
-        return MOTUS_OK;
-    }
+    motus_status status =
+        choice_compile(s, &e->chosen, wanted && !strcmp(wanted, "compiled"), false, &e->machine, &why, err);
+    if (status != MOTUS_OK) return status;
+    if (!why) { return MOTUS_OK; }
     snprintf(e->note, sizeof e->note, "%s", why);
     return MOTUS_OK;
 }
@@ -139,47 +146,46 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     motus_system *s = e->system;
     const motus_method *card;
     motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
-    if (status == MOTUS_OK)
-        status = run_timing(s, &e->chosen, d->step, d->until, NAN, &e->timing, err);
-    if (status == MOTUS_OK)
-        status = find_places(e, d, err);
+    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, d->step, d->until, NAN, &e->timing, err);
+    if (status == MOTUS_OK) status = find_places(e, d, err);
     if (status == MOTUS_OK && s->model)
         status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
     const char *wanted = d->machine;
     bool automatic, compiled;
-    if (status == MOTUS_OK)
-        status = choice_machine(wanted, &automatic, &compiled, err);
-    if (status == MOTUS_OK && s->model && d->expected && automatic && choice_worth(s, card, (double)d->expected * (double)e->timing.total) < 1) {
+    if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
+    if (status == MOTUS_OK && s->model && d->expected && automatic &&
+        choice_worth(s, card, (double)d->expected * (double)e->timing.total) < 1) {
         compiled = false;
         wanted = "interpreter";
     }
-    if (status == MOTUS_OK && s->model && compiled)
-        status = try_lanes(e, d, err);
-    if (status == MOTUS_OK && !e->lanes)
-        status = choose_single(e, wanted, err);
+    if (status == MOTUS_OK && s->model && compiled) status = try_lanes(e, d, err);
+    if (status == MOTUS_OK && !e->lanes) status = choose_single(e, wanted, err);
     return status;
 }
 
-motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out, motus_error *err)
+motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *given, motus_ensemble **out,
+                                   motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!out)
-        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a place for the ensemble");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a place for the ensemble");
     *out = NULL;
-    if (!s || !given)
-        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
+    if (!s || !given) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_create needs a system and a definition");
     motus_ensemble_def d;
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
-    if (status == MOTUS_OK)
-        status = check(s, &d, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status == MOTUS_OK) status = check(s, &d, err);
+    if (status != MOTUS_OK) return status;
     motus_ensemble *e = take(&s->allocator, 1, sizeof *e);
-    if (!e)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    *e = (motus_ensemble){.system = s, .allocator = s->allocator, .every = d.every, .vary_count = d.vary_count, .record_count = d.record_count,
-                          .threads = d.threads ? d.threads : s->model ? parallel_processors() : 1, .progress = d.progress, .context = d.context};
+    if (!e) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    *e = (motus_ensemble){.system = s,
+                          .allocator = s->allocator,
+                          .every = d.every,
+                          .vary_count = d.vary_count,
+                          .record_count = d.record_count,
+                          .threads = d.threads  ? d.threads
+                                     : s->model ? parallel_processors()
+                                                : 1,
+                          .progress = d.progress,
+                          .context = d.context};
     motus_system_hold(s, true);
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
@@ -199,31 +205,27 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     return MOTUS_OK;
 }
 
-motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *err)
+motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
+                                double *stopped, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!e || !results || (e->vary_count && !values))
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
     for (size_t k = 0; k < e->vary_count; k++)
-        if (!values[k])
-            return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
+        if (!values[k]) return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
     for (size_t r = 0; r < e->record_count; r++)
-        if (!results[r])
-            return fail(err, MOTUS_ARGUMENT, "the place for record %zu is NULL", r);
-    if (!count)
-        return MOTUS_OK;
+        if (!results[r]) return fail(err, MOTUS_ARGUMENT, "the place for record %zu is NULL", r);
+    if (!count) return MOTUS_OK;
     modes m = modes_enter();
     double began = pace_now();
     places p = {values, results, stopped, false};
-    for (size_t r = 0; r < e->record_count; r++)
-        p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
+    for (size_t r = 0; r < e->record_count; r++) p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
     motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : MOTUS_METHOD;
-    if (e->lanes && status == MOTUS_METHOD)
-        choose_portable(e);
+    if (e->lanes && status == MOTUS_METHOD) choose_portable(e);
     if (status == MOTUS_METHOD)
-        status = !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+        status =
+            !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
@@ -231,8 +233,7 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
 
 void motus_ensemble_destroy(motus_ensemble *e)
 {
-    if (!e)
-        return;
+    if (!e) return;
     motus_allocator a = e->allocator;
     motus_system_hold(e->system, false);
     lanes_destroy(e->lanes);
@@ -244,7 +245,10 @@ void motus_ensemble_destroy(motus_ensemble *e)
 
 int64_t motus_ensemble_steps(const motus_ensemble *e) { return e ? e->timing.total : 0; }
 const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
-const char *motus_ensemble_machine(const motus_ensemble *e) { return !e ? "" : e->lanes ? "compiled" : e->machine.name; }
+const char *motus_ensemble_machine(const motus_ensemble *e)
+{
+    return !e ? "" : e->lanes ? "compiled" : e->machine.name;
+}
 const char *motus_ensemble_note(const motus_ensemble *e) { return e ? e->note : ""; }
 int motus_ensemble_lanes(const motus_ensemble *e) { return e && e->lanes ? lanes_in_block(e->lanes) : 1; }
 int motus_ensemble_threads(const motus_ensemble *e) { return e ? e->threads : 1; }

@@ -1,4 +1,5 @@
-/* An ensemble: what varies, what is recorded, and one of three ways to compute it: in lanes; blocks of a callback; one trajectory at a time.
+/* An ensemble: what varies, what is recorded, and one of three ways to compute it: in lanes; blocks of a callback;
+ * one trajectory at a time.
  *
  * Invariant: whoever computes a trajectory, on whichever thread, gives it the bits of a run with its values.
  */
@@ -10,18 +11,18 @@
 
 #include <stdatomic.h>
 
-/* What a thread has of its own. The first one's system is the ensemble's, the others' are read again: a model's numbers change from trajectory
- * to trajectory, and to look at a state takes scratch memory. */
+/* What a thread has of its own. The first one's system is the ensemble's, the others' are read again: a model's
+ * numbers change from trajectory to trajectory, and to look at a state takes scratch memory. */
 typedef struct worker {
     motus_ensemble *e;
     motus_system *system;
     vary *vary;
     machine machine;
-    stepper *stepper;                /* made for the first trajectory, and started again for the others; NULL */
+    stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
     int number;
     pace pace;
-    size_t trajectories;             /* that are computed at present */
-    size_t failed_at;                /* item, where status is not OK */
+    size_t trajectories; /* that are computed at present */
+    size_t failed_at;    /* item, where status is not OK */
     motus_status status;
     motus_error why;
 } worker;
@@ -33,20 +34,21 @@ struct motus_ensemble {
     timing timing;
     int64_t every;
     size_t vary_count, record_count;
-    size_t *places;                  /* of the pool; of a callback: of x, then v */
+    size_t *places; /* of the pool; of a callback: of x, then v */
     motus_record *records;
     vary *vary;
-    lanes *lanes;                    /* NULL: one trajectory after the other */
-    machine machine;                 /* then, of the first worker */
-    worker *workers;                 /* `threads` of them, made when they are first needed; those not made yet are zero */
-    size_t count, block;             /* trajectories of this run; of a block: 1 but for callbacks of blocks */
+    lanes *lanes;    /* NULL: one trajectory after the other */
+    machine machine; /* then, of the first worker */
+    /* `threads` of them, made when they are first needed; those not made yet are zero */
+    worker *workers;
+    size_t count, block; /* trajectories of this run; of a block: 1 but for callbacks of blocks */
     atomic_size_t done;
-    atomic_bool stop;                /* somebody failed, or nobody wants the rest */
+    atomic_bool stop; /* somebody failed, or nobody wants the rest */
     int threads;
     double seconds;
     int (*progress)(void *context, double fraction);
     void *context;
-    double told;                     /* when `progress` was last called */
+    double told; /* when `progress` was last called */
     char note[MOTUS_TEXT_MAX];
 };
 
@@ -56,7 +58,11 @@ int ensemble_watched(void *context, double fraction);
 motus_status ensemble_place(const motus_system *, const char *name, size_t *place, motus_error *);
 
 /* What a run is given: where values come from and results go. */
-typedef struct places { const double *const *values; double *const *results, *stopped; bool looks; } places;
+typedef struct places {
+    const double *const *values;
+    double *const *results, *stopped;
+    bool looks;
+} places;
 /* ensemble_single.c: one trajectory after the other. ensemble_block.c: blocks of a callback. */
 motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
 motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
@@ -64,10 +70,12 @@ motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
 /* How many of a callback's trajectories go side by side by this method. */
 size_t ensemble_block_size(const motus_system *, const chosen *);
 
-/* ensemble_workers.c: one(worker, item, ctx) for every item by the ensemble's threads. The first item that fails decides. */
-motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *);
+/* ensemble_workers.c: one(worker, item, ctx) for every item by the ensemble's threads. The first item that fails
+ * decides. */
+motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx),
+                           void *ctx, motus_error *);
 /* As stepper_advance, of the worker's stepper; where somebody watches, in pieces of some milliseconds. */
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
-void ensemble_dismiss(motus_ensemble *);         /* the workers */
+void ensemble_dismiss(motus_ensemble *); /* the workers */
 
 #endif

@@ -1,7 +1,7 @@
 /* Blocks of a callback: several trajectories side by side, as one problem of the library's stepper. See ensemble.h.
  *
- * Invariant: an explicit method does the same to every number, so number k of trajectory j is what it would be alone. A block in which one is lost
- * is computed again in halves, down to that one.
+ * Invariant: an explicit method does the same to every number, so number k of trajectory j is what it would be alone.
+ * A block in which one is lost is computed again in halves, down to that one.
  */
 #include "api/ensemble.h"
 
@@ -11,13 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };      /* of one array: all arrays of a method should stay in the fastest cache */
+/* of one array: all arrays of a method should stay in the fastest cache */
+enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };
 
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
     /* What solves an equation solves one trajectory's. */
-    if (c->row->family == EXACT || stepper_plan(&s->problem, c, NULL).solves)
-        return 1;
+    if (c->row->family == EXACT || stepper_plan(&s->problem, c, NULL).solves) return 1;
     const size_t fits = BLOCK_NUMBERS / s->problem.nv;
     return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
 }
@@ -28,7 +28,7 @@ typedef struct group {
     calling calling;
     problem problem;
     size_t first, count;
-    double *x, *v, *kept, *one_x, *one_v;      /* the last two: a single trajectory, to look at */
+    double *x, *v, *kept, *one_x, *one_v; /* the last two: a single trajectory, to look at */
     int64_t looks;
 } group;
 
@@ -39,7 +39,8 @@ static const double *row_of(const group *b, size_t column)
 {
     const motus_system *s = b->w->system;
     motus_column c = motus_default_column();
-    if (motus_column_at(s, column, &c) != MOTUS_OK || (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
+    if (motus_column_at(s, column, &c) != MOTUS_OK ||
+        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
         return NULL;
     const bool of_v = c.kind != MOTUS_COLUMN_POSITION;
     return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;
@@ -49,8 +50,7 @@ static motus_status computed(group *b, size_t column, size_t j, double t, double
 {
     const problem *p = &b->w->system->problem;
     for (size_t k = 0; k < p->nv; k++) {
-        if (k < p->nx)
-            b->one_x[k] = b->x[k * b->count + j];
+        if (k < p->nx) b->one_x[k] = b->x[k * b->count + j];
         b->one_v[k] = b->v[k * b->count + j];
     }
     return system_values(b->w->system, t, b->one_x, b->one_v, &column, 1, out, err);
@@ -67,8 +67,7 @@ static motus_status observe(void *ctx, motus_error *err)
         double *kept = b->kept + r * b->count * REDUCE_KEPT;
         for (size_t j = 0; j < b->count && status == MOTUS_OK; j++, kept += REDUCE_KEPT) {
             double now = numbers ? numbers[j] : t;
-            if (!numbers && e->records[r].column)
-                status = computed(b, e->records[r].column, j, t, &now, err);
+            if (!numbers && e->records[r].column) status = computed(b, e->records[r].column, j, t, &now, err);
             if (b->looks == 0)
                 reduce_first(kept, now, t);
             else
@@ -88,8 +87,7 @@ static motus_status start(group *b, motus_error *err)
     const size_t nx = s->problem.nx, nv = s->problem.nv, n = b->count;
     for (size_t k = 0; k < nv; k++)
         for (size_t j = 0; j < n; j++) {
-            if (k < nx)
-                b->x[k * n + j] = s->x0[k];
+            if (k < nx) b->x[k * n + j] = s->x0[k];
             b->v[k * n + j] = s->v0[k];
         }
     for (size_t i = 0; i < e->vary_count; i++) {
@@ -97,8 +95,7 @@ static motus_status start(group *b, motus_error *err)
         memcpy(numbers, b->places->values[i] + b->first, n * sizeof *numbers);
     }
     int bad = 0;
-    for (size_t k = 0; k < nv * n; k++)
-        bad |= !isfinite(b->v[k]) || (k < nx * n && !isfinite(b->x[k]));
+    for (size_t k = 0; k < nv * n; k++) bad |= !isfinite(b->v[k]) || (k < nx * n && !isfinite(b->x[k]));
     err->time = e->timing.t0;
     return bad ? MOTUS_DIVERGED : MOTUS_OK;
 }
@@ -117,9 +114,9 @@ static motus_status travel(group *b, motus_error *err)
     motus_status status = start(b, err);
     if (status == MOTUS_OK)
         status = stepper_create(&m, &e->chosen, t->t0, t->h, b->x, b->v, &e->allocator, &b->w->stepper, err);
-    const course course = {.ctx = b, .until = t->until, .every = b->places->looks ? e->every : 0, .advance = advance, .observe = observe};
-    if (status == MOTUS_OK)
-        status = course_run(&course, err);
+    const course course = {
+        .ctx = b, .until = t->until, .every = b->places->looks ? e->every : 0, .advance = advance, .observe = observe};
+    if (status == MOTUS_OK) status = course_run(&course, err);
     stepper_destroy(b->w->stepper);
     b->w->stepper = NULL;
     return status;
@@ -130,10 +127,10 @@ static void write_down(const group *b, bool lost, double when)
     const motus_ensemble *e = b->w->e;
     for (size_t r = 0; r < e->record_count; r++)
         for (size_t j = 0; j < b->count; j++)
-            b->places->results[r][b->first + j] =
-                lost ? NAN : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT, (int)e->records[r].how, (double)b->looks);
-    for (size_t j = 0; b->places->stopped && j < b->count; j++)
-        b->places->stopped[b->first + j] = lost ? when : NAN;
+            b->places->results[r][b->first + j] = lost ? NAN
+                                                       : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT,
+                                                                     (int)e->records[r].how, (double)b->looks);
+    for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = lost ? when : NAN;
 }
 
 /* `memory` is as large as the whole block wants; a half uses less of it. */
@@ -141,7 +138,13 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
 {
     const motus_ensemble *e = w->e;
     const size_t nx = w->system->problem.nx, nv = w->system->problem.nv;
-    group b = {.w = w, .places = p, .first = first, .count = count, .one_x = memory, .one_v = memory + nx, .x = memory + nx + nv};
+    group b = {.w = w,
+               .places = p,
+               .first = first,
+               .count = count,
+               .one_x = memory,
+               .one_v = memory + nx,
+               .x = memory + nx + nv};
     b.v = b.x + nx * count;
     b.kept = b.v + nv * count;
     b.calling = (calling){.def = &w->system->callback, .first = first, .count = count};
@@ -150,8 +153,7 @@ static motus_status part(worker *w, const places *p, size_t first, size_t count,
     motus_status status = travel(&b, &w->why);
     const bool lost =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
-    if (status != MOTUS_OK && !lost)
-        return status;
+    if (status != MOTUS_OK && !lost) return status;
     if (lost && count > 1) {
         status = part(w, p, first, count / 2, memory);
         return status == MOTUS_OK ? part(w, p, first + count / 2, count - count / 2, memory) : status;
@@ -169,8 +171,7 @@ static motus_status one_block(worker *w, size_t item, void *ctx)
     const size_t first = item * e->block, count = e->count - first < e->block ? e->count - first : e->block;
     const size_t numbers = w->system->problem.nx + w->system->problem.nv;
     double *memory = take(&e->allocator, numbers + (numbers + e->record_count * REDUCE_KEPT) * count, sizeof *memory);
-    if (!memory)
-        return fail(&w->why, MOTUS_MEMORY, "no memory for %zu trajectories", count);
+    if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for %zu trajectories", count);
     motus_status status = part(w, ctx, first, count, memory);
     give(&e->allocator, memory);
     return status;

@@ -34,7 +34,8 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
     return MOTUS_NAME;
 }
 
-static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place, motus_error *err)
+static motus_status initial_value(const motus_system *s, const char *name, const char *bare, size_t *place,
+                                  motus_error *err)
 {
     size_t first, count;
     motus_column c = motus_default_column();
@@ -72,8 +73,7 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
     const size_t length = strcspn(name, ".[(");
     for (uint32_t i = 0; s->model && i < s->model->definition_count; i++) {
         const model_definition *d = &s->model->definitions[i];
-        if (strlen(d->name) != length || strncmp(d->name, name, length) || d->kind != DEFINED_PARAMETER)
-            continue;
+        if (strlen(d->name) != length || strncmp(d->name, name, length) || d->kind != DEFINED_PARAMETER) continue;
         const char *rest = name + length;
         uint64_t written = 0;
         bool closed = true;
@@ -81,8 +81,7 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
             written = rest[1] == 'x' ? 1 : rest[1] == 'y' ? 2 : rest[1] == 'z' ? 3 : 0;
         else if (*rest == '[')
             closed = !strcmp(rest + 1 + decimal_read_whole(rest + 1, SIZE_MAX, &written), "]");
-        if (!closed || (*rest && (written < 1 || written > INT32_MAX)))
-            return unknown(s, name, err);
+        if (!closed || (*rest && (written < 1 || written > INT32_MAX))) return unknown(s, name, err);
         const int64_t k = (int64_t)written;
         if (d->list && d->dims == 1 && !d->components && k >= d->first[0] && k <= d->last[0]) {
             *place = s->model->arrays[d->array].base + (size_t)(k - d->first[0]);
@@ -90,7 +89,11 @@ static motus_status parameter(const motus_system *s, const char *name, size_t *p
         }
         if (d->list || (d->components ? k < 1 || k > d->components : k != 0)) {
             fail(err, MOTUS_SHAPE, "%s is not one number", name);
-            hint(err, d->list ? "name one of them: %s[1]" : d->components ? "name a component: %s.x" : "%s has no components", d->name);
+            hint(err,
+                 d->list         ? "name one of them: %s[1]"
+                 : d->components ? "name a component: %s.x"
+                                 : "%s has no components",
+                 d->name);
             return MOTUS_SHAPE;
         }
         *place = d->slot + (size_t)(k ? k - 1 : 0);
@@ -103,10 +106,8 @@ motus_status ensemble_place(const motus_system *s, const char *name, size_t *pla
 {
     char bare[2 * MOTUS_NAME_MAX];
     double start;
-    if (!name)
-        return fail(err, MOTUS_ARGUMENT, "what varies has no name");
-    if (!parameters_bracket(name, bare, sizeof bare, &start))
-        return parameter(s, name, place, err);
+    if (!name) return fail(err, MOTUS_ARGUMENT, "what varies has no name");
+    if (!parameters_bracket(name, bare, sizeof bare, &start)) return parameter(s, name, place, err);
     if (start != s->start) {
         char at[DECIMAL_MAX];
         return fail(err, MOTUS_NAME, "%s is not an initial value: the start is %s", name, decimal(s->start, at));

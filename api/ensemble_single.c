@@ -1,7 +1,7 @@
 /* One trajectory after the other: what every method and every machine can do. See ensemble.h.
  *
- * Invariant: a trajectory is what motus_run would compute with these values; it is looked at where lanes would look. Afterwards the system is
- * what it was: its own numbers are back.
+ * Invariant: a trajectory is what motus_run would compute with these values; it is looked at where lanes would look.
+ * Afterwards the system is what it was: its own numbers are back.
  */
 #include "api/ensemble.h"
 
@@ -70,23 +70,20 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
 {
     motus_ensemble *e = s->w->e;
     motus_system *y = s->w->system;
-    for (size_t i = 0; i < e->vary_count; i++)
-        s->now[i] = values[i][k];
+    for (size_t i = 0; i < e->vary_count; i++) s->now[i] = values[i][k];
     if (y->model && e->vary_count) {
         if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
         compiled_rebind(y->compiled);
-        if (e->chosen.row->gyroscopic) {         /* which velocity terms do no work is seen at states, for these parameters */
+        /* which velocity terms do no work is seen at states, for these parameters */
+        if (e->chosen.row->gyroscopic) {
             y->sampled_gyroscopic = false;
-            if (!system_sample_gyroscopic(y))
-                return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+            if (!system_sample_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
             motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
-            if (status != MOTUS_OK)
-                return status;
+            if (status != MOTUS_OK) return status;
         }
     }
-    if (y->problem.nx)
-        memcpy(s->x, y->x0, y->problem.nx * sizeof(double));
+    if (y->problem.nx) memcpy(s->x, y->x0, y->problem.nx * sizeof(double));
     memcpy(s->v, y->v0, y->problem.nv * sizeof(double));
     for (size_t i = 0; i < e->vary_count && !y->model; i++)
         *(e->places[i] < y->problem.nx ? &s->x[e->places[i]] : &s->v[e->places[i] - y->problem.nx]) = s->now[i];
@@ -110,11 +107,12 @@ static motus_status travel(single *s, const places *p, size_t k, motus_error *er
     const motus_ensemble *e = w->e;
     const timing *t = &e->timing;
     motus_status status = start(s, p->values, k, err);
-    if (status != MOTUS_OK)
-        return status;
-    status = w->stepper ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
-                        : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
-    const course course = {.ctx = s, .until = t->until, .every = p->looks ? e->every : 0, .advance = advance, .observe = observe};
+    if (status != MOTUS_OK) return status;
+    status = w->stepper
+                 ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
+                 : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
+    const course course = {
+        .ctx = s, .until = t->until, .every = p->looks ? e->every : 0, .advance = advance, .observe = observe};
     return status == MOTUS_OK ? course_run(&course, err) : status;
 }
 
@@ -122,24 +120,27 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
-    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1, room = records > e->vary_count ? records : e->vary_count;
+    const size_t nx = w->machine.problem->nx + 1, nv = w->machine.problem->nv + 1, records = e->record_count + 1,
+                 room = records > e->vary_count ? records : e->vary_count;
     double *memory = take(&e->allocator, nx + nv + records * REDUCE_KEPT + room + records, sizeof(double));
-    if (!memory)
-        return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
-    single s = {.w = w, .x = memory, .v = memory + nx, .kept = memory + nx + nv, .now = memory + nx + nv + records * REDUCE_KEPT};
+    if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
+    single s = {.w = w,
+                .x = memory,
+                .v = memory + nx,
+                .kept = memory + nx + nv,
+                .now = memory + nx + nv + records * REDUCE_KEPT};
     s.columns = (size_t *)(void *)(s.now + room);
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
-    for (size_t r = 0; r < e->record_count; r++)
-        s.columns[r] = e->records[r].column;
+    for (size_t r = 0; r < e->record_count; r++) s.columns[r] = e->records[r].column;
     w->trajectories = 1;
     motus_status status = travel(&s, p, k, &w->why);
     const bool lost =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
     if (lost || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++)
-            p->results[r][k] = lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);
-        if (p->stopped)
-            p->stopped[k] = lost ? w->why.time : NAN;
+            p->results[r][k] =
+                lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);
+        if (p->stopped) p->stopped[k] = lost ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);
         if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
@@ -153,13 +154,10 @@ motus_status ensemble_singly(motus_ensemble *e, const places *p, motus_error *er
 {
     const size_t kept = numbers_kept(e);
     double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
-    if (kept && !own)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    if (kept)
-        keep_numbers(e, own);
+    if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (kept) keep_numbers(e, own);
     motus_status status = ensemble_each(e, e->count, trajectory, (void *)p, err);
-    if (kept)
-        put_back(e, own);
+    if (kept) put_back(e, own);
     give(&e->allocator, own);
     return status;
 }

@@ -1,13 +1,13 @@
 /* The threads of an ensemble that is not computed in lanes. See ensemble.h.
  *
- * Invariant: workers share nothing that changes but two counters, so which of them computes an item is of no consequence.
+ * Invariant: workers share nothing that changes but two counters, so which of them computes an item is of no
+ * consequence.
  */
 #include "api/ensemble.h"
 
 #include "api/choice.h"
 
 #include "machine/parallel.h"
-
 
 /* ---- who works ---- */
 
@@ -20,8 +20,7 @@ static int tell(void *ctx, double now)
     const timing *t = &e->timing;
     const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
     const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
-    if (w->number == 0 && ensemble_watched(e, done / (double)e->count))
-        atomic_store(&e->stop, true);
+    if (w->number == 0 && ensemble_watched(e, done / (double)e->count)) atomic_store(&e->stop, true);
     return atomic_load(&e->stop);
 }
 
@@ -29,8 +28,7 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
 {
     worker *w = &e->workers[number];
     motus_system *s = e->system;
-    if (w->e)
-        return MOTUS_OK;
+    if (w->e) return MOTUS_OK;
     if (number > 0) {
         motus_status status = motus_system_clone(e->system, &s, err);
         if (status == MOTUS_OK && s->model)
@@ -60,8 +58,7 @@ void ensemble_dismiss(motus_ensemble *e)
 {
     for (int i = 0; e->workers && i < e->threads; i++) {
         stepper_destroy(e->workers[i].stepper);
-        if (i > 0)
-            motus_system_destroy(e->workers[i].system);
+        if (i > 0) motus_system_destroy(e->workers[i].system);
     }
     give(&e->allocator, e->workers);
     e->workers = NULL;
@@ -79,23 +76,21 @@ static void take_item(void *ctx, size_t item, int thread)
 {
     const work_list *list = ctx;
     worker *w = &list->e->workers[thread];
-    if (w->status != MOTUS_OK || atomic_load(&list->e->stop))
-        return;
+    if (w->status != MOTUS_OK || atomic_load(&list->e->stop)) return;
     w->status = list->one(w, item, list->ctx);
     w->failed_at = item;
-    if (w->status != MOTUS_OK)
-        atomic_store(&list->e->stop, true);
+    if (w->status != MOTUS_OK) atomic_store(&list->e->stop, true);
 }
 
-motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
+motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(worker *, size_t item, void *ctx),
+                           void *ctx, motus_error *err)
 {
     const int threads = items < (size_t)e->threads ? (int)items : e->threads;
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (int i = 0; i < threads; i++) {
         motus_status status = hire(e, i, err);
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
         e->workers[i].status = MOTUS_OK;
         e->workers[i].why = motus_default_error();
     }
@@ -107,16 +102,15 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
     for (int i = 0; i < threads; i++) {
         const worker *w = &e->workers[i];
         /* Those that stopped because another did have nothing to say. */
-        if (w->status != MOTUS_OK && (!first || (first->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
-                                      ((first->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) && w->failed_at < first->failed_at)))
+        if (w->status != MOTUS_OK &&
+            (!first || (first->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
+             ((first->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) && w->failed_at < first->failed_at)))
             first = w;
     }
-    if (!first)
-        return MOTUS_OK;
+    if (!first) return MOTUS_OK;
     if (first->status == MOTUS_CANCELLED)
         return fail(err, MOTUS_CANCELLED, "cancelled after %zu of %zu trajectories", atomic_load(&e->done), e->count);
-    if (err)
-        motus_struct_write(MOTUS_DEF_ERROR, &first->why, err);
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &first->why, err);
     return first->status;
 }
 

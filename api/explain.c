@@ -10,7 +10,7 @@
 
 enum { SYMMETRY_STATES = 6 };
 
-static double random_number(uint64_t *state)         /* splitmix64, to (-1, 1) */
+static double random_number(uint64_t *state) /* splitmix64, to (-1, 1) */
 {
     uint64_t z = *state += 0x9E3779B97F4A7C15u;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -18,20 +18,17 @@ static double random_number(uint64_t *state)         /* splitmix64, to (-1, 1) *
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
-/* w·(J u) = sign · u·(J w) at random states and directions, to rounding: J is symmetric (sign 1) or antisymmetric (-1). A derivative
- * that is not fails at almost every state. Returns false where there is no memory to find out. */
+/* w·(J u) = sign · u·(J w) at random states and directions, to rounding: J is symmetric (sign 1) or antisymmetric
+ * (-1). A derivative that is not fails at almost every state. Returns false where there is no memory to find out. */
 static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 {
     problem *p = &s->problem;
     size_t n = p->nv, work = 7 * (n + 1);
     *answer = false;
-    if (!p->jvp)
-        return true;
-    if (p->prepare && !p->prepare(p->ctx, in_v))
-        return false;
+    if (!p->jvp) return true;
+    if (p->prepare && !p->prepare(p->ctx, in_v)) return false;
     double *x = take(&s->allocator, work, sizeof *x);
-    if (!x)
-        return false;
+    if (!x) return false;
     double *v = x + n + 1, *u = v + n + 1, *w = u + n + 1, *ju = w + n + 1, *jw = ju + n + 1, *mask = jw + n + 1;
     /* Only cells with an equation vary. */
     for (uint32_t i = 0; i < s->state_count; i++)
@@ -46,15 +43,15 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
         memcpy(v, s->v0, n * sizeof *v);
         for (size_t k = 0; k < n; k++) {
             double spread = round == 0 ? 0 : 0.3;
-            if (k < p->nx)
-                x[k] += mask[k] * spread * (fabs(x[k]) + 1) * random_number(&random);
+            if (k < p->nx) x[k] += mask[k] * spread * (fabs(x[k]) + 1) * random_number(&random);
             v[k] += mask[k] * spread * (fabs(v[k]) + 1) * random_number(&random);
             u[k] = mask[k] * random_number(&random);
             w[k] = mask[k] * random_number(&random);
         }
         memset(ju, 0, n * sizeof *ju);
         memset(jw, 0, n * sizeof *jw);
-        if (p->jvp(p->ctx, s->start, x, v, in_v ? NULL : u, in_v ? u : NULL, ju) || p->jvp(p->ctx, s->start, x, v, in_v ? NULL : w, in_v ? w : NULL, jw)) {
+        if (p->jvp(p->ctx, s->start, x, v, in_v ? NULL : u, in_v ? u : NULL, ju) ||
+            p->jvp(p->ctx, s->start, x, v, in_v ? NULL : w, in_v ? w : NULL, jw)) {
             ok = false;
             break;
         }
@@ -64,8 +61,7 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
             b += u[k] * jw[k];
             size += fabs(w[k] * ju[k]) + fabs(u[k] * jw[k]);
         }
-        if (!isfinite(size))
-            continue;                /* the force is not defined there */
+        if (!isfinite(size)) continue; /* the force is not defined there */
         judged++;
         ok = fabs(a - sign * b) <= 1e-11 * size;
     }
@@ -77,8 +73,7 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 bool system_sample_gyroscopic(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->companions || !s->model)
-        return true;
+    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->companions || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gyroscopic = symmetric(s, true, -1, &t->gyroscopic);
     modes_leave(m);
@@ -88,8 +83,7 @@ bool system_sample_gyroscopic(motus_system *s)
 static bool sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gradient || t->velocity || t->companions || !s->model)
-        return true;
+    if (s->sampled_gradient || t->velocity || t->companions || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gradient = symmetric(s, false, 1, &t->gradient);
     t->gradient = t->gradient || t->constant;
@@ -100,14 +94,17 @@ static bool sample_gradient(motus_system *s)
 motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 {
     motus_system *s = (motus_system *)given;
-    if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK)
-        return MOTUS_ARGUMENT;
-    if (!system_sample_gyroscopic(s) || !sample_gradient(s))
-        return MOTUS_MEMORY;
+    if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    if (!system_sample_gyroscopic(s) || !sample_gradient(s)) return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
-    const motus_analysis ours = {.velocity_dependent = t->velocity, .linear_in_velocity = t->linear_v,
-                                 .time_dependent = t->time, .affine = t->affine, .constant = t->constant,
-                                 .gyroscopic = t->gyroscopic, .gradient = t->gradient, .smooth = t->smooth,
+    const motus_analysis ours = {.velocity_dependent = t->velocity,
+                                 .linear_in_velocity = t->linear_v,
+                                 .time_dependent = t->time,
+                                 .affine = t->affine,
+                                 .constant = t->constant,
+                                 .gyroscopic = t->gyroscopic,
+                                 .gradient = t->gradient,
+                                 .smooth = t->smooth,
                                  .exact_recognised = s->model && s->model->exact_recognised};
     motus_struct_write(MOTUS_DEF_ANALYSIS, &ours, out);
     return MOTUS_OK;
@@ -115,7 +112,12 @@ motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 
 /* ---- words ---- */
 
-typedef struct words { char *text; size_t length, room; arena *arena; bool failed; } words;
+typedef struct words {
+    char *text;
+    size_t length, room;
+    arena *arena;
+    bool failed;
+} words;
 
 static void say(words *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void say(words *w, const char *format, ...)
@@ -142,15 +144,18 @@ static void say(words *w, const char *format, ...)
 
 enum { COEFFICIENTS_SHOWN = 12, LOADS_MAX = 64 };
 
-typedef struct velocity_loads { const model *model; node item[LOADS_MAX]; int count; } velocity_loads;
+typedef struct velocity_loads {
+    const model *model;
+    node item[LOADS_MAX];
+    int count;
+} velocity_loads;
 
 static void note_load(void *ctx, const reference *r, const range *sums, int first_level, int inside)
 {
     velocity_loads *l = ctx;
     (void)sums;
     (void)first_level;
-    if (inside || l->count == LOADS_MAX)
-        return;
+    if (inside || l->count == LOADS_MAX) return;
     l->item[l->count++] = graph_load(l->model->graph, r);
 }
 
@@ -166,8 +171,7 @@ static void say_coefficients(words *w, const model *m)
         graph_loads(m->graph, m->accel[i].value, SPACE_V, note_load, &loads);
         for (int k = 0; k < loads.count; k++) {
             node d = graph_derivative(m->graph, m->accel[i].value, seed_one, &loads.item[k]);
-            if (d == 0)
-                continue;
+            if (d == 0) continue;
             if (shown++ == COEFFICIENTS_SHOWN) {
                 say(w, "  …\n");
                 return;
@@ -176,7 +180,8 @@ static void say_coefficients(words *w, const model *m)
             left[strcspn(left, "=")] = 0;
             model_print(m, loads.item[k], velocity, sizeof velocity);
             model_print(m, d, coefficient, sizeof coefficient);
-            say(w, "  in %s the coefficient of %s is %s\n", left[0] ? (left[strlen(left) - 1] = 0, left) : left, velocity, coefficient);
+            say(w, "  in %s the coefficient of %s is %s\n", left[0] ? (left[strlen(left) - 1] = 0, left) : left,
+                velocity, coefficient);
         }
     }
 }
@@ -186,11 +191,10 @@ static void say_variables(words *w, const motus_system *s)
     for (uint32_t i = 0; i < s->state_count; i++) {
         const model_state *st = &s->states[i];
         say(w, "%s is %s", st->name, st->dims ? "a family" : st->components ? "a vector" : "a number");
-        if (st->dims)
-            say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
-        if (st->components)
-            say(w, " of length %d", st->components);
-        say(w, st->order == 2 ? "; its acceleration is given\n" : "; its rate of change is given (a first-order companion)\n");
+        if (st->dims) say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
+        if (st->components) say(w, " of length %d", st->components);
+        say(w, st->order == 2 ? "; its acceleration is given\n"
+                              : "; its rate of change is given (a first-order companion)\n");
     }
 }
 
@@ -200,58 +204,55 @@ static void say_forces(words *w, const motus_system *s)
     if (t->constant)
         say(w, "the acceleration is constant\n");
     else
-        say(w, "the acceleration depends on %s%s%s\n", t->companions && !t->velocity ? "the positions" : t->velocity ? "the state and its velocity" : "the positions",
+        say(w, "the acceleration depends on %s%s%s\n",
+            t->companions && !t->velocity ? "the positions"
+            : t->velocity                 ? "the state and its velocity"
+                                          : "the positions",
             t->time ? " and on time" : "", t->time ? "" : "; not on time");
     if (t->velocity && t->linear_v) {
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
             t->constant_jv ? ", with constant coefficients" : "");
         say_coefficients(w, s->model);
-        if (t->gyroscopic)
-            say(w, "the velocity term does no work (v × B): Boris' rotation applies\n");
+        if (t->gyroscopic) say(w, "the velocity term does no work (v × B): Boris' rotation applies\n");
     } else if (t->velocity) {
-        say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the derived Jacobian\n");
+        say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the "
+               "derived Jacobian\n");
     }
-    if (t->affine && !t->constant)
-        say(w, "the equations are linear\n");
+    if (t->affine && !t->constant) say(w, "the equations are linear\n");
     if (t->gradient && !t->constant)
-        say(w, "the force is a gradient: its derivative is symmetric (tested at %d states), so an energy exists\n", SYMMETRY_STATES);
+        say(w, "the force is a gradient: its derivative is symmetric (tested at %d states), so an energy exists\n",
+            SYMMETRY_STATES);
     if (!t->smooth)
-        say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high orders lose their order where these switch\n");
+        say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
+               "orders lose their order where these switch\n");
     if (t->has_exact)
-        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n" : "the exact motion is given, and was checked against the equation\n");
+        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
+                                          : "the exact motion is given, and was checked against the equation\n");
 }
 
 const char *motus_explain(motus_system *s)
 {
-    if (!s)
-        return "";
-    if (!s->model)
-        return "the acceleration is a callback: nothing can be read off it\n";
-    if (!system_sample_gyroscopic(s) || !sample_gradient(s))
-        return "";
+    if (!s) return "";
+    if (!s->model) return "the acceleration is a callback: nothing can be read off it\n";
+    if (!system_sample_gyroscopic(s) || !sample_gradient(s)) return "";
     const traits *t = &s->problem.traits;
     const char **kept = &s->explanation[t->gyroscopic][t->gradient];
-    if (*kept)
-        return *kept;
+    if (*kept) return *kept;
     modes m = modes_enter();
     words w = {.arena = &s->arena};
     say_variables(&w, s);
     say_forces(&w, s);
     modes_leave(m);
-    if (!w.text || w.failed || s->arena.failed)
-        return "";                   /* the whole of it or nothing */
+    if (!w.text || w.failed || s->arena.failed) return ""; /* the whole of it or nothing */
     return *kept = w.text;
 }
 
 const char *motus_equation_text(motus_system *s, size_t k)
 {
     enum { ROOM = 4096 };
-    if (!s || !s->model)
-        return NULL;
-    if (!s->equation)
-        s->equation = arena_room(&s->arena, ROOM);
-    if (!s->equation)
-        return NULL;
+    if (!s || !s->model) return NULL;
+    if (!s->equation) s->equation = arena_room(&s->arena, ROOM);
+    if (!s->equation) return NULL;
     modes m = modes_enter();
     bool any = model_equation(s->model, k, s->equation, ROOM);
     modes_leave(m);

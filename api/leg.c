@@ -6,8 +6,7 @@
 
 motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
 {
-    if (!r || !out || motus_struct_check(MOTUS_DEF_STATISTICS, out, NULL) != MOTUS_OK)
-        return MOTUS_ARGUMENT;
+    if (!r || !out || motus_struct_check(MOTUS_DEF_STATISTICS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
     motus_statistics ours = motus_default_statistics();
     ours.legs = r->legs;
     ours.method = r->chosen.name;
@@ -27,13 +26,11 @@ static motus_status compose(motus_run *r, double t, const double *x, const doubl
 {
     const problem *p = &r->system->problem;
     motus_status status = run_sync(r, false, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     memcpy(r->mid_x, r->x, p->nx * sizeof(double));
     memcpy(r->mid_v, r->v, p->nv * sizeof(double));
     system_inside(r->system, x, v, r->mid_x, r->mid_v);
-    if (p->refresh)
-        p->refresh(p->ctx, t, r->mid_x, r->mid_v);
+    if (p->refresh) p->refresh(p->ctx, t, r->mid_x, r->mid_v);
     return MOTUS_OK;
 }
 
@@ -42,12 +39,9 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
     timing leg;
     const int64_t steps = stepper_steps(r->stepper);
     motus_status status = run_timing(r->system, &r->chosen, fabs(r->h), r->until, t, &leg, err);
-    if (status == MOTUS_OK)
-        status = compose(r, t, x, v, err);
-    if (status == MOTUS_OK)
-        status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status == MOTUS_OK) status = compose(r, t, x, v, err);
+    if (status == MOTUS_OK) status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
+    if (status != MOTUS_OK) return status;
     r->before += steps;
     run_leg(r, &leg);
     return run_moved(r, err);
@@ -55,14 +49,10 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
 
 motus_status motus_run_set_state(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!r)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_set_state needs a run");
-    if (r->observing)
-        return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
-    if (isnan(t))
-        t = stepper_time(r->stepper);
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_set_state needs a run");
+    if (r->observing) return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
+    if (isnan(t)) t = stepper_time(r->stepper);
     modes m = modes_enter();
     const motus_status status = set_state(r, t, x, v, err);
     modes_leave(m);

@@ -12,18 +12,15 @@ double pace_now(void)
 
 motus_status pace_advance(pace *p, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    if (!p->tell)
-        return stepper_advance(s, limit, why, err);
-    if (p->piece < 1)
-        p->piece = 1;
+    if (!p->tell) return stepper_advance(s, limit, why, err);
+    if (p->piece < 1) p->piece = 1;
     for (;;) {
         const int64_t piece = limit.steps < p->piece ? limit.steps : p->piece;
         const double began = pace_now();
         const motus_status status = stepper_advance(s, (stepper_limit){piece, limit.until}, why, err);
         const double now = pace_now(), took = now - began;
         limit.steps -= piece;
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
         if (took < p->seconds && piece == p->piece && piece < INT64_MAX / 4)
             p->piece *= 2;
         else if (took > 4 * p->seconds && p->piece > 1)
@@ -32,7 +29,6 @@ motus_status pace_advance(pace *p, stepper *s, stepper_limit limit, stepper_stop
             *why = STOP_FAILED;
             return MOTUS_CANCELLED;
         }
-        if (*why == STOP_UNTIL || limit.steps <= 0)
-            return MOTUS_OK;
+        if (*why == STOP_UNTIL || limit.steps <= 0) return MOTUS_OK;
     }
 }

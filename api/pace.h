@@ -5,14 +5,14 @@
 #include "core/stepper.h"
 
 typedef struct pace {
-    int64_t piece;                   /* steps of the next piece; 0: not known yet */
-    double seconds;                  /* that a piece should take */
+    int64_t piece;  /* steps of the next piece; 0: not known yet */
+    double seconds; /* that a piece should take */
     /* After every piece; other than 0: enough. NULL: nobody watches, and there is one piece. */
     int (*tell)(void *ctx, double now);
     void *ctx;
 } pace;
 
-double pace_now(void);               /* seconds of a clock that never goes back */
+double pace_now(void); /* seconds of a clock that never goes back */
 /* As stepper_advance; MOTUS_CANCELLED, without a sentence, where `tell` wants no more. */
 motus_status pace_advance(pace *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
 

@@ -17,8 +17,7 @@
 static const model_definition *parameter(const motus_system *s, size_t k)
 {
     for (uint32_t i = 0; s && s->model && i < s->model->definition_count; i++)
-        if (s->model->definitions[i].kind == DEFINED_PARAMETER && k-- == 0)
-            return &s->model->definitions[i];
+        if (s->model->definitions[i].kind == DEFINED_PARAMETER && k-- == 0) return &s->model->definitions[i];
     return NULL;
 }
 
@@ -33,28 +32,31 @@ size_t motus_parameter_count(const motus_system *s)
 static size_t cells_of(const model_definition *d)
 {
     size_t cells = 1;
-    for (int i = 0; i < d->dims; i++)
-        cells *= (size_t)(d->last[i] - d->first[i] + 1);
+    for (int i = 0; i < d->dims; i++) cells *= (size_t)(d->last[i] - d->first[i] + 1);
     return cells;
 }
 
 /* Its first number in the pool; the others follow, component after component. */
-static size_t place_of(const motus_system *s, const model_definition *d) { return d->list ? s->model->arrays[d->array].base : d->slot; }
+static size_t place_of(const motus_system *s, const model_definition *d)
+{
+    return d->list ? s->model->arrays[d->array].base : d->slot;
+}
 
 motus_status motus_parameter_at(const motus_system *s, size_t k, motus_parameter *out)
 {
     const model_definition *d = parameter(s, k);
-    if (!d || !out || motus_struct_check(MOTUS_DEF_PARAMETER, out, NULL) != MOTUS_OK)
-        return MOTUS_ARGUMENT;
-    motus_parameter p = {.name = d->name, .components = d->components, .list = d->list, .dimensions = d->dims,
-                             .count = cells_of(d) * columns_parts(d->components)};
+    if (!d || !out || motus_struct_check(MOTUS_DEF_PARAMETER, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    motus_parameter p = {.name = d->name,
+                         .components = d->components,
+                         .list = d->list,
+                         .dimensions = d->dims,
+                         .count = cells_of(d) * columns_parts(d->components)};
     memcpy(p.first, d->first, sizeof p.first);
     memcpy(p.last, d->last, sizeof p.last);
     const span at = d->statement->value_at;
     p.text = s->model->source.texts[at.text].bytes + at.from;
     p.length = at.to - at.from;
-    if (!vary_decides(s->model, place_of(s, d), p.count, &s->allocator, &p.decides))
-        p.decides = "unknown";
+    if (!vary_decides(s->model, place_of(s, d), p.count, &s->allocator, &p.decides)) p.decides = "unknown";
     motus_struct_write(MOTUS_DEF_PARAMETER, &p, out);
     return MOTUS_OK;
 }
@@ -62,13 +64,11 @@ motus_status motus_parameter_at(const motus_system *s, size_t k, motus_parameter
 motus_status motus_parameter_values(const motus_system *s, size_t k, double *out)
 {
     const model_definition *d = parameter(s, k);
-    if (!d || !out)
-        return MOTUS_ARGUMENT;
+    if (!d || !out) return MOTUS_ARGUMENT;
     const double *pool = s->model->pool + place_of(s, d);
     const size_t cells = cells_of(d), parts = columns_parts(d->components);
     for (size_t c = 0; c < cells; c++)
-        for (size_t i = 0; i < parts; i++)
-            *out++ = pool[i * cells + c];
+        for (size_t i = 0; i < parts; i++) *out++ = pool[i * cells + c];
     return MOTUS_OK;
 }
 
@@ -89,8 +89,7 @@ static const model_state *initial(const motus_system *s, size_t k, uint32_t *var
 size_t motus_initial_count(const motus_system *s)
 {
     size_t n = 0;
-    for (uint32_t i = 0; s && i < s->state_count; i++)
-        n += (size_t)s->states[i].order;
+    for (uint32_t i = 0; s && i < s->state_count; i++) n += (size_t)s->states[i].order;
     return n;
 }
 
@@ -99,8 +98,7 @@ motus_status motus_initial_at(const motus_system *s, size_t k, motus_initial *ou
     uint32_t variable;
     bool velocity;
     const model_state *st = initial(s, k, &variable, &velocity);
-    if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK)
-        return MOTUS_ARGUMENT;
+    if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
     char at[DECIMAL_MAX];
     motus_initial i = {
         .variable = variable, .is_velocity = velocity, .count = st->cells.count * columns_parts(st->components)};
@@ -114,12 +112,10 @@ motus_status motus_initial_values(const motus_system *s, size_t k, double *out)
     uint32_t variable;
     bool velocity;
     const model_state *st = initial(s, k, &variable, &velocity);
-    if (!st || !out)
-        return MOTUS_ARGUMENT;
+    if (!st || !out) return MOTUS_ARGUMENT;
     const double *from = st->order == 2 && !velocity ? s->x0 : s->v0;
     for (size_t c = 0; c < st->cells.count; c++)
-        for (size_t i = 0; i < columns_parts(st->components); i++)
-            *out++ = from[system_place(st, c, (int)i)];
+        for (size_t i = 0; i < columns_parts(st->components); i++) *out++ = from[system_place(st, c, (int)i)];
     return MOTUS_OK;
 }
 
@@ -128,16 +124,13 @@ motus_status motus_initial_values(const motus_system *s, size_t k, double *out)
 bool parameters_bracket(const char *name, char *bare, size_t size, double *start)
 {
     const char *open = strrchr(name, '(');
-    if (!open || (size_t)(open - name) >= size)
-        return false;
+    if (!open || (size_t)(open - name) >= size) return false;
     snprintf(bare, size, "%.*s", (int)(open - name), name);
     const bool minus = open[1] == '-';
     const char *digits = open + 1 + minus;
     const size_t n = decimal_read(digits, SIZE_MAX, start);
-    if (!n || strcmp(digits + n, ")") || isinf(*start))
-        return false;
-    if (minus)
-        *start = -*start;
+    if (!n || strcmp(digits + n, ")") || isinf(*start)) return false;
+    if (minus) *start = -*start;
     return true;
 }
 
@@ -172,14 +165,12 @@ static motus_status find_initial(const motus_system *s, const char *name, char *
     bare[length - velocity] = 0;
     for (uint32_t i = 0; start == s->start && i < s->state_count; i++) {
         const model_state *st = &s->states[i];
-        if (strcmp(st->name, bare) || (velocity && st->order == 1))
-            continue;
+        if (strcmp(st->name, bare) || (velocity && st->order == 1)) continue;
         const size_t parts = columns_parts(st->components);
         *out = (parameters_target){.state = st, .velocity = velocity};
         out->count = st->cells.count * parts;
         out->span = st->hull * parts;
-        if (s->model)
-            out->first = s->model->arrays[st->start_array[velocity]].base;
+        if (s->model) out->first = s->model->arrays[st->start_array[velocity]].base;
         return MOTUS_OK;
     }
     return unknown(s, name, err);
@@ -189,12 +180,10 @@ motus_status parameters_find(const motus_system *s, const char *name, parameters
 {
     char bare[2 * MOTUS_NAME_MAX];
     double start;
-    if (parameters_bracket(name, bare, sizeof bare, &start))
-        return find_initial(s, name, bare, start, out, err);
+    if (parameters_bracket(name, bare, sizeof bare, &start)) return find_initial(s, name, bare, start, out, err);
     for (uint32_t i = 0; s->model && i < s->definition_count; i++) {
         const model_definition *d = &s->definitions[i];
-        if (d->kind != DEFINED_PARAMETER || strcmp(d->name, name))
-            continue;
+        if (d->kind != DEFINED_PARAMETER || strcmp(d->name, name)) continue;
         *out = parameters_of(s, d);
         return MOTUS_OK;
     }
@@ -211,7 +200,6 @@ size_t parameters_place(const parameters_target *t, size_t k)
 {
     const size_t parts = columns_parts(t->state ? t->state->components : t->definition->components), cell = k / parts,
                  part = k % parts;
-    if (t->state)
-        return t->first + (system_place(t->state, cell, (int)part) - t->state->base);
+    if (t->state) return t->first + (system_place(t->state, cell, (int)part) - t->state->base);
     return t->first + part * (t->count / parts) + cell;
 }

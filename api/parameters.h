@@ -5,11 +5,11 @@
 #include "api/system.h"
 
 typedef struct parameters_target {
-    const model_definition *definition;      /* of a parameter, or */
-    const model_state *state;                /*   the state of an initial value, */
-    bool velocity;                           /*   and whether it is that of its velocity */
-    size_t count;                            /* numbers in the outside order */
-    size_t first, span;                      /* of a model: its places in the pool, boundary cells included */
+    const model_definition *definition; /* of a parameter, or */
+    const model_state *state;           /*   the state of an initial value, */
+    bool velocity;                      /*   and whether it is that of its velocity */
+    size_t count;                       /* numbers in the outside order */
+    size_t first, span;                 /* of a model: its places in the pool, boundary cells included */
 } parameters_target;
 
 /* MOTUS_NAME, with a hint, where there is none. */

@@ -8,11 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-#define STEPS_MAX 1e15               /* between the start and `until`; a nanosecond each would be eleven days */
+#define STEPS_MAX 1e15 /* between the start and `until`; a nanosecond each would be eleven days */
 
 /* ---- creation ---- */
 
-motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r, motus_error *err)
+motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r,
+                        motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
@@ -23,8 +24,7 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
         hint(err, "write `step 0.01` in the model, or --step 0.01");
         return MOTUS_ARGUMENT;
     }
-    if (!isfinite(h) || !(h > 0))
-        return fail(err, MOTUS_ARGUMENT, "the step is a positive number, not %g", h);
+    if (!isfinite(h) || !(h > 0)) return fail(err, MOTUS_ARGUMENT, "the step is a positive number, not %g", h);
     if (isnan(r->until)) {
         fail(err, MOTUS_ARGUMENT, "no end is given");
         hint(err, "write `until 10` in the model, or --until 10");
@@ -34,7 +34,8 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
         return fail(err, MOTUS_ARGUMENT, "start and end are finite numbers, not %g and %g", r->t0, r->until);
     double q = fabs(r->until - r->t0) / h;
     if (q > STEPS_MAX) {
-        fail(err, MOTUS_LIMIT, "from %g to %g in steps of %g are %.3g steps; at most %.0e are taken", r->t0, r->until, h, q, STEPS_MAX);
+        fail(err, MOTUS_LIMIT, "from %g to %g in steps of %g are %.3g steps; at most %.0e are taken", r->t0, r->until,
+             h, q, STEPS_MAX);
         hint(err, "take a larger step or an earlier end");
         return MOTUS_LIMIT;
     }
@@ -73,16 +74,13 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     r->machine = s->machine;
     r->note = "";
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
-    if (status != MOTUS_OK || !s->model || !compiled)
-        return status;
+    if (status != MOTUS_OK || !s->model || !compiled) return status;
     const double worth = choice_worth(s, r->card, (double)r->total);
-    if (automatic && worth < CHOICE_LOOK)
-        return MOTUS_OK;
+    if (automatic && worth < CHOICE_LOOK) return MOTUS_OK;
     const bool kept = automatic && worth < 1;
     const char *why;
     status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);
-    if (status == MOTUS_OK && why && !kept)
-        r->note = why;
+    if (status == MOTUS_OK && why && !kept) r->note = why;
     return status;
 }
 
@@ -93,19 +91,15 @@ const char *motus_compiled_text(motus_system *s, const char *method, motus_error
     chosen c;
     const motus_method *card;
     size_t length;
-    if (!motus_error_sound(err))
-        return NULL;
+    if (!motus_error_sound(err)) return NULL;
     if (!s || !s->model) {
         fail(err, MOTUS_ARGUMENT, "only a model from a text is compiled");
         return NULL;
     }
-    if (choice_method(s, method, &c, &card, err) != MOTUS_OK)
-        return NULL;
-    if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK)
-        return NULL;
+    if (choice_method(s, method, &c, &card, err) != MOTUS_OK) return NULL;
+    if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK) return NULL;
     const char *text = compiled_text(s->compiled, &c, &length);
-    if (!text)
-        fail(err, MOTUS_MEMORY, "no memory for the text");
+    if (!text) fail(err, MOTUS_MEMORY, "no memory for the text");
     return text;
 }
 
@@ -116,8 +110,7 @@ int motus_cache_clear(void) { return cache_clear(); }
 static int tell(void *ctx, double now)
 {
     motus_run *r = ctx;
-    if (now - r->told < 0.01)
-        return 0;
+    if (now - r->told < 0.01) return 0;
     r->told = now;
     return r->progress(r->context, r->until != r->t0 ? (stepper_time(r->stepper) - r->t0) / (r->until - r->t0) : 1);
 }
@@ -129,8 +122,7 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
     r->synchronised = r->synchronised && n == 0;
     const motus_status status = pace_advance(&r->pace, r->stepper, (stepper_limit){n, r->until}, &why, err);
     r->arrived = why == STOP_UNTIL;
-    if (isnan(r->first_step) && stepper_steps(r->stepper) > 0)
-        r->first_step = fabs(stepper_last_step(r->stepper));
+    if (isnan(r->first_step) && stepper_steps(r->stepper) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     return status == MOTUS_CANCELLED ? fail(err, status, "cancelled at t = %g", stepper_time(r->stepper)) : status;
 }
 
@@ -139,23 +131,20 @@ static motus_status observe(motus_run *r, motus_error *err)
     r->observing = true;
     const int enough = r->observer(r->context, r);
     r->observing = false;
-    return enough ? fail(err, MOTUS_CANCELLED, "stopped by the observer at t = %g", stepper_time(r->stepper)) : MOTUS_OK;
+    return enough ? fail(err, MOTUS_CANCELLED, "stopped by the observer at t = %g", stepper_time(r->stepper))
+                  : MOTUS_OK;
 }
 
 static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
 {
-    if (r->observing)
-        return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
-    if (n == 0 || (!r->observer && !isnan(r->first_step)))
-        return advance(r, n, err);
+    if (r->observing) return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
+    if (n == 0 || (!r->observer && !isnan(r->first_step))) return advance(r, n, err);
     /* One step at a time for the observer; and the first step of all, whose size is asked for. */
     motus_status status = MOTUS_OK;
     for (; n > 0 && status == MOTUS_OK && !r->arrived; n--) {
         status = advance(r, 1, err);
-        if (status == MOTUS_OK && !r->observer)
-            return advance(r, n - 1, err);
-        if (status == MOTUS_OK)
-            status = observe(r, err);
+        if (status == MOTUS_OK && !r->observer) return advance(r, n - 1, err);
+        if (status == MOTUS_OK) status = observe(r, err);
     }
     return status;
 }
@@ -171,37 +160,31 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
 {
     const motus_system *s = r->system;
     const problem *p = &s->problem;
-    if (p->nx)
-        memcpy(r->x, s->x0, p->nx * sizeof(double));
+    if (p->nx) memcpy(r->x, s->x0, p->nx * sizeof(double));
     memcpy(r->v, s->v0, p->nv * sizeof(double));
     system_inside(s, def->x, def->v, r->x, r->v);
-    if (p->refresh && r->t0 != s->start)
-        p->refresh(p->ctx, r->t0, r->x, r->v);
+    if (p->refresh && r->t0 != s->start) p->refresh(p->ctx, r->t0, r->x, r->v);
     for (size_t k = 0; k < p->nv; k++)
         if (!isfinite(r->v[k]) || (k < p->nx && !isfinite(r->x[k])))
             return fail(err, MOTUS_ARGUMENT, "the initial state is not finite");
-    motus_status status = stepper_create(&r->machine, &r->chosen, r->t0, r->h, r->x, r->v, &r->allocator, &r->stepper, err);
+    motus_status status =
+        stepper_create(&r->machine, &r->chosen, r->t0, r->h, r->x, r->v, &r->allocator, &r->stepper, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
 motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus_run **out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!out)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a place for the run");
     *out = NULL;
-    if (!s)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
+    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_run_create needs a system");
     motus_run_def def;
     motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     size_t nx = s->problem.nx + 1, nv = s->problem.nv + 1;
     size_t head = (sizeof(motus_run) + 63) / 64 * 64;
     motus_run *r = take(&s->allocator, 1, head + 2 * (nx + nv) * sizeof(double) + nv * sizeof(double));
-    if (!r)
-        return fail(err, MOTUS_MEMORY, "no memory for the run");
+    if (!r) return fail(err, MOTUS_MEMORY, "no memory for the run");
     r->system = s;
     motus_system_hold(s, true);
     r->allocator = s->allocator;
@@ -219,17 +202,13 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     modes m = modes_enter();
     status = choice_method(s, def.method, &r->chosen, &r->card, err);
     timing leg;
-    if (status == MOTUS_OK)
-        status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
-    if (status == MOTUS_OK)
-        run_leg(r, &leg);
+    if (status == MOTUS_OK) status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
+    if (status == MOTUS_OK) run_leg(r, &leg);
     if (status == MOTUS_OK && (def.threads < 0 || def.threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
-    if (status == MOTUS_OK)
-        status = choose_machine(r, def.machine, err);
-    if (status == MOTUS_OK)
-        status = begin(r, &def, err);
+    if (status == MOTUS_OK) status = choose_machine(r, def.machine, err);
+    if (status == MOTUS_OK) status = begin(r, &def, err);
     modes_leave(m);
     if (status != MOTUS_OK) {
         motus_run_destroy(r);
@@ -241,8 +220,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
 
 void motus_run_destroy(motus_run *r)
 {
-    if (!r)
-        return;
+    if (!r) return;
     motus_allocator a = r->allocator;
     motus_system_hold(r->system, false);
     stepper_destroy(r->stepper);
@@ -257,8 +235,7 @@ int motus_run_done(const motus_run *r) { return r && r->arrived; }
 double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) : NAN; }
 double motus_run_time_of(const motus_run *r, int64_t step)
 {
-    if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX))
-        return NAN;
+    if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX)) return NAN;
     return step >= r->total ? r->until : stepper_time_of(r->stepper, step);
 }
 
@@ -275,8 +252,7 @@ const char *motus_run_machine(const motus_run *r) { return r ? r->machine.name :
 
 motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 {
-    if (r->synchronised && (r->with_a || !with_a))
-        return MOTUS_OK;
+    if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;
@@ -285,22 +261,18 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 
 motus_status motus_run_state(motus_run *r, double *x, double *v, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!r)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_state needs a run");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_state needs a run");
     modes m = modes_enter();
     motus_status status = run_sync(r, false, err);
-    if (status == MOTUS_OK)
-        system_outside(r->system, r->x, r->v, x, v);
+    if (status == MOTUS_OK) system_outside(r->system, r->x, r->v, x, v);
     modes_leave(m);
     return status;
 }
 
 motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count, double *out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_values needs a run, columns and a place for the values");
     modes m = modes_enter();
@@ -315,8 +287,7 @@ motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count,
 
 motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || n < 0)
         return fail(err, MOTUS_ARGUMENT, "motus_run_step needs a run and a number of steps that is not negative");
     modes m = modes_enter();
@@ -333,19 +304,18 @@ motus_status motus_run_finish(motus_run *r, motus_error *err) { return motus_run
 static motus_status go_to(motus_run *r, double t, motus_error *err)
 {
     const double way = r->h < 0 ? -1 : 1;
-    if (way * (t - stepper_time(r->stepper)) <= 0)
-        return MOTUS_OK;
+    if (way * (t - stepper_time(r->stepper)) <= 0) return MOTUS_OK;
     const int64_t steps = stepper_steps_before(r->stepper, t);
     motus_status status = steps > 0 ? go_on(r, steps, err) : MOTUS_OK;
     while (status == MOTUS_OK && way * (t - stepper_time(r->stepper)) > 0 && !r->arrived) {
         status = stepper_mark(r->stepper, err);
-        if (status == MOTUS_OK)
-            status = go_on(r, 1, err);
+        if (status == MOTUS_OK) status = go_on(r, 1, err);
     }
     return status;
 }
 
-static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count, double *out, motus_error *err)
+static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
+                           double *out, motus_error *err)
 {
     const double way = r->h < 0 ? -1 : 1;
     for (size_t i = 0; i < n; i++, out += count) {
@@ -357,17 +327,17 @@ static motus_status sample(motus_run *r, const double *times, size_t n, const si
         if (status == MOTUS_OK)
             status = here ? run_sync(r, false, err) : stepper_sample(r->stepper, t, r->mid_x, r->mid_v, err);
         if (status == MOTUS_OK)
-            status = system_values(r->system, t, here ? r->x : r->mid_x, here ? r->v : r->mid_v, columns, count, out, err);
-        if (status != MOTUS_OK)
-            return status;
+            status =
+                system_values(r->system, t, here ? r->x : r->mid_x, here ? r->v : r->mid_v, columns, count, out, err);
+        if (status != MOTUS_OK) return status;
     }
     return MOTUS_OK;
 }
 
-motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count, double *out, motus_error *err)
+motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
+                              double *out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || (n && !times) || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
     modes m = modes_enter();

@@ -13,7 +13,7 @@
 
 /* What one name sets: made when it is set first, and kept, so that setting again takes no memory that stays. */
 struct setting {
-    size_t first;                    /* of its places in the pool: tells it from the others */
+    size_t first; /* of its places in the pool: tells it from the others */
     vary *vary;
     struct setting *next;
 };
@@ -24,8 +24,7 @@ static double *put_aside(const motus_system *s)
 {
     const model *m = s->model;
     double *room = take(&s->allocator, m->pool_count + m->nx + m->nv + 1, sizeof *room);
-    if (!room)
-        return NULL;
+    if (!room) return NULL;
     memcpy(room, m->pool, m->pool_count * sizeof *room);
     memcpy(room + m->pool_count, m->x0, m->nx * sizeof *room);
     memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
@@ -47,7 +46,7 @@ static void put_back(motus_system *s, const double *room)
 
 static motus_status refuse_decision(const char *name, const char *what, motus_error *err)
 {
-    const char *quote = strchr(what, ' ') ? "" : "`";        /* a setting, by its word */
+    const char *quote = strchr(what, ' ') ? "" : "`"; /* a setting, by its word */
     fail(err, MOTUS_ARGUMENT, "%s decides %s%s%s, which is fixed when the text is read", name, quote, what, quote);
     hint(err, "read the text again, with the value in `set` of its definition");
     return MOTUS_ARGUMENT;
@@ -59,23 +58,18 @@ static motus_status setting_of(motus_system *s, const char *name, const paramete
 {
     const char *what;
     for (*out = s->settings; *out; *out = (*out)->next)
-        if ((*out)->first == t->first)
-            return MOTUS_OK;
+        if ((*out)->first == t->first) return MOTUS_OK;
     if (!vary_decides(s->model, t->first, t->span, &s->allocator, &what))
         return fail(err, MOTUS_MEMORY, "no memory to find out what %s decides", name);
-    if (what)
-        return refuse_decision(name, what, err);
+    if (what) return refuse_decision(name, what, err);
     struct setting *made = arena_take(&s->arena, sizeof *made);
     size_t *places = take(&s->allocator, t->count + 1, sizeof *places);
     motus_status status = places && !s->arena.failed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to set %s", name);
-    for (size_t k = 0; status == MOTUS_OK && k < t->count; k++)
-        places[k] = parameters_place(t, k);
+    for (size_t k = 0; status == MOTUS_OK && k < t->count; k++) places[k] = parameters_place(t, k);
     *made = (struct setting){.first = t->first};
-    if (status == MOTUS_OK)
-        status = vary_create(s->model, places, t->count, false, false, &made->vary, err);
+    if (status == MOTUS_OK) status = vary_create(s->model, places, t->count, false, false, &made->vary, err);
     give(&s->allocator, places);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     made->next = s->settings;
     *out = s->settings = made;
     return MOTUS_OK;
@@ -86,8 +80,7 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
 {
     const model *m = s->model;
     for (uint32_t i = 0; i < m->definition_count; i++) {
-        if (m->definitions[i].kind != DEFINED_PARAMETER)
-            continue;
+        if (m->definitions[i].kind != DEFINED_PARAMETER) continue;
         const parameters_target t = parameters_of(s, &m->definitions[i]);
         for (size_t k = 0; k < t.span; k++)
             if (!isfinite(m->pool[t.first + k]))
@@ -113,8 +106,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
     const bool before = m->overridden && m->overridden[t->first];
     struct setting *one;
     motus_status status = setting_of(s, name, t, &one, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     double *own = put_aside(s);
     if (!own || !vary_override(m, t->first, t->span, true)) {
         give(&s->allocator, own);
@@ -127,11 +119,10 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
         status = fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     }
     if (status == MOTUS_OK)
-        s->sampled_gyroscopic = s->sampled_gradient = false;     /* that was found out for other numbers */
+        s->sampled_gyroscopic = s->sampled_gradient = false; /* that was found out for other numbers */
     else
         put_back(s, own);
-    if (status != MOTUS_OK && !before)
-        vary_override(m, t->first, t->span, false);
+    if (status != MOTUS_OK && !before) vary_override(m, t->first, t->span, false);
     give(&s->allocator, own);
     return status;
 }
@@ -146,13 +137,10 @@ static void set_callback(motus_system *s, const parameters_target *t, const doub
 motus_status motus_system_set(motus_system *s, const char *name, const double *values, size_t count, motus_error *err)
 {
     parameters_target t;
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!s || !name || !values)
-        return fail(err, MOTUS_ARGUMENT, "motus_system_set needs a system, a name and values");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || !name || !values) return fail(err, MOTUS_ARGUMENT, "motus_system_set needs a system, a name and values");
     motus_status status = parameters_find(s, name, &t, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     if (count != t.count)
         return fail(err, MOTUS_SHAPE, "%s is %zu number%s, and %zu are given", name, t.count, t.count == 1 ? "" : "s",
                     count);
@@ -184,8 +172,7 @@ void motus_system_hold(motus_system *s, bool on) { s->held += on ? 1 : (size_t)-
 static motus_status take_over(const motus_system *from, motus_system *to, motus_error *err)
 {
     const model *m = from->model;
-    if (!m || !m->overridden)
-        return MOTUS_OK;
+    if (!m || !m->overridden) return MOTUS_OK;
     double *numbers = put_aside(from);
     if (!numbers || !vary_override(to->model, 0, 0, true)) {
         give(&from->allocator, numbers);
@@ -199,26 +186,22 @@ static motus_status take_over(const motus_system *from, motus_system *to, motus_
 
 motus_status motus_system_clone(const motus_system *s, motus_system **out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!out)
-        return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a place for the clone");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a place for the clone");
     *out = NULL;
-    if (!s)
-        return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a system");
+    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a system");
     motus_system *made = NULL;
     motus_callback_def def = s->callback;
-    def.x = s->x0;                   /* what the caller gave was copied, and may be gone */
+    def.x = s->x0; /* what the caller gave was copied, and may be gone */
     def.v = s->v0;
     motus_status status =
         s->model ? motus_system_from_text(&s->text, &made, err) : motus_system_from_callback(&def, &made, err);
-    if (status == MOTUS_OK)
-        status = take_over(s, made, err);
+    if (status == MOTUS_OK) status = take_over(s, made, err);
     if (status != MOTUS_OK) {
         motus_system_destroy(made);
         return status;
     }
-    made->problem.traits = s->problem.traits;        /* what was found out by sampling */
+    made->problem.traits = s->problem.traits; /* what was found out by sampling */
     made->sampled_gyroscopic = s->sampled_gyroscopic;
     made->sampled_gradient = s->sampled_gradient;
     *out = made;

@@ -1,10 +1,11 @@
 /* By how much a step makes a motion grow: motus_stability.
  *
- * The rows themselves are asked, by steps of size 1 on x'' = 2 s x' - (s² + w²) x from two starts, (1, 0) and (0, 1), which are columns of the
- * step's matrix over (x, v). Several points are side by side in one state, as equations that know nothing of each other.
- * Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination of the two, so that its step is a map of (x, v) all the
- * same; Beeman's old acceleration is not, but after one step it follows from the start as (x, v) do: then the matrix is that from step 1 to 2.
- * Which of the two a method is, it shows by itself: two steps are the square of one, or not.
+ * The rows themselves are asked, by steps of size 1 on x'' = 2 s x' - (s² + w²) x from two starts, (1, 0) and (0, 1),
+ * which are columns of the step's matrix over (x, v). Several points are side by side in one state, as equations that
+ * know nothing of each other. Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination
+ * of the two, so that its step is a map of (x, v) all the same; Beeman's old acceleration is not, but after one step
+ * it follows from the start as (x, v) do: then the matrix is that from step 1 to 2. Which of the two a method is, it
+ * shows by itself: two steps are the square of one, or not.
  *
  * Invariant: no memory is taken but the stack's; a point that has no answer harms no other.
  */
@@ -12,17 +13,21 @@
 
 #include <math.h>
 
-enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };      /* room for a stepper of POINTS points: gauss8, the largest, takes 16 KiB */
-#define FORGETFUL 1e-6               /* two steps and the square of one differ by less: rounding. By more than 1e-3 where a method remembers */
+/* room for a stepper of POINTS points: gauss8, the largest, takes 16 KiB */
+enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };
+/* two steps and the square of one differ by less: rounding. By more than 1e-3 where a method remembers */
+#define FORGETFUL 1e-6
 
-typedef struct matrix { double xx, xv, vx, vv; } matrix;     /* x = xx x + xv v, v = vx x + vv v */
+typedef struct matrix {
+    double xx, xv, vx, vv;
+} matrix; /* x = xx x + xv v, v = vx x + vv v */
 
 typedef struct plane {
     chosen chosen;
     bool remembers;
-    size_t count;                    /* points side by side */
-    double damping[PLACES], stiffness[PLACES];     /* of place k: v's and x's coefficient */
-    motus_allocator allocator;       /* hands out `room`, and takes nothing back */
+    size_t count;                              /* points side by side */
+    double damping[PLACES], stiffness[PLACES]; /* of place k: v's and x's coefficient */
+    motus_allocator allocator;                 /* hands out `room`, and takes nothing back */
     size_t used;
     _Alignas(64) char room[ROOM];
 } plane;
@@ -31,8 +36,7 @@ static void *allocate(void *context, size_t bytes)
 {
     plane *p = context;
     const size_t rounded = (bytes + 15) & ~(size_t)15;
-    if (rounded < bytes || rounded > ROOM - p->used)
-        return NULL;
+    if (rounded < bytes || rounded > ROOM - p->used) return NULL;
     p->used += rounded;
     return p->room + p->used - rounded;
 }
@@ -45,8 +49,7 @@ static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     const plane *p = ctx;
     (void)t;
-    for (size_t k = 0; k < 2 * p->count; k++)
-        a[k] = p->damping[k] * v[k] + p->stiffness[k] * x[k];
+    for (size_t k = 0; k < 2 * p->count; k++) a[k] = p->damping[k] * v[k] + p->stiffness[k] * x[k];
     return 0;
 }
 
@@ -63,8 +66,7 @@ static void pattern(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, si
 {
     const plane *p = ctx;
     (void)in_v;
-    for (size_t k = 0; k < 2 * p->count; k++)
-        emit(arg, k, k);
+    for (size_t k = 0; k < 2 * p->count; k++) emit(arg, k, k);
 }
 
 static void place(plane *p, size_t k, double re, double im)
@@ -75,12 +77,17 @@ static void place(plane *p, size_t k, double re, double im)
     }
 }
 
-/* On the axis the force has no velocity in it: so it is told, and every method may be asked. One that wants a term v × B gets one that is 0. */
+/* On the axis the force has no velocity in it: so it is told, and every method may be asked. One that wants a term v
+ * × B gets one that is 0. */
 static bool admitted(const plane *p, bool on_axis, traits *out)
 {
-    *out = (traits){.velocity = !on_axis, .linear_v = true, .constant_jv = true, .affine = true, .gradient = on_axis, .smooth = true};
-    if (row_admits(&p->chosen, out, NULL) == MOTUS_OK)
-        return true;
+    *out = (traits){.velocity = !on_axis,
+                    .linear_v = true,
+                    .constant_jv = true,
+                    .affine = true,
+                    .gradient = on_axis,
+                    .smooth = true};
+    if (row_admits(&p->chosen, out, NULL) == MOTUS_OK) return true;
     out->velocity = out->gyroscopic = on_axis;
     return on_axis && row_admits(&p->chosen, out, NULL) == MOTUS_OK;
 }
@@ -91,7 +98,8 @@ static bool admitted(const plane *p, bool on_axis, traits *out)
 static motus_status walk(plane *p, const traits *traits, matrix *first, matrix *next, motus_error *err)
 {
     const size_t n = 2 * p->count;
-    const problem problem = {.ctx = p, .nx = n, .nv = n, .traits = *traits, .accel = accel, .jvp = jvp, .pattern = pattern};
+    const problem problem = {
+        .ctx = p, .nx = n, .nv = n, .traits = *traits, .accel = accel, .jvp = jvp, .pattern = pattern};
     double x[PLACES], v[PLACES];
     for (size_t k = 0; k < n; k++) {
         x[k] = k % 2 == 0;
@@ -99,11 +107,11 @@ static motus_status walk(plane *p, const traits *traits, matrix *first, matrix *
     }
     p->used = 0;
     stepper *s = NULL;
-    motus_status status = stepper_create(&(machine){.problem = &problem}, &p->chosen, 0, 1, x, v, &p->allocator, &s, err);
+    motus_status status =
+        stepper_create(&(machine){.problem = &problem}, &p->chosen, 0, 1, x, v, &p->allocator, &s, err);
     for (matrix *out = first; out && status == MOTUS_OK; out = out == first ? next : NULL) {
         status = stepper_advance(s, (stepper_limit){1, NAN}, NULL, err);
-        if (status == MOTUS_OK)
-            status = stepper_sync(s, x, v, NULL, err);
+        if (status == MOTUS_OK) status = stepper_sync(s, x, v, NULL, err);
         for (size_t k = 0; k < p->count && status == MOTUS_OK; k++)
             out[k] = (matrix){x[2 * k], x[2 * k + 1], v[2 * k], v[2 * k + 1]};
     }
@@ -115,7 +123,8 @@ static double determinant(matrix m) { return m.xx * m.vv - m.xv * m.vx; }
 
 static matrix product(matrix a, matrix b)
 {
-    return (matrix){a.xx * b.xx + a.xv * b.vx, a.xx * b.xv + a.xv * b.vv, a.vx * b.xx + a.vv * b.vx, a.vx * b.xv + a.vv * b.vv};
+    return (matrix){a.xx * b.xx + a.xv * b.vx, a.xx * b.xv + a.xv * b.vv, a.vx * b.xx + a.vv * b.vx,
+                    a.vx * b.xv + a.vv * b.vv};
 }
 
 /* M with M first = next. */
@@ -146,38 +155,35 @@ static motus_status remember(plane *p, motus_error *err)
     p->count = 1;
     place(p, 0, 0, 0.5);
     motus_status status = walk(p, &traits, &first, &next, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     const matrix square = product(first, first);
-    const double off = fmax(fmax(fabs(next.xx - square.xx), fabs(next.xv - square.xv)), fmax(fabs(next.vx - square.vx), fabs(next.vv - square.vv)));
+    const double off = fmax(fmax(fabs(next.xx - square.xx), fabs(next.xv - square.xv)),
+                            fmax(fabs(next.vx - square.vx), fabs(next.vv - square.vv)));
     p->remembers = off > FORGETFUL;
     return MOTUS_OK;
 }
 
 /* Points at[0 … count). If one of several fails, each is asked by itself. */
-static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t count, const double *re, const double *im, double *radius, motus_error *err)
+static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t count, const double *re,
+                        const double *im, double *radius, motus_error *err)
 {
     matrix first[POINTS], next[POINTS];
     p->count = count;
-    for (size_t k = 0; k < count; k++)
-        place(p, k, re[at[k]], im[at[k]]);
+    for (size_t k = 0; k < count; k++) place(p, k, re[at[k]], im[at[k]]);
     motus_status status = walk(p, traits, first, p->remembers ? next : NULL, NULL);
     if (status == MOTUS_DIVERGED || status == MOTUS_SOLVE) {
         for (size_t k = 0; k < count && count > 1; k++)
-            if ((status = ask(p, traits, at + k, 1, re, im, radius, err)) != MOTUS_OK)
-                return status;
-        if (count == 1)
-            radius[*at] = INFINITY;
+            if ((status = ask(p, traits, at + k, 1, re, im, radius, err)) != MOTUS_OK) return status;
+        if (count == 1) radius[*at] = INFINITY;
         return MOTUS_OK;
     }
-    if (status != MOTUS_OK)
-        return fail(err, status, "the stability of %s could not be computed", p->chosen.name);
-    for (size_t k = 0; k < count; k++)
-        radius[at[k]] = radius_of(p->remembers ? quotient(next[k], first[k]) : first[k]);
+    if (status != MOTUS_OK) return fail(err, status, "the stability of %s could not be computed", p->chosen.name);
+    for (size_t k = 0; k < count; k++) radius[at[k]] = radius_of(p->remembers ? quotient(next[k], first[k]) : first[k]);
     return MOTUS_OK;
 }
 
-static motus_status ask_all(plane *p, bool on_axis, size_t count, const double *re, const double *im, double *radius, motus_error *err)
+static motus_status ask_all(plane *p, bool on_axis, size_t count, const double *re, const double *im, double *radius,
+                            motus_error *err)
 {
     traits traits;
     const bool asked = admitted(p, on_axis, &traits);
@@ -191,8 +197,7 @@ static motus_status ask_all(plane *p, bool on_axis, size_t count, const double *
         }
         if (waiting == POINTS || (k == count && waiting)) {
             motus_status status = ask(p, &traits, at, waiting, re, im, radius, err);
-            if (status != MOTUS_OK)
-                return status;
+            if (status != MOTUS_OK) return status;
             waiting = 0;
         }
     }
@@ -203,28 +208,25 @@ static motus_status check(size_t count, const double *re, const double *im, motu
 {
     for (size_t k = 0; k < count; k++)
         if (!(hypot(re[k], im[k]) <= MOTUS_STABILITY_FAR))
-            return fail(err, MOTUS_ARGUMENT, "point %zu, %g + %g i, is not a number within %g of 0", k + 1, re[k], im[k], MOTUS_STABILITY_FAR);
+            return fail(err, MOTUS_ARGUMENT, "point %zu, %g + %g i, is not a number within %g of 0", k + 1, re[k],
+                        im[k], MOTUS_STABILITY_FAR);
     return MOTUS_OK;
 }
 
-motus_status motus_stability(const char *method, size_t count, const double *re, const double *im, double *radius, motus_error *err)
+motus_status motus_stability(const char *method, size_t count, const double *re, const double *im, double *radius,
+                             motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!method || (count && (!re || !im || !radius)))
         return fail(err, MOTUS_ARGUMENT, "motus_stability needs a method, points and a place for the radii");
     plane p;
     p.allocator = (motus_allocator){allocate, release, &p};
     modes m = modes_enter();
     motus_status status = row_choose(method, &p.chosen, NULL, err);
-    if (status == MOTUS_OK)
-        status = check(count, re, im, err);
-    if (status == MOTUS_OK)
-        status = remember(&p, err);
-    if (status == MOTUS_OK)
-        status = ask_all(&p, true, count, re, im, radius, err);
-    if (status == MOTUS_OK)
-        status = ask_all(&p, false, count, re, im, radius, err);
+    if (status == MOTUS_OK) status = check(count, re, im, err);
+    if (status == MOTUS_OK) status = remember(&p, err);
+    if (status == MOTUS_OK) status = ask_all(&p, true, count, re, im, radius, err);
+    if (status == MOTUS_OK) status = ask_all(&p, false, count, re, im, radius, err);
     modes_leave(m);
     return status;
 }

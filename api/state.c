@@ -22,11 +22,10 @@
 enum { NUMBER_ROOM = 32, HEAD_ROOM = 512 };
 
 #define MIX_START UINT64_C(0xCBF29CE484222325)
-static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a */
+static uint64_t mix(uint64_t h, const void *bytes, size_t n) /* FNV-1a */
 {
     const unsigned char *p = bytes;
-    for (size_t i = 0; i < n; i++)
-        h = (h ^ p[i]) * 0x100000001B3u;
+    for (size_t i = 0; i < n; i++) h = (h ^ p[i]) * 0x100000001B3u;
     return h;
 }
 
@@ -55,8 +54,7 @@ static uint64_t mix_outputs(uint64_t h, const model *m, const output *o, size_t 
 {
     for (size_t i = 0; i < count; i++) {
         h = mix_reference(mix_number(h, o[i].value), m, &o[i].to);
-        for (int k = 0; k < o[i].loops; k++)
-            h = mix_range(h, &o[i].loop[k]);
+        for (int k = 0; k < o[i].loops; k++) h = mix_range(h, &o[i].loop[k]);
     }
     return h;
 }
@@ -68,19 +66,15 @@ static uint64_t fingerprint(const motus_system *s)
     /* Of one width everywhere: the page has a narrower size_t, and the same state. */
     h = mix_number(mix_number(h, (int64_t)s->problem.nx), (int64_t)s->problem.nv);
     const model *m = s->model;
-    if (!m)
-        return h;
+    if (!m) return h;
     node last = 0;
-    for (size_t i = 0; i < m->accel_count; i++)
-        last = m->accel[i].value > last ? m->accel[i].value : last;
+    for (size_t i = 0; i < m->accel_count; i++) last = m->accel[i].value > last ? m->accel[i].value : last;
     for (node n = 0; n <= last; n++) {
         const graph_node *g = graph_at(m->graph, n);
         uint32_t parts[4] = {g->op, g->a, g->b, g->c};
         h = mix(mix(h, parts, sizeof parts), &g->value, sizeof g->value);
-        if (g->op == OP_LOAD)
-            h = mix_reference(h, m, &m->graph->references[g->a]);
-        if (g->op == OP_SUM)
-            h = mix_range(h, &m->graph->ranges[g->c]);
+        if (g->op == OP_LOAD) h = mix_reference(h, m, &m->graph->references[g->a]);
+        if (g->op == OP_SUM) h = mix_range(h, &m->graph->ranges[g->c]);
     }
     h = mix_outputs(h, m, m->accel, m->accel_count);
     h = mix_outputs(h, m, m->boundary, m->boundary_count);
@@ -96,9 +90,9 @@ static int write_hex(char *out, size_t size, double v)
     uint64_t fraction = bits & 0xFFFFFFFFFFFFFu;
     int exponent = (int)(bits >> 52 & 0x7FF);
     const char *sign = bits >> 63 ? "-" : "";
-    if (exponent == 0 && fraction == 0)
-        return snprintf(out, size, "%s0x0p+0", sign);
-    return snprintf(out, size, "%s0x%d.%013" PRIx64 "p%+d", sign, exponent != 0, fraction, exponent ? exponent - 1023 : -1022);
+    if (exponent == 0 && fraction == 0) return snprintf(out, size, "%s0x0p+0", sign);
+    return snprintf(out, size, "%s0x%d.%013" PRIx64 "p%+d", sign, exponent != 0, fraction,
+                    exponent ? exponent - 1023 : -1022);
 }
 
 static bool read_hex(const char **at, const char *end, double *v)
@@ -106,38 +100,31 @@ static bool read_hex(const char **at, const char *end, double *v)
     const char *p = *at;
     bool minus = p < end && *p == '-';
     p += minus;
-    if (end - p < 6 || memcmp(p, "0x", 2) || (p[2] != '0' && p[2] != '1'))
-        return false;
+    if (end - p < 6 || memcmp(p, "0x", 2) || (p[2] != '0' && p[2] != '1')) return false;
     uint64_t bits = (uint64_t)(p[2] - '0'), digits = 0;
     int shift = 0;
     p += 3;
     if (p < end && *p == '.')
         for (p++; p < end && digits < 13 && *p != 'p'; p++, digits++) {
             int d = *p >= '0' && *p <= '9' ? *p - '0' : *p >= 'a' && *p <= 'f' ? *p - 'a' + 10 : -1;
-            if (d < 0)
-                return false;
+            if (d < 0) return false;
             bits = bits << 4 | (uint64_t)d;
             shift += 4;
         }
-    if (p >= end || *p++ != 'p' || p >= end || (*p != '+' && *p != '-'))
-        return false;
+    if (p >= end || *p++ != 'p' || p >= end || (*p != '+' && *p != '-')) return false;
     bool below = *p++ == '-';
     int exponent = 0, places = 0;
-    for (; p < end && *p >= '0' && *p <= '9' && places < 5; p++, places++)
-        exponent = exponent * 10 + (*p - '0');
-    if (!places)
-        return false;
+    for (; p < end && *p >= '0' && *p <= '9' && places < 5; p++, places++) exponent = exponent * 10 + (*p - '0');
+    if (!places) return false;
     *v = ldexp((double)bits, (below ? -exponent : exponent) - shift);
-    if (minus)
-        *v = -*v;
+    if (minus) *v = -*v;
     *at = p;
     return isfinite(*v);
 }
 
 motus_status motus_run_save(motus_run *r, const char **text, size_t *length, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !text || !length)
         return fail(err, MOTUS_ARGUMENT, "motus_run_save needs a run and places for the text and its length");
     size_t n = stepper_carry(r->stepper), room = HEAD_ROOM + n * NUMBER_ROOM;
@@ -158,8 +145,11 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
     char start[NUMBER_ROOM], h[NUMBER_ROOM];
     write_hex(start, sizeof start, r->t0);
     write_hex(h, sizeof h, r->h);
-    size_t at = (size_t)snprintf(r->saved, room, "motus-state 1\nsystem %016" PRIx64 "\nmethod %s\nstart %s\nstep %s\nat %" PRId64 " %" PRId64 " %" PRId64 "\ncarry %zu\n",
-                                 fingerprint(r->system), r->chosen.name, start, h, now.steps, now.evaluations, now.iterations, n);
+    size_t at = (size_t)snprintf(r->saved, room,
+                                 "motus-state 1\nsystem %016" PRIx64 "\nmethod %s\nstart %s\nstep %s\nat %" PRId64
+                                 " %" PRId64 " %" PRId64 "\ncarry %zu\n",
+                                 fingerprint(r->system), r->chosen.name, start, h, now.steps, now.evaluations,
+                                 now.iterations, n);
     for (size_t k = 0; k < n; k++) {
         at += (size_t)write_hex(r->saved + at, room - at, carry[k]);
         r->saved[at++] = '\n';
@@ -173,13 +163,14 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
 
 /* ---- reading ---- */
 
-typedef struct reader { const char *at, *end; } reader;
+typedef struct reader {
+    const char *at, *end;
+} reader;
 
 static bool word(reader *r, const char *expected)
 {
     size_t n = strlen(expected);
-    if ((size_t)(r->end - r->at) < n || memcmp(r->at, expected, n))
-        return false;
+    if ((size_t)(r->end - r->at) < n || memcmp(r->at, expected, n)) return false;
     r->at += n;
     return true;
 }
@@ -187,8 +178,7 @@ static bool word(reader *r, const char *expected)
 static bool line(reader *r, char *out, size_t size)
 {
     const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
-    if (!stop || (size_t)(stop - r->at) >= size)
-        return false;
+    if (!stop || (size_t)(stop - r->at) >= size) return false;
     memcpy(out, r->at, (size_t)(stop - r->at));
     out[stop - r->at] = 0;
     r->at = stop + 1;
@@ -199,10 +189,8 @@ static bool integer(reader *r, int64_t *v)
 {
     int64_t n = 0;
     const char *p = r->at;
-    for (; p < r->end && *p >= '0' && *p <= '9' && n < INT64_MAX / 16; p++)
-        n = n * 10 + (*p - '0');
-    if (p == r->at)
-        return false;
+    for (; p < r->end && *p >= '0' && *p <= '9' && n < INT64_MAX / 16; p++) n = n * 10 + (*p - '0');
+    if (p == r->at) return false;
     *v = n;
     r->at = p;
     return true;
@@ -213,8 +201,7 @@ static bool whole(reader *r)
 {
     enum { CLOSING = 4 + 16 + 1 };
     char closing[CLOSING + 1];
-    if (r->end - r->at < CLOSING)
-        return false;
+    if (r->end - r->at < CLOSING) return false;
     r->end -= CLOSING;
     snprintf(closing, sizeof closing, "end %016" PRIx64 "\n", mix(MIX_START, r->at, (size_t)(r->end - r->at)));
     return !memcmp(r->end, closing, CLOSING);
@@ -233,10 +220,12 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     char system[40], method[MOTUS_NAME_MAX + 8], expected[40];
     double start, h;
     int64_t steps, evaluations, iterations, n;
-    if (!whole(&in) || !word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) || !word(&in, "method ") || !line(&in, method, sizeof method) ||
-        !word(&in, "start ") || !read_hex(&in.at, in.end, &start) || !word(&in, "\nstep ") || !read_hex(&in.at, in.end, &h) || !word(&in, "\nat ") ||
-        !integer(&in, &steps) || !word(&in, " ") || !integer(&in, &evaluations) || !word(&in, " ") || !integer(&in, &iterations) ||
-        !word(&in, "\ncarry ") || !integer(&in, &n) || !word(&in, "\n"))
+    if (!whole(&in) || !word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) ||
+        !word(&in, "method ") || !line(&in, method, sizeof method) || !word(&in, "start ") ||
+        !read_hex(&in.at, in.end, &start) || !word(&in, "\nstep ") || !read_hex(&in.at, in.end, &h) ||
+        !word(&in, "\nat ") || !integer(&in, &steps) || !word(&in, " ") || !integer(&in, &evaluations) ||
+        !word(&in, " ") || !integer(&in, &iterations) || !word(&in, "\ncarry ") || !integer(&in, &n) ||
+        !word(&in, "\n"))
         return unreadable(err);
     snprintf(expected, sizeof expected, "%016" PRIx64, fingerprint(r->system));
     if (strcmp(system, expected)) {
@@ -245,39 +234,36 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
         return MOTUS_STATE;
     }
     if (strcmp(method, r->chosen.name))
-        return fail(err, MOTUS_STATE, "the restart state was written by method %s, and this run uses %s", method, r->chosen.name);
+        return fail(err, MOTUS_STATE, "the restart state was written by method %s, and this run uses %s", method,
+                    r->chosen.name);
     if (start != r->t0 || h != r->h)
-        return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g", h, start, r->h, r->t0);
-    if ((size_t)n != stepper_carry(r->stepper))
-        return unreadable(err);
+        return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g",
+                    h, start, r->h, r->t0);
+    if ((size_t)n != stepper_carry(r->stepper)) return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
-    if (!carry)
-        return fail(err, MOTUS_MEMORY, "no memory for the restart state");
+    if (!carry) return fail(err, MOTUS_MEMORY, "no memory for the restart state");
     bool ok = true;
-    for (int64_t k = 0; k < n && ok; k++)
-        ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
+    for (int64_t k = 0; k < n && ok; k++) ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
     motus_status status = MOTUS_OK;
     const stepper_count then = {steps, evaluations, iterations};
     const double t = stepper_time_saved(r->stepper, then, carry);
     if (!ok || in.at != in.end)
         status = unreadable(err);
     else if (row_adaptive(&r->chosen) ? (t - r->until) * r->h > 0 : steps > r->whole)
-        status = fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t, r->until);
+        status =
+            fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t, r->until);
     else
         status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);
-    if (status != MOTUS_OK)
-        return status;               /* and the run is where it was */
+    if (status != MOTUS_OK) return status; /* and the run is where it was */
     return run_moved(r, err);
 }
 
 motus_status motus_run_restore(motus_run *r, const char *text, size_t length, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!r || !text)
-        return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
-    modes m = modes_enter();         /* before the first number is read: a subnormal must not be flushed */
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || !text) return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
+    modes m = modes_enter(); /* before the first number is read: a subnormal must not be flushed */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);
     return status;

@@ -15,8 +15,9 @@ static motus_statement_kind kind_of(const model *m, const statement *s)
     case STATEMENT_INVARIANT: return MOTUS_STATEMENT_INVARIANT;
     case STATEMENT_DEFINITION:
         named = symbols_find(m, s->name);
-        return named.state ? MOTUS_STATEMENT_BOUNDARY
-               : named.definition->kind == DEFINED_PARAMETER ? MOTUS_STATEMENT_PARAMETER : MOTUS_STATEMENT_QUANTITY;
+        return named.state                                   ? MOTUS_STATEMENT_BOUNDARY
+               : named.definition->kind == DEFINED_PARAMETER ? MOTUS_STATEMENT_PARAMETER
+                                                             : MOTUS_STATEMENT_QUANTITY;
     default: return MOTUS_STATEMENT_SETTING;
     }
 }
@@ -29,16 +30,14 @@ motus_status motus_statement_at(const motus_system *s, size_t k, motus_statement
     const statement *one = &m->statements.item[k];
     bool set = one->at.text != 0;
     motus_statement ours = {.kind = kind_of(m, one), .name = one->name, .is_set = set};
-    if (!set || one->replaced)
-        ours.line = source_line(&m->source, set ? one->stood : one->at);
+    if (!set || one->replaced) ours.line = source_line(&m->source, set ? one->stood : one->at);
     motus_struct_write(MOTUS_DEF_STATEMENT, &ours, out);
     return MOTUS_OK;
 }
 
 const char *motus_statement_mathml(motus_system *s, size_t k)
 {
-    if (k >= motus_statement_count(s))
-        return NULL;
+    if (k >= motus_statement_count(s)) return NULL;
     give(&s->allocator, s->mathml);
     s->mathml = typeset_statement(s->model, &s->allocator, k);
     return s->mathml;

@@ -17,8 +17,7 @@ static motus_system *begin(const motus_allocator *a)
 
 void motus_system_destroy(motus_system *s)
 {
-    if (!s)
-        return;
+    if (!s) return;
     motus_allocator a = s->allocator;
     compiled_close(s->compiled);
     arena_release(&s->arena);
@@ -30,51 +29,41 @@ void motus_system_destroy(motus_system *s)
 static bool keep_text(motus_system *s, motus_text_def *def)
 {
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
-    if (n > SOURCE_BYTES_MAX)
-        return true;                 /* refused in a moment, by read_model */
+    if (n > SOURCE_BYTES_MAX) return true; /* refused in a moment, by read_model */
     char *copy = arena_room(&s->arena, n + 1);
     const char **set = arena_room(&s->arena, (def->set_count + 1) * sizeof *set);
-    if (!copy || !set)
-        return false;
+    if (!copy || !set) return false;
     memcpy(copy, def->text, n);
     copy[n] = 0;
     for (size_t i = 0; i < def->set_count; i++) {
         size_t m = strlen(def->set[i]) + 1;
         char *one = arena_room(&s->arena, m);
-        if (!one)
-            return false;
+        if (!one) return false;
         memcpy(one, def->set[i], m);
         set[i] = one;
     }
     def->text = copy;
     def->length = n;
     def->set = set;
-    if (def->file)
-        def->file = arena_text(&s->arena, def->file, strlen(def->file));
+    if (def->file) def->file = arena_text(&s->arena, def->file, strlen(def->file));
     return !s->arena.failed;
 }
 
 motus_status motus_system_from_text(const motus_text_def *given, motus_system **out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!out)
-        return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_text needs a place for the system");
     *out = NULL;
     motus_text_def def;
     motus_status status = motus_struct_read(MOTUS_DEF_TEXT, given, &def, err);
-    if (status != MOTUS_OK)
-        return status;
-    if (!def.text)
-        return fail(err, MOTUS_ARGUMENT, "the definition has no text");
+    if (status != MOTUS_OK) return status;
+    if (!def.text) return fail(err, MOTUS_ARGUMENT, "the definition has no text");
     motus_system *s = begin(&def.allocator);
-    if (!s)
-        return fail(err, MOTUS_MEMORY, "no memory for the system");
+    if (!s) return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
     status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
                                 : fail(err, MOTUS_MEMORY, "no memory for the model");
-    if (status == MOTUS_OK)
-        status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
+    if (status == MOTUS_OK) status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {
         s->text = def;
         s->machine = (machine){.name = "interpreter", .problem = &s->problem};
@@ -85,8 +74,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
         s->state_count = s->model->state_count;
         s->definitions = s->model->definitions;
         s->definition_count = s->model->definition_count;
-        if (!system_number_columns(s))
-            status = fail(err, MOTUS_MEMORY, "no memory for the model");
+        if (!system_number_columns(s)) status = fail(err, MOTUS_MEMORY, "no memory for the model");
     }
     modes_leave(m);
     if (status != MOTUS_OK) {
@@ -104,10 +92,8 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
     s->start = def->start;
     s->x0 = arena_room(&s->arena, (nx + 1) * sizeof(double));
     s->v0 = arena_room(&s->arena, (nv + 1) * sizeof(double));
-    if (!s->x0 || !s->v0)
-        return fail(err, MOTUS_MEMORY, "no memory for the system");
-    if (nx)
-        memcpy(s->x0, def->x, nx * sizeof(double));
+    if (!s->x0 || !s->v0) return fail(err, MOTUS_MEMORY, "no memory for the system");
+    if (nx) memcpy(s->x0, def->x, nx * sizeof(double));
     memcpy(s->v0, def->v, nv * sizeof(double));
     for (size_t k = 0; k < nv; k++)
         if (!isfinite(s->v0[k]) || (k < nx && !isfinite(s->x0[k])) || !isfinite(def->start))
@@ -117,31 +103,24 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
 
 motus_status motus_system_from_callback(const motus_callback_def *given, motus_system **out, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!out)
-        return fail(err, MOTUS_ARGUMENT, "motus_system_from_callback needs a place for the system");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_callback needs a place for the system");
     *out = NULL;
-    if (!given)
-        return fail(err, MOTUS_ARGUMENT, "there is no definition");
+    if (!given) return fail(err, MOTUS_ARGUMENT, "there is no definition");
     motus_callback_def def;
     motus_status status = motus_struct_read(MOTUS_DEF_CALLBACK, given, &def, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     motus_system *s = begin(&def.allocator);
-    if (!s)
-        return fail(err, MOTUS_MEMORY, "no memory for the system");
+    if (!s) return fail(err, MOTUS_MEMORY, "no memory for the system");
     s->callback = def;
     s->calling.def = &s->callback;
     status = callback_problem(&s->calling, &s->problem, err);
     if (status == MOTUS_OK) {
         s->machine = (machine){.name = "callback", .problem = &s->problem};
-        if (def.derivative)
-            s->calling.zeros = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
+        if (def.derivative) s->calling.zeros = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
         status = take_start(s, &def, err);
     }
-    if (status == MOTUS_OK)
-        status = stand_in_make(s, err);
+    if (status == MOTUS_OK) status = stand_in_make(s, err);
     if (status == MOTUS_OK && (!system_number_columns(s) || s->arena.failed))
         status = fail(err, MOTUS_MEMORY, "no memory for the system");
     if (status != MOTUS_OK) {
@@ -163,8 +142,11 @@ motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *
     if (!s || !v || k >= s->state_count || motus_struct_check(MOTUS_DEF_VARIABLE, v, NULL) != MOTUS_OK)
         return MOTUS_ARGUMENT;
     const model_state *st = &s->states[k];
-    motus_variable ours = {.name = st->name, .order = st->order, .components = st->components, .dimensions = st->dims,
-                          .count = st->cells.count * (size_t)(st->components ? st->components : 1)};
+    motus_variable ours = {.name = st->name,
+                           .order = st->order,
+                           .components = st->components,
+                           .dimensions = st->dims,
+                           .count = st->cells.count * (size_t)(st->components ? st->components : 1)};
     memcpy(ours.first, st->eq_first, sizeof ours.first);
     memcpy(ours.last, st->eq_last, sizeof ours.last);
     motus_struct_write(MOTUS_DEF_VARIABLE, &ours, v);
@@ -173,14 +155,17 @@ motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *
 
 motus_status motus_settings_of(const motus_system *s, motus_settings *out)
 {
-    if (!s || !out || motus_struct_check(MOTUS_DEF_SETTINGS, out, NULL) != MOTUS_OK)
-        return MOTUS_ARGUMENT;
+    if (!s || !out || motus_struct_check(MOTUS_DEF_SETTINGS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
     motus_settings ours = motus_default_settings();
     ours.from = s->start;
     const model *m = s->model;
     if (m)
-        ours = (motus_settings){.method = m->method, .step = m->step, .from = m->start,
-                                .until = m->until, .every_time = m->every_time, .every_steps = m->every_steps};
+        ours = (motus_settings){.method = m->method,
+                                .step = m->step,
+                                .from = m->start,
+                                .until = m->until,
+                                .every_time = m->every_time,
+                                .every_steps = m->every_steps};
     motus_struct_write(MOTUS_DEF_SETTINGS, &ours, out);
     return MOTUS_OK;
 }

@@ -1,7 +1,7 @@
 /* One step opened up: the events that a machine tells, kept as entries with the numbers as they are seen outside.
  *
- * Invariant: all memory is taken before the step, for the most that the row can tell, so a refusal leaves the run where it was. An entry
- * shares the numbers that its event left alone with the entry before.
+ * Invariant: all memory is taken before the step, for the most that the row can tell, so a refusal leaves the run
+ * where it was. An entry shares the numbers that its event left alone with the entry before.
  */
 #include "api/run.h"
 
@@ -12,8 +12,8 @@ typedef struct trace {
     double step;
     size_t count;
     motus_trace_entry *entry;
-    const motus_trace_entry **list;  /* to each of them: what the caller gets */
-    double *next;                    /* room for numbers that is not used yet */
+    const motus_trace_entry **list; /* to each of them: what the caller gets */
+    double *next;                   /* room for numbers that is not used yet */
 } trace;
 
 /* START and END, which hold the state; the closing kick and a step lean on them. */
@@ -24,19 +24,17 @@ static trace *make(motus_run *r)
     const motus_system *s = r->system;
     const trace_room room = trace_room_of(r->stepper);
     const size_t events = room.events + TRACE_ENDS;
-    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions + (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + room.rows;
+    const uint64_t numbers = (uint64_t)(room.x + TRACE_ENDS) * s->positions +
+                             (uint64_t)(room.v + 2 * TRACE_ENDS) * s->velocities + room.rows;
     const uint64_t bytes =
         sizeof(trace) + events * (sizeof(motus_trace_entry) + sizeof(motus_trace_entry *)) + numbers * sizeof(double);
-    if (!r->trace && bytes <= SIZE_MAX)
-        r->trace = take(&r->allocator, 1, (size_t)bytes);
+    if (!r->trace && bytes <= SIZE_MAX) r->trace = take(&r->allocator, 1, (size_t)bytes);
     trace *t = r->trace;
-    if (!t)
-        return NULL;
+    if (!t) return NULL;
     t->entry = (motus_trace_entry *)(t + 1);
     t->next = (double *)(t->entry + events);
     t->list = (const motus_trace_entry **)(t->next + numbers);
-    for (size_t k = 0; k < events; k++)
-        t->list[k] = &t->entry[k];
+    for (size_t k = 0; k < events; k++) t->list[k] = &t->entry[k];
     t->system = r->system;
     t->count = 0;
     return t;
@@ -72,26 +70,32 @@ static void see(void *ctx, const trace_event *e)
     const motus_trace_entry *start = t->entry, *last = &t->entry[t->count - 1];
     const bool recurrence = e->kind == MOTUS_EVENT_STEP || e->kind == MOTUS_EVENT_TAYLOR;
     motus_trace_entry *out = &t->entry[t->count++];
-    *out = (motus_trace_entry){.kind = e->kind, .stage = e->stage, .stages = e->stages, .iterations = e->iterations, .time = e->time, .step = t->step,
-                               .coefficient = e->coefficient, .weight = e->weight, .weight_x = e->weight_x, .x = last->x, .v = last->v};
+    *out = (motus_trace_entry){.kind = e->kind,
+                               .stage = e->stage,
+                               .stages = e->stages,
+                               .iterations = e->iterations,
+                               .time = e->time,
+                               .step = t->step,
+                               .coefficient = e->coefficient,
+                               .weight = e->weight,
+                               .weight_x = e->weight_x,
+                               .x = last->x,
+                               .v = last->v};
     if (e->row) {
         out->row = keep_row(t, e->row, e->stages);
         out->row_x = keep_row(t, e->row_x, e->stages);
     }
-    if (e->x)
-        out->x = keep_x(t, e->x);
+    if (e->x) out->x = keep_x(t, e->x);
     if (e->v)
         out->v = keep_v(t, e->v);
     else if (recurrence || e->kind == MOTUS_EVENT_KICK)
-        out->v = NULL;               /* known at the end */
+        out->v = NULL; /* known at the end */
     if (e->a)
         out->a = keep_v(t, e->a);
     else if (recurrence)
         out->a = start->a;
-    if (e->before_x)
-        out->before_x = keep_x(t, e->before_x);
-    if (e->before_a)
-        out->before_a = keep_v(t, e->before_a);
+    if (e->before_x) out->before_x = keep_x(t, e->before_x);
+    if (e->before_a) out->before_a = keep_v(t, e->before_a);
 }
 
 /* The state now. An acceleration that cannot be had here may be one that the method has no need of. */
@@ -100,9 +104,12 @@ static motus_status look(motus_run *r, motus_event kind, motus_error *err)
     trace *t = r->trace;
     bool with_a = run_sync(r, true, NULL) == MOTUS_OK;
     motus_status status = with_a ? MOTUS_OK : run_sync(r, false, err);
-    if (status != MOTUS_OK)
-        return status;
-    t->entry[t->count++] = (motus_trace_entry){.kind = kind, .time = stepper_time(r->stepper), .step = t->step, .x = keep_x(t, r->x), .v = keep_v(t, r->v),
+    if (status != MOTUS_OK) return status;
+    t->entry[t->count++] = (motus_trace_entry){.kind = kind,
+                                               .time = stepper_time(r->stepper),
+                                               .step = t->step,
+                                               .x = keep_x(t, r->x),
+                                               .v = keep_v(t, r->v),
                                                .a = with_a ? keep_v(t, r->a) : NULL};
     return MOTUS_OK;
 }
@@ -115,47 +122,39 @@ static void complete(trace *t)
     end->iterations = last->iterations;
     for (motus_trace_entry *e = t->entry; e <= end; e++) {
         e->stages = last->stages;
-        if (e->v)
-            continue;
+        if (e->v) continue;
         e->v = end->v;
-        if (!e->a)
-            e->a = end->a;
+        if (!e->a) e->a = end->a;
     }
 }
 
 static motus_status walk(motus_run *r, motus_error *err)
 {
     trace *t = make(r);
-    if (!t)
-        return fail(err, MOTUS_MEMORY, "no memory for what happens in the step");
+    if (!t) return fail(err, MOTUS_MEMORY, "no memory for what happens in the step");
     t->step = motus_run_steps(r) < r->whole ? r->h : r->last;
     motus_status status = look(r, MOTUS_EVENT_START, err);
     if (status == MOTUS_OK)
-        status = stepper_trace(r->stepper, r->until, &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
-    if (status == MOTUS_OK)
-        status = run_moved(r, err);
-    if (status == MOTUS_OK)
-        status = look(r, MOTUS_EVENT_END, err);
-    if (status == MOTUS_OK)
-        complete(t);
+        status =
+            stepper_trace(r->stepper, r->until, &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
+    if (status == MOTUS_OK) status = run_moved(r, err);
+    if (status == MOTUS_OK) status = look(r, MOTUS_EVENT_END, err);
+    if (status == MOTUS_OK) complete(t);
     return status;
 }
 
 motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entries, size_t *count, motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !entries || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
     *entries = NULL;
     *count = 0;
-    if (motus_run_done(r))
-        return MOTUS_OK;
+    if (motus_run_done(r)) return MOTUS_OK;
     modes m = modes_enter();
     motus_status status = walk(r, err);
     modes_leave(m);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     *entries = r->trace->list;
     *count = r->trace->count;
     return MOTUS_OK;

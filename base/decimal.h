@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DECIMAL_MAX = 32 };       /* room for any number and a 0 */
+enum { DECIMAL_MAX = 32 }; /* room for any number and a 0 */
 
 /* The shortest of 15, 16 or 17 digits that reads back as the same double; "nan", "inf", "-inf" for what has no
  * digits. Returns out. */

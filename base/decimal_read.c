@@ -13,9 +13,9 @@
 enum { DIGITS_MAX = 800, EXPONENT_MAX = 100000000, SMALLEST = -330, LARGEST = 310, WORDS = 96 };
 
 typedef struct number {
-    uint32_t word[WORDS];        /* the lowest first, `count` of them, the highest not 0 */
+    uint32_t word[WORDS]; /* the lowest first, `count` of them, the highest not 0 */
     int count;
-    bool more;                   /* the number is a little larger */
+    bool more; /* the number is a little larger */
 } number;
 
 static void times_plus(number *n, uint32_t factor, uint32_t plus)
@@ -26,8 +26,7 @@ static void times_plus(number *n, uint32_t factor, uint32_t plus)
         n->word[i] = (uint32_t)carry;
         carry >>= 32;
     }
-    if (carry)
-        n->word[n->count++] = (uint32_t)carry;
+    if (carry) n->word[n->count++] = (uint32_t)carry;
 }
 
 static void over(number *n, uint32_t divisor)
@@ -38,8 +37,7 @@ static void over(number *n, uint32_t divisor)
         n->word[i] = (uint32_t)(rest / divisor);
         rest %= divisor;
     }
-    while (n->count > 0 && n->word[n->count - 1] == 0)
-        n->count--;
+    while (n->count > 0 && n->word[n->count - 1] == 0) n->count--;
     n->more = n->more || rest != 0;
 }
 
@@ -48,8 +46,7 @@ static void by_fives(number *n, int p, void (*step)(number *, uint32_t))
 {
     while (p > 0) {
         uint32_t power = 1;
-        for (int i = 0; i < 13 && p > 0; i++, p--)
-            power *= 5;
+        for (int i = 0; i < 13 && p > 0; i++, p--) power *= 5;
         step(n, power);
     }
 }
@@ -62,17 +59,13 @@ static uint64_t bit(const number *n, int k) { return k >= 0 && k < 32 * n->count
 static double rounded(const number *n, int exponent)
 {
     int top = 32 * n->count - 1;
-    while (!bit(n, top))
-        top--;
-    int last = top - 52;         /* the last bit that a double keeps: not below 2^-1074 */
-    if (last + exponent < -1074)
-        last = -1074 - exponent;
+    while (!bit(n, top)) top--;
+    int last = top - 52; /* the last bit that a double keeps: not below 2^-1074 */
+    if (last + exponent < -1074) last = -1074 - exponent;
     uint64_t mantissa = 0;
-    for (int k = top; k >= last; k--)
-        mantissa = mantissa << 1 | bit(n, k);
+    for (int k = top; k >= last; k--) mantissa = mantissa << 1 | bit(n, k);
     bool rest = n->more;
-    for (int k = last - 2; !rest && k >= 0; k--)
-        rest = bit(n, k);
+    for (int k = last - 2; !rest && k >= 0; k--) rest = bit(n, k);
     mantissa += bit(n, last - 1) && (rest || mantissa & 1);
     return ldexp((double)mantissa, last + exponent);
 }
@@ -100,16 +93,13 @@ static bool digit(const char *s, size_t length, size_t at) { return at < length 
 /* e[+-]digits at s[at], or nothing; where it ends. */
 static size_t read_exponent(const char *s, size_t length, size_t at, int64_t *exponent)
 {
-    if (at >= length || (s[at] != 'e' && s[at] != 'E'))
-        return at;
+    if (at >= length || (s[at] != 'e' && s[at] != 'E')) return at;
     const bool sign = at + 1 < length && (s[at + 1] == '-' || s[at + 1] == '+');
     size_t end = at + 1 + sign;
-    if (!digit(s, length, end))
-        return at;
+    if (!digit(s, length, end)) return at;
     int64_t n = 0;
     for (; digit(s, length, end); end++)
-        if (n < EXPONENT_MAX)
-            n = 10 * n + (s[end] - '0');
+        if (n < EXPONENT_MAX) n = 10 * n + (s[end] - '0');
     *exponent += sign && s[at + 1] == '-' ? -n : n;
     return end;
 }
@@ -119,7 +109,7 @@ size_t decimal_read(const char *s, size_t length, double *value)
     number n = {.count = 0};
     size_t at = 0, digits = 0;
     int significant = 0;
-    int64_t exponent = 0;        /* of the last digit that is kept */
+    int64_t exponent = 0; /* of the last digit that is kept */
     bool fraction = false;
     for (; digit(s, length, at) || (!fraction && at < length && s[at] == '.'); at++) {
         if (s[at] == '.') {
@@ -136,8 +126,7 @@ size_t decimal_read(const char *s, size_t length, double *value)
         significant += n.count > 0;
         exponent -= fraction;
     }
-    if (digits == 0)
-        return 0;
+    if (digits == 0) return 0;
     at = read_exponent(s, length, at, &exponent);
     if (n.count == 0 || significant + exponent < SMALLEST)
         *value = 0;
@@ -153,8 +142,7 @@ size_t decimal_read_whole(const char *s, size_t length, uint64_t *value)
     size_t at = 0;
     for (*value = 0; digit(s, length, at); at++) {
         const uint64_t last = (uint64_t)(s[at] - '0');
-        if (*value > (UINT64_MAX - last) / 10)
-            return 0;
+        if (*value > (UINT64_MAX - last) / 10) return 0;
         *value = 10 * *value + last;
     }
     return at;

@@ -35,8 +35,7 @@ size_t decimal_write_plain(double value, char out[DECIMAL_MAX])
 {
     if (!isfinite(value))
         return (size_t)snprintf(out, DECIMAL_MAX, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
-    if (value == trunc(value) && fabs(value) < 1e15)
-        return (size_t)snprintf(out, DECIMAL_MAX, "%.0f", value);
+    if (value == trunc(value) && fabs(value) < 1e15) return (size_t)snprintf(out, DECIMAL_MAX, "%.0f", value);
     /* 17 digits always suffice, 15 always survive; what a computation leaves rarely fits into fewer than 16 */
     for (int digits = 15;; digits++) {
         snprintf(out, DECIMAL_MAX, "%.*g", digits, value);
@@ -59,10 +58,8 @@ static int spell(uint64_t n, char *out)
         reversed[count++] = (char)('0' + pair % 10);
         reversed[count++] = (char)('0' + pair / 10);
     }
-    if (n > 0 || count == 0)
-        reversed[count++] = (char)('0' + n);
-    for (int i = 0; i < count; i++)
-        out[i] = reversed[count - 1 - i];
+    if (n > 0 || count == 0) reversed[count++] = (char)('0' + n);
+    for (int i = 0; i < count; i++) out[i] = reversed[count - 1 - i];
     return count;
 }
 
@@ -79,24 +76,57 @@ __extension__ typedef unsigned __int128 wide;
 /* 5^(27 a), a = -11 … 12, as 128 leading bits, cut off; and 5^r, r = 0 … 26, whole. Their products are the powers of
  * five that are needed. */
 enum { STRIDE = 27, FIRST = -11 };
-static const struct { uint64_t high, low; } coarse[] = {
-    {0xa76c582338ed2621, 0xaf2af2b80af6f24e}, {0x873e4f75e2224e68, 0x5a7744a6e804a291}, {0xda7f5bf590966848, 0xaf39a475506a899e},
-    {0xb080392cc4349dec, 0xbd8d794d96aacfb3}, {0x8e938662882af53e, 0x547eb47b7282ee9c}, {0xe65829b3046b0afa, 0x0cb4a5a3112a5112},
-    {0xba121a4650e4ddeb, 0x92f34d62616ce413}, {0x964e858c91ba2655, 0x3a6a07f8d510f86f}, {0xf2d56790ab41c2a2, 0xfae27299423fb9c3},
-    {0xc428d05aa4751e4c, 0xaa97e14c3c26b886}, {0x9e74d1b791e07e48, 0x775ea264cf55347d}, {0x8000000000000000, 0x0000000000000000},
-    {0xcecb8f27f4200f3a, 0x0000000000000000}, {0xa70c3c40a64e6c51, 0x999090b65f67d924}, {0x86f0ac99b4e8dafd, 0x69a028bb3ded71a3},
-    {0xda01ee641a708de9, 0xe80e6f4820cc9495}, {0xb01ae745b101e9e4, 0x5ec05dcff72e7f8f}, {0x8e41ade9fbebc27d, 0x14588f13be847307},
-    {0xe5d3ef282a242e81, 0x8f1668c8a86da5fa}, {0xb9a74a0637ce2ee1, 0x6d953e2bd7173692}, {0x95f83d0a1fb69cd9, 0x4abdaf101564f98e},
-    {0xf24a01a73cf2dccf, 0xbc633b39673c8cec}, {0xc3b8358109e84f07, 0x0a862f80ec4700c8}, {0x9e19db92b4e31ba9, 0x6c07a2c26a8346d1},
+static const struct {
+    uint64_t high, low;
+} coarse[] = {
+    {0xa76c582338ed2621, 0xaf2af2b80af6f24e}, {0x873e4f75e2224e68, 0x5a7744a6e804a291},
+    {0xda7f5bf590966848, 0xaf39a475506a899e}, {0xb080392cc4349dec, 0xbd8d794d96aacfb3},
+    {0x8e938662882af53e, 0x547eb47b7282ee9c}, {0xe65829b3046b0afa, 0x0cb4a5a3112a5112},
+    {0xba121a4650e4ddeb, 0x92f34d62616ce413}, {0x964e858c91ba2655, 0x3a6a07f8d510f86f},
+    {0xf2d56790ab41c2a2, 0xfae27299423fb9c3}, {0xc428d05aa4751e4c, 0xaa97e14c3c26b886},
+    {0x9e74d1b791e07e48, 0x775ea264cf55347d}, {0x8000000000000000, 0x0000000000000000},
+    {0xcecb8f27f4200f3a, 0x0000000000000000}, {0xa70c3c40a64e6c51, 0x999090b65f67d924},
+    {0x86f0ac99b4e8dafd, 0x69a028bb3ded71a3}, {0xda01ee641a708de9, 0xe80e6f4820cc9495},
+    {0xb01ae745b101e9e4, 0x5ec05dcff72e7f8f}, {0x8e41ade9fbebc27d, 0x14588f13be847307},
+    {0xe5d3ef282a242e81, 0x8f1668c8a86da5fa}, {0xb9a74a0637ce2ee1, 0x6d953e2bd7173692},
+    {0x95f83d0a1fb69cd9, 0x4abdaf101564f98e}, {0xf24a01a73cf2dccf, 0xbc633b39673c8cec},
+    {0xc3b8358109e84f07, 0x0a862f80ec4700c8}, {0x9e19db92b4e31ba9, 0x6c07a2c26a8346d1},
 };
 static const uint64_t fine[STRIDE] = {
-    1, 5, 25, 125, 625, 3125, 15625, 78125, 390625, 1953125, 9765625, 48828125, 244140625, 1220703125, 6103515625, 30517578125, 152587890625,
-    762939453125, 3814697265625, 19073486328125, 95367431640625, 476837158203125, 2384185791015625, 11920928955078125, 59604644775390625,
-    298023223876953125, 1490116119384765625,
+    1,
+    5,
+    25,
+    125,
+    625,
+    3125,
+    15625,
+    78125,
+    390625,
+    1953125,
+    9765625,
+    48828125,
+    244140625,
+    1220703125,
+    6103515625,
+    30517578125,
+    152587890625,
+    762939453125,
+    3814697265625,
+    19073486328125,
+    95367431640625,
+    476837158203125,
+    2384185791015625,
+    11920928955078125,
+    59604644775390625,
+    298023223876953125,
+    1490116119384765625,
 };
 
 /* bits × 2^exponent, the highest bit set. */
-typedef struct scaled { wide bits; int exponent; } scaled;
+typedef struct scaled {
+    wide bits;
+    int exponent;
+} scaled;
 
 /* 192 bits of a × b as their upper 128 and, for rounding and shifting, the lower 64. */
 static wide multiply(wide a, uint64_t b, uint64_t *low)
@@ -124,17 +154,19 @@ static scaled power_of_ten(int p)
 
 /* |value| × 10^p and half the distance to its neighbours, as fixed-point numbers with 64 bits behind the point, each
  * too small by less than 2 last bits. */
-typedef struct fixed { wide value, half; } fixed;
+typedef struct fixed {
+    wide value, half;
+} fixed;
 static fixed scale(uint64_t mantissa, int exponent, int shift, int p)
 {
     scaled g = power_of_ten(p);
     uint64_t low;
     wide product = multiply(g.bits, mantissa, &low);
-    int q = exponent + g.exponent;                   /* value = product 2^(q + 64), its 64 lower bits left out */
+    int q = exponent + g.exponent; /* value = product 2^(q + 64), its 64 lower bits left out */
     return (fixed){product >> -(q + 128), g.bits >> -(q + shift + 63)};
 }
 
-enum { DOUBT = 8 };                                  /* last bits; four times what may be wrong */
+enum { DOUBT = 8 }; /* last bits; four times what may be wrong */
 #define UNSURE(a, b) ((a) < (b) + DOUBT && (b) < (a) + DOUBT)
 
 /* Value rounded to a multiple of `unit`: 1 good: it reads back; 0 not; -1 unsure. */
@@ -143,12 +175,10 @@ static inline int round_to(fixed f, bool at_power, uint64_t unit, uint64_t *digi
     uint64_t whole = (uint64_t)(f.value >> 64);
     *digits = whole / unit;
     wide rest = (wide)(whole % unit) << 64 | (uint64_t)f.value, middle = (wide)unit << 63;
-    if (UNSURE(rest, middle))
-        return -1;
+    if (UNSURE(rest, middle)) return -1;
     bool up = rest > middle;
     *digits += up;
-    if (unit == 1)
-        return 1;
+    if (unit == 1) return 1;
     wide away = up ? ((wide)unit << 64) - rest : rest, most = !up && at_power ? f.half / 2 : f.half;
     return UNSURE(away, most) ? -1 : away < most;
 }
@@ -158,36 +188,30 @@ static size_t arrange(uint64_t digits, int count, int place, bool negative, char
 {
     char text[20], *s = out;
     int n = spell(digits, text);
-    while (n > 1 && text[n - 1] == '0')
-        n--;
-    if (negative)
-        *s++ = '-';
+    while (n > 1 && text[n - 1] == '0') n--;
+    if (negative) *s++ = '-';
     if (place >= -4 && place < count) {
         if (place < 0) {
             memcpy(s, "0.000", 5);
             s += 1 - place;
-            place = n;                               /* no other point */
+            place = n; /* no other point */
         } else {
             place++;
         }
         for (int i = 0; i < n; i++) {
-            if (i == place)
-                *s++ = '.';
+            if (i == place) *s++ = '.';
             *s++ = text[i];
         }
-        for (int i = n; i < place; i++)
-            *s++ = '0';
+        for (int i = n; i < place; i++) *s++ = '0';
     } else {
         *s++ = text[0];
-        if (n > 1)
-            *s++ = '.';
+        if (n > 1) *s++ = '.';
         memcpy(s, text + 1, (size_t)n - 1);
         s += n - 1;
         *s++ = 'e';
         *s++ = place < 0 ? '-' : '+';
         unsigned power = (unsigned)abs(place);
-        if (power < 10)
-            *s++ = '0';
+        if (power < 10) *s++ = '0';
         s += spell(power, s);
     }
     *s = 0;
@@ -203,7 +227,7 @@ static size_t print(double value, char *out)
     bool negative = bits >> 63;
     uint64_t mantissa = bits & (((uint64_t)1 << 52) - 1);
     int exponent = (int)(bits >> 52 & 0x7FF);
-    bool at_power = mantissa == 0 && exponent > 1;   /* the neighbour below is only half as far */
+    bool at_power = mantissa == 0 && exponent > 1; /* the neighbour below is only half as far */
     if (exponent > 0)
         mantissa |= (uint64_t)1 << 52;
     else
@@ -214,8 +238,7 @@ static size_t print(double value, char *out)
     /* the first digit stands for 10^place or 10^(place + 1) */
     int place = ((exponent + 63) * 78913) >> 18;
     fixed f = scale(mantissa, exponent, shift, 16 - place);
-    if ((uint64_t)(f.value >> 64) >= ten17)
-        f = scale(mantissa, exponent, shift, 16 - ++place);
+    if ((uint64_t)(f.value >> 64) >= ten17) f = scale(mantissa, exponent, shift, 16 - ++place);
     /* the units are constants, so that no division is one */
     uint64_t digits, one_more = ten17 / 100;
     int count = 15, good = round_to(f, at_power, 100, &digits);
@@ -242,8 +265,7 @@ static size_t print(double value, char *out)
 
 size_t decimal_write(double value, char out[DECIMAL_MAX])
 {
-    if (!isfinite(value))
-        return decimal_write_plain(value, out);
+    if (!isfinite(value)) return decimal_write_plain(value, out);
     if (fabs(value) < 1e15 && value == (double)(int64_t)value) {
         out[0] = '-';
         int sign = signbit(value) != 0;

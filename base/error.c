@@ -36,7 +36,7 @@ static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list argume
 {
     locale_t point = newlocale(LC_ALL_MASK, "C", (locale_t)0), host = point ? uselocale(point) : (locale_t)0;
     int wanted = vsnprintf(out, MOTUS_TEXT_MAX, format, arguments);
-    if (point) {                     /* numbers have a point whatever the host's locale */
+    if (point) { /* numbers have a point whatever the host's locale */
         uselocale(host);
         freelocale(point);
     }

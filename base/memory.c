@@ -32,6 +32,8 @@ void *take_more(const motus_allocator *allocator, void *old, size_t used, size_t
 void give(const motus_allocator *allocator, void *block)
 {
     if (!block) return;
-    if (!allocator || !allocator->allocate) free(block);
-    else if (allocator->release) allocator->release(allocator->context, block);
+    if (!allocator || !allocator->allocate)
+        free(block);
+    else if (allocator->release)
+        allocator->release(allocator->context, block);
 }

@@ -5,7 +5,7 @@
 
 #if defined(__x86_64__) || defined(__SSE__)
 #include <xmmintrin.h>
-enum { FLUSHES = 0x8040 };           /* flush to zero, denormals are zero */
+enum { FLUSHES = 0x8040 }; /* flush to zero, denormals are zero */
 static unsigned long control(void) { return _mm_getcsr(); }
 static void set_control(unsigned long c) { _mm_setcsr((unsigned)c); }
 #elif defined(__aarch64__)
@@ -26,17 +26,13 @@ static void set_control(unsigned long c) { (void)c; }
 modes modes_enter(void)
 {
     modes m = {fegetround(), control()};
-    if (m.rounding != FE_TONEAREST)
-        fesetround(FE_TONEAREST);
-    if (m.control & FLUSHES)
-        set_control(control() & ~(unsigned long)FLUSHES);
+    if (m.rounding != FE_TONEAREST) fesetround(FE_TONEAREST);
+    if (m.control & FLUSHES) set_control(control() & ~(unsigned long)FLUSHES);
     return m;
 }
 
 void modes_leave(modes m)
 {
-    if (m.rounding != FE_TONEAREST)
-        fesetround(m.rounding);
-    if (m.control & FLUSHES)
-        set_control(control() | (m.control & FLUSHES));
+    if (m.rounding != FE_TONEAREST) fesetround(m.rounding);
+    if (m.control & FLUSHES) set_control(control() | (m.control & FLUSHES));
 }

@@ -3,7 +3,10 @@
 #ifndef BASE_MODES_H
 #define BASE_MODES_H
 
-typedef struct modes { int rounding; unsigned long control; } modes;
+typedef struct modes {
+    int rounding;
+    unsigned long control;
+} modes;
 modes modes_enter(void);
 void modes_leave(modes);
 

@@ -1,9 +1,10 @@
-/* make bench: what motus takes, beside the best that was written by hand for one problem, and beside what one would pick instead.
+/* make bench: what motus takes, beside the best that was written by hand for one problem, and beside what one would
+ * pick instead.
  *
  *     bench [--save DIRECTORY] [ensembles] [single] [large] [programs]
  *
- * Run it where models/ and bench/ are. It never fails because of a figure; "short" says that a limit was missed. --save writes the lines
- * to DIRECTORY/<machine>.txt as well, and prints that name last.
+ * Run it where models/ and bench/ are. It never fails because of a figure; "short" says that a limit was missed.
+ * --save writes the lines to DIRECTORY/<machine>.txt as well, and prints that name last.
  */
 #include "bench/bench.h"
 
@@ -12,20 +13,26 @@
 int main(int count, char **words)
 {
     /* Programs first: what a program is charged for begins with the memory of the process that starts it. */
-    static const struct { const char *name; void (*run)(void); } parts[] = {
-        { "programs", compare_programs }, { "ensembles", compare_ensembles }, { "single", compare_single }, { "large", compare_large }
-    };
+    static const struct {
+        const char *name;
+        void (*run)(void);
+    } parts[] = {{"programs", compare_programs},
+                 {"ensembles", compare_ensembles},
+                 {"single", compare_single},
+                 {"large", compare_large}};
     const char *directory = NULL;
     char file[512] = "";
-    bool wanted[4] = { false }, all = true;
+    bool wanted[4] = {false}, all = true;
     for (int k = 1; k < count; k++) {
         bool known = false;
-        if (!strcmp(words[k], "--save") && k + 1 < count) directory = words[++k], known = true;
+        if (!strcmp(words[k], "--save") && k + 1 < count)
+            directory = words[++k], known = true;
         else
             for (int p = 0; p < 4; p++)
                 if (!strcmp(words[k], parts[p].name)) wanted[p] = known = true, all = false;
         if (!known) {
-            fprintf(stderr, "bench: \"%s\" is none of ensembles, single, large, programs, --save DIRECTORY\n", words[k]);
+            fprintf(stderr, "bench: \"%s\" is none of ensembles, single, large, programs, --save DIRECTORY\n",
+                    words[k]);
             return 2;
         }
     }

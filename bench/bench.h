@@ -1,8 +1,8 @@
 /* THE BENCH: pairs of programs that compute the same, timed against each other.
  *
- * Invariant: the sides of a comparison are measured in turn, round after round, in one process (or as processes, one after the other);
- * a ratio is the median of the rounds' ratios. What cannot be measured says so and has no number; what misses its limit is "short", and
- * is not an error.
+ * Invariant: the sides of a comparison are measured in turn, round after round, in one process (or as processes, one
+ * after the other); a ratio is the median of the rounds' ratios. What cannot be measured says so and has no number;
+ * what misses its limit is "short", and is not an error.
  */
 #ifndef BENCH_BENCH_H
 #define BENCH_BENCH_H
@@ -14,60 +14,80 @@
 
 enum { ROUNDS_MAX = 32 };
 
-/* measure.c: one side of a comparison. `run` does a piece of work and returns what one unit of it took; NaN: it cannot be measured. */
+/* measure.c: one side of a comparison. `run` does a piece of work and returns what one unit of it took; NaN: it
+ * cannot be measured. */
 typedef struct side {
     double (*run)(void *context);
     void *context;
-    int rounds;                          /* 0: as many as the others */
+    int rounds; /* 0: as many as the others */
     double sample[ROUNDS_MAX];
     int taken;
 } side;
-#define SIDE(f, c) { .run = (f), .context = (c) }
-#define SIDE_ROUNDS(f, c, n) { .run = (f), .context = (c), .rounds = (n) }
+#define SIDE(f, c)                 \
+    {                              \
+        .run = (f), .context = (c) \
+    }
+#define SIDE_ROUNDS(f, c, n)                      \
+    {                                             \
+        .run = (f), .context = (c), .rounds = (n) \
+    }
 
-double now(void);                        /* seconds */
-void measure(side *sides, int count, int rounds);        /* a round before the first is not counted */
-double median(const side *);             /* NaN: not measured */
+double now(void);                                 /* seconds */
+void measure(side *sides, int count, int rounds); /* a round before the first is not counted */
+double median(const side *);                      /* NaN: not measured */
 double ratio(const side *over, const side *under);
 
 /* report.c: lines. Times are in seconds, `unit` is "ns" or "ms". */
-void report_open(FILE *copy);            /* a second place for every line, or NULL */
+void report_open(FILE *copy); /* a second place for every line, or NULL */
 void report_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void report_section(const char *title, const char *what);
-void report_at_most(const char *name, const side *ours, const side *other, double limit, const char *unit);     /* ours/other */
-void report_at_least(const char *name, const side *ours, const side *other, double limit, const char *unit);    /* other/ours */
-void report_beside(const char *name, const side *ours, const side *other, const char *unit);                    /* no limit */
-void report_value(const char *name, double value, double limit, const char *unit);     /* "ms", "MB", "x": at most; "x" at least */
+/* ours/other */
+void report_at_most(const char *name, const side *ours, const side *other, double limit, const char *unit);
+/* other/ours */
+void report_at_least(const char *name, const side *ours, const side *other, double limit, const char *unit);
+/* no limit */
+void report_beside(const char *name, const side *ours, const side *other, const char *unit);
+void report_value(const char *name, double value, double limit,
+                  const char *unit); /* "ms", "MB", "x": at most; "x" at least */
 void report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void report_bits(const char *name, bool known, bool same);
-void report_close(void);                 /* how many are ok, short, not measured */
+void report_close(void); /* how many are ok, short, not measured */
 
 /* machine.c */
-void machine_describe(void);             /* lines of the report: processor, cores, compiler, system; nothing that names a computer */
-void machine_slug(char *out, size_t size);               /* "amd-epyc-avx2": for a file's name */
+/* lines of the report: processor, cores, compiler, system; nothing that names a computer */
+void machine_describe(void);
+void machine_slug(char *out, size_t size); /* "amd-epyc-avx2": for a file's name */
 int machine_cores(void);
 
 /* process.c: programs, with a cache of their own. */
-typedef struct process { double seconds; long kilobytes; int status; char out[256]; } process;     /* out: the first line it printed */
-bool process_open(void);                 /* makes the directory that is the programs' cache */
+/* out: the first line it printed */
+typedef struct process {
+    double seconds;
+    long kilobytes;
+    int status;
+    char out[256];
+} process;
+bool process_open(void); /* makes the directory that is the programs' cache */
 void process_close(void);
-void process_forget(void);               /* empties it */
-process process_run(const char *const *words);           /* status -1: could not be started */
-const char *process_motus(void);         /* the program: $MOTUS or build/motus */
-const char *process_python(void);        /* one that has NumPy, or NULL */
+void process_forget(void);                     /* empties it */
+process process_run(const char *const *words); /* status -1: could not be started */
+const char *process_motus(void);               /* the program: $MOTUS or build/motus */
+const char *process_python(void);              /* one that has NumPy, or NULL */
 
 /* ours_run.c: one system through the library. */
 typedef struct ours ours;
-/* `set` is a NULL-ended list of "name=expression" or NULL; steps: as many as will be taken. NULL: it cannot be had, and why was reported. */
-ours *ours_open(const char *file, const char *const *set, const char *method, double step, int64_t steps, const char *machine, int threads);
+/* `set` is a NULL-ended list of "name=expression" or NULL; steps: as many as will be taken. NULL: it cannot be had,
+ * and why was reported. */
+ours *ours_open(const char *file, const char *const *set, const char *method, double step, int64_t steps,
+                const char *machine, int threads);
 double ours_step(ours *, int64_t steps); /* seconds */
 bool ours_state(ours *, double *x, double *v);
 void ours_close(ours *);
-char *read_text(const char *file);       /* or NULL */
+char *read_text(const char *file); /* or NULL */
 
 /* ours_ensemble.c */
-double ours_ensemble(const char *file, const char *method, int64_t steps, double step, const char *varied, const double *values,
-                     size_t count, double *x, double *v, int threads);
+double ours_ensemble(const char *file, const char *method, int64_t steps, double step, const char *varied,
+                     const double *values, size_t count, double *x, double *v, int threads);
 
 /* The comparisons, one file each. */
 void compare_ensembles(void);

@@ -8,7 +8,8 @@
 #include <string.h>
 
 enum { COUNT = 65536, STEPS = 1000, ROUNDS = 9, CHECKED = 9, FEW = 64 };
-static const char *const oscillator_file = "models/driven-oscillator.motus", *const pendulum_file = "models/pendulum.motus";
+static const char *const oscillator_file = "models/driven-oscillator.motus", *const pendulum_file =
+                                                                                 "models/pendulum.motus";
 static const double STEP = 0.001, PENDULUM_STEP = 0.01;
 
 /* Everything a side needs; each side has its own results, so that they can be compared afterwards. */
@@ -28,7 +29,8 @@ static double per_step(double seconds, const job *j) { return seconds / (double)
 static double by_ours(void *p)
 {
     job *j = p;
-    return per_step(ours_ensemble(j->file, j->method, STEPS, j->step, j->varied, j->values, j->count, j->x, j->v, j->threads), j);
+    return per_step(
+        ours_ensemble(j->file, j->method, STEPS, j->step, j->varied, j->values, j->count, j->x, j->v, j->threads), j);
 }
 
 static double by_hand(void *p)
@@ -50,7 +52,8 @@ static double by_odeint(void *p)
 {
     job *j = p;
     double start = now();
-    return peer_odeint(j->order4, j->block, j->count, j->values, j->step, STEPS, j->x) ? per_step(now() - start, j) : NAN;
+    return peer_odeint(j->order4, j->block, j->count, j->values, j->step, STEPS, j->x) ? per_step(now() - start, j)
+                                                                                       : NAN;
 }
 
 static double by_gsl(void *p)
@@ -70,8 +73,9 @@ static double by_sundials(void *p)
 static double by_scipy(void *p)
 {
     job *j = p;
-    const char *python = process_python(), *words[] = { python, "bench/peers/scipy_ensemble.py", "0.05", "0.1", "0.15", "0.1", "0.05", NULL };
-    process run = python ? process_run(words) : (process){ .status = -1 };
+    const char *python = process_python(),
+               *words[] = {python, "bench/peers/scipy_ensemble.py", "0.05", "0.1", "0.15", "0.1", "0.05", NULL};
+    process run = python ? process_run(words) : (process){.status = -1};
     double took;
     return run.status == 0 && sscanf(run.out, "%lf %lf", &j->x[0], &took) == 2 ? took / STEPS : NAN;
 }
@@ -105,10 +109,11 @@ static bool same_bits(const job *j, const double *x, const double *v)
         size_t k = (size_t)c * (j->count - 1) / (CHECKED - 1);
         char set[64];
         snprintf(set, sizeof set, "%s=%.17g", j->varied, j->values[k]);
-        const char *const sets[] = { set, NULL };
+        const char *const sets[] = {set, NULL};
         ours *o = ours_open(j->file, sets, j->method, j->step, STEPS, "interpreter", 1);
         double xs, vs;
-        same = o && !isnan(ours_step(o, STEPS)) && ours_state(o, &xs, &vs) && !memcmp(&xs, &x[k], 8) && !memcmp(&vs, &v[k], 8);
+        same = o && !isnan(ours_step(o, STEPS)) && ours_state(o, &xs, &vs) && !memcmp(&xs, &x[k], 8) &&
+               !memcmp(&vs, &v[k], 8);
         ours_close(o);
     }
     return same;
@@ -138,8 +143,10 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
 {
     char name[80];
     const char *method = all.method;
-    job ours = job_with(all, COUNT), hand = job_with(all, COUNT), loose = job_with(all, COUNT), other = job_with(all, COUNT / 8);
-    job few = job_with(all, FEW), fewer = job_with(all, FEW), python = job_with(all, 1), position = job_with(all, COUNT);
+    job ours = job_with(all, COUNT), hand = job_with(all, COUNT), loose = job_with(all, COUNT),
+        other = job_with(all, COUNT / 8);
+    job few = job_with(all, FEW), fewer = job_with(all, FEW), python = job_with(all, 1),
+        position = job_with(all, COUNT);
     hand.kind = kind, loose.kind = free_kind, position.kind = HAND_FREE_POSITION;
     other.order4 = kind == HAND_RK4;
     oscillators trial = hand.hand;
@@ -148,8 +155,14 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
     hand_oscillators_choose(free_kind, &trial);
     hand_oscillators_choose(HAND_FREE_POSITION, &trial);
     other.block = odeint_block(&other);
-    side sides[] = { SIDE(by_ours, &ours), SIDE(by_hand, &hand), SIDE(by_hand, &loose), SIDE(by_odeint, &other), SIDE(by_gsl, &few),
-                     SIDE(by_sundials, &fewer), SIDE_ROUNDS(by_scipy, &python, 1), SIDE(by_hand, &position) };
+    side sides[] = {SIDE(by_ours, &ours),
+                    SIDE(by_hand, &hand),
+                    SIDE(by_hand, &loose),
+                    SIDE(by_odeint, &other),
+                    SIDE(by_gsl, &few),
+                    SIDE(by_sundials, &fewer),
+                    SIDE_ROUNDS(by_scipy, &python, 1),
+                    SIDE(by_hand, &position)};
     measure(sides, kind == HAND_RK4 ? 7 : 4, ROUNDS);
     if (kind == HAND_VERLET) measure(&sides[7], 1, ROUNDS);
 
@@ -159,24 +172,31 @@ static void compare(job all, hand_kind kind, hand_kind free_kind)
                 !memcmp(ours.x, hand.x, COUNT * 8) && !memcmp(ours.v, hand.v, COUNT * 8));
     report_at_most(NAMED("%s: by hand, our bits", method), &sides[0], &sides[1], 1.15, "ns");
     report_at_most(NAMED("%s: by hand, the best that can be", method), &sides[0], &sides[2], 1.5, "ns");
-    if (kind == HAND_VERLET) report_beside(NAMED("%s: by hand, in positions alone (more round-off)", method), sides[0].taken ? &sides[0] : NULL, &sides[7], "ns");
+    if (kind == HAND_VERLET)
+        report_beside(NAMED("%s: by hand, in positions alone (more round-off)", method),
+                      sides[0].taken ? &sides[0] : NULL, &sides[7], "ns");
     report_at_least(NAMED("%s: odeint, blocks of %d", method, other.block), &sides[0], &sides[3], 2.5, "ns");
     if (kind == HAND_RK4) {
         report_at_least(NAMED("%s: GSL, one by one", method), &sides[0], &sides[4], 40, "ns");
         report_at_least(NAMED("%s: SUNDIALS, one by one", method), &sides[0], &sides[5], 40, "ns");
         report_at_least(NAMED("%s: SciPy, one by one", method), &sides[0], &sides[6], 40, "ns");
     }
-    report_note("by hand: %s; the best: %s, off by %.0e", hand_oscillators_chosen(kind), hand_oscillators_chosen(free_kind), distance(hand.x, loose.x, COUNT));
-    if (sides[3].taken && distance(hand.x, other.x, other.count) > 1e-12) report_note("odeint's answer differs by %.0e", distance(hand.x, other.x, other.count));
-    if (sides[4].taken && distance(hand.x, few.x, FEW) > 1e-12) report_note("GSL's answer differs by %.0e", distance(hand.x, few.x, FEW));
-    if (sides[5].taken && distance(hand.x, fewer.x, FEW) > 1e-12) report_note("SUNDIALS' answer differs by %.0e", distance(hand.x, fewer.x, FEW));
-    job_free(&ours), job_free(&hand), job_free(&loose), job_free(&other), job_free(&few), job_free(&fewer), job_free(&python), job_free(&position);
+    report_note("by hand: %s; the best: %s, off by %.0e", hand_oscillators_chosen(kind),
+                hand_oscillators_chosen(free_kind), distance(hand.x, loose.x, COUNT));
+    if (sides[3].taken && distance(hand.x, other.x, other.count) > 1e-12)
+        report_note("odeint's answer differs by %.0e", distance(hand.x, other.x, other.count));
+    if (sides[4].taken && distance(hand.x, few.x, FEW) > 1e-12)
+        report_note("GSL's answer differs by %.0e", distance(hand.x, few.x, FEW));
+    if (sides[5].taken && distance(hand.x, fewer.x, FEW) > 1e-12)
+        report_note("SUNDIALS' answer differs by %.0e", distance(hand.x, fewer.x, FEW));
+    job_free(&ours), job_free(&hand), job_free(&loose), job_free(&other), job_free(&few), job_free(&fewer),
+        job_free(&python), job_free(&position);
 }
 
 static void compare_pendulums(job all)
 {
     job ours = job_with(all, COUNT), hand = job_with(all, COUNT / 4);
-    side sides[] = { SIDE(by_ours, &ours), SIDE(by_pendulum_hand, &hand) };
+    side sides[] = {SIDE(by_ours, &ours), SIDE(by_pendulum_hand, &hand)};
     measure(sides, 2, ROUNDS);
     report_at_most("velocity-verlet: by hand, libmvec's sine", &sides[0], &sides[1], 1, "ns");
     job_free(&ours), job_free(&hand);
@@ -186,7 +206,7 @@ static void compare_threads(job all, const char *name)
 {
     job one = job_with(all, COUNT), two = job_with(all, COUNT);
     two.threads = 2;
-    side sides[] = { SIDE(by_ours, &one), SIDE(by_ours, &two) };
+    side sides[] = {SIDE(by_ours, &one), SIDE(by_ours, &two)};
     measure(sides, 2, ROUNDS);
     report_at_least(name, &sides[1], &sides[0], 1.9, "ns");
     job_free(&one), job_free(&two);
@@ -200,11 +220,16 @@ void compare_ensembles(void)
         theta[k] = 0.1 + 2.9 * (double)k / COUNT;
     }
     hand_cosines(STEP, STEPS, whole, half);
-    job j = { .file = oscillator_file, .varied = "F", .threads = 1, .step = STEP, .values = F,
-              .hand = { .F = F, .step = STEP, .steps = STEPS, .whole = whole, .half = half } };
+    job j = {.file = oscillator_file,
+             .varied = "F",
+             .threads = 1,
+             .step = STEP,
+             .values = F,
+             .hand = {.F = F, .step = STEP, .steps = STEPS, .whole = whole, .half = half}};
     job verlet = j, leapfrog = j, rk4 = j, pendulum = j;
     verlet.method = "verlet", leapfrog.method = "velocity-verlet", rk4.method = "rk4";
-    pendulum.method = "velocity-verlet", pendulum.file = pendulum_file, pendulum.varied = "theta(0)", pendulum.values = theta;
+    pendulum.method = "velocity-verlet", pendulum.file = pendulum_file, pendulum.varied = "theta(0)",
+    pendulum.values = theta;
     pendulum.step = PENDULUM_STEP;
 
     report_section("An ensemble of 65536 driven oscillators, 1000 steps, one core", "per trajectory and step");

@@ -7,17 +7,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELLS = 1000000, CHECKED = 1003, CHAIN_STEPS = 32, CHAIN_ROUNDS = 9, BODIES = 1000, GRAVITY_STEPS = 8, GRAVITY_ROUNDS = 9, ALWAYS = 1000000 };
+enum {
+    CELLS = 1000000,
+    CHECKED = 1003,
+    CHAIN_STEPS = 32,
+    CHAIN_ROUNDS = 9,
+    BODIES = 1000,
+    GRAVITY_STEPS = 8,
+    GRAVITY_ROUNDS = 9,
+    ALWAYS = 1000000
+};
 static const double CHAIN_STEP = 0.1, BETA = 0.7, GRAVITY_STEP = 0.001, GRAVITY = 0.001;
 
 /* ---- the chain ---- */
 
-typedef struct chain_job { ours *ours; chain chain; int levels, threads; size_t tile; double *x, *v; } chain_job;
+typedef struct chain_job {
+    ours *ours;
+    chain chain;
+    int levels, threads;
+    size_t tile;
+    double *x, *v;
+} chain_job;
 
 static chain chain_create(size_t N)
 {
-    chain c = { .N = N, .beta = BETA, .step = CHAIN_STEP };
-    double **arrays[] = { &c.x, &c.v, &c.a };
+    chain c = {.N = N, .beta = BETA, .step = CHAIN_STEP};
+    double **arrays[] = {&c.x, &c.v, &c.a};
     for (int k = 0; k < 3; k++) {
         void *memory;
         if (posix_memalign(&memory, 64, (N + 16) * sizeof(double))) abort();
@@ -33,14 +48,14 @@ static ours *chain_ours(size_t N, const char *machine, int threads)
 {
     char set[32];
     snprintf(set, sizeof set, "N=%zu", N);
-    const char *const sets[] = { set, NULL };
+    const char *const sets[] = {set, NULL};
     return ours_open("models/chain.motus", sets, "velocity-verlet", CHAIN_STEP, ALWAYS, machine, threads);
 }
 
-#define PER_CELL(call)                                          \
-    chain_job *j = p;                                           \
-    double start = now();                                       \
-    call;                                                       \
+#define PER_CELL(call)    \
+    chain_job *j = p;     \
+    double start = now(); \
+    call;                 \
     return (now() - start) / (double)j->chain.N / CHAIN_STEPS
 
 static double by_chain_ours(void *p)
@@ -50,14 +65,24 @@ static double by_chain_ours(void *p)
 }
 static double by_plain(void *p) { PER_CELL(hand_chain_plain(&j->chain, CHAIN_STEPS, CHAIN_STEP)); }
 static double by_fused(void *p) { PER_CELL(hand_chain_fused(&j->chain, CHAIN_STEPS, CHAIN_STEP)); }
-static double by_skewed(void *p) { PER_CELL(hand_chain_skewed(&j->chain, CHAIN_STEPS, j->levels, j->tile, CHAIN_STEP)); }
-static double by_skewed_free(void *p) { PER_CELL(hand_chain_skewed_free(&j->chain, CHAIN_STEPS, j->levels, j->tile, CHAIN_STEP)); }
+static double by_skewed(void *p)
+{
+    PER_CELL(hand_chain_skewed(&j->chain, CHAIN_STEPS, j->levels, j->tile, CHAIN_STEP));
+}
+static double by_skewed_free(void *p)
+{
+    PER_CELL(hand_chain_skewed_free(&j->chain, CHAIN_STEPS, j->levels, j->tile, CHAIN_STEP));
+}
 /* Turns of half the steps at most, so that there is work for two. */
 static double by_threads(void *p)
 {
-    PER_CELL(hand_chain_threads(&j->chain, CHAIN_STEPS, j->levels < CHAIN_STEPS / 4 ? j->levels : CHAIN_STEPS / 4, j->tile, CHAIN_STEP, j->threads));
+    PER_CELL(hand_chain_threads(&j->chain, CHAIN_STEPS, j->levels < CHAIN_STEPS / 4 ? j->levels : CHAIN_STEPS / 4,
+                                j->tile, CHAIN_STEP, j->threads));
 }
-static double by_stream(void *p) { PER_CELL(for (int n = 0; n < CHAIN_STEPS; n++) hand_stream(j->chain.x + 1, j->chain.v + 1, CELLS, 1)); }
+static double by_stream(void *p)
+{
+    PER_CELL(for (int n = 0; n < CHAIN_STEPS; n++) hand_stream(j->chain.x + 1, j->chain.v + 1, CELLS, 1));
+}
 static double by_chain_odeint(void *p)
 {
     chain_job *j = p;
@@ -68,8 +93,8 @@ static double by_chain_odeint(void *p)
 
 static void choose_tile(chain_job *j)
 {
-    static const int levels[] = { 8, 16, 32 };
-    static const size_t tiles[] = { 256, 512, 1024, 2048 };
+    static const int levels[] = {8, 16, 32};
+    static const size_t tiles[] = {256, 512, 1024, 2048};
     double least = INFINITY;
     int best_levels = 16;
     size_t best_tile = 512;
@@ -108,7 +133,7 @@ static bool same_chain(void)
 static void compare_chain(void)
 {
     report_section("A chain of 1e6 cells by velocity-verlet", "per cell and step");
-    chain_job one = { .ours = chain_ours(CELLS, "compiled", 1), .chain = chain_create(CELLS) }, two = one;
+    chain_job one = {.ours = chain_ours(CELLS, "compiled", 1), .chain = chain_create(CELLS)}, two = one;
     one.x = calloc(CELLS + 2, sizeof *one.x);
     one.v = calloc(CELLS + 2, sizeof *one.v);
     two.ours = chain_ours(CELLS, "compiled", 2);
@@ -116,8 +141,15 @@ static void compare_chain(void)
     for (size_t i = 1; i <= CELLS; i++) one.chain.x[i] = sin(3.14159265358979 * (double)i / (CELLS + 1));
     choose_tile(&one);
     two.levels = one.levels, two.tile = one.tile;
-    side sides[] = { SIDE(by_chain_ours, &one), SIDE(by_plain, &one), SIDE(by_fused, &one), SIDE(by_skewed, &one), SIDE(by_skewed_free, &one), SIDE(by_stream, &one),
-                     SIDE_ROUNDS(by_chain_odeint, &one, 3), SIDE(by_chain_ours, &two), SIDE(by_threads, &two) };
+    side sides[] = {SIDE(by_chain_ours, &one),
+                    SIDE(by_plain, &one),
+                    SIDE(by_fused, &one),
+                    SIDE(by_skewed, &one),
+                    SIDE(by_skewed_free, &one),
+                    SIDE(by_stream, &one),
+                    SIDE_ROUNDS(by_chain_odeint, &one, 3),
+                    SIDE(by_chain_ours, &two),
+                    SIDE(by_threads, &two)};
     measure(sides, 9, CHAIN_ROUNDS);
     const side *best = median(&sides[2]) < median(&sides[3]) ? &sides[2] : &sides[3];
     report_bits("the hand-written bits are ours", true, same_chain());
@@ -138,9 +170,16 @@ static void compare_chain(void)
 /* ---- gravity ---- */
 
 typedef void accelerations(size_t N, double G, const double *x, double *a);
-typedef struct gravity_job { ours *ours; accelerations *accelerate; double x[3 * BODIES], v[3 * BODIES], a[3 * BODIES]; } gravity_job;
+typedef struct gravity_job {
+    ours *ours;
+    accelerations *accelerate;
+    double x[3 * BODIES], v[3 * BODIES], a[3 * BODIES];
+} gravity_job;
 
-static ours *gravity_ours(const char *machine) { return ours_open("bench/gravity.motus", NULL, "velocity-verlet", GRAVITY_STEP, ALWAYS, machine, 1); }
+static ours *gravity_ours(const char *machine)
+{
+    return ours_open("bench/gravity.motus", NULL, "velocity-verlet", GRAVITY_STEP, ALWAYS, machine, 1);
+}
 
 /* Ours come body by body; the hand-written sums want component by component, as the compiled machine keeps them. */
 static void by_component(const double *from, double *to)
@@ -194,9 +233,9 @@ static bool same_gravity(gravity_job *j, ours *o)
 
 static void compare_gravity(void)
 {
-    static accelerations *const forms[] = { hand_gravity, hand_gravity_approximate, hand_gravity_half };
+    static accelerations *const forms[] = {hand_gravity, hand_gravity_approximate, hand_gravity_half};
     static gravity_job jobs[4];
-    double x[3 * BODIES] = { 0 };
+    double x[3 * BODIES] = {0};
     report_section("Gravity among 1000 bodies by velocity-verlet", "per pair (ordered) and step");
     ours *start = gravity_ours("interpreter");
     if (start) ours_state(start, x, NULL);
@@ -206,7 +245,8 @@ static void compare_gravity(void)
         by_component(x, jobs[k + 1].x);
     }
     bool same = same_gravity(&jobs[1], start);
-    side sides[] = { SIDE(by_gravity_ours, &jobs[0]), SIDE(by_gravity_hand, &jobs[1]), SIDE(by_gravity_hand, &jobs[2]), SIDE(by_gravity_hand, &jobs[3]) };
+    side sides[] = {SIDE(by_gravity_ours, &jobs[0]), SIDE(by_gravity_hand, &jobs[1]), SIDE(by_gravity_hand, &jobs[2]),
+                    SIDE(by_gravity_hand, &jobs[3])};
     measure(sides, 4, GRAVITY_ROUNDS);
     report_bits("the hand-written bits are ours", true, same);
     report_at_most("by hand, root and division rounded, our bits", &sides[0], &sides[1], 1.2, "ns");

@@ -1,4 +1,5 @@
-/* One trajectory, ten million steps: against the loop one would write, and against the time that the recursion needs by itself. */
+/* One trajectory, ten million steps: against the loop one would write, and against the time that the recursion needs
+ * by itself. */
 #include "bench/bench.h"
 #include "bench/hand/hand.h"
 
@@ -37,10 +38,12 @@ static double by_bound(void *p)
 void compare_single(void)
 {
     report_section("One driven oscillator, 1e7 steps of verlet", "per step");
-    side sides[] = { SIDE(by_ours, NULL), SIDE(by_plain_loop, NULL), SIDE(by_bound, NULL) };
+    side sides[] = {SIDE(by_ours, NULL), SIDE(by_plain_loop, NULL), SIDE(by_bound, NULL)};
     measure(sides, 3, ROUNDS);
     report_at_least("a plain loop in C, -O3", &sides[0], &sides[1], 1.5, "ns");
     report_at_most("the recursion's own latency", &sides[0], &sides[2], 1.5, "ns");
-    report_note("from x to the next x lie a product (%.2f ns), three fused operations (%.2f each) and a sum (%.2f);", last.multiply, last.fused, last.add);
-    report_note("the recursion alone, its drive held constant, takes %.2f ns. The two answers differ by %.0e.", last.chain, fabs(ours_x - plain_x));
+    report_note("from x to the next x lie a product (%.2f ns), three fused operations (%.2f each) and a sum (%.2f);",
+                last.multiply, last.fused, last.add);
+    report_note("the recursion alone, its drive held constant, takes %.2f ns. The two answers differ by %.0e.",
+                last.chain, fabs(ours_x - plain_x));
 }

@@ -41,21 +41,24 @@ static void processor(char *out, size_t size)
         struct utsname u;
         snprintf(name, sizeof name, "%s", uname(&u) ? "unknown processor" : u.machine);
     }
-    if (value_of("/proc/cpuinfo", "cpu family", family, sizeof family) && value_of("/proc/cpuinfo", "model\t", model, sizeof model))
+    if (value_of("/proc/cpuinfo", "cpu family", family, sizeof family) &&
+        value_of("/proc/cpuinfo", "model\t", model, sizeof model))
         snprintf(out, size, "%s (family %s, model %s)", name, family, model);
-    else snprintf(out, size, "%s", name);
+    else
+        snprintf(out, size, "%s", name);
 }
 
 void machine_describe(void)
 {
     char cpu[300], os[200] = "unknown system", cache[64] = "?";
-    struct utsname u = { 0 };
+    struct utsname u = {0};
     processor(cpu, sizeof cpu);
     value_of("/etc/os-release", "PRETTY_NAME", os, sizeof os);
     value_of("/proc/cpuinfo", "cache size", cache, sizeof cache);
     uname(&u);
-    report_text("motus %s on %s, %d cores, second cache %s, %s\n", motus_version(), cpu, machine_cores(), cache, hand_lanes());
-    double load[1] = { 0 };
+    report_text("motus %s on %s, %d cores, second cache %s, %s\n", motus_version(), cpu, machine_cores(), cache,
+                hand_lanes());
+    double load[1] = {0};
     (void)!getloadavg(load, 1);
     report_text("%s, %s %.*s, load %.1f before the start, compiled by "
 #ifdef __clang__
@@ -63,7 +66,8 @@ void machine_describe(void)
 #else
                 "gcc "
 #endif
-                __VERSION__ "\n", os, u.sysname, (int)strcspn(u.release, "-+"), u.release, load[0]);
+                __VERSION__ "\n",
+                os, u.sysname, (int)strcspn(u.release, "-+"), u.release, load[0]);
 }
 
 void machine_slug(char *out, size_t size)
@@ -74,8 +78,10 @@ void machine_slug(char *out, size_t size)
     strncat(text, hand_lanes(), sizeof text - strlen(text) - 1);
     size_t n = 0;
     for (const char *p = text; *p && n + 1 < size; p++) {
-        if (isalnum((unsigned char)*p)) out[n++] = (char)tolower((unsigned char)*p);
-        else if (n && out[n - 1] != '-') out[n++] = '-';
+        if (isalnum((unsigned char)*p))
+            out[n++] = (char)tolower((unsigned char)*p);
+        else if (n && out[n - 1] != '-')
+            out[n++] = '-';
     }
     out[n] = 0;
 }

@@ -15,7 +15,7 @@ double now(void)
 
 void measure(side *sides, int count, int rounds)
 {
-    bool absent[16] = { false };
+    bool absent[16] = {false};
     for (int k = 0; k < count; k++) sides[k].taken = 0;
     /* The first round loads code and data; a side that answers NaN in it is not asked again. */
     for (int k = 0; k < count; k++)

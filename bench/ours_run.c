@@ -5,7 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct ours { motus_system *system; motus_run *run; char *text; };
+struct ours {
+    motus_system *system;
+    motus_run *run;
+    char *text;
+};
 
 char *read_text(const char *file)
 {
@@ -16,7 +20,8 @@ char *read_text(const char *file)
     return text;
 }
 
-ours *ours_open(const char *file, const char *const *set, const char *method, double step, int64_t steps, const char *machine, int threads)
+ours *ours_open(const char *file, const char *const *set, const char *method, double step, int64_t steps,
+                const char *machine, int threads)
 {
     motus_error error = motus_default_error();
     motus_text_def text = motus_default_text();

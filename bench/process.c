@@ -31,7 +31,8 @@ bool process_open(void)
         directory[0] = 0;
         return false;
     }
-    return !setenv("XDG_CACHE_HOME", directory, 1) && !setenv("NUMBA_CACHE_DIR", directory, 1) && !setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
+    return !setenv("XDG_CACHE_HOME", directory, 1) && !setenv("NUMBA_CACHE_DIR", directory, 1) &&
+           !setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
 }
 
 void process_forget(void)
@@ -47,7 +48,7 @@ void process_close(void)
 
 process process_run(const char *const *words)
 {
-    process p = { .status = -1 };
+    process p = {.status = -1};
     int ends[2];
     if (pipe(ends)) return p;
     posix_spawn_file_actions_t actions;
@@ -88,9 +89,9 @@ const char *process_motus(void)
 
 const char *process_python(void)
 {
-    static const char *const names[] = { "python3", "/usr/bin/python3" };
+    static const char *const names[] = {"python3", "/usr/bin/python3"};
     for (int k = 0; k < 2; k++) {
-        const char *words[] = { names[k], "-c", "import numpy", NULL };
+        const char *words[] = {names[k], "-c", "import numpy", NULL};
         if (process_run(words).status == 0) return names[k];
     }
     return NULL;

@@ -49,19 +49,25 @@ void report_section(const char *title, const char *what)
 static const char *figure(double value, const char *unit, char *out, size_t size)
 {
     double scaled = !strcmp(unit, "ns") ? value * 1e9 : !strcmp(unit, "ms") ? value * 1e3 : value;
-    if (isnan(value)) snprintf(out, size, "-");
-    else snprintf(out, size, "%.*f %s", scaled < 1 ? 3 : scaled < 10 ? 2 : scaled < 100 ? 1 : 0, scaled, unit);
+    if (isnan(value))
+        snprintf(out, size, "-");
+    else
+        snprintf(out, size, "%.*f %s", scaled < 1 ? 3 : scaled < 10 ? 2 : scaled < 100 ? 1 : 0, scaled, unit);
     return out;
 }
 
-static void line(const char *name, double ours, double other, double value, const char *limit, int verdict, const char *unit)
+static void line(const char *name, double ours, double other, double value, const char *limit, int verdict,
+                 const char *unit)
 {
     char a[32], b[32], r[32];
-    if (isnan(value)) snprintf(r, sizeof r, "-");
-    else snprintf(r, sizeof r, "%.*f", value < 0.1 ? 4 : value < 10 ? 2 : value < 100 ? 1 : 0, value);
+    if (isnan(value))
+        snprintf(r, sizeof r, "-");
+    else
+        snprintf(r, sizeof r, "%.*f", value < 0.1 ? 4 : value < 10 ? 2 : value < 100 ? 1 : 0, value);
     const char *word = verdict < 0 ? "" : isnan(value) ? "not measured" : verdict ? "ok" : "short";
     if (verdict >= 0) *(isnan(value) ? &unmeasured : verdict ? &good : &missed) += 1;
-    report_text("  %-56s  %9s  %9s  %7s  %8s%s%s\n", name, figure(ours, unit, a, sizeof a), figure(other, unit, b, sizeof b), r, limit, *word ? "  " : "", word);
+    report_text("  %-56s  %9s  %9s  %7s  %8s%s%s\n", name, figure(ours, unit, a, sizeof a),
+                figure(other, unit, b, sizeof b), r, limit, *word ? "  " : "", word);
 }
 
 void report_at_most(const char *name, const side *ours, const side *other, double limit, const char *unit)
@@ -97,7 +103,10 @@ void report_value(const char *name, double value, double limit, const char *unit
 void report_bits(const char *name, bool known, bool same)
 {
     *(!known ? &unmeasured : same ? &good : &missed) += 1;
-    report_text("  %-56s  %9s  %9s  %7s  %8s  %s\n", name, "", "", "", "the same", !known ? "not measured" : same ? "ok" : "short");
+    report_text("  %-56s  %9s  %9s  %7s  %8s  %s\n", name, "", "", "", "the same",
+                !known ? "not measured"
+                : same ? "ok"
+                       : "short");
 }
 
 void report_close(void) { report_text("\n%d ok, %d short, %d not measured\n", good, missed, unmeasured); }

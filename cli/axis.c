@@ -1,6 +1,7 @@
 /* One --vary or --random, read.
  *
- *     NAME=FROM:TO:COUNT   NAME=log:FROM:TO:COUNT   NAME=A,B,C   NAME=@FILE:COLUMN        NAME=FROM:TO   NAME=normal:MEAN:DEVIATION
+ *     NAME=FROM:TO:COUNT   NAME=log:FROM:TO:COUNT NAME=A,B,C NAME=@FILE:COLUMN NAME=FROM:TO
+ *                          NAME=normal:MEAN:DEVIATION
  *
  * Invariant: every number in it is finite, every count at least 1; numbers are constant expressions of the language.
  */
@@ -17,7 +18,7 @@ enum { PARTS = 5 };
 
 typedef struct reading {
     const char *option, *spec;
-    char *text;                  /* a copy, cut into parts */
+    char *text; /* a copy, cut into parts */
     char where[MOTUS_TEXT_MAX / 2];
     motus_error *err;
 } reading;
@@ -26,15 +27,16 @@ static motus_status wrong(const reading *r, const char *what)
 {
     bool drawn = strcmp(r->option, "--random") == 0;
     complain(r->err, MOTUS_ARGUMENT, "%s: %s", r->where, what);
-    complain_hint(r->err, "%s", drawn ? "F=0:1 or F=normal:MEAN:DEVIATION" : "F=0:1:11, F=log:0.1:10:5, F=1,2,5 or F=@values.csv:column");
+    complain_hint(r->err, "%s",
+                  drawn ? "F=0:1 or F=normal:MEAN:DEVIATION"
+                        : "F=0:1:11, F=log:0.1:10:5, F=1,2,5 or F=@values.csv:column");
     return MOTUS_ARGUMENT;
 }
 
 static char *trim(char *s)
 {
     s += strspn(s, " ");
-    for (char *end = s + strlen(s); end > s && end[-1] == ' ';)
-        *--end = 0;
+    for (char *end = s + strlen(s); end > s && end[-1] == ' ';) *--end = 0;
     return s;
 }
 
@@ -46,15 +48,12 @@ static size_t cut(char *s, char mark, char **parts, size_t most)
     char *part = s;
     for (;; s++) {
         depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
-        if (*s && !(*s == mark && depth <= 0))
-            continue;
+        if (*s && !(*s == mark && depth <= 0)) continue;
         bool last = !*s;
         *s = 0;
-        if (count < most)
-            parts[count] = trim(part);
+        if (count < most) parts[count] = trim(part);
         count++;
-        if (last || count > most)
-            return count;
+        if (last || count > most) return count;
         part = s + 1;
     }
 }
@@ -70,22 +69,17 @@ static motus_status read_range(const reading *r, char **parts, bool logarithmic,
     int64_t count;
     const char *rest;
     motus_status status = number(r, parts[0], &from);
-    if (!status)
-        status = number(r, parts[1], &to);
-    if (status)
-        return status;
-    if (!typed_count(parts[2], &count, &rest) || *rest)
-        return wrong(r, "its count is not a whole number above 0");
+    if (!status) status = number(r, parts[1], &to);
+    if (status) return status;
+    if (!typed_count(parts[2], &count, &rest) || *rest) return wrong(r, "its count is not a whole number above 0");
     if ((uint64_t)count > GRID_MOST)
         return complain(r->err, MOTUS_LIMIT, "%s: a count above %llu", r->where, (unsigned long long)GRID_MOST);
-    if (count == 1 && from != to)
-        return wrong(r, "one value cannot be at both ends");
+    if (count == 1 && from != to) return wrong(r, "one value cannot be at both ends");
     if (logarithmic && (from == 0 || to == 0 || (from > 0) != (to > 0)))
         return wrong(r, "equal ratios need two ends of the same sign, and not 0");
     if (logarithmic && fabs(log10(fabs(to)) - log10(fabs(from))) > 300)
         return wrong(r, "the ends are more than 300 decades apart");
-    if (!logarithmic && !isfinite((double)count * (fabs(from) + fabs(to))))
-        return wrong(r, "its ends are too large");
+    if (!logarithmic && !isfinite((double)count * (fabs(from) + fabs(to)))) return wrong(r, "its ends are too large");
     a->kind = AXIS_RANGE;
     a->range = logarithmic ? range_log(from, to, (uint64_t)count) : range_linear(from, to, (uint64_t)count);
     a->count = (uint64_t)count;
@@ -95,15 +89,13 @@ static motus_status read_range(const reading *r, char **parts, bool logarithmic,
 static motus_status read_list(const reading *r, char *text, axis *a)
 {
     size_t most = 1;
-    for (const char *s = text; *s; s++)
-        most += *s == ',';
+    for (const char *s = text; *s; s++) most += *s == ',';
     char **parts = malloc(most * sizeof *parts);
     a->list = malloc(most * sizeof *a->list);
     motus_status status = parts && a->list ? MOTUS_OK : complain_memory(r->err);
     a->kind = AXIS_LIST;
     a->count = status ? 0 : cut(text, ',', parts, most);
-    for (size_t i = 0; !status && i < a->count; i++)
-        status = number(r, parts[i], &a->list[i]);
+    for (size_t i = 0; !status && i < a->count; i++) status = number(r, parts[i], &a->list[i]);
     free(parts);
     return status;
 }
@@ -112,18 +104,15 @@ static motus_status read_vary(const reading *r, char *text, axis *a)
 {
     if (*text == '@') {
         char *colon = strrchr(text, ':');
-        if (colon)
-            *colon = 0;
+        if (colon) *colon = 0;
         a->kind = AXIS_LIST;
         a->path = strdup(trim(text + 1));
-        if (!a->path)
-            return complain_memory(r->err);
+        if (!a->path) return complain_memory(r->err);
         return axis_file(a->path, colon ? trim(colon + 1) : NULL, &a->list, &a->count, r->err);
     }
     char *parts[PARTS] = {NULL};
     char *copy = strdup(text);
-    if (!copy)
-        return complain_memory(r->err);
+    if (!copy) return complain_memory(r->err);
     size_t count = cut(copy, ':', parts, PARTS);
     motus_status status;
     if (count == 1)
@@ -147,15 +136,11 @@ static motus_status read_random(const reading *r, char *text, axis *a)
     char *parts[PARTS];
     size_t count = cut(text, ':', parts, PARTS);
     bool normal = count == 3 && strcmp(parts[0], "normal") == 0;
-    if (count != 2 && !normal)
-        return wrong(r, "this is no distribution");
+    if (count != 2 && !normal) return wrong(r, "this is no distribution");
     motus_status status = number(r, parts[normal], &a->range.from);
-    if (!status)
-        status = number(r, parts[normal + 1], &a->range.to);
-    if (status)
-        return status;
-    if (normal && a->range.to < 0)
-        return wrong(r, "a deviation is not negative");
+    if (!status) status = number(r, parts[normal + 1], &a->range.to);
+    if (status) return status;
+    if (normal && a->range.to < 0) return wrong(r, "a deviation is not negative");
     if (!isfinite(normal ? fabs(a->range.from) + 40 * a->range.to : a->range.to - a->range.from))
         return wrong(r, "its numbers are too large");
     a->kind = normal ? AXIS_NORMAL : AXIS_UNIFORM;
@@ -167,8 +152,7 @@ motus_status axis_read(axis *a, const char *option, const char *spec, motus_erro
 {
     *a = (axis){.spec = spec};
     reading r = {.option = option, .spec = spec, .text = strdup(spec), .err = err};
-    if (!r.text)
-        return complain_memory(err);
+    if (!r.text) return complain_memory(err);
     /* a long list is shown by its beginning */
     snprintf(r.where, sizeof r.where, "%s %.100s%s", option, spec, strlen(spec) > 100 ? "..." : "");
     char *equals = strchr(r.text, '=');

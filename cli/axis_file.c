@@ -1,6 +1,7 @@
 /* Values from a column of a CSV file.
  *
- * Invariant: of the file only the numbers are kept; whatever is in it, there is a number for each of its rows or an error that names the line.
+ * Invariant: of the file only the numbers are kept; whatever is in it, there is a number for each of its rows or an
+ * error that names the line.
  */
 #include "cli/complain.h"
 #include "cli/grid.h"
@@ -17,8 +18,8 @@ typedef struct table_file {
     FILE *stream;
     char *line;
     size_t room;
-    long long number;            /* of the line */
-    size_t place;                /* of the column, from 0; SIZE_MAX: not known yet */
+    long long number; /* of the line */
+    size_t place;     /* of the column, from 0; SIZE_MAX: not known yet */
 } table_file;
 
 /* Field `k` of the line, without its quotes, cut out in place; NULL: the line has not so many. */
@@ -28,21 +29,18 @@ static char *field(char *s, size_t k)
         char *start = s + strspn(s, " "), *out = start;
         s = start;
         if (*s == '"') {
-            for (s++; *s && !(*s == '"' && s[1] != '"'); *out++ = *s++)
-                s += *s == '"';                      /* of two quotes one is meant */
+            for (s++; *s && !(*s == '"' && s[1] != '"'); *out++ = *s++) s += *s == '"'; /* of two quotes one is meant */
             s += strcspn(s, ",");
         } else {
             out = s += strcspn(s, ",");
-            while (out > start && out[-1] == ' ')
-                out--;
+            while (out > start && out[-1] == ' ') out--;
         }
         bool more = *s == ',';
         if (i == k) {
             *out = 0;
             return start;
         }
-        if (!more)
-            return NULL;
+        if (!more) return NULL;
         s++;
     }
 }
@@ -53,10 +51,8 @@ static int next_line(table_file *f)
     errno = 0;
     for (ssize_t length; (length = getline(&f->line, &f->room, f->stream)) >= 0;) {
         f->number++;
-        while (length > 0 && (f->line[length - 1] == '\n' || f->line[length - 1] == '\r'))
-            f->line[--length] = 0;
-        if (strlen(f->line) > 0 && f->line[0] != '#')
-            return 1;
+        while (length > 0 && (f->line[length - 1] == '\n' || f->line[length - 1] == '\r')) f->line[--length] = 0;
+        if (strlen(f->line) > 0 && f->line[0] != '#') return 1;
     }
     return ferror(f->stream) || errno == ENOMEM ? -1 : 0;
 }
@@ -70,8 +66,7 @@ static motus_status cannot_read(const table_file *f, motus_error *err)
 static bool is_number(const char *s, double *value)
 {
     s += strspn(s, " \t");
-    if (typed_decimal(s, value))
-        return true;
+    if (typed_decimal(s, value)) return true;
     *value = NAN;
     s += *s == '-' || *s == '+';
     return strcasecmp(s, "nan") == 0 || strcasecmp(s, "inf") == 0 || strcasecmp(s, "infinity") == 0;
@@ -84,8 +79,7 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
     const char *rest = "";
     bool counted = !f->column || (typed_count(f->column, &n, &rest) && !*rest);
     char *copy = strdup(f->line);
-    if (!copy)
-        return complain_memory(err);
+    if (!copy) return complain_memory(err);
     motus_status status = MOTUS_OK;
     double value;
     char *s;
@@ -97,7 +91,7 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
         f->place = (size_t)n - 1;
         memcpy(copy, f->line, strlen(f->line) + 1);
         s = field(copy, f->place);
-        *is_row = !s || is_number(s, &value);        /* a line that is too short is said later */
+        *is_row = !s || is_number(s, &value); /* a line that is too short is said later */
     }
     for (size_t k = 0; !status && f->place == SIZE_MAX; k++) {
         memcpy(copy, f->line, strlen(f->line) + 1);
@@ -124,16 +118,14 @@ static motus_status read_row(table_file *f, double **list, uint64_t *count, motu
 {
     char *s = field(f->line, f->place), what[128];
     double value = 0;
-    if (!s)
-        return bad(f, MOTUS_ARGUMENT, "the line has not so many columns", err);
+    if (!s) return bad(f, MOTUS_ARGUMENT, "the line has not so many columns", err);
     if (!is_number(s, &value) || !isfinite(value)) {
         snprintf(what, sizeof what, "%.60s is not a finite number", *s ? s : "nothing");
         return bad(f, MOTUS_ARGUMENT, what, err);
     }
-    if ((*count & (*count - 1)) == 0) {              /* full: 0, 1, 2, 4, 8, … */
+    if ((*count & (*count - 1)) == 0) { /* full: 0, 1, 2, 4, 8, … */
         double *larger = realloc(*list, (*count ? 2 * *count : 1) * sizeof **list);
-        if (!larger)
-            return complain_memory(err);
+        if (!larger) return complain_memory(err);
         *list = larger;
     }
     (*list)[(*count)++] = value;
@@ -146,21 +138,16 @@ motus_status axis_file(const char *path, const char *column, double **list, uint
     *list = NULL;
     *count = 0;
     f.stream = fopen(path, "r");
-    if (!f.stream)
-        return cannot_read(&f, err);
+    if (!f.stream) return cannot_read(&f, err);
     motus_status status = MOTUS_OK;
     int more = 1;
     while (!status && (more = next_line(&f)) > 0) {
         bool is_row = f.place != SIZE_MAX;
-        if (!is_row)
-            status = find_column(&f, &is_row, err);
-        if (!status && is_row)
-            status = read_row(&f, list, count, err);
+        if (!is_row) status = find_column(&f, &is_row, err);
+        if (!status && is_row) status = read_row(&f, list, count, err);
     }
-    if (!status && more < 0)
-        status = cannot_read(&f, err);
-    if (!status && *count == 0)
-        status = complain(err, MOTUS_ARGUMENT, "%s holds no values", path);
+    if (!status && more < 0) status = cannot_read(&f, err);
+    if (!status && *count == 0) status = complain(err, MOTUS_ARGUMENT, "%s holds no values", path);
     fclose(f.stream);
     free(f.line);
     return status;

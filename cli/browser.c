@@ -1,7 +1,7 @@
 /* The browser as a child process.
  *
- * Invariant: there is no shell, and the address is one argument that begins with its scheme, so that no name of a file is taken for
- * an option or a command.
+ * Invariant: there is no shell, and the address is one argument that begins with its scheme, so that no name of a
+ * file is taken for an option or a command.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
@@ -25,8 +25,7 @@ static bool start(const char *program, const char *url)
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     pid_t process;
     const bool good = nothing >= 0 && spawn_program(&process, arguments, (int[]){nothing, nothing, nothing}, true) == 0;
-    if (nothing >= 0)
-        close(nothing);
+    if (nothing >= 0) close(nothing);
     return good;
 }
 
@@ -35,11 +34,11 @@ bool browser_open(const char *url)
     const char *wanted = getenv("BROWSER");
     char *list = strdup(wanted ? wanted : "");
     bool good = false;
-    /* a list of programs, the best one first; what is more than the name of one, "firefox -P work %s", the opener understands */
+    /* a list of programs, the best one first; what is more than the name of one, "firefox -P work %s", the opener
+     * understands */
     for (char *name = list, *end; name && *name && !good; name = end) {
         end = name + strcspn(name, ":");
-        if (*end)
-            *end++ = 0;
+        if (*end) *end++ = 0;
         good = *name && start(name, url);
     }
     free(list);

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* Starts $BROWSER, else what the system opens addresses with; neither waits for it nor shows what it says. False: none could be started. */
+/* Starts $BROWSER, else what the system opens addresses with; neither waits for it nor shows what it says. False:
+ * none could be started. */
 bool browser_open(const char *url);
 
 #endif

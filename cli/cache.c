@@ -13,8 +13,7 @@ motus_status cache_verb(const options *o, motus_error *err)
         return MOTUS_ARGUMENT;
     }
     int count = motus_cache_clear();
-    if (count < 0)
-        return complain(err, MOTUS_FILE, "the cache cannot be reached");
+    if (count < 0) return complain(err, MOTUS_FILE, "the cache cannot be reached");
     if (o->json) {
         json j = text_json(stdout);
         json_integer(&j, "removed", count);

@@ -18,8 +18,7 @@ static void print_json(const options *o, const load *m)
     json_string(&j, "model", o->operand);
     json_open(&j, "equations", '[');
     const char *equation;
-    for (size_t k = 0; (equation = motus_equation_text(m->system, k)) != NULL; k++)
-        json_string(&j, NULL, equation);
+    for (size_t k = 0; (equation = motus_equation_text(m->system, k)) != NULL; k++) json_string(&j, NULL, equation);
     json_close(&j, ']');
     tell_variables(&j, m->system);
     tell_analysis(&j, m->system);
@@ -70,8 +69,7 @@ motus_status check_verb(const options *o, motus_error *err)
         print_json(o, &m);
     else if (!status && !o->quiet)
         status = print_text(&m, err);
-    if (!status)
-        status = file_flush_output(err);
+    if (!status) status = file_flush_output(err);
     load_free(&m);
     return status;
 }

@@ -24,11 +24,11 @@ static void print_json(const studies *s, const void *result)
 
 static table *error_table(const motus_comparison *c)
 {
-    static const char *const heads[] = {"method", "order", "step", "steps", "evaluations", "time", "x error, max", "at the end",
+    static const char *const heads[] = {"method",       "order",      "step",         "steps",
+                                        "evaluations",  "time",       "x error, max", "at the end",
                                         "v error, max", "at the end", "reversal"};
     table *t = table_create("lrrrrrrrrrr");
-    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
-        table_cell(t, heads[i]);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = c->rows[k];
         char spent[DECIMAL_MAX];
@@ -55,13 +55,11 @@ static table *drift_table(const motus_comparison *c)
     for (size_t k = 0; k < c->row_count; k++)
         if (!c->rows[k]->status && c->rows[k]->invariant_count > (widest ? widest->invariant_count : 0))
             widest = c->rows[k];
-    if (!widest)
-        return NULL;
+    if (!widest) return NULL;
     enum { MOST = 6 };
     char align[2 * MOST + 2] = "l";
     size_t shown = widest->invariant_count < MOST ? widest->invariant_count : MOST;
-    for (size_t i = 0; i < shown; i++)
-        strcat(align, "rl");
+    for (size_t i = 0; i < shown; i++) strcat(align, "rl");
     table *t = table_create(align);
     table_cell(t, "method");
     for (size_t i = 0; i < shown; i++) {
@@ -76,8 +74,7 @@ static table *drift_table(const motus_comparison *c)
         for (size_t i = 0; i < shown; i++) {
             bool known = !r->status && i < r->invariant_count;
             char trend[DECIMAL_MAX] = "none";
-            if (known && r->invariants[i]->trending)
-                text_brief(r->invariants[i]->trend, -2, trend);
+            if (known && r->invariants[i]->trending) text_brief(r->invariants[i]->trend, -2, trend);
             table_number(t, known ? r->invariants[i]->max_drift : NAN, -2);
             table_cell(t, known ? trend : "-");
         }
@@ -127,17 +124,14 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
 motus_status compare_verb(const options *o, motus_error *err)
 {
     static const studies_ways ways = {draw, print_json, print_tables};
-    if (o->share)
-        return share_verb(o, err);
+    if (o->share) return share_verb(o, err);
     studies s;
     motus_study_def def;
     motus_comparison *c = NULL;
     motus_status status = studies_begin(&s, "compare", o, &def, err);
-    if (!status)
-        status = motus_compare(s.model.system, &def, &c, err);
+    if (!status) status = motus_compare(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);
-    if (!status)
-        status = studies_show(&s, &ways, c, err);
+    if (!status) status = studies_show(&s, &ways, c, err);
     motus_comparison_destroy(c);
     load_free(&s.model);
     return status;

@@ -1,7 +1,7 @@
 /* Errors of the program.
  *
- * Invariant: an error is shown once, with the place as file:line:column, the line, a caret and the remedy, and every text in
- * it passes text_put(): it may come from a model or a file name.
+ * Invariant: an error is shown once, with the place as file:line:column, the line, a caret and the remedy, and every
+ * text in it passes text_put(): it may come from a model or a file name.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
@@ -24,9 +24,8 @@ static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list argume
 
 motus_status complain(motus_error *err, motus_status status, const char *format, ...)
 {
-    if (!err)
-        return status;
-    char message[MOTUS_TEXT_MAX];    /* the arguments may lie in the error */
+    if (!err) return status;
+    char message[MOTUS_TEXT_MAX]; /* the arguments may lie in the error */
     va_list arguments;
     va_start(arguments, format);
     compose(message, format, arguments);
@@ -39,18 +38,14 @@ motus_status complain(motus_error *err, motus_status status, const char *format,
 
 void complain_hint(motus_error *err, const char *format, ...)
 {
-    if (!err)
-        return;
+    if (!err) return;
     va_list arguments;
     va_start(arguments, format);
     compose(err->hint, format, arguments);
     va_end(arguments);
 }
 
-motus_status complain_memory(motus_error *err)
-{
-    return complain(err, MOTUS_MEMORY, "out of memory");
-}
+motus_status complain_memory(motus_error *err) { return complain(err, MOTUS_MEMORY, "out of memory"); }
 
 bool complain_colours(int descriptor)
 {
@@ -73,8 +68,7 @@ static bool show_json(const motus_error *err)
 
 int complain_show(const motus_error *err, bool as_json)
 {
-    if (as_json && show_json(err))
-        return motus_status_exit(err->status);
+    if (as_json && show_json(err)) return motus_status_exit(err->status);
     bool colours = complain_colours(2);
     const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";
     fflush(stdout);

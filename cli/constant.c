@@ -1,7 +1,7 @@
 /* Constant expressions on the command line.
  *
- * Invariant: what is more than a number is read by the language itself, as the initial value of a model of one companion, so it means what it
- * means in a model.
+ * Invariant: what is more than a number is read by the language itself, as the initial value of a model of one
+ * companion, so it means what it means in a model.
  */
 #include "cli/constant.h"
 
@@ -22,8 +22,7 @@ motus_status constant_read(const char *expression, const char *where, double *va
         static const char name[] = "x(0)=";
         size_t length = strlen(expression);
         char *set = malloc(sizeof name + length);
-        if (!set)
-            return complain_memory(err);
+        if (!set) return complain_memory(err);
         memcpy(set, name, sizeof name - 1);
         memcpy(set + sizeof name - 1, expression, length + 1);
         const char *items[] = {set};
@@ -38,18 +37,14 @@ motus_status constant_read(const char *expression, const char *where, double *va
             complain(&inner, MOTUS_SHAPE, "%s is no single number", expression);
             status = MOTUS_SHAPE;
         }
-        if (!status)
-            status = motus_run_create(system, NULL, &run, &inner);
-        if (!status)
-            status = motus_run_state(run, NULL, value, &inner);
+        if (!status) status = motus_run_create(system, NULL, &run, &inner);
+        if (!status) status = motus_run_state(run, NULL, value, &inner);
         motus_run_destroy(run);
         motus_system_destroy(system);
         free(set);
-        if (status == MOTUS_MEMORY)
-            return complain_memory(err);
+        if (status == MOTUS_MEMORY) return complain_memory(err);
     }
-    if (!status && isfinite(*value))
-        return MOTUS_OK;
+    if (!status && isfinite(*value)) return MOTUS_OK;
     complain(err, MOTUS_ARGUMENT, "%s: %s is not a constant", where, *expression ? expression : "nothing");
     if (strchr(expression, ','))
         complain_hint(err, "numbers are written with a point: 0.5");

@@ -32,8 +32,7 @@ static bool print_points(const motus_converge_row *r, bool colours)
         memset(align + 1, 'r', count);
         table *t = table_create(align);
         table_cell(t, "step");
-        for (size_t i = 0; i < count; i++)
-            table_number(t, r->points[first + i]->step, 4);
+        for (size_t i = 0; i < count; i++) table_number(t, r->points[first + i]->step, 4);
         table_cell(t, "error");
         for (size_t i = 0; i < count; i++) {
             const motus_point *p = r->points[first + i];
@@ -73,15 +72,14 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
     snprintf(figure.title, sizeof figure.title, "%s: error against step", s->model.title);
     plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "error at the end");
     size_t points = 0, used = 0;
-    for (size_t k = 0; k < c->row_count; k++)
-        points += c->rows[k]->point_count;
+    for (size_t k = 0; k < c->row_count; k++) points += c->rows[k]->point_count;
     double *numbers = malloc((2 * points + 1) * sizeof *numbers);
     motus_status status = p && numbers ? MOTUS_OK : complain_memory(err);
     for (size_t k = 0; !status && k < c->row_count; k++) {
         const motus_converge_row *r = c->rows[k];
         size_t first = used, count = 0;
         for (size_t i = 0; i < r->point_count; i++)
-            if (r->points[i]->error > 0) {        /* nothing has no logarithm */
+            if (r->points[i]->error > 0) { /* nothing has no logarithm */
                 numbers[2 * used] = r->points[i]->step;
                 numbers[2 * used++ + 1] = r->points[i]->error;
                 count++;
@@ -124,13 +122,10 @@ motus_status converge_verb(const options *o, motus_error *err)
     motus_study_def def;
     motus_convergence *c = NULL;
     motus_status status = studies_begin(&s, "converge", o, &def, err);
-    if (!status)
-        status = motus_converge(s.model.system, &def, &c, err);
+    if (!status) status = motus_converge(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);
-    if (!status)
-        status = studies_show(&s, &ways, c, err);
-    if (!status && !c->passed)
-        status = verdict(c, err);
+    if (!status) status = studies_show(&s, &ways, c, err);
+    if (!status && !c->passed) status = verdict(c, err);
     motus_convergence_destroy(c);
     load_free(&s.model);
     return status;

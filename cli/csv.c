@@ -1,7 +1,7 @@
 /* The trajectory as CSV (RFC 4180, lines ended by a newline).
  *
- * Invariant: every line of the head starts with '#' and holds no control character, whatever the command line held; a name holding a comma or a
- * quote is quoted; every number reads back as the same double in any locale.
+ * Invariant: every line of the head starts with '#' and holds no control character, whatever the command line held; a
+ * name holding a comma or a quote is quoted; every number reads back as the same double in any locale.
  */
 #include "cli/csv.h"
 
@@ -18,32 +18,28 @@ motus_status csv_plan(csv *c, const load *model, const options *o, motus_error *
     size_t all = motus_column_count(model->system);
     if (!o->columns) {
         c->columns = malloc((all + 1) * sizeof *c->columns);
-        if (!c->columns)
-            return complain_memory(err);
-        for (size_t k = 0; k < all; k++)
-            c->columns[k] = k;
+        if (!c->columns) return complain_memory(err);
+        for (size_t k = 0; k < all; k++) c->columns[k] = k;
         c->count = all;
         return MOTUS_OK;
     }
     char *copy;
     options_list names;
     motus_status status = options_split(o->columns, "--columns", &copy, &names, err);
-    if (status)
-        return status;
+    if (status) return status;
     for (size_t i = 0; !status && i < names.count; i++) {
         size_t first, count;
         status = motus_column_find(model->system, names.items[i], &first, &count, err);
-        if (status)
-            break;
+        if (status) break;
         size_t *columns = count < SIZE_MAX / sizeof *columns - c->count
-                              ? realloc(c->columns, (c->count + count + 1) * sizeof *columns) : NULL;
+                              ? realloc(c->columns, (c->count + count + 1) * sizeof *columns)
+                              : NULL;
         if (!columns) {
             status = complain_memory(err);
             break;
         }
         c->columns = columns;
-        for (size_t k = 0; k < count; k++)
-            c->columns[c->count++] = first + k;
+        for (size_t k = 0; k < count; k++) c->columns[c->count++] = first + k;
     }
     free(names.items);
     free(copy);
@@ -88,11 +84,10 @@ static motus_status put_head(csv *c, const options *o, const motus_run *run, mot
 {
     char line[256], step[DECIMAL_MAX];
     motus_status status = file_text(c->file, "# motus", err);
-    for (int i = 1; !status && i < o->argc; i++)
-        status = csv_word(c->file, o->argv[i], err);
+    for (int i = 1; !status && i < o->argc; i++) status = csv_word(c->file, o->argv[i], err);
     decimal(motus_run_step_size(run), step);
-    snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(), motus_run_method(run), step,
-             motus_run_machine(run));
+    snprintf(line, sizeof line, "\n# motus %s, method %s, step %s, machine %s\n", motus_version(),
+             motus_run_method(run), step, motus_run_machine(run));
     return status ? status : file_text(c->file, line, err);
 }
 
@@ -100,8 +95,7 @@ motus_status csv_name(file_out *f, const char *name, motus_error *err)
 {
     char safe[sizeof((motus_column *)0)->name + 32];
     text_safe(name, safe, sizeof safe);
-    if (!strpbrk(safe, ",\""))
-        return file_text(f, safe, err);
+    if (!strpbrk(safe, ",\"")) return file_text(f, safe, err);
     motus_status status = file_text(f, "\"", err);
     for (const char *s = safe; !status && *s; s++)
         status = file_write(f, *s == '"' ? "\"\"" : s, *s == '"' ? 2 : 1, err);
@@ -112,18 +106,14 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
 {
     c->file = file;
     c->line = c->count < SIZE_MAX / DECIMAL_MAX - 1 ? malloc((c->count + 1) * DECIMAL_MAX) : NULL;
-    if (!c->line)
-        return complain_memory(err);
+    if (!c->line) return complain_memory(err);
     motus_status status = put_head(c, o, run, err);
     for (size_t k = 0; !status && k < c->count; k++) {
         motus_column column = motus_default_column();
         status = motus_column_at(c->model->system, c->columns[k], &column);
-        if (status)
-            return complain(err, status, "column %zu has no name", c->columns[k]);
-        if (k > 0)
-            status = file_text(c->file, ",", err);
-        if (!status)
-            status = csv_name(c->file, column.name, err);
+        if (status) return complain(err, status, "column %zu has no name", c->columns[k]);
+        if (k > 0) status = file_text(c->file, ",", err);
+        if (!status) status = csv_name(c->file, column.name, err);
     }
     return status ? status : file_text(c->file, "\n", err);
 }
@@ -133,8 +123,7 @@ motus_status csv_row(void *context, const double *values, motus_error *err)
     csv *c = context;
     char *s = c->line;
     for (size_t k = 0; k < c->count; k++) {
-        if (k > 0)
-            *s++ = ',';
+        if (k > 0) *s++ = ',';
         decimal(values[k], s);
         s += strlen(s);
     }

@@ -8,9 +8,9 @@
 typedef struct csv {
     file_out *file;
     const load *model;
-    size_t *columns;             /* which, in this order */
+    size_t *columns; /* which, in this order */
     size_t count;
-    char *line;                  /* room for one row */
+    char *line; /* room for one row */
     int64_t rows;
 } csv;
 

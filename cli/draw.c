@@ -1,7 +1,8 @@
 /* Random numbers by counting.
  *
- * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream and the number of words used before. So a value does not
- * depend on batch, thread or resumption, and integer arithmetic and comparisons make it the same on every machine: no logarithm, no cosine.
+ * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream and the number of words used
+ * before. So a value does not depend on batch, thread or resumption, and integer arithmetic and comparisons make it
+ * the same on every machine: no logarithm, no cosine.
  */
 #include "cli/draw.h"
 
@@ -50,7 +51,8 @@ double draw_uniform(uint64_t seed, uint32_t stream, uint64_t index)
     return uniform(&s);
 }
 
-/* True with probability exp(-p), 0 ≤ p ≤ 1: the chance that p > u1 > u2 > … > un is p^n/n!, so n is even with exp(-p) [vonNeumann51]. */
+/* True with probability exp(-p), 0 ≤ p ≤ 1: the chance that p > u1 > u2 > … > un is p^n/n!, so n is even with exp(-p)
+ * [vonNeumann51]. */
 static bool survives(source *s, double p)
 {
     bool even = true;
@@ -63,23 +65,19 @@ static bool survives(source *s, double p)
     return even;
 }
 
-/* [Karney16, algorithm N]: the whole part k with weight exp(-k²/2), the rest x in [0, 1) with exp(-x (2 k + x)/2), by rejection. */
+/* [Karney16, algorithm N]: the whole part k with weight exp(-k²/2), the rest x in [0, 1) with exp(-x (2 k + x)/2), by
+ * rejection. */
 double draw_normal(uint64_t seed, uint32_t stream, uint64_t index)
 {
     source s = {.seed = seed, .index = index, .stream = stream};
     for (;;) {
         int k = 0;
-        while (survives(&s, 0.5))
-            k++;
+        while (survives(&s, 0.5)) k++;
         bool good = true;
-        for (int i = k * (k - 1); good && i > 0; i--)
-            good = survives(&s, 0.5);
-        if (!good)
-            continue;
+        for (int i = k * (k - 1); good && i > 0; i--) good = survives(&s, 0.5);
+        if (!good) continue;
         double x = uniform(&s), p = x * (2 * k + x) / (2 * k + 2);
-        for (int i = 0; good && i <= k; i++)
-            good = survives(&s, p);
-        if (good)
-            return uniform(&s) < 0.5 ? -(k + x) : k + x;
+        for (int i = 0; good && i <= k; i++) good = survives(&s, p);
+        if (good) return uniform(&s) < 0.5 ? -(k + x) : k + x;
     }
 }

@@ -6,7 +6,7 @@
 #include "cli/walk.h"
 
 typedef struct drift {
-    size_t count;                /* numbers of all invariants */
+    size_t count; /* numbers of all invariants */
     size_t *columns;
     double *initial, *final, *most;
 } drift;

@@ -1,7 +1,7 @@
 /* The figure of one run.
  *
- * Invariant: what is kept of a run is bounded whatever its length and the size of its families: cells are chosen evenly where there are
- * many, and the figure says so.
+ * Invariant: what is kept of a run is bounded whatever its length and the size of its families: cells are chosen
+ * evenly where there are many, and the figure says so.
  */
 #include "cli/figure.h"
 
@@ -13,10 +13,12 @@
 #include <string.h>
 
 enum {
-    FINE_LOOKS = 200000, COARSE_LOOKS = 400,
-    MOST_CURVES = 8,              /* in a panel: as many as there are styles */
-    BUNDLE = 6,                   /* a family up to this size is curves, beyond a heat map */
-    HEAT_CELLS = 300, FIELD_SIDE = 200
+    FINE_LOOKS = 200000,
+    COARSE_LOOKS = 400,
+    MOST_CURVES = 8, /* in a panel: as many as there are styles */
+    BUNDLE = 6,      /* a family up to this size is curves, beyond a heat map */
+    HEAT_CELLS = 300,
+    FIELD_SIDE = 200
 };
 
 bool figure_find(const load *m, const motus_variable *v, const char *prefix, const char *suffix, figure_place *p)
@@ -59,8 +61,7 @@ static plot_panel *add_panel(figure *f, const char *title, const char *x, const 
 
 static bool room_for_panel(figure *f)
 {
-    if (f->plot.count < FIGURE_PANELS)
-        return true;
+    if (f->plot.count < FIGURE_PANELS) return true;
     f->left_out = true;
     return false;
 }
@@ -71,8 +72,7 @@ static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role rol
     column_name(f, column, label, sizeof label);
     double *y = record_want(&f->fine, column);
     plot_curve *c = y ? plot_curve_add(p, label, f->t, y, 0, 1) : NULL;
-    if (!c)
-        return false;
+    if (!c) return false;
     c->role = role;
     c->timelike = true;
     c->drift = drift;
@@ -94,23 +94,23 @@ static bool add_numbers(figure *f, plot_panel *p, const figure_place *place, con
 }
 
 /* y against x, in space with z. */
-static bool add_path(figure *f, plot_panel *p, const figure_place *place, size_t cell, size_t axes, plot_role role, const char *label)
+static bool add_path(figure *f, plot_panel *p, const figure_place *place, size_t cell, size_t axes, plot_role role,
+                     const char *label)
 {
     double *at[3] = {NULL, NULL, NULL};
     for (size_t a = 0; a < axes; a++) {
         at[a] = record_want(&f->fine, column_at(place, cell, a));
-        if (!at[a])
-            return false;
+        if (!at[a]) return false;
     }
     plot_curve *c = plot_curve_add(p, label, at[0], at[1], 0, 1);
-    if (!c)
-        return false;
+    if (!c) return false;
     c->z = at[2];
     c->role = role;
     return true;
 }
 
-static bool add_paths(figure *f, plot_panel *p, const motus_variable *v, const figure_place *place, const figure_place *exact)
+static bool add_paths(figure *f, plot_panel *p, const motus_variable *v, const figure_place *place,
+                      const figure_place *exact)
 {
     size_t shown = place->cells < MOST_CURVES ? place->cells : MOST_CURVES, axes = place->components;
     f->left_out = f->left_out || shown < place->cells;
@@ -122,8 +122,7 @@ static bool add_paths(figure *f, plot_panel *p, const motus_variable *v, const f
         } else {
             column_name(f, column_at(place, cell, 0), label, sizeof label);
             char *dot = strrchr(label, '.');
-            if (dot)
-                *dot = 0;
+            if (dot) *dot = 0;
         }
         snprintf(exact_label, sizeof exact_label, "exact %s", label);
         if (!add_path(f, p, place, cell, axes, PLOT_LINE, label) ||
@@ -140,14 +139,15 @@ static bool add_heat(figure *f, const motus_variable *v, const figure_place *pla
     size_t shown = place->cells < HEAT_CELLS ? place->cells : HEAT_CELLS;
     snprintf(title, sizeof title, "%s, every cell against time", v->name);
     size_t panel = f->plot.count;
-    if (!add_panel(f, title, "t", v->dimensions == 1 ? "index" : "cell"))
-        return false;
+    if (!add_panel(f, title, "t", v->dimensions == 1 ? "index" : "cell")) return false;
     double span = place->cells > 1 && shown > 1 ? (double)(place->cells - 1) / (double)(shown - 1) : 1;
-    f->heats[f->heat_count++] = (figure_heat){.panel = panel, .first = f->coarse.count, .rows = shown,
-        .cell_first = v->dimensions == 1 ? (double)v->first[0] : 1, .cell_step = span};
+    f->heats[f->heat_count++] = (figure_heat){.panel = panel,
+                                              .first = f->coarse.count,
+                                              .rows = shown,
+                                              .cell_first = v->dimensions == 1 ? (double)v->first[0] : 1,
+                                              .cell_step = span};
     for (size_t k = 0; k < shown; k++)
-        if (!record_want(&f->coarse, column_at(place, spread(k, shown, place->cells), 0)))
-            return false;
+        if (!record_want(&f->coarse, column_at(place, spread(k, shown, place->cells), 0))) return false;
     return true;
 }
 
@@ -162,14 +162,13 @@ static bool add_field(figure *f, const motus_variable *v, const figure_place *pl
     }
     snprintf(title, sizeof title, "%s at the end", v->name);
     size_t panel = f->plot.count;
-    if (!add_panel(f, title, "second index", "first index"))
-        return false;
-    f->heats[f->heat_count++] = (figure_heat){.panel = panel, .first = f->last.count, .rows = shown[0], .columns = shown[1], .field = true};
+    if (!add_panel(f, title, "second index", "first index")) return false;
+    f->heats[f->heat_count++] =
+        (figure_heat){.panel = panel, .first = f->last.count, .rows = shown[0], .columns = shown[1], .field = true};
     for (size_t i = 0; i < shown[0]; i++)
         for (size_t j = 0; j < shown[1]; j++) {
             size_t cell = spread(i, shown[0], side[0]) * side[1] + spread(j, shown[1], side[1]);
-            if (!record_want(&f->last, column_at(place, cell, 0)))
-                return false;
+            if (!record_want(&f->last, column_at(place, cell, 0))) return false;
         }
     plot_panel *p = &f->plot.panels[panel];
     p->x_first = (double)v->first[1];
@@ -181,57 +180,52 @@ static bool add_field(figure *f, const motus_variable *v, const figure_place *pl
 
 static bool full_grid(const motus_variable *v, size_t cells)
 {
-    return v->dimensions == 2 && (double)(v->last[0] - v->first[0] + 1) * (double)(v->last[1] - v->first[1] + 1) == (double)cells;
+    return v->dimensions == 2 &&
+           (double)(v->last[0] - v->first[0] + 1) * (double)(v->last[1] - v->first[1] + 1) == (double)cells;
 }
 
 /* Panels shared by several variables of one kind. */
-typedef struct shared { size_t scalars, plane; } shared;
+typedef struct shared {
+    size_t scalars, plane;
+} shared;
 
 static bool add_variable(figure *f, const motus_variable *v, shared *s)
 {
     figure_place place, truth;
-    if (!figure_find(f->model, v, "", "", &place))
-        return true;
+    if (!figure_find(f->model, v, "", "", &place)) return true;
     const figure_place *exact = figure_find(f->model, v, "exact ", "", &truth) ? &truth : NULL;
     bool path = v->order == 2 && (v->components == 2 || v->components == 3);
     if (path && v->components == 2) {
         if (s->plane == SIZE_MAX) {
-            if (!room_for_panel(f))
-                return true;
+            if (!room_for_panel(f)) return true;
             char x[PLOT_LABEL], y[PLOT_LABEL];
             snprintf(x, sizeof x, "%s.x", v->name);
             snprintf(y, sizeof y, "%s.y", v->name);
             s->plane = f->plot.count;
-            if (!add_panel(f, "motion", x, y))
-                return false;
+            if (!add_panel(f, "motion", x, y)) return false;
         }
         f->plot.panels[s->plane].spatial = true;
         return add_paths(f, &f->plot.panels[s->plane], v, &place, exact);
     }
     if (v->dimensions == 0 && v->components == 0 && v->order == 2) {
         bool first = s->scalars == SIZE_MAX;
-        if (first && !room_for_panel(f))
-            return true;
+        if (first && !room_for_panel(f)) return true;
         if (first) {
             s->scalars = f->plot.count;
-            if (!add_panel(f, "motion", "t", v->name))
-                return false;
+            if (!add_panel(f, "motion", "t", v->name)) return false;
         }
         plot_panel *p = &f->plot.panels[s->scalars];
-        if (!first)
-            p->y_label[0] = 0;
+        if (!first) p->y_label[0] = 0;
         if (p->curve_count >= (size_t)2 * MOST_CURVES) {
             f->left_out = true;
             return true;
         }
         return add_numbers(f, p, &place, exact);
     }
-    if (!room_for_panel(f))
-        return true;
+    if (!room_for_panel(f)) return true;
     if (path) {
         plot_panel *p = add_panel(f, "motion", "x", "y");
-        if (!p)
-            return false;
+        if (!p) return false;
         p->spatial = true;
         snprintf(p->z_label, sizeof p->z_label, "z");
         return add_paths(f, p, v, &place, exact);
@@ -244,16 +238,14 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
 
 static bool add_named(figure *f, const char *name, size_t first, size_t numbers, bool drift)
 {
-    if (!room_for_panel(f))
-        return true;
+    if (!room_for_panel(f)) return true;
     char title[PLOT_LABEL];
     snprintf(title, sizeof title, "%s%s", drift ? "drift of " : "", name);
     plot_panel *p = add_panel(f, title, "t", drift ? "change since the start" : name);
     size_t shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
     f->left_out = f->left_out || shown < numbers;
     for (size_t k = 0; p && k < shown; k++)
-        if (!add_against_t(f, p, first + spread(k, shown, numbers), PLOT_LINE, drift))
-            return false;
+        if (!add_against_t(f, p, first + spread(k, shown, numbers), PLOT_LINE, drift)) return false;
     return p != NULL;
 }
 
@@ -262,8 +254,7 @@ static bool add_all_named(figure *f, load_naming *name, size_t column, bool drif
     const char *one;
     size_t numbers;
     for (size_t k = 0; (one = name(f->model->system, k, &numbers)) != NULL; k++, column += numbers)
-        if (!add_named(f, one, column, numbers, drift))
-            return false;
+        if (!add_named(f, one, column, numbers, drift)) return false;
     return true;
 }
 
@@ -273,11 +264,10 @@ static bool add_everything(figure *f)
     shared s = {SIZE_MAX, SIZE_MAX};
     for (size_t k = 0; k < motus_variable_count(system); k++) {
         motus_variable v = motus_default_variable();
-        if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s))
-            return false;
+        if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s)) return false;
     }
-    return add_all_named(f, motus_quantity_name, load_quantity_column(f->model), false)
-        && add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
+    return add_all_named(f, motus_quantity_name, load_quantity_column(f->model), false) &&
+           add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
 }
 
 static motus_status one_column(const figure *f, const char *name, size_t *column, motus_error *err)
@@ -300,15 +290,13 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
     char *copy;
     options_list names;
     motus_status status = options_split(text, "--plot-of", &copy, &names, err);
-    if (status)
-        return status;
+    if (status) return status;
     size_t columns[2] = {0, 0};
     if (names.count != 2) {
         status = complain(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
         complain_hint(err, "--plot-of \"x,x'\" draws x' against x");
     }
-    for (int a = 0; !status && a < 2; a++)
-        status = one_column(f, names.items[a], &columns[a], err);
+    for (int a = 0; !status && a < 2; a++) status = one_column(f, names.items[a], &columns[a], err);
     if (!status) {
         char title[PLOT_LABEL];
         snprintf(title, sizeof title, "%.60s against %.60s", names.items[1], names.items[0]);
@@ -357,10 +345,8 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, motus_run_method(run), step);
     f->t = record_want(&f->fine, 0);
     f->coarse_t = record_want(&f->coarse, 0);
-    if (!f->t || !f->coarse_t)
-        return complain_memory(err);
-    if (o->plot_of)
-        return add_plane(f, o->plot_of, err);
+    if (!f->t || !f->coarse_t) return complain_memory(err);
+    if (o->plot_of) return add_plane(f, o->plot_of, err);
     return add_everything(f) ? MOTUS_OK : complain_memory(err);
 }
 
@@ -384,22 +370,20 @@ static bool fill_heat(figure *f, const figure_heat *h)
         p->x_step = r->rows > 1 ? (f->coarse_t[r->rows - 1] - f->coarse_t[0]) / (double)(r->rows - 1) : 1;
     }
     p->heat = malloc((p->heat_rows * p->heat_columns + 1) * sizeof *p->heat);
-    if (!p->heat)
-        return false;
+    if (!p->heat) return false;
     for (size_t i = 0; i < p->heat_rows; i++)
         for (size_t j = 0; j < p->heat_columns; j++)
-            p->heat[i * p->heat_columns + j] = h->field ? r->values[h->first + i * h->columns + j][0] : r->values[h->first + i][j];
+            p->heat[i * p->heat_columns + j] =
+                h->field ? r->values[h->first + i * h->columns + j][0] : r->values[h->first + i][j];
     return true;
 }
 
 motus_status figure_draw(figure *f, const char *path, file_out *file, motus_error *err)
 {
     for (size_t i = 0; i < f->plot.count; i++)
-        for (size_t k = 0; k < f->plot.panels[i].curve_count; k++)
-            f->plot.panels[i].curves[k].count = f->fine.rows;
+        for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) f->plot.panels[i].curves[k].count = f->fine.rows;
     for (size_t i = 0; i < f->heat_count; i++)
-        if (!fill_heat(f, &f->heats[i]))
-            return complain_memory(err);
+        if (!fill_heat(f, &f->heats[i])) return complain_memory(err);
     return plot_draw(&f->plot, path, file, err);
 }
 

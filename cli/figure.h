@@ -9,20 +9,20 @@
 enum { FIGURE_WATCHERS = 3, FIGURE_PANELS = 10 };
 
 typedef struct figure_heat {
-    size_t panel, first;         /* first: of its columns in the record */
-    size_t rows, columns;        /* columns 0: one per look */
-    bool field;                  /* from `last`; else from `coarse` */
+    size_t panel, first;  /* first: of its columns in the record */
+    size_t rows, columns; /* columns 0: one per look */
+    bool field;           /* from `last`; else from `coarse` */
     double cell_first, cell_step;
 } figure_heat;
 
 typedef struct figure {
     const load *model;
     plot_figure plot;
-    record fine, coarse, last;   /* curves; heat maps over time; fields at the end */
+    record fine, coarse, last; /* curves; heat maps over time; fields at the end */
     double *t, *coarse_t;
     figure_heat heats[FIGURE_PANELS];
     size_t heat_count;
-    bool left_out;               /* not everything found room */
+    bool left_out; /* not everything found room */
 } figure;
 
 /* Chooses what is drawn of a run, before it starts. */
@@ -33,7 +33,9 @@ motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);
 void figure_free(figure *);
 
 /* Columns of a variable: where component c of cell i lies. */
-typedef struct figure_place { size_t first, cells, components, cell_step, component_step; } figure_place;
+typedef struct figure_place {
+    size_t first, cells, components, cell_step, component_step;
+} figure_place;
 /* prefix: "" or "exact "; suffix: "" or "'". False where there are no such columns. */
 bool figure_find(const load *, const motus_variable *, const char *prefix, const char *suffix, figure_place *);
 

@@ -1,7 +1,7 @@
 /* Files: read whole within a bound, written whole or not at all.
  *
- * Invariant: the name the user gave appears, complete and on the disk, or stays what it was. A temporary file lives in the same folder,
- * because only there is a rename one step.
+ * Invariant: the name the user gave appears, complete and on the disk, or stays what it was. A temporary file lives
+ * in the same folder, because only there is a rename one step.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/file.h"
@@ -33,12 +33,12 @@ static motus_status cannot_read(const char *path, const char *why, motus_error *
     return complain(err, MOTUS_FILE, "cannot read %s: %s", called(path, true), why);
 }
 
-static motus_status read_all(int fd, const char *path, size_t most, size_t guess, char **text, size_t *length, motus_error *err)
+static motus_status read_all(int fd, const char *path, size_t most, size_t guess, char **text, size_t *length,
+                             motus_error *err)
 {
     size_t room = guess < most ? guess + 2 : most + 2, used = 0;
     char *buffer = malloc(room);
-    if (!buffer)
-        return complain_memory(err);
+    if (!buffer) return complain_memory(err);
     for (;;) {
         if (used + 1 == room) {
             char *larger = realloc(buffer, room *= 2);
@@ -49,15 +49,13 @@ static motus_status read_all(int fd, const char *path, size_t most, size_t guess
             buffer = larger;
         }
         ssize_t got = read(fd, buffer + used, room - used - 1);
-        if (got < 0 && errno == EINTR)
-            continue;
+        if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
             int code = errno;
             free(buffer);
             return cannot_read(path, strerror(code), err);
         }
-        if (got == 0)
-            break;
+        if (got == 0) break;
         used += (size_t)got;
         if (used > most) {
             free(buffer);
@@ -72,11 +70,9 @@ static motus_status read_all(int fd, const char *path, size_t most, size_t guess
 
 motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *err)
 {
-    if (strcmp(path, "-") == 0)
-        return read_all(STDIN_FILENO, path, most, 4096, text, length, err);
+    if (strcmp(path, "-") == 0) return read_all(STDIN_FILENO, path, most, 4096, text, length, err);
     int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0)
-        return cannot_read(path, strerror(errno), err);
+    if (fd < 0) return cannot_read(path, strerror(errno), err);
     struct stat about;
     motus_status status = MOTUS_OK;
     if (fstat(fd, &about) != 0)
@@ -94,10 +90,8 @@ motus_status file_read(const char *path, size_t most, char **text, size_t *lengt
 bool file_same(const char *a, const char *b)
 {
     struct stat first, second;
-    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
-        return strcmp(a, b) == 0;
-    if (strcmp(a, b) == 0)
-        return true;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return strcmp(a, b) == 0;
+    if (strcmp(a, b) == 0) return true;
     return stat(a, &first) == 0 && stat(b, &second) == 0 && S_ISREG(first.st_mode) && first.st_dev == second.st_dev &&
            first.st_ino == second.st_ino;
 }
@@ -105,13 +99,11 @@ bool file_same(const char *a, const char *b)
 bool file_program(const char *name, char *path, size_t size)
 {
     const char *folders = getenv("PATH");
-    if (!folders || !*folders)
-        folders = "/usr/local/bin:/usr/bin:/bin";
+    if (!folders || !*folders) folders = "/usr/local/bin:/usr/bin:/bin";
     while (*folders) {
         size_t length = strcspn(folders, ":");
         int n = snprintf(path, size, "%.*s%s%s", (int)length, folders, length ? "/" : "./", name);
-        if (n > 0 && (size_t)n < size && access(path, X_OK) == 0)
-            return true;
+        if (n > 0 && (size_t)n < size && access(path, X_OK) == 0) return true;
         folders += length + (folders[length] == ':');
     }
     return false;
@@ -119,8 +111,7 @@ bool file_program(const char *name, char *path, size_t size)
 
 static motus_status cannot_write(file_out *f, motus_error *err)
 {
-    if (f->code == EPIPE && strcmp(f->path, "-") == 0)
-        stop_reader_gone();
+    if (f->code == EPIPE && strcmp(f->path, "-") == 0) stop_reader_gone();
     return complain(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
@@ -131,8 +122,7 @@ static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
     const char *slash = strrchr(f->path, '/');
     size_t folder = slash ? (size_t)(slash - f->path) + 1 : 0;
     f->temporary = malloc(folder + sizeof name);
-    if (!f->temporary)
-        return complain_memory(err);
+    if (!f->temporary) return complain_memory(err);
     memcpy(f->temporary, f->path, folder);
     memcpy(f->temporary + folder, name, sizeof name);
     int fd = mkstemp(f->temporary);
@@ -143,7 +133,7 @@ static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
         return cannot_write(f, err);
     }
     (void)fcntl(fd, F_SETFD, FD_CLOEXEC);
-    (void)fchmod(fd, mode);                     /* a file system without rights keeps its own */
+    (void)fchmod(fd, mode); /* a file system without rights keeps its own */
     f->stream = fdopen(fd, "w");
     if (!f->stream) {
         close(fd);
@@ -157,14 +147,11 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
     *f = (file_out){0};
     struct stat about;
     bool output = strcmp(path, "-") == 0, exists = !output && stat(path, &about) == 0;
-    if (!*path)
-        return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
+    if (!*path) return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
     /* a link stays a link: its target is what is replaced */
     f->path = exists && S_ISREG(about.st_mode) ? realpath(path, NULL) : NULL;
-    if (!f->path)
-        f->path = strdup(path);
-    if (!f->path)
-        return complain_memory(err);
+    if (!f->path) f->path = strdup(path);
+    if (!f->path) return complain_memory(err);
     if (output) {
         f->stream = stdout;
         return MOTUS_OK;
@@ -176,14 +163,13 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
     if (exists && !S_ISREG(about.st_mode)) {
         int fd = open(path, O_WRONLY | O_CLOEXEC);
         f->stream = fd < 0 ? NULL : fdopen(fd, "w");
-        if (f->stream)
-            return MOTUS_OK;
+        if (f->stream) return MOTUS_OK;
         f->code = errno;
-        if (fd >= 0)
-            close(fd);
+        if (fd >= 0) close(fd);
         return cannot_write(f, err);
     }
-    if (exists && access(f->path, W_OK) != 0) {         /* a file made read-only is not to be replaced behind one's back */
+    /* a file made read-only is not to be replaced behind one's back */
+    if (exists && access(f->path, W_OK) != 0) {
         f->code = errno;
         return cannot_write(f, err);
     }
@@ -194,8 +180,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
 
 motus_status file_write(file_out *f, const char *bytes, size_t count, motus_error *err)
 {
-    if (f->code == 0 && fwrite(bytes, 1, count, f->stream) != count)
-        f->code = errno ? errno : EIO;
+    if (f->code == 0 && fwrite(bytes, 1, count, f->stream) != count) f->code = errno ? errno : EIO;
     return f->code ? cannot_write(f, err) : MOTUS_OK;
 }
 
@@ -206,15 +191,13 @@ motus_status file_text(file_out *f, const char *text, motus_error *err)
 
 motus_status file_finish(file_out *f, motus_error *err)
 {
-    if (!f->stream)
-        return MOTUS_OK;
-    if (f->code == 0 && (fflush(f->stream) != 0 || ferror(f->stream)))
-        f->code = errno ? errno : EIO;
+    if (!f->stream) return MOTUS_OK;
+    if (f->code == 0 && (fflush(f->stream) != 0 || ferror(f->stream))) f->code = errno ? errno : EIO;
     /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
-    if (f->code == 0 && f->temporary && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EINTR)
+    if (f->code == 0 && f->temporary && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP &&
+        errno != EINTR)
         f->code = errno;
-    if (f->stream != stdout && fclose(f->stream) != 0 && f->code == 0)
-        f->code = errno;
+    if (f->stream != stdout && fclose(f->stream) != 0 && f->code == 0) f->code = errno;
     f->stream = NULL;
     return f->code ? cannot_write(f, err) : MOTUS_OK;
 }
@@ -223,11 +206,9 @@ motus_status file_finish(file_out *f, motus_error *err)
 static void synchronise_folder(const char *path)
 {
     char *folder = strdup(path);
-    if (!folder)
-        return;
+    if (!folder) return;
     char *slash = strrchr(folder, '/');
-    if (slash)
-        slash[1] = 0;
+    if (slash) slash[1] = 0;
     int fd = open(slash ? folder : ".", O_RDONLY | O_CLOEXEC);
     if (fd >= 0) {
         (void)fsync(fd);
@@ -238,8 +219,7 @@ static void synchronise_folder(const char *path)
 
 motus_status file_keep(file_out *f, motus_error *err)
 {
-    if (!f->temporary)
-        return MOTUS_OK;
+    if (!f->temporary) return MOTUS_OK;
     if (rename(f->temporary, f->path) != 0) {
         f->code = errno;
         return cannot_write(f, err);
@@ -252,10 +232,8 @@ motus_status file_keep(file_out *f, motus_error *err)
 
 void file_drop(file_out *f)
 {
-    if (f->stream && f->stream != stdout)
-        fclose(f->stream);
-    if (f->temporary)
-        unlink(f->temporary);
+    if (f->stream && f->stream != stdout) fclose(f->stream);
+    if (f->temporary) unlink(f->temporary);
     free(f->temporary);
     free(f->path);
     *f = (file_out){0};
@@ -264,9 +242,7 @@ void file_drop(file_out *f)
 motus_status file_flush_output(motus_error *err)
 {
     errno = 0;
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return MOTUS_OK;
-    if (errno == EPIPE)
-        stop_reader_gone();
+    if (fflush(stdout) == 0 && !ferror(stdout)) return MOTUS_OK;
+    if (errno == EPIPE) stop_reader_gone();
     return complain(err, MOTUS_FILE, "cannot write standard output: %s", strerror(errno ? errno : EIO));
 }

@@ -1,8 +1,8 @@
 /* gnuplot as a child process.
  *
- * Invariant: there is no shell, and no file name of the user's reaches gnuplot. The script lies complete in a nameless file before it starts
- * and its words go to another, so that neither side can wait for the other. The picture comes through a pipe, because gnuplot
- * does not notice a full disk, and file_write() does.
+ * Invariant: there is no shell, and no file name of the user's reaches gnuplot. The script lies complete in a
+ * nameless file before it starts and its words go to another, so that neither side can wait for the other. The
+ * picture comes through a pipe, because gnuplot does not notice a full disk, and file_write() does.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/gnuplot.h"
@@ -36,17 +36,14 @@ motus_status gnuplot_open(gnuplot *g, motus_error *err)
 {
     g->script = tmpfile();
     g->complaints = tmpfile();
-    if (g->script && g->complaints)
-        return MOTUS_OK;
+    if (g->script && g->complaints) return MOTUS_OK;
     return complain(err, MOTUS_FILE, "cannot make a temporary file: %s", strerror(errno));
 }
 
 void gnuplot_close(gnuplot *g)
 {
-    if (g->script)
-        fclose(g->script);
-    if (g->complaints)
-        fclose(g->complaints);
+    if (g->script) fclose(g->script);
+    if (g->complaints) fclose(g->complaints);
     *g = (gnuplot){0};
 }
 
@@ -58,10 +55,8 @@ static motus_status pass_on(int from, file_out *picture, size_t *bytes, motus_er
     *bytes = 0;
     while (!status && !stop_requested()) {
         ssize_t got = read(from, part, sizeof part);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            break;
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
         *bytes += (size_t)got;
         status = file_write(picture, part, (size_t)got, err);
     }
@@ -89,11 +84,9 @@ motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
     if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
         return complain(err, MOTUS_FILE, "cannot write a temporary file: %s", strerror(errno));
     int ends[2];
-    if (pipe(ends) != 0)
-        return complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(errno));
+    if (pipe(ends) != 0) return complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(errno));
     const int ours[] = {ends[0], ends[1], fileno(g->script), fileno(g->complaints)};
-    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
-        (void)fcntl(ours[i], F_SETFD, FD_CLOEXEC);
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++) (void)fcntl(ours[i], F_SETFD, FD_CLOEXEC);
     pid_t process;
     static char name[] = "gnuplot", defaults[] = "-d";
     char *const arguments[] = {name, defaults, NULL};
@@ -105,15 +98,13 @@ motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
     }
     size_t bytes;
     motus_status status = pass_on(ends[0], picture, &bytes, err);
-    close(ends[0]);               /* a gnuplot that still writes ends here */
+    close(ends[0]); /* a gnuplot that still writes ends here */
     int outcome = 0;
     pid_t waited;
     while ((waited = waitpid(process, &outcome, 0)) < 0 && errno == EINTR)
         ;
-    if (stop_requested())
-        return complain(err, MOTUS_CANCELLED, "cancelled");
-    if (status || (waited == process && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && bytes > 0))
-        return status;
+    if (stop_requested()) return complain(err, MOTUS_CANCELLED, "cancelled");
+    if (status || (waited == process && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && bytes > 0)) return status;
     char words[200];
     first_words(g->complaints, words, sizeof words);
     return complain(err, MOTUS_TOOL, "gnuplot failed%s%s", words[0] ? ": " : "", words);

@@ -5,8 +5,8 @@
 #include "cli/file.h"
 
 typedef struct gnuplot {
-    FILE *script;                /* write the script here */
-    FILE *complaints;            /* what gnuplot says, kept for the message */
+    FILE *script;     /* write the script here */
+    FILE *complaints; /* what gnuplot says, kept for the message */
 } gnuplot;
 
 /* TOOL, with the line that installs it, where there is no gnuplot. */

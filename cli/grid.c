@@ -15,12 +15,10 @@ static motus_status check_name(const grid *g, const options *o, size_t k, motus_
 {
     const char *name = g->axes[k].name;
     for (size_t i = 0; i < k; i++)
-        if (strcmp(g->axes[i].name, name) == 0)
-            return complain(err, MOTUS_ARGUMENT, "%s is varied twice", name);
+        if (strcmp(g->axes[i].name, name) == 0) return complain(err, MOTUS_ARGUMENT, "%s is varied twice", name);
     for (size_t i = 0; i < o->set.count; i++) {
         size_t length = strcspn(o->set.items[i], "=");
-        while (length > 0 && o->set.items[i][length - 1] == ' ')
-            length--;
+        while (length > 0 && o->set.items[i][length - 1] == ' ') length--;
         if (length == strlen(name) && strncmp(o->set.items[i], name, length) == 0)
             return complain(err, MOTUS_ARGUMENT, "%s is both set and varied", name);
     }
@@ -39,18 +37,16 @@ static motus_status count_points(grid *g, size_t varied, motus_error *err)
     uint64_t points = 1;
     for (size_t k = 0; k < varied; k++) {
         uint64_t n = g->axes[k].count;
-        if (!g->zip && points > GRID_MOST / n)
-            return too_many(err);
+        if (!g->zip && points > GRID_MOST / n) return too_many(err);
         if (g->zip && k > 0 && n != points) {
-            complain(err, MOTUS_ARGUMENT, "--zip: %s has %llu values, %s has %llu", g->axes[0].name, (unsigned long long)points,
-                     g->axes[k].name, (unsigned long long)n);
+            complain(err, MOTUS_ARGUMENT, "--zip: %s has %llu values, %s has %llu", g->axes[0].name,
+                     (unsigned long long)points, g->axes[k].name, (unsigned long long)n);
             complain_hint(err, "side by side they have to be as many");
             return MOTUS_ARGUMENT;
         }
         points = g->zip ? n : points * n;
     }
-    if (points > GRID_MOST / g->draws)
-        return too_many(err);
+    if (points > GRID_MOST / g->draws) return too_many(err);
     g->total = points * g->draws;
     return MOTUS_OK;
 }
@@ -81,20 +77,18 @@ motus_status grid_read(grid *g, const options *o, motus_error *err)
 {
     *g = (grid){.zip = o->zip, .seed = o->seed, .draws = o->count > 0 ? (uint64_t)o->count : 1};
     motus_status status = check(o, err);
-    if (status)
-        return status;
+    if (status) return status;
     size_t count = o->vary.count + o->random.count;
     g->axes = calloc(count, sizeof *g->axes);
     g->names = calloc(count, sizeof *g->names);
-    if (!g->axes || !g->names)
-        return complain_memory(err);
+    if (!g->axes || !g->names) return complain_memory(err);
     for (size_t k = 0; !status && k < count; k++) {
         bool drawn = k >= o->vary.count;
         g->count++;
-        status = axis_read(&g->axes[k], drawn ? "--random" : "--vary", drawn ? o->random.items[k - o->vary.count] : o->vary.items[k], err);
+        status = axis_read(&g->axes[k], drawn ? "--random" : "--vary",
+                           drawn ? o->random.items[k - o->vary.count] : o->vary.items[k], err);
         g->names[k] = g->axes[k].name;
-        if (!status)
-            status = check_name(g, o, k, err);
+        if (!status) status = check_name(g, o, k, err);
     }
     return status ? status : count_points(g, o->vary.count, err);
 }
@@ -114,12 +108,10 @@ static double value(const grid *g, size_t k, uint32_t stream, uint64_t place, ui
 void grid_values(const grid *g, uint64_t first, size_t count, double *const *values)
 {
     size_t varied = 0;
-    while (varied < g->count && g->axes[varied].kind <= AXIS_LIST)
-        varied++;
+    while (varied < g->count && g->axes[varied].kind <= AXIS_LIST) varied++;
     for (size_t k = varied; k < g->count; k++)
-        for (size_t i = 0; i < count; i++)
-            values[k][i] = value(g, k, (uint32_t)(k - varied), 0, first + i);
-    uint64_t repeat = g->draws;                      /* how many trajectories in a row have this value */
+        for (size_t i = 0; i < count; i++) values[k][i] = value(g, k, (uint32_t)(k - varied), 0, first + i);
+    uint64_t repeat = g->draws; /* how many trajectories in a row have this value */
     for (size_t k = varied; k-- > 0;) {
         uint64_t n = g->axes[k].count, place = first / repeat % n, left = repeat - first % repeat;
         double v = value(g, k, 0, place, 0);
@@ -131,15 +123,13 @@ void grid_values(const grid *g, uint64_t first, size_t count, double *const *val
             }
             values[k][i] = v;
         }
-        if (!g->zip)
-            repeat *= n;
+        if (!g->zip) repeat *= n;
     }
 }
 
 void grid_free(grid *g)
 {
-    for (size_t k = 0; k < g->count; k++)
-        axis_free(&g->axes[k]);
+    for (size_t k = 0; k < g->count; k++) axis_free(&g->axes[k]);
     free(g->axes);
     free(g->names);
     *g = (grid){0};

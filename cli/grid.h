@@ -8,27 +8,28 @@
 typedef enum axis_kind { AXIS_RANGE, AXIS_LIST, AXIS_UNIFORM, AXIS_NORMAL } axis_kind;
 
 typedef struct axis {
-    const char *spec;            /* "F=0:1:11", as given */
-    char *name;                  /* "F" */
-    char *path;                  /* of the file the list came from, or NULL */
+    const char *spec; /* "F=0:1:11", as given */
+    char *name;       /* "F" */
+    char *path;       /* of the file the list came from, or NULL */
     axis_kind kind;
-    range range;                 /* AXIS_UNIFORM: its ends; AXIS_NORMAL: mean and deviation */
+    range range; /* AXIS_UNIFORM: its ends; AXIS_NORMAL: mean and deviation */
     double *list;
-    uint64_t count;              /* values; 1 for what is drawn */
+    uint64_t count; /* values; 1 for what is drawn */
 } axis;
 
 typedef struct grid {
     axis *axes;
     size_t count;
-    const char **names;          /* of the axes, for the library */
+    const char **names; /* of the axes, for the library */
     bool zip;
     uint64_t draws, seed, total; /* draws for each point; trajectories in all */
 } grid;
 
-#define GRID_MOST ((uint64_t)1 << 53)            /* trajectories: their numbers are exact as doubles */
+#define GRID_MOST ((uint64_t)1 << 53) /* trajectories: their numbers are exact as doubles */
 
 motus_status grid_read(grid *, const options *, motus_error *);
-/* Values of `count` trajectories from number `first`: values[axis][i]. The last --vary changes fastest, draws faster still. */
+/* Values of `count` trajectories from number `first`: values[axis][i]. The last --vary changes fastest, draws faster
+ * still. */
 void grid_values(const grid *, uint64_t first, size_t count, double *const *values);
 void grid_free(grid *);
 

@@ -3,7 +3,10 @@
 
 #include "cli/options.h"
 
-typedef struct page { unsigned verb; const char *use, *about, *examples; } page;
+typedef struct page {
+    unsigned verb;
+    const char *use, *about, *examples;
+} page;
 
 static const page pages[] = {
     {VERB_RUN, "motus run MODEL [options]",
@@ -19,33 +22,41 @@ static const page pages[] = {
      "  motus run models/pendulum.motus --set \"theta(0)=3\" --step 1/64 --share\n"},
     {VERB_COMPARE, "motus compare MODEL [options]",
      "Runs every method side by side: steps, evaluations, time, largest and final error against the exact motion or a\n"
-     "reference whose own error is shown, drift of the invariants and its trend, and what is left after going there and\n"
+     "reference whose own error is shown, drift of the invariants and its trend, and what is left after going there "
+     "and\n"
      "back.",
      "  motus compare models/projectile.motus\n"
      "  motus compare models/spring.motus --methods explicit-euler,symplectic-euler,verlet --plot spring.svg\n"
      "  motus compare models/kepler.motus --evaluations 20000\n"},
     {VERB_CONVERGE, "motus converge MODEL [options]",
-     "Measures the order of every method on this model: errors at a row of steps, the slope where neither instability nor\n"
+     "Measures the order of every method on this model: errors at a row of steps, the slope where neither instability "
+     "nor\n"
      "round-off rules, and the certificate. Exit status 1 where a method does not keep its declared order.",
      "  motus converge models/pendulum.motus\n"
      "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
      "  motus converge models/charged-particle.motus --json\n"},
     {VERB_SWEEP, "motus sweep MODEL --vary P=RANGE ... [options]",
-     "Integrates a model many times, with other parameters or initial values each time, on all processors, and writes a row\n"
+     "Integrates a model many times, with other parameters or initial values each time, on all processors, and writes "
+     "a row\n"
      "of what was recorded for each. --vary twice is every value of the one with every value of the other. What was\n"
      "interrupted, even by kill -9, goes on with --resume.",
      "  motus sweep models/driven-oscillator.motus --vary F=0:0.2:11\n"
-     "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:181\" --record \"max(theta),final\" --until 10 -o swings.csv\n"
-     "  motus sweep models/driven-oscillator.motus --vary F=log:0.001:0.1:3 --vary \"x(0)=0,0.1,0.2\" --record \"x,max(x)\"\n"
-     "  motus sweep models/kepler.motus --random \"r'.y(0)=normal:2:0.01\" --count 1000 --seed 7 --until 20 -o cloud.npy\n"
+     "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:181\" --record \"max(theta),final\" --until 10 -o "
+     "swings.csv\n"
+     "  motus sweep models/driven-oscillator.motus --vary F=log:0.001:0.1:3 --vary \"x(0)=0,0.1,0.2\" --record "
+     "\"x,max(x)\"\n"
+     "  motus sweep models/kepler.motus --random \"r'.y(0)=normal:2:0.01\" --count 1000 --seed 7 --until 20 -o "
+     "cloud.npy\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=@swings.csv:theta(0)\" --until 1 --record energy\n"},
     {VERB_CHECK, "motus check MODEL [options]",
-     "Says what was understood of a model: its equations in normal form, what the acceleration depends on, and for every\n"
+     "Says what was understood of a model: its equations in normal form, what the acceleration depends on, and for "
+     "every\n"
      "method whether the model admits it, and why not.",
      "  motus check models/damped-cubic.motus\n"
      "  motus check models/charged-particle.motus --json\n"},
     {VERB_LAB, "motus lab [MODEL] [options]",
-     "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser. The file\n"
+     "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser. "
+     "The file\n"
      "is NAME-lab.html in the current folder, where NAME is the model's; its path goes to standard output.\n"
      "The browser is $BROWSER, else the system's.",
      "  motus lab\n"
@@ -58,7 +69,8 @@ static const page pages[] = {
      "  motus methods verlet\n"
      "  motus methods --json\n"},
     {VERB_CACHE, "motus cache --clear",
-     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it; it is\n"
+     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it; "
+     "it is\n"
      "made again where it is wanted.",
      "  motus cache --clear\n"},
 };
@@ -83,7 +95,8 @@ void help_program(FILE *out)
           "  step   0.001\n"
           "  until  100\n\n"
           "Data goes to standard output, messages to standard error. Exit status: 0 done, 1 the computation failed,\n"
-          "2 the request was wrong. After Ctrl-C the program dies of the signal; no file is left half written, but for the whole\n"
+          "2 the request was wrong. After Ctrl-C the program dies of the signal; no file is left half written, but for "
+          "the whole\n"
           "rows of a sweep, with which --resume goes on.\n",
           out);
 }

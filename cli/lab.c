@@ -1,6 +1,7 @@
 /* motus lab: the page of the lab with a model in it, written and opened.
  *
- * Invariant: the model and what is said beside it are checked before anything is written; the page then appears whole or not at all.
+ * Invariant: the model and what is said beside it are checked before anything is written; the page then appears whole
+ * or not at all.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
@@ -20,7 +21,7 @@
 typedef struct job {
     const options *options;
     load model;
-    char *fragment;              /* NULL: no model */
+    char *fragment; /* NULL: no model */
     lab_page page;
     char name[MOTUS_NAME_MAX + 16];
     const char *output;
@@ -30,9 +31,12 @@ typedef struct job {
 /* Settings are settings of a model. */
 static motus_status check_alone(const options *o, motus_error *err)
 {
-    const struct { const char *name; bool given; } others[] = {
-        {"--set", o->set.count > 0}, {"--method", o->method}, {"--methods", o->methods.count > 0}, {"--step", o->step_typed},
-        {"--until", o->until_typed},
+    const struct {
+        const char *name;
+        bool given;
+    } others[] = {
+        {"--set", o->set.count > 0}, {"--method", o->method},     {"--methods", o->methods.count > 0},
+        {"--step", o->step_typed},   {"--until", o->until_typed},
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].given) {
@@ -47,8 +51,7 @@ static motus_status read_model(job *j, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = load_model(&j->model, o, err);
-    if (!status && o->method)
-        status = motus_method_admits(j->model.system, o->method, err);
+    if (!status && o->method) status = motus_method_admits(j->model.system, o->method, err);
     for (size_t k = 0; !status && k < o->methods.count; k++)
         status = motus_method_admits(j->model.system, o->methods.items[k], err);
     return status ? status : share_fragment(&j->model, o, &j->fragment, err);
@@ -68,8 +71,7 @@ static motus_status name_output(job *j, motus_error *err)
 
 static motus_status say_where(const job *j, motus_error *err)
 {
-    if (strcmp(j->output, "-") == 0)
-        return file_flush_output(err);
+    if (strcmp(j->output, "-") == 0) return file_flush_output(err);
     if (j->options->json) {
         json out = text_json(stdout);
         json_string(&out, "output", j->output);
@@ -98,19 +100,13 @@ static motus_status write_page(job *j, motus_error *err)
 {
     stop_watch();
     motus_status status = file_create(&j->file, j->output, err);
-    if (!status)
-        status = lab_page_write(&j->page, j->fragment ? j->fragment + 1 : "", &j->file, err);
-    if (!status)
-        status = file_finish(&j->file, err);
-    if (!status && stop_requested())
-        status = complain(err, MOTUS_CANCELLED, "cancelled");
-    if (!status)
-        status = say_where(j, err);
-    bool lasting = j->file.temporary != NULL;        /* a file, no device or pipe */
-    if (!status)
-        status = file_keep(&j->file, err);
-    if (!status && lasting && !j->options->no_open)
-        show(j);
+    if (!status) status = lab_page_write(&j->page, j->fragment ? j->fragment + 1 : "", &j->file, err);
+    if (!status) status = file_finish(&j->file, err);
+    if (!status && stop_requested()) status = complain(err, MOTUS_CANCELLED, "cancelled");
+    if (!status) status = say_where(j, err);
+    bool lasting = j->file.temporary != NULL; /* a file, no device or pipe */
+    if (!status) status = file_keep(&j->file, err);
+    if (!status && lasting && !j->options->no_open) show(j);
     return status;
 }
 
@@ -118,12 +114,9 @@ motus_status lab_verb(const options *o, motus_error *err)
 {
     job j = {.options = o};
     motus_status status = o->operand ? read_model(&j, err) : check_alone(o, err);
-    if (!status)
-        status = lab_page_read(&j.page, o->argv[0], err);
-    if (!status)
-        status = name_output(&j, err);
-    if (!status)
-        status = write_page(&j, err);
+    if (!status) status = lab_page_read(&j.page, o->argv[0], err);
+    if (!status) status = name_output(&j, err);
+    if (!status) status = write_page(&j, err);
     file_drop(&j.file);
     lab_page_free(&j.page);
     free(j.fragment);

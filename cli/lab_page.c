@@ -1,7 +1,7 @@
 /* The page of the lab.
  *
- * Invariant: a page is written as it was built but for the start in its one empty meta element; of the start no character
- * has a meaning in HTML but &, which is written &amp;.
+ * Invariant: a page is written as it was built but for the start in its one empty meta element; of the start no
+ * character has a meaning in HTML but &, which is written &amp;.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/lab_page.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PAGE_MAX ((size_t)16 << 20)          /* bytes of a page */
+#define PAGE_MAX ((size_t)16 << 20) /* bytes of a page */
 enum { PATH_ROOM = 4096 };
 
 /* Where the program lies, by what the system says, else by the name it was called with. */
@@ -26,15 +26,12 @@ static bool program_folder(const char *called, char out[PATH_ROOM])
         const char *name = strchr(called, '/') ? called : file_program(called, found, sizeof found) ? found : NULL;
         char *real = name ? realpath(name, NULL) : NULL;
         bool fits = real && strlen(real) < PATH_ROOM;
-        if (fits)
-            strcpy(out, real);
+        if (fits) strcpy(out, real);
         free(real);
-        if (!fits)
-            return false;
+        if (!fits) return false;
     }
     char *slash = strrchr(out, '/');
-    if (slash)
-        *slash = 0;
+    if (slash) *slash = 0;
     return slash != NULL;
 }
 
@@ -50,8 +47,7 @@ static motus_status find(char **path, const char *program, motus_error *err)
     bool known = program_folder(program, folder);
     for (size_t i = 0; known && i < sizeof places / sizeof *places; i++) {
         int n = snprintf(candidate, sizeof candidate, "%s/%s", folder, places[i]);
-        if (n < 0 || (size_t)n >= sizeof candidate || access(candidate, F_OK) != 0)
-            continue;
+        if (n < 0 || (size_t)n >= sizeof candidate || access(candidate, F_OK) != 0) continue;
         *path = strdup(candidate);
         return *path ? MOTUS_OK : complain_memory(err);
     }
@@ -73,20 +69,14 @@ motus_status lab_page_read(lab_page *p, const char *program, motus_error *err)
     static const char meta[] = "<meta name=\"motus-start\"", empty[] = " content=\"\">";
     *p = (lab_page){0};
     motus_status status = find(&p->path, program, err);
-    if (!status)
-        status = file_read(p->path, PAGE_MAX, &p->text, &p->length, err);
-    if (status)
-        return status;
-    if (memchr(p->text, 0, p->length))
-        return not_a_page(p, "it has a byte 0", err);
+    if (!status) status = file_read(p->path, PAGE_MAX, &p->text, &p->length, err);
+    if (status) return status;
+    if (memchr(p->text, 0, p->length)) return not_a_page(p, "it has a byte 0", err);
     const char *found = strstr(p->text, meta);
-    if (!found)
-        return not_a_page(p, "nothing in it says with what it starts", err);
+    if (!found) return not_a_page(p, "nothing in it says with what it starts", err);
     const char *rest = found + sizeof meta - 1;
-    if (strstr(rest, meta))
-        return not_a_page(p, "two places in it say with what it starts", err);
-    if (strncmp(rest, empty, sizeof empty - 1) != 0)
-        return not_a_page(p, "its place for a start is not empty", err);
+    if (strstr(rest, meta)) return not_a_page(p, "two places in it say with what it starts", err);
+    if (strncmp(rest, empty, sizeof empty - 1) != 0) return not_a_page(p, "its place for a start is not empty", err);
     p->place = (size_t)(rest - p->text) + strlen(" content=\"");
     return MOTUS_OK;
 }

@@ -6,11 +6,11 @@
 
 typedef struct lab_page {
     char *path, *text;
-    size_t length, place;        /* bytes; the start goes before byte `place` */
+    size_t length, place; /* bytes; the start goes before byte `place` */
 } lab_page;
 
-/* The page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0]. To be freed, also after a
- * failure. */
+/* The page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0]. To
+ * be freed, also after a failure. */
 motus_status lab_page_read(lab_page *, const char *program, motus_error *);
 void lab_page_free(lab_page *);
 /* The page with a start: text of a fragment without its #, or "". */

@@ -21,10 +21,7 @@ static motus_status no_model(const options *o, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-static const char *called(const char *path)
-{
-    return strcmp(path, "-") == 0 ? "standard input" : path;
-}
+static const char *called(const char *path) { return strcmp(path, "-") == 0 ? "standard input" : path; }
 
 motus_status load_complain(const char *text, const char *at, const char *path, const char *what, motus_error *err)
 {
@@ -35,8 +32,7 @@ motus_status load_complain(const char *text, const char *at, const char *path, c
             line++;
             start = s + 1;
         }
-    for (uint32_t c; start < at; column++)
-        start += text_decode(start, &c);
+    for (uint32_t c; start < at; column++) start += text_decode(start, &c);
     complain(err, MOTUS_SYNTAX, "%s", what);
     complain_hint(err, "a model is a text file in UTF-8");
     text_safe(called(path), err->file, sizeof err->file);
@@ -51,31 +47,26 @@ static void name_of(const char *path, char *out, size_t size)
     const char *base = strcmp(path, "-") == 0 ? "model" : slash ? slash + 1 : path;
     text_safe(base, out, size);
     char *dot = strrchr(out, '.');
-    if (dot && dot != out)
-        *dot = 0;
+    if (dot && dot != out) *dot = 0;
 }
 
 static size_t numbers_of(const motus_system *system, load_naming *name)
 {
     size_t all = 0, numbers;
-    for (size_t k = 0; name(system, k, &numbers); k++)
-        all += numbers;
+    for (size_t k = 0; name(system, k, &numbers); k++) all += numbers;
     return all;
 }
 
 motus_status load_model(load *m, const options *o, motus_error *err)
 {
     *m = (load){0};
-    if (!o->operand)
-        return no_model(o, err);
+    if (!o->operand) return no_model(o, err);
     name_of(o->operand, m->title, sizeof m->title);
     size_t length;
     motus_status status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
-    if (status)
-        return status;
+    if (status) return status;
     const char *zero = memchr(m->text, 0, length);
-    if (zero)
-        return load_complain(m->text, zero, o->operand, "a byte 0: this is not a text", err);
+    if (zero) return load_complain(m->text, zero, o->operand, "a byte 0: this is not a text", err);
     motus_text_def def = motus_default_text();
     def.text = m->text;
     def.length = length;
@@ -83,9 +74,8 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     def.set = o->set.items;
     def.set_count = o->set.count;
     status = motus_system_from_text(&def, &m->system, err);
-    if (status)
-        return status;
-    stop_watch();                    /* up to here there is nothing to clean up: signals end the program at once */
+    if (status) return status;
+    stop_watch(); /* up to here there is nothing to clean up: signals end the program at once */
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
     m->quantities = numbers_of(m->system, motus_quantity_name);
@@ -100,15 +90,9 @@ void load_free(load *m)
     *m = (load){0};
 }
 
-size_t load_quantity_column(const load *m)
-{
-    return 1 + m->positions + m->velocities;
-}
+size_t load_quantity_column(const load *m) { return 1 + m->positions + m->velocities; }
 
-size_t load_invariant_column(const load *m)
-{
-    return load_quantity_column(m) + m->quantities;
-}
+size_t load_invariant_column(const load *m) { return load_quantity_column(m) + m->quantities; }
 
 double load_until(const load *m, const options *o)
 {

@@ -7,12 +7,13 @@
 typedef struct load {
     char *text;
     motus_system *system;
-    size_t positions, velocities;        /* columns: t, then these, then quantities, invariants, exact */
-    size_t quantities, invariants;       /* numbers in all */
-    char title[MOTUS_NAME_MAX];          /* file name without folder and ending, safe to show */
+    size_t positions, velocities;  /* columns: t, then these, then quantities, invariants, exact */
+    size_t quantities, invariants; /* numbers in all */
+    char title[MOTUS_NAME_MAX];    /* file name without folder and ending, safe to show */
 } load;
 
-/* Reads the model of the options with their --set; everything in *load is freed by load_free(), also after a failure. */
+/* Reads the model of the options with their --set; everything in *load is freed by load_free(), also after a
+ * failure. */
 motus_status load_model(load *, const options *, motus_error *);
 void load_free(load *);
 

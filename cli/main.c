@@ -15,7 +15,7 @@
 
 typedef struct verb {
     const char *name;
-    unsigned bit;                 /* 0: not available in this version */
+    unsigned bit; /* 0: not available in this version */
     motus_status (*go)(const options *, motus_error *);
 } verb;
 
@@ -35,8 +35,7 @@ enum { VERBS = sizeof verbs / sizeof *verbs };
 static const verb *find(const char *name)
 {
     for (size_t i = 0; i < VERBS; i++)
-        if (strcmp(verbs[i].name, name) == 0)
-            return &verbs[i];
+        if (strcmp(verbs[i].name, name) == 0) return &verbs[i];
     return NULL;
 }
 
@@ -91,21 +90,17 @@ static bool general(int argc, char **argv, bool as_json)
 
 static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *err)
 {
-    if (general(argc, argv, as_json))
-        return file_flush_output(err);
+    if (general(argc, argv, as_json)) return file_flush_output(err);
     int first = 1;
-    while (first < argc && strcmp(argv[first], "--json") == 0)
-        first++;
+    while (first < argc && strcmp(argv[first], "--json") == 0) first++;
     if (first == argc) {
         complain(err, MOTUS_ARGUMENT, "a verb is missing");
         complain_hint(err, "motus run model.motus; motus --help lists the others");
         return MOTUS_ARGUMENT;
     }
     const verb *v = find(argv[first]);
-    if (!v)
-        return unknown(argv[first], err);
-    if (!v->go)
-        return complain(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
+    if (!v) return unknown(argv[first], err);
+    if (!v->go) return complain(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
     options o;
     motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
     o.json = o.json || as_json;
@@ -122,16 +117,13 @@ static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *e
 int main(int argc, char **argv)
 {
     bool as_json = false;
-    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
-        as_json = as_json || strcmp(argv[i], "--json") == 0;
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) as_json = as_json || strcmp(argv[i], "--json") == 0;
     motus_error err = motus_default_error();
     motus_status status = dispatch(argc, argv, as_json, &err);
     stop_obey();
-    if (!status)
-        return 0;
+    if (!status) return 0;
     err.status = status;
-    if (!err.message[0])
-        complain(&err, status, "%s", motus_status_text(status));
+    if (!err.message[0]) complain(&err, status, "%s", motus_status_text(status));
     /* the object of a study has said already which methods failed */
     return complain_show(&err, as_json && status != MOTUS_ORDER);
 }

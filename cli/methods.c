@@ -36,17 +36,16 @@ static void print_json(const motus_method *only)
 
 static motus_status print_catalogue(const options *o, motus_error *err)
 {
-    static const char *const heads[] = {"name", "order", "stages", "evaluations", "forces", "symplectic", "reversible",
-                                        "limit of hω", "citation"};
+    static const char *const heads[] = {"name",       "order",      "stages",      "evaluations", "forces",
+                                        "symplectic", "reversible", "limit of hω", "citation"};
     table *t = table_create("lrrrlllrl");
-    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
-        table_cell(t, heads[i]);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
         char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX];
         limit_text(m->stability_limit, limit);
         evaluations_text(m->evaluations, evaluations);
-        bool counted = m->order > 0;           /* the exact motion has no order and takes no stages */
+        bool counted = m->order > 0; /* the exact motion has no order and takes no stages */
         table_cell(t, m->name);
         if (counted) {
             table_integer(t, m->order);
@@ -84,8 +83,7 @@ static void print_card(const motus_method *m)
     limit_text(m->stability_limit, limit);
     evaluations_text(m->evaluations, evaluations);
     printf("%s%s%s, %s, order %d\n", strong, m->name, plain, m->family, m->order);
-    if (m->aliases && m->aliases[0])
-        printf("also called: %s\n", m->aliases);
+    if (m->aliases && m->aliases[0]) printf("also called: %s\n", m->aliases);
     section("formula", m->formula ? m->formula : "", strong, plain);
     snprintf(properties, sizeof properties,
              "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
@@ -101,8 +99,7 @@ motus_status methods_verb(const options *o, motus_error *err)
 {
     const motus_method *only = NULL;
     motus_status status = o->operand ? motus_method_find(o->operand, &only, err) : MOTUS_OK;
-    if (status)
-        return status;
+    if (status) return status;
     if (only && o->markdown)
         return complain(err, MOTUS_ARGUMENT, "--markdown prints the whole catalogue and takes no method");
     if (o->json)

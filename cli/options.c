@@ -1,7 +1,7 @@
 /* The command line.
  *
- * Invariant: an option is one row of the table: its name, what it takes, where it is stored, the verbs it belongs to, its help. Numbers are
- * checked here, so the verbs see only good ones.
+ * Invariant: an option is one row of the table: its name, what it takes, where it is stored, the verbs it belongs to,
+ * its help. Numbers are checked here, so the verbs see only good ones.
  */
 #include "cli/options.h"
 
@@ -14,9 +14,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP | VERB_LAB, STUDY = VERB_COMPARE | VERB_CONVERGE,
-       MOTION = VERB_RUN | STUDY | VERB_SWEEP | VERB_LAB, DRAWN = VERB_RUN | STUDY, ONE = VERB_RUN | VERB_SWEEP, SHARED = VERB_RUN | VERB_COMPARE,
-       ANY = MODEL | VERB_METHODS | VERB_CACHE };
+enum {
+    MODEL = VERB_RUN | VERB_COMPARE | VERB_CONVERGE | VERB_CHECK | VERB_SWEEP | VERB_LAB,
+    STUDY = VERB_COMPARE | VERB_CONVERGE,
+    MOTION = VERB_RUN | STUDY | VERB_SWEEP | VERB_LAB,
+    DRAWN = VERB_RUN | STUDY,
+    ONE = VERB_RUN | VERB_SWEEP,
+    SHARED = VERB_RUN | VERB_COMPARE,
+    ANY = MODEL | VERB_METHODS | VERB_CACHE
+};
 
 typedef enum kind { FLAG, WORD, STEP, UNTIL, COUNT, SEED, EVERY, METHOD_LIST, NAMED } kind;
 
@@ -30,39 +36,56 @@ typedef struct option {
 
 #define AT(member) offsetof(options, member)
 static const option table[] = {
-    {"--method",      NULL, "M",       WORD,     AT(method),      ONE | VERB_LAB, "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
-    {"--methods",     NULL, "A,B,C",   METHOD_LIST, AT(methods),  STUDY | VERB_LAB, "these methods (else every one the model admits; lab: else the model's)"},
-    {"--step",        NULL, "H",       STEP,     AT(step),        MOTION,        "time step: 0.01, 1/64, pi/100"},
-    {"--until",       NULL, "T",       UNTIL,    AT(until),       MOTION,        "end time; before the start: backward"},
-    {"--set",         NULL, "P=EXPR",  NAMED,    AT(set),         MODEL,         "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
-    {"--evaluations", NULL, "N",       COUNT,    AT(evaluations), VERB_COMPARE,  "equal work: each method's step is chosen to spend N evaluations"},
-    {"--output",      "-o", "FILE",    WORD,     AT(output),      ONE | VERB_LAB, "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
-    {"--columns",     NULL, "A,B,C",   WORD,     AT(columns),     VERB_RUN,      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
-    {"--every",       NULL, "T",       EVERY,    AT(every_time),  ONE,           "a row (sweep: a look for max and the like) every time T, or every \"10 steps\""},
-    {"--plot",        NULL, "FIG",     WORD,     AT(plot),        DRAWN,         "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
-    {"--plot-of",     NULL, "X,Y",     WORD,     AT(plot_of),     VERB_RUN,      "draw column Y against column X: \"x,x'\""},
-    {"--save-state",  NULL, "FILE",    WORD,     AT(save_state),  VERB_RUN,      "write an exact restart state at the end"},
-    {"--restart",     NULL, "FILE",    WORD,     AT(restart),     VERB_RUN,      "go on from a restart state, to the same bits"},
-    {"--machine",     NULL, "NAME",    WORD,     AT(machine),     ONE,           "auto (compiles where the run is long enough), interpreter, compiled"},
-    {"--threads",     NULL, "N",       COUNT,    AT(threads),     ONE,           "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
-    {"--emit-c",      NULL, NULL,      FLAG,     AT(emit_c),      VERB_RUN,      "print the C text that the compiled machine runs, and stop"},
-    {"--share",       NULL, NULL,      FLAG,     AT(share),       SHARED,        "print what stands behind the address of the lab to show this, and stop"},
-    {"--no-open",     NULL, NULL,      FLAG,     AT(no_open),     VERB_LAB,      "write the page and start no browser"},
-    {"--clear",       NULL, NULL,      FLAG,     AT(clear),       VERB_CACHE,    "remove every entry"},
-    {"--vary",        NULL, "P=RANGE", NAMED,    AT(vary),        VERB_SWEEP,    "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
-    {"--random",      NULL, "P=DIST",  NAMED,    AT(random),      VERB_SWEEP,    "\"x(0)=-1:1\", evenly; m=normal:MEAN:DEVIATION; repeatable"},
-    {"--count",       NULL, "N",       COUNT,    AT(count),       VERB_SWEEP,    "draw N times (for each value of --vary, if there is one)"},
-    {"--seed",        NULL, "S",       SEED,     AT(seed),        VERB_SWEEP,    "of --random: a whole number (else 0); the same seed, the same numbers"},
-    {"--zip",         NULL, NULL,      FLAG,     AT(zip),         VERB_SWEEP,    "--vary side by side, not every one with every other"},
-    {"--record",      NULL, "LIST",    WORD,     AT(record),      VERB_SWEEP,    "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
-    {"--resume",      NULL, NULL,      FLAG,     AT(resume),      VERB_SWEEP,    "go on with FILE where an interrupted sweep left off, to the same bytes"},
-    {"--force",       NULL, NULL,      FLAG,     AT(force),       VERB_SWEEP,    "replace FILE if it is there"},
-    {"--lanes",       NULL, "N",       COUNT,    AT(lanes),       VERB_SWEEP,    "trajectories side by side: 1, 2, 4, ... (for tests and the curious); the bits are the same"},
-    {"--fast",        NULL, NULL,      FLAG,     AT(fast),        VERB_SWEEP,    "let the compiler reorder: last bits may differ from machine to machine"},
-    {"--markdown",    NULL, NULL,      FLAG,     AT(markdown),    VERB_METHODS,  "the catalogue as a Markdown table"},
-    {"--json",        NULL, NULL,      FLAG,     AT(json),        ANY,           "one JSON object on standard output"},
-    {"--quiet",       "-q", NULL,      FLAG,     AT(quiet),       ANY,           "print nothing but errors and --json"},
-    {"--help",        "-h", NULL,      FLAG,     AT(help),        ANY,           "this text"},
+    {"--method", NULL, "M", WORD, AT(method), ONE | VERB_LAB,
+     "the method, \"newmark(1/4, 1/2)\" (else the model's, else verlet)"},
+    {"--methods", NULL, "A,B,C", METHOD_LIST, AT(methods), STUDY | VERB_LAB,
+     "these methods (else every one the model admits; lab: else the model's)"},
+    {"--step", NULL, "H", STEP, AT(step), MOTION, "time step: 0.01, 1/64, pi/100"},
+    {"--until", NULL, "T", UNTIL, AT(until), MOTION, "end time; before the start: backward"},
+    {"--set", NULL, "P=EXPR", NAMED, AT(set), MODEL,
+     "replace a parameter or initial value: F=0.2, \"x(0)=1\"; repeatable"},
+    {"--evaluations", NULL, "N", COUNT, AT(evaluations), VERB_COMPARE,
+     "equal work: each method's step is chosen to spend N evaluations"},
+    {"--output", "-o", "FILE", WORD, AT(output), ONE | VERB_LAB,
+     "write the CSV (sweep: .npy as well; lab: the page) to FILE; - is standard output"},
+    {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
+     "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
+    {"--every", NULL, "T", EVERY, AT(every_time), ONE,
+     "a row (sweep: a look for max and the like) every time T, or every \"10 steps\""},
+    {"--plot", NULL, "FIG", WORD, AT(plot), DRAWN, "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
+    {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), VERB_RUN, "draw column Y against column X: \"x,x'\""},
+    {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
+    {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "go on from a restart state, to the same bits"},
+    {"--machine", NULL, "NAME", WORD, AT(machine), ONE,
+     "auto (compiles where the run is long enough), interpreter, compiled"},
+    {"--threads", NULL, "N", COUNT, AT(threads), ONE,
+     "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
+    {"--emit-c", NULL, NULL, FLAG, AT(emit_c), VERB_RUN, "print the C text that the compiled machine runs, and stop"},
+    {"--share", NULL, NULL, FLAG, AT(share), SHARED,
+     "print what stands behind the address of the lab to show this, and stop"},
+    {"--no-open", NULL, NULL, FLAG, AT(no_open), VERB_LAB, "write the page and start no browser"},
+    {"--clear", NULL, NULL, FLAG, AT(clear), VERB_CACHE, "remove every entry"},
+    {"--vary", NULL, "P=RANGE", NAMED, AT(vary), VERB_SWEEP,
+     "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
+    {"--random", NULL, "P=DIST", NAMED, AT(random), VERB_SWEEP,
+     "\"x(0)=-1:1\", evenly; m=normal:MEAN:DEVIATION; repeatable"},
+    {"--count", NULL, "N", COUNT, AT(count), VERB_SWEEP, "draw N times (for each value of --vary, if there is one)"},
+    {"--seed", NULL, "S", SEED, AT(seed), VERB_SWEEP,
+     "of --random: a whole number (else 0); the same seed, the same numbers"},
+    {"--zip", NULL, NULL, FLAG, AT(zip), VERB_SWEEP, "--vary side by side, not every one with every other"},
+    {"--record", NULL, "LIST", WORD, AT(record), VERB_SWEEP,
+     "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
+    {"--resume", NULL, NULL, FLAG, AT(resume), VERB_SWEEP,
+     "go on with FILE where an interrupted sweep left off, to the same bytes"},
+    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP, "replace FILE if it is there"},
+    {"--lanes", NULL, "N", COUNT, AT(lanes), VERB_SWEEP,
+     "trajectories side by side: 1, 2, 4, ... (for tests and the curious); the bits are the same"},
+    {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
+     "let the compiler reorder: last bits may differ from machine to machine"},
+    {"--markdown", NULL, NULL, FLAG, AT(markdown), VERB_METHODS, "the catalogue as a Markdown table"},
+    {"--json", NULL, NULL, FLAG, AT(json), ANY, "one JSON object on standard output"},
+    {"--quiet", "-q", NULL, FLAG, AT(quiet), ANY, "print nothing but errors and --json"},
+    {"--help", "-h", NULL, FLAG, AT(help), ANY, "this text"},
 };
 enum { OPTIONS = sizeof table / sizeof *table };
 
@@ -71,8 +94,7 @@ static const char *const verb_names[] = {"run", "compare", "converge", "check", 
 const char *options_verb(unsigned verb)
 {
     for (size_t i = 0; i < sizeof verb_names / sizeof *verb_names; i++)
-        if (verb == 1u << i)
-            return verb_names[i];
+        if (verb == 1u << i) return verb_names[i];
     return "motus";
 }
 
@@ -92,8 +114,7 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
             *found = o;
             return MOTUS_OK;
         }
-        if (matches(o, name))
-            elsewhere = o;
+        if (matches(o, name)) elsewhere = o;
         const int d = near_distance(o->name, name, distance);
         if (o->verbs & verb && d < distance) {
             near = o;
@@ -104,7 +125,8 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
         char verbs[64] = "";
         for (unsigned bit = 1; bit <= VERB_LAB; bit <<= 1)
             if (elsewhere->verbs & bit)
-                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "", options_verb(bit));
+                snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
+                         options_verb(bit));
         complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
         complain_hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
@@ -127,8 +149,7 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
 static motus_status bad_value(const option *o, const char *value, const char *wanted, motus_error *err)
 {
     complain(err, MOTUS_ARGUMENT, "%s %s: this is not %s", o->name, value, wanted);
-    if (strchr(value, ','))
-        complain_hint(err, "numbers are written with a point: 0.5");
+    if (strchr(value, ',')) complain_hint(err, "numbers are written with a point: 0.5");
     return MOTUS_ARGUMENT;
 }
 
@@ -137,8 +158,7 @@ static motus_status read_every(options *o, const option *row, const char *value,
     const char *rest;
     int64_t n;
     if (typed_count(value, &n, &rest)) {
-        while (*rest == ' ')
-            rest++;
+        while (*rest == ' ') rest++;
         if (strcmp(rest, "steps") == 0 || strcmp(rest, "step") == 0) {
             o->every_steps = n;
             o->every_time = 0;
@@ -156,8 +176,7 @@ static motus_status read_every(options *o, const option *row, const char *value,
 motus_status options_split(const char *text, const char *option_name, char **copy, options_list *list, motus_error *err)
 {
     size_t length = strlen(text), most = 1;
-    for (const char *s = text; *s; s++)
-        most += *s == ',';
+    for (const char *s = text; *s; s++) most += *s == ',';
     char *parts = malloc(length + 1);
     const char **items = malloc(most * sizeof *items);
     if (!parts || !items) {
@@ -170,21 +189,18 @@ motus_status options_split(const char *text, const char *option_name, char **cop
     int depth = 0;
     for (char *s = parts, *part = parts;; s++) {
         depth += (*s == '(' || *s == '[') - (*s == ')' || *s == ']');
-        if (*s && !(*s == ',' && depth <= 0))
-            continue;
+        if (*s && !(*s == ',' && depth <= 0)) continue;
         bool last = !*s;
         *s = 0;
         part += strspn(part, " ");
-        for (char *tail = s; tail > part && tail[-1] == ' '; )
-            *--tail = 0;
+        for (char *tail = s; tail > part && tail[-1] == ' ';) *--tail = 0;
         if (!*part) {
             free(parts);
             free(items);
             return complain(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
         }
         items[count++] = part;
-        if (last)
-            break;
+        if (last) break;
         part = s + 1;
     }
     *copy = parts;
@@ -200,8 +216,7 @@ static motus_status add_named(options_list *list, const option *row, const char 
         return MOTUS_ARGUMENT;
     }
     const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
-    if (!items)
-        return complain_memory(err);
+    if (!items) return complain_memory(err);
     list->items = items;
     list->items[list->count++] = value;
     return MOTUS_OK;
@@ -212,12 +227,9 @@ static motus_status store(options *o, const option *row, const char *value, motu
     void *place = (char *)o + row->place;
     const char *rest;
     switch (row->kind) {
-    case FLAG:
-        *(bool *)place = true;
-        return MOTUS_OK;
+    case FLAG: *(bool *)place = true; return MOTUS_OK;
     case WORD:
-        if (!*value)
-            return complain(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
+        if (!*value) return complain(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
         *(const char **)place = value;
         return MOTUS_OK;
     case STEP:
@@ -227,9 +239,9 @@ static motus_status store(options *o, const option *row, const char *value, motu
         o->until_typed = value;
         return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
     case COUNT:
-        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "a whole number above 0", err);
-    case EVERY:
-        return read_every(o, row, value, err);
+        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK
+                                                          : bad_value(row, value, "a whole number above 0", err);
+    case EVERY: return read_every(o, row, value, err);
     case METHOD_LIST:
         free(o->methods_text);
         free(o->methods.items);
@@ -239,19 +251,25 @@ static motus_status store(options *o, const option *row, const char *value, motu
     case SEED:
         o->seeded = true;
         return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "a whole number", err);
-    case NAMED:
-        return add_named(place, row, value, err);
+    case NAMED: return add_named(place, row, value, err);
     }
     return MOTUS_OK;
 }
 
-/* An address has a model, its settings and methods: it cannot say how much work is spent or where a run was interrupted. And as
- * nothing is computed, there is nothing to write. */
+/* An address has a model, its settings and methods: it cannot say how much work is spent or where a run was
+ * interrupted. And as nothing is computed, there is nothing to write. */
 static motus_status check_share(const options *o, motus_error *err)
 {
-    const struct { const char *name; bool given; } others[] = {
-        {"--output", o->output}, {"--plot", o->plot}, {"--save-state", o->save_state}, {"--restart", o->restart},
-        {"--evaluations", o->evaluations > 0}, {"--emit-c", o->emit_c},
+    const struct {
+        const char *name;
+        bool given;
+    } others[] = {
+        {"--output", o->output},
+        {"--plot", o->plot},
+        {"--save-state", o->save_state},
+        {"--restart", o->restart},
+        {"--evaluations", o->evaluations > 0},
+        {"--emit-c", o->emit_c},
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].given) {
@@ -265,7 +283,8 @@ static motus_status check_share(const options *o, motus_error *err)
 static motus_status check(const options *o, motus_error *err)
 {
     const char *machine = o->machine;
-    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 && strcmp(machine, "compiled") != 0) {
+    if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 &&
+        strcmp(machine, "compiled") != 0) {
         complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
         complain_hint(err, "auto, interpreter or compiled");
         return MOTUS_ARGUMENT;
@@ -287,11 +306,11 @@ static motus_status check(const options *o, motus_error *err)
     }
     if (o->json && o->output && strcmp(o->output, "-") == 0) {
         complain(err, MOTUS_ARGUMENT, "--json and -o - both want standard output");
-        complain_hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV", o->verb == VERB_LAB ? "lab.html" : "traj.csv");
+        complain_hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV",
+                      o->verb == VERB_LAB ? "lab.html" : "traj.csv");
         return MOTUS_ARGUMENT;
     }
-    if (o->json && o->markdown)
-        return complain(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
+    if (o->json && o->markdown) return complain(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
     return o->share ? check_share(o, err) : MOTUS_OK;
 }
 
@@ -321,21 +340,17 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
         const option *row = NULL;
         motus_status status = find(name, verb, &row, err);
-        if (status)
-            return status;
+        if (status) return status;
         const char *value = equals ? equals + 1 : NULL;
-        if (row->kind == FLAG && value)
-            return complain(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
+        if (row->kind == FLAG && value) return complain(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
         if (row->kind != FLAG && !value && i + 1 == argc) {
             complain(err, MOTUS_ARGUMENT, "%s: its value is missing", row->name);
             complain_hint(err, "%s %s: %s", row->name, row->argument, row->help);
             return MOTUS_ARGUMENT;
         }
-        if (row->kind != FLAG && !value)
-            value = argv[++i];
+        if (row->kind != FLAG && !value) value = argv[++i];
         status = store(o, row, value, err);
-        if (status)
-            return status;
+        if (status) return status;
     }
     return o->help ? MOTUS_OK : check(o, err);
 }
@@ -353,8 +368,7 @@ void options_help(FILE *out, unsigned verb)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
         const option *o = &table[i];
-        if (!(o->verbs & verb))
-            continue;
+        if (!(o->verbs & verb)) continue;
         char left[40];
         snprintf(left, sizeof left, "%s%s%s%s%s", o->brief ? o->brief : "", o->brief ? ", " : "", o->name,
                  o->argument ? " " : "", o->argument ? o->argument : "");

@@ -8,31 +8,42 @@
 #include <stdio.h>
 
 /* Verbs, as bits, so that an option can say where it belongs. */
-enum { VERB_RUN = 1, VERB_COMPARE = 2, VERB_CONVERGE = 4, VERB_CHECK = 8, VERB_METHODS = 16, VERB_CACHE = 32, VERB_SWEEP = 64,
-       VERB_LAB = 128 };
+enum {
+    VERB_RUN = 1,
+    VERB_COMPARE = 2,
+    VERB_CONVERGE = 4,
+    VERB_CHECK = 8,
+    VERB_METHODS = 16,
+    VERB_CACHE = 32,
+    VERB_SWEEP = 64,
+    VERB_LAB = 128
+};
 
-typedef struct options_list { const char **items; size_t count; } options_list;
+typedef struct options_list {
+    const char **items;
+    size_t count;
+} options_list;
 
 typedef struct options {
     unsigned verb;
-    const char *operand;                 /* the model, or the method of `methods`; NULL: none */
+    const char *operand; /* the model, or the method of `methods`; NULL: none */
     const char *method, *output, *columns, *plot, *plot_of, *save_state, *restart, *machine;
-    double step, until;                  /* NaN: the model's */
-    const char *step_typed, *until_typed;   /* as given; NULL: the model's */
-    double every_time;                   /* 0: not given */
-    int64_t every_steps;                 /* 0: not given */
-    int64_t evaluations, threads;        /* 0: not given */
+    double step, until;                   /* NaN: the model's */
+    const char *step_typed, *until_typed; /* as given; NULL: the model's */
+    double every_time;                    /* 0: not given */
+    int64_t every_steps;                  /* 0: not given */
+    int64_t evaluations, threads;         /* 0: not given */
     options_list set, methods;
-    options_list vary, random;           /* "P=…" as given */
+    options_list vary, random; /* "P=…" as given */
     const char *record;
-    int64_t count, lanes;                /* 0: not given */
+    int64_t count, lanes; /* 0: not given */
     uint64_t seed;
-    bool seeded;                         /* a seed was given */
+    bool seeded; /* a seed was given */
     bool zip, fast, resume, force;
-    char *methods_text;                  /* what the items of `methods` point into */
+    char *methods_text; /* what the items of `methods` point into */
     bool json, quiet, help, markdown, emit_c, clear, share, no_open;
     int argc;
-    char **argv;                         /* the whole command, for the header of files */
+    char **argv; /* the whole command, for the header of files */
 } options;
 
 /* argv from the program's name on; `first` is where the verb's own arguments begin. */
@@ -41,7 +52,8 @@ void options_free(options *);
 const char *options_verb(unsigned verb);
 /* The lines of --help for the options of a verb. */
 void options_help(FILE *, unsigned verb);
-/* "x,r.x,u[1,2]" into its parts: commas inside brackets do not count. The items point into *copy, which the caller frees. */
+/* "x,r.x,u[1,2]" into its parts: commas inside brackets do not count. The items point into *copy, which the caller
+ * frees. */
 motus_status options_split(const char *text, const char *option, char **copy, options_list *, motus_error *);
 
 #endif

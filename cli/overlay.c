@@ -1,7 +1,7 @@
 /* The figure of a comparison.
  *
- * Invariant: a method is the same curve (colour, dashes, marker) in every panel. Every panel draws one quantity of the first cell of a
- * variable, and the last one the first invariant.
+ * Invariant: a method is the same curve (colour, dashes, marker) in every panel. Every panel draws one quantity of
+ * the first cell of a variable, and the last one the first invariant.
  */
 #include "cli/overlay.h"
 
@@ -14,9 +14,9 @@
 enum { METHODS = 8, PANELS = 5, LOOKS = 50000 };
 
 typedef struct slot {
-    size_t panel, columns[2];     /* x and y of the curve */
+    size_t panel, columns[2]; /* x and y of the curve */
     bool timelike, drift;
-    size_t exact[2];              /* 0: none */
+    size_t exact[2]; /* 0: none */
 } slot;
 
 typedef struct overlay {
@@ -30,12 +30,10 @@ typedef struct overlay {
 
 static bool add_slot(overlay *v, const char *title, const char *x, const char *y, slot s)
 {
-    if (v->slot_count == PANELS)
-        return true;
+    if (v->slot_count == PANELS) return true;
     s.panel = v->plot.count;
     plot_panel *p = plot_panel_add(&v->plot, title, x, y);
-    if (!p)
-        return false;
+    if (!p) return false;
     p->spatial = !s.timelike;
     v->slots[v->slot_count++] = s;
     return true;
@@ -45,8 +43,7 @@ static bool add_variable(overlay *v, const motus_variable *var)
 {
     figure_place p, truth;
     motus_column name[2] = {motus_default_column(), motus_default_column()};
-    if (!figure_find(v->model, var, "", "", &p))
-        return true;
+    if (!figure_find(v->model, var, "", "", &p)) return true;
     bool exact = figure_find(v->model, var, "exact ", "", &truth), plane = var->order == 2 && p.components > 1;
     size_t first = p.first, second = plane ? p.first + p.component_step : 0;
     if (motus_column_at(v->model->system, first, &name[0]) || motus_column_at(v->model->system, second, &name[1]))
@@ -64,10 +61,8 @@ static bool add_panels(overlay *v)
     motus_system *system = v->model->system;
     motus_variable variable = motus_default_variable();
     for (size_t k = 0; k < PANELS - 1 && motus_variable_at(system, k, &variable) == MOTUS_OK; k++)
-        if (!add_variable(v, &variable))
-            return false;
-    if (motus_invariant_count(system) == 0)
-        return true;
+        if (!add_variable(v, &variable)) return false;
+    if (motus_invariant_count(system) == 0) return true;
     char title[PLOT_LABEL];
     size_t numbers;
     snprintf(title, sizeof title, "drift of %s", motus_invariant_name(system, 0, &numbers));
@@ -79,8 +74,7 @@ static bool add_curve(overlay *v, record *r, const slot *s, const size_t columns
 {
     double *x = record_want(r, columns[0]), *y = x ? record_want(r, columns[1]) : NULL;
     plot_curve *c = y ? plot_curve_add(&v->plot.panels[s->panel], label, x, y, 0, 1) : NULL;
-    if (!c)
-        return false;
+    if (!c) return false;
     c->role = role;
     c->timelike = s->timelike;
     c->drift = s->drift;
@@ -88,7 +82,8 @@ static bool add_curve(overlay *v, record *r, const slot *s, const size_t columns
 }
 
 /* One method once more, looked at: its curves in every panel, and from the first method the exact ones. */
-static motus_status run_method(overlay *v, const motus_compare_row *row, const options *o, stop_progress *progress, motus_error *err)
+static motus_status run_method(overlay *v, const motus_compare_row *row, const options *o, stop_progress *progress,
+                               motus_error *err)
 {
     motus_run_def def = motus_default_run();
     def.method = row->method;
@@ -98,8 +93,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, const o
     def.context = progress;
     motus_run *run = NULL;
     motus_status status = motus_run_create(v->model->system, &def, &run, err);
-    if (status)
-        return status;
+    if (status) return status;
     bool first = v->record_count == 0;
     record *r = &v->records[v->record_count++];
     *r = record_for(motus_run_steps_total(run), LOOKS);
@@ -107,31 +101,29 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, const o
     for (size_t i = 0; room && i < v->slot_count; i++) {
         const slot *s = &v->slots[i];
         room = add_curve(v, r, s, s->columns, row->method, PLOT_LINE);
-        if (room && first && s->exact[1])
-            room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
+        if (room && first && s->exact[1]) room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
     }
     walk_watcher w = record_watcher(r);
     status = room ? walk(run, motus_run_time(run), load_until(v->model, o), &w, 1, err) : complain_memory(err);
     for (size_t i = 0; i < v->slot_count; i++) {
         plot_panel *p = &v->plot.panels[v->slots[i].panel];
         for (size_t k = 0; k < p->curve_count; k++)
-            if (p->curves[k].count == 0)
-                p->curves[k].count = r->rows;
+            if (p->curves[k].count == 0) p->curves[k].count = r->rows;
     }
     motus_run_destroy(run);
     return status;
 }
 
-motus_status overlay_draw(const load *m, const motus_comparison *c, const options *o, file_out *file, stop_progress *progress,
-                          motus_error *err)
+motus_status overlay_draw(const load *m, const motus_comparison *c, const options *o, file_out *file,
+                          stop_progress *progress, motus_error *err)
 {
     overlay v = {.model = m};
-    snprintf(v.plot.title, sizeof v.plot.title, "%s by %s", m->title, c->row_count == 1 ? "one method" : "several methods");
+    snprintf(v.plot.title, sizeof v.plot.title, "%s by %s", m->title,
+             c->row_count == 1 ? "one method" : "several methods");
     motus_status status = add_panels(&v) ? MOTUS_OK : complain_memory(err);
     size_t left = 0;
     for (size_t k = 0; !status && k < c->row_count; k++) {
-        if (c->rows[k]->status)
-            continue;
+        if (c->rows[k]->status) continue;
         if (v.record_count == METHODS)
             left++;
         else
@@ -140,12 +132,10 @@ motus_status overlay_draw(const load *m, const motus_comparison *c, const option
     if (!status && v.record_count == 0)
         status = complain(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,
                           "no method got to the end: there is nothing to draw");
-    if (!status)
-        status = plot_draw(&v.plot, o->plot, file, err);
+    if (!status) status = plot_draw(&v.plot, o->plot, file, err);
     if (!status && left && !o->quiet)
         complain_note("the figure shows the first %d methods; --methods chooses others", (int)METHODS);
     plot_free(&v.plot);
-    for (size_t k = 0; k < v.record_count; k++)
-        record_free(&v.records[k]);
+    for (size_t k = 0; k < v.record_count; k++) record_free(&v.records[k]);
     return status;
 }

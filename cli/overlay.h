@@ -6,6 +6,7 @@
 #include "cli/plot.h"
 #include "cli/stop.h"
 
-motus_status overlay_draw(const load *, const motus_comparison *, const options *, file_out *, stop_progress *, motus_error *);
+motus_status overlay_draw(const load *, const motus_comparison *, const options *, file_out *, stop_progress *,
+                          motus_error *);
 
 #endif

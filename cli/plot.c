@@ -1,8 +1,9 @@
 /* Figures, as a script for gnuplot.
  *
- * Invariants: text enters the script in single quotes with quotes doubled and control characters gone, in terminals set to noenhanced, so
- * no name is ever a command; data are numbers in data blocks. Nothing is told by colour alone: every curve of a panel has its own
- * dashes and, from the second on, its own marker. Thinning keeps the smallest and the largest value of every column of the picture.
+ * Invariants: text enters the script in single quotes with quotes doubled and control characters gone, in terminals
+ * set to noenhanced, so no name is ever a command; data are numbers in data blocks. Nothing is told by colour alone:
+ * every curve of a panel has its own dashes and, from the second on, its own marker. Thinning keeps the smallest and
+ * the largest value of every column of the picture.
  */
 #include "cli/plot.h"
 
@@ -16,23 +17,25 @@
 #include <strings.h>
 
 enum {
-    COLUMNS = 2000,               /* of the picture, two values each */
-    PATH_GRID = 2500,             /* points of a path nearer than 1/2500 of the picture are one */
+    COLUMNS = 2000,   /* of the picture, two values each */
+    PATH_GRID = 2500, /* points of a path nearer than 1/2500 of the picture are one */
     PATH_MOST = 40000
 };
 
-typedef struct style { const char *colour, *dashes; int marker; } style;
+typedef struct style {
+    const char *colour, *dashes;
+    int marker;
+} style;
 static const style styles[] = {
-    {"#1d4ed8", "solid", 6},        {"#c2410c", "(14,5)", 4},       {"#7c3aed", "(3,4)", 8},         {"#0f172a", "(16,4,3,4)", 12},
-    {"#be185d", "(8,4)", 10},       {"#0e7490", "(12,3,3,3,3,3)", 2}, {"#a16207", "(6,8)", 1},       {"#64748b", "(20,6)", 3},
+    {"#1d4ed8", "solid", 6},  {"#c2410c", "(14,5)", 4},         {"#7c3aed", "(3,4)", 8}, {"#0f172a", "(16,4,3,4)", 12},
+    {"#be185d", "(8,4)", 10}, {"#0e7490", "(12,3,3,3,3,3)", 2}, {"#a16207", "(6,8)", 1}, {"#64748b", "(20,6)", 3},
 };
 enum { STYLES = sizeof styles / sizeof *styles };
 
 plot_panel *plot_panel_add(plot_figure *f, const char *title, const char *x_label, const char *y_label)
 {
     plot_panel *panels = realloc(f->panels, (f->count + 1) * sizeof *panels);
-    if (!panels)
-        return NULL;
+    if (!panels) return NULL;
     f->panels = panels;
     plot_panel *p = &panels[f->count++];
     *p = (plot_panel){0};
@@ -42,11 +45,11 @@ plot_panel *plot_panel_add(plot_figure *f, const char *title, const char *x_labe
     return p;
 }
 
-plot_curve *plot_curve_add(plot_panel *p, const char *label, const double *x, const double *y, size_t count, size_t stride)
+plot_curve *plot_curve_add(plot_panel *p, const char *label, const double *x, const double *y, size_t count,
+                           size_t stride)
 {
     plot_curve *curves = realloc(p->curves, (p->curve_count + 1) * sizeof *curves);
-    if (!curves)
-        return NULL;
+    if (!curves) return NULL;
     p->curves = curves;
     plot_curve *c = &curves[p->curve_count++];
     *c = (plot_curve){.x = x, .y = y, .count = count, .stride = stride};
@@ -70,23 +73,20 @@ static void quoted(FILE *out, const char *s)
     text_safe(s, safe, sizeof safe);
     putc('\'', out);
     for (const char *c = safe; *c; c++) {
-        if (*c == '\'')
-            putc('\'', out);
+        if (*c == '\'') putc('\'', out);
         putc(*c, out);
     }
     putc('\'', out);
 }
 
 /* Numbers that gnuplot can add and scale; the rest are gaps in a curve. */
-static bool drawable(double v)
-{
-    return isfinite(v) && fabs(v) < 1e290;
-}
+static bool drawable(double v) { return isfinite(v) && fabs(v) < 1e290; }
 
 static void put_point(FILE *out, plot_curve *c, size_t i)
 {
     c->drawn++;
-    double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->drift ? c->y[0] : 0), z = c->z ? c->z[i * c->stride] : 0;
+    double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->drift ? c->y[0] : 0),
+           z = c->z ? c->z[i * c->stride] : 0;
     if (!drawable(x) || !drawable(y) || !drawable(z))
         putc('\n', out);
     else if (c->z)
@@ -104,16 +104,12 @@ static void put_timelike(FILE *out, plot_curve *c)
         size_t low = begin, high = begin;
         for (size_t i = begin; i < end; i++) {
             double y = c->y[i * c->stride];
-            if (!(y >= c->y[low * c->stride]))
-                low = i;
-            if (!(y <= c->y[high * c->stride]))
-                high = i;
+            if (!(y >= c->y[low * c->stride])) low = i;
+            if (!(y <= c->y[high * c->stride])) high = i;
         }
-        if (begin == end)
-            continue;
+        if (begin == end) continue;
         put_point(out, c, low < high ? low : high);
-        if (low != high)
-            put_point(out, c, low < high ? high : low);
+        if (low != high) put_point(out, c, low < high ? high : low);
     }
     put_point(out, c, c->count - 1);
 }
@@ -123,8 +119,7 @@ static double extent(const double *v, size_t count, size_t stride)
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < count; i++) {
         double y = v[i * stride];
-        if (!drawable(y))
-            continue;
+        if (!drawable(y)) continue;
         low = fmin(low, y);
         high = fmax(high, y);
     }
@@ -147,13 +142,10 @@ static void put_path(FILE *out, plot_curve *c)
     for (size_t i = 1; i < c->count; i++) {
         double moved = 0;
         for (size_t a = 0; a < 3; a++)
-            if (axes[a])
-                moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
-        if (i + 1 < c->count && moved < 1)
-            continue;
+            if (axes[a]) moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
+        if (i + 1 < c->count && moved < 1) continue;
         /* a path that fills the picture is cut down evenly once it has had its share */
-        if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count)
-            continue;
+        if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count) continue;
         put_point(out, c, i);
         last = i;
         kept++;
@@ -167,8 +159,7 @@ static void put_curve(FILE *out, plot_curve *c)
     else if (c->count > 2 * COLUMNS)
         put_path(out, c);
     else
-        for (size_t i = 0; i < c->count; i++)
-            put_point(out, c, i);
+        for (size_t i = 0; i < c->count; i++) put_point(out, c, i);
 }
 
 static void put_heat(FILE *out, const plot_panel *p)
@@ -203,8 +194,7 @@ static void put_data(FILE *out, plot_figure *f)
 /* One scale for both axes, unless the picture would be a thread. */
 static bool one_scale(const plot_panel *p)
 {
-    if (!p->spatial)
-        return false;
+    if (!p->spatial) return false;
     double x = 0, y = 0;
     for (size_t k = 0; k < p->curve_count; k++) {
         const plot_curve *c = &p->curves[k];
@@ -221,12 +211,13 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
         fputs(" with lines lw 5 dt (18,7) lc rgb '#15803D'", out);
         return;
     }
-    /* with more curves than styles the markers go round at another pace than the dashes, so that no pair comes again soon */
+    /* with more curves than styles the markers go round at another pace than the dashes, so that no pair comes again
+     * soon */
     int marker = styles[(index + index / STYLES) % STYLES].marker;
     bool marked = lines > 1 || p->logarithmic || c->count == 1;
     fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked && !c->z ? "linespoints" : "lines", s->dashes, s->colour);
-    if (c->z)                     /* in space gnuplot marks every point or none: the markers come as a curve of their own */
-        return;
+    /* in space gnuplot marks every point or none: the markers come as a curve of their own */
+    if (c->z) return;
     if (marked && p->logarithmic)
         fprintf(out, " pt %d ps 0.7", marker);
     else if (marked)
@@ -236,8 +227,7 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
 static void put_curves(FILE *out, const plot_panel *p, size_t panel)
 {
     size_t lines = 0;
-    for (size_t k = 0; k < p->curve_count; k++)
-        lines += p->curves[k].role == PLOT_LINE;
+    for (size_t k = 0; k < p->curve_count; k++) lines += p->curves[k].role == PLOT_LINE;
     fputs(p->curve_count && p->curves[0].z ? "splot " : "plot ", out);
     /* the truth first: what was computed is drawn over it */
     bool first = true;
@@ -247,15 +237,14 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
             const plot_curve *c = &p->curves[k];
             size_t own = index;
             index += c->role == PLOT_LINE;
-            if ((c->role == PLOT_EXACT) != (pass == 0))
-                continue;
+            if ((c->role == PLOT_EXACT) != (pass == 0)) continue;
             fprintf(out, "%s$d%zu_%zu using %s", first ? "" : ", ", panel, k, c->z ? "1:2:3" : "1:2");
             put_curve_style(out, p, c, own, lines);
             fputs(" title ", out);
             quoted(out, c->label);
             if (c->z && c->role == PLOT_LINE && lines > 1)
-                fprintf(out, ", $d%zu_%zu using 1:2:3 every %zu with points pt %d ps 0.9 lc rgb '%s' notitle", panel, k, c->drawn / 5 + 1,
-                        styles[own % STYLES].marker, styles[own % STYLES].colour);
+                fprintf(out, ", $d%zu_%zu using 1:2:3 every %zu with points pt %d ps 0.9 lc rgb '%s' notitle", panel, k,
+                        c->drawn / 5 + 1, styles[own % STYLES].marker, styles[own % STYLES].colour);
             first = false;
         }
     }
@@ -266,13 +255,14 @@ static void put_heat_map(FILE *out, const plot_panel *p, size_t panel)
 {
     double most = 0;
     for (size_t i = 0; i < p->heat_rows * p->heat_columns; i++)
-        if (drawable(p->heat[i]))
-            most = fmax(most, fabs(p->heat[i]));
-    if (!(most > 0))
-        most = 1;
+        if (drawable(p->heat[i])) most = fmax(most, fabs(p->heat[i]));
+    if (!(most > 0)) most = 1;
     fprintf(out, "set cbrange [%.6g:%.6g]\n", -most, most);
-    fputs("set palette defined (-1 '#1e3a8a', -0.5 '#60a5fa', 0 '#f8fafc', 0.5 '#fb923c', 1 '#7c2d12')\nunset key\n", out);
-    fprintf(out, "set autoscale xfix\nset autoscale yfix\nplot $heat%zu matrix using (%.12g+$1*%.12g):(%.12g+$2*%.12g):3 with image\n",
+    fputs("set palette defined (-1 '#1e3a8a', -0.5 '#60a5fa', 0 '#f8fafc', 0.5 '#fb923c', 1 '#7c2d12')\nunset key\n",
+          out);
+    fprintf(out,
+            "set autoscale xfix\nset autoscale yfix\nplot $heat%zu matrix using (%.12g+$1*%.12g):(%.12g+$2*%.12g):3 "
+            "with image\n",
             panel, p->x_first, p->x_step, p->y_first, p->y_step);
 }
 
@@ -292,17 +282,16 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     if (p->curve_count < 2)
         fputs("unset key\n", out);
     else
-        fprintf(out, "set key outside %s nobox samplen 4 spacing 1.1 width 2\n", beside ? "right top vertical" : "bottom center horizontal");
+        fprintf(out, "set key outside %s nobox samplen 4 spacing 1.1 width 2\n",
+                beside ? "right top vertical" : "bottom center horizontal");
     fputs(beside ? "unset rmargin\n" : "set rmargin 4\n", out);
-    if (p->logarithmic)
-        fputs("set logscale xy\nset format xy '%.0e'\n", out);
+    if (p->logarithmic) fputs("set logscale xy\nset format xy '%.0e'\n", out);
     if (solid) {
         fputs("set view 62, 32, 1, 1\nset xyplane 0\nset zlabel ", out);
         quoted(out, p->z_label);
         putc('\n', out);
     }
-    if (one_scale(p) && !solid)
-        fputs("set size ratio -1\n", out);
+    if (one_scale(p) && !solid) fputs("set size ratio -1\n", out);
     if (p->heat)
         put_heat_map(out, p, index);
     else
@@ -310,7 +299,10 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     fputs("unset logscale\nset format\nset size noratio\nunset zlabel\n", out);
 }
 
-typedef struct layout { size_t rows, columns; int width, height; } layout;
+typedef struct layout {
+    size_t rows, columns;
+    int width, height;
+} layout;
 
 static layout arrange(const plot_figure *f)
 {
@@ -325,7 +317,7 @@ static layout arrange(const plot_figure *f)
     size_t rows = (f->count + columns - 1) / columns;
     int width = columns == 1 ? (square ? 820 : 960) : square ? 660 : 760;
     int height = f->count == 1 ? (square ? 680 : 480) : square ? 500 : 280;
-    if (crowd > 12) {             /* as tall as the names are many, and room beside them */
+    if (crowd > 12) { /* as tall as the names are many, and room beside them */
         width += 320;
         height = height < (int)crowd * 20 + 120 ? (int)crowd * 20 + 120 : height;
     }
@@ -337,8 +329,7 @@ static const char *const formats[] = {".svg", ".png", ".pdf"};
 static size_t format_of(const char *path)
 {
     size_t length = strlen(path), k = 0;
-    while (k < 3 && !(length > 4 && strcasecmp(path + length - 4, formats[k]) == 0))
-        k++;
+    while (k < 3 && !(length > 4 && strcasecmp(path + length - 4, formats[k]) == 0)) k++;
     return k;
 }
 
@@ -357,15 +348,16 @@ static void put_terminal(FILE *out, const char *path, layout l)
     fputs("set encoding utf8\n", out);
     switch (format_of(path)) {
     case 1:
-        fprintf(out, "set terminal pngcairo size %d,%d noenhanced font 'sans,11' background '#ffffff'\n", l.width, l.height);
+        fprintf(out, "set terminal pngcairo size %d,%d noenhanced font 'sans,11' background '#ffffff'\n", l.width,
+                l.height);
         break;
     case 2:
-        fprintf(out, "set terminal pdfcairo size %.2fin,%.2fin noenhanced font 'sans,11' background '#ffffff'\n", l.width / 96.0,
-                l.height / 96.0);
+        fprintf(out, "set terminal pdfcairo size %.2fin,%.2fin noenhanced font 'sans,11' background '#ffffff'\n",
+                l.width / 96.0, l.height / 96.0);
         break;
     default:
-        fprintf(out, "set terminal svg size %d,%d noenhanced font 'sans-serif,14' background '#ffffff' standalone\n", l.width,
-                l.height);
+        fprintf(out, "set terminal svg size %d,%d noenhanced font 'sans-serif,14' background '#ffffff' standalone\n",
+                l.width, l.height);
     }
 }
 
@@ -378,8 +370,7 @@ static void put_script(FILE *out, plot_figure *f, const char *path)
     fprintf(out, "set multiplot layout %zu,%zu title ", l.rows, l.columns);
     quoted(out, f->title);
     putc('\n', out);
-    for (size_t i = 0; i < f->count; i++)
-        put_panel(out, &f->panels[i], i);
+    for (size_t i = 0; i < f->count; i++) put_panel(out, &f->panels[i], i);
     fputs("unset multiplot\n", out);
 }
 

@@ -1,8 +1,8 @@
 /* Values at equal distances or in equal ratios.
  *
- * Invariant: the first and the last value are exactly those given. Only the four operations and fma() are used, so the values are the same on
- * every machine. All is carried to 106 bits, and ends are taken for the decimals that were typed, so that the values are those that one would
- * type: 0.15 in 0:1:101, and decades in equal ratios.
+ * Invariant: the first and the last value are exactly those given. Only the four operations and fma() are used, so
+ * the values are the same on every machine. All is carried to 106 bits, and ends are taken for the decimals that were
+ * typed, so that the values are those that one would type: 0.15 in 0:1:101, and decades in equal ratios.
  */
 #include "cli/range.h"
 
@@ -35,10 +35,8 @@ static range_pair power(range_pair base, uint64_t n)
 {
     range_pair result = {1, 0};
     for (; n > 0; n >>= 1) {
-        if (n & 1)
-            result = product(result, base);
-        if (n > 1)
-            base = product(base, base);
+        if (n & 1) result = product(result, base);
+        if (n > 1) base = product(base, base);
     }
     return result;
 }
@@ -63,14 +61,14 @@ static range_pair root(range_pair q, uint64_t n)
     return r;
 }
 
-/* The shortest decimal that reads as `value`, which is what was typed: 0.1 is a tenth. Nobody types more extreme ones. */
+/* The shortest decimal that reads as `value`, which is what was typed: 0.1 is a tenth. Nobody types more extreme
+ * ones. */
 static range_pair as_typed(double value)
 {
-    if (!(fabs(value) > 1e-280 && fabs(value) < 1e280))
-        return (range_pair){value, 0};
+    if (!(fabs(value) > 1e-280 && fabs(value) < 1e280)) return (range_pair){value, 0};
     char text[DECIMAL_MAX];
     decimal_write(fabs(value), text);
-    double digits[2] = {0, 0};                       /* the last eight digits, and those before */
+    double digits[2] = {0, 0}; /* the last eight digits, and those before */
     int places = 0, count = 0;
     const char *s = text;
     for (bool point = false; *s && *s != 'e'; s++) {
@@ -81,15 +79,15 @@ static range_pair as_typed(double value)
         places += point && *s != '.';
     }
     uint64_t exponent = 0;
-    if (*s == 'e')
-        decimal_read_whole(s + 2, DECIMAL_MAX, &exponent);
+    if (*s == 'e') decimal_read_whole(s + 2, DECIMAL_MAX, &exponent);
     int power_of_ten = (*s == 'e' && s[1] == '-' ? -(int)exponent : (int)exponent) - places;
     for (s = text; *s && *s != 'e'; s++)
         if (*s != '.') {
             double *part = &digits[count-- > 8];
             *part = *part * 10 + (*s - '0');
         }
-    range_pair whole = sum(copysign(digits[1] * 1e8, value), copysign(digits[0], value)), scale = power((range_pair){10, 0}, (uint64_t)abs(power_of_ten));
+    range_pair whole = sum(copysign(digits[1] * 1e8, value), copysign(digits[0], value)),
+               scale = power((range_pair){10, 0}, (uint64_t)abs(power_of_ten));
     return power_of_ten < 0 ? quotient(whole, scale) : product(whole, scale);
 }
 
@@ -102,29 +100,25 @@ range range_log(double from, double to, uint64_t count)
 {
     double a = fmin(fabs(from), fabs(to)), b = fmax(fabs(from), fabs(to));
     range r = {.from = from, .to = to, .last = count - 1, .logarithmic = true, .low = as_typed(a), .high = {1, 0}};
-    if (r.last > 0)
-        r.high = root(quotient(as_typed(b), r.low), r.last);
+    if (r.last > 0) r.high = root(quotient(as_typed(b), r.low), r.last);
     return r;
 }
 
 static double between(const range *r, uint64_t k)
 {
-    range_pair n = {(double)r->last, 0}, a = product(r->low, (range_pair){(double)(r->last - k), 0}), b = product(r->high, (range_pair){(double)k, 0});
+    range_pair n = {(double)r->last, 0}, a = product(r->low, (range_pair){(double)(r->last - k), 0}),
+               b = product(r->high, (range_pair){(double)k, 0});
     range_pair s = sum(a.high, b.high), v = sum(s.high, s.low + (a.low + b.low));
     /* what 106 bits leave of a difference that is 0 */
-    if (fabs(v.high) < 0x1p-99 * (fabs(a.high) + fabs(b.high)))
-        return 0;
+    if (fabs(v.high) < 0x1p-99 * (fabs(a.high) + fabs(b.high))) return 0;
     return quotient(v, n).high;
 }
 
 double range_value(const range *r, uint64_t k)
 {
-    if (k == 0)
-        return r->from;
-    if (k == r->last)
-        return r->to;
-    if (!r->logarithmic)
-        return between(r, k);
+    if (k == 0) return r->from;
+    if (k == r->last) return r->to;
+    if (!r->logarithmic) return between(r, k);
     bool down = fabs(r->to) < fabs(r->from);
     range_pair p = product(power(r->high, down ? r->last - k : k), r->low);
     return r->from < 0 ? -p.high : p.high;

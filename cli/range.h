@@ -6,13 +6,16 @@
 #include <stdint.h>
 
 /* A number as an unevaluated sum of two: 106 bits. */
-typedef struct range_pair { double high, low; } range_pair;
+typedef struct range_pair {
+    double high, low;
+} range_pair;
 
 typedef struct range {
     double from, to;
-    uint64_t last;               /* the number of the last value; the first is 0 */
+    uint64_t last; /* the number of the last value; the first is 0 */
     bool logarithmic;
-    range_pair low, high;        /* the ends, as the decimals they were typed; logarithmic: the smaller end and the ratio, without sign */
+    /* the ends, as the decimals they were typed; logarithmic: the smaller end and the ratio, without sign */
+    range_pair low, high;
 } range;
 
 range range_linear(double from, double to, uint64_t count);

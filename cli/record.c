@@ -1,9 +1,9 @@
 /* Columns of a run kept in memory.
  *
- * Invariant: the arrays have their full length from the start, so pointers into them are good for the life of the record.
+ * Invariant: the arrays have their full length from the start, so pointers into them are good for the life of the
+ * record.
  */
 #include "cli/record.h"
-
 
 #include <stdlib.h>
 
@@ -22,16 +22,13 @@ record record_for(int64_t steps, int64_t looks)
 double *record_want(record *r, size_t column)
 {
     size_t *columns = realloc(r->columns, (r->count + 1) * sizeof *columns);
-    if (!columns)
-        return NULL;
+    if (!columns) return NULL;
     r->columns = columns;
     double **values = realloc(r->values, (r->count + 1) * sizeof *values);
-    if (!values)
-        return NULL;
+    if (!values) return NULL;
     r->values = values;
     double *array = r->room < SIZE_MAX / sizeof *array ? malloc(r->room * sizeof *array) : NULL;
-    if (!array)
-        return NULL;
+    if (!array) return NULL;
     columns[r->count] = column;
     values[r->count++] = array;
     return array;
@@ -41,10 +38,8 @@ static motus_status take(void *context, const double *values, motus_error *err)
 {
     (void)err;
     record *r = context;
-    if (r->rows == r->room)
-        r->rows--;
-    for (size_t k = 0; k < r->count; k++)
-        r->values[k][r->rows] = values[k];
+    if (r->rows == r->room) r->rows--;
+    for (size_t k = 0; k < r->count; k++) r->values[k][r->rows] = values[k];
     r->rows++;
     return MOTUS_OK;
 }
@@ -56,8 +51,7 @@ walk_watcher record_watcher(record *r)
 
 void record_free(record *r)
 {
-    for (size_t k = 0; k < r->count; k++)
-        free(r->values[k]);
+    for (size_t k = 0; k < r->count; k++) free(r->values[k]);
     free(r->columns);
     free(r->values);
     *r = (record){0};

@@ -6,9 +6,9 @@
 
 typedef struct record {
     size_t *columns;
-    double **values;             /* values[k][row] of columns[k] */
+    double **values; /* values[k][row] of columns[k] */
     size_t count;
-    size_t rows, room;           /* a record with room for one row keeps the last */
+    size_t rows, room; /* a record with room for one row keeps the last */
     int64_t stride;
 } record;
 

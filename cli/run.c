@@ -1,7 +1,7 @@
 /* motus run: one integration.
  *
- * Invariant: files get their names at the very end, all of them after the last thing that can fail, so that a run either leaves everything
- * it was asked for or nothing. The motion does not depend on what is looked at.
+ * Invariant: files get their names at the very end, all of them after the last thing that can fail, so that a run
+ * either leaves everything it was asked for or nothing. The motion does not depend on what is looked at.
  */
 #include "cli/complain.h"
 #include "cli/csv.h"
@@ -58,8 +58,7 @@ static motus_status restart(job *j, motus_error *err)
     char *text;
     size_t length;
     motus_status status = file_read(j->options->restart, FILE_STATE_MAX, &text, &length, err);
-    if (status)
-        return status;
+    if (status) return status;
     status = motus_run_restore(j->run, text, length, err);
     free(text);
     return status;
@@ -78,12 +77,9 @@ static motus_status begin(job *j, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = check_names(o, err);
-    if (!status)
-        status = load_model(&j->model, o, err);
-    if (!status && o->output)
-        status = csv_plan(&j->csv, &j->model, o, err);
-    if (status)
-        return status;
+    if (!status) status = load_model(&j->model, o, err);
+    if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
+    if (status) return status;
     motus_run_def def = motus_default_run();
     def.method = o->method;
     def.step = o->step;
@@ -93,23 +89,17 @@ static motus_status begin(job *j, motus_error *err)
     def.progress = stop_progress_hook;
     def.context = &j->progress;
     status = motus_run_create(j->model.system, &def, &j->run, err);
-    if (status)
-        return status;
-    if (motus_run_note(j->run)[0] && !o->quiet)
-        complain_note("the interpreter runs this: %s", motus_run_note(j->run));
+    if (status) return status;
+    if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model, o);
     status = drift_begin(&j->drift, &j->model, j->run, err);
-    if (!status && o->restart)
-        status = restart(j, err);
-    if (!status && o->plot)
-        status = figure_begin(&j->figure, &j->model, o, j->run, err);
+    if (!status && o->restart) status = restart(j, err);
+    if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state};
     for (int i = 0; !status && i < FILES; i++)
-        if (names[i])
-            status = file_create(&j->files[i], names[i], err);
-    if (!status && o->output)
-        status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
+        if (names[i]) status = file_create(&j->files[i], names[i], err);
+    if (!status && o->output) status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
     return status;
 }
 
@@ -133,8 +123,7 @@ static motus_status go(job *j, motus_error *err)
     walk_watcher watchers[3 + FIGURE_WATCHERS];
     size_t count = 0;
     int64_t steps = motus_run_steps_total(j->run);
-    if (j->drift.count > 0)
-        watchers[count++] = drift_watcher(&j->drift, drift_stride(&j->model, steps));
+    if (j->drift.count > 0) watchers[count++] = drift_watcher(&j->drift, drift_stride(&j->model, steps));
     if (j->options->output) {
         watchers[count] = rows_watcher(j);
         if (j->drift.count > 0 && watchers[count].stride > 0) {
@@ -154,19 +143,15 @@ static motus_status finish(job *j, double seconds, motus_error *err)
 {
     const options *o = j->options;
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
-    if (!status && o->plot)
-        status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
-    for (int i = 0; !status && i < FILES; i++)
-        status = file_finish(&j->files[i], err);
+    if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
+    for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model, o, j->run, &j->drift, j->start, seconds};
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
         status = summary_print(&s, err);
-    if (!status)
-        status = file_flush_output(err);
-    for (int i = 0; !status && i < FILES; i++)
-        status = file_keep(&j->files[i], err);
+    if (!status) status = file_flush_output(err);
+    for (int i = 0; !status && i < FILES; i++) status = file_keep(&j->files[i], err);
     if (!status && !o->quiet && o->plot && j->figure.left_out)
         complain_note("the figure shows a choice: there is more than it has room for");
     return status;
@@ -178,8 +163,7 @@ static motus_status emit(const options *o, motus_error *err)
     load model;
     motus_status status = load_model(&model, o, err);
     const char *text = status ? NULL : motus_compiled_text(model.system, o->method, err);
-    if (!status && !text)
-        status = err->status;
+    if (!status && !text) status = err->status;
     if (text) {
         fputs(text, stdout);
         status = file_flush_output(err);
@@ -190,10 +174,8 @@ static motus_status emit(const options *o, motus_error *err)
 
 motus_status run_verb(const options *o, motus_error *err)
 {
-    if (o->emit_c)
-        return emit(o, err);
-    if (o->share)
-        return share_verb(o, err);
+    if (o->emit_c) return emit(o, err);
+    if (o->share) return share_verb(o, err);
     job j = {.options = o};
     motus_status status = begin(&j, err);
     if (!status) {
@@ -202,11 +184,9 @@ motus_status run_verb(const options *o, motus_error *err)
         status = go(&j, err);
         double seconds = stop_clock() - began;
         stop_progress_end(&j.progress);
-        if (!status)
-            status = finish(&j, seconds, err);
+        if (!status) status = finish(&j, seconds, err);
     }
-    for (int i = 0; i < FILES; i++)
-        file_drop(&j.files[i]);
+    for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);
     drift_free(&j.drift);
     csv_free(&j.csv);

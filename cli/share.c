@@ -1,7 +1,7 @@
 /* The fragment of an address of the lab.
  *
- * Invariant: whatever the model and the command line hold, the fragment is made of A-Z a-z 0-9 - . _ ~ ( ) , * % = & alone, and
- * decoding it gives the same bytes back, which are UTF-8.
+ * Invariant: whatever the model and the command line hold, the fragment is made of A-Z a-z 0-9 - . _ ~ ( ) , * % = &
+ * alone, and decoding it gives the same bytes back, which are UTF-8.
  */
 #include "cli/share.h"
 
@@ -14,8 +14,14 @@
 #include <string.h>
 
 /* key=value; the keys are letters */
-typedef struct item { char key; const char *value; } item;
-typedef struct items { item *list; size_t count; } items;
+typedef struct item {
+    char key;
+    const char *value;
+} item;
+typedef struct items {
+    item *list;
+    size_t count;
+} items;
 
 /* `out` has room for 3 bytes for each of `s`. */
 static char *encode(char *out, const char *s, const char *plain)
@@ -52,8 +58,7 @@ static const char *foreign(const char *s)
     uint32_t c;
     for (size_t length; *s; s += length) {
         length = utf8_read(s, SIZE_MAX, &c);
-        if (length == 0)
-            return s;
+        if (length == 0) return s;
     }
     return NULL;
 }
@@ -63,11 +68,11 @@ static motus_status check_item(const item *i, const options *o, size_t *total, m
     const char *bad = foreign(i->value);
     if (bad && i->key == 'm')
         return load_complain(i->value, bad, o->operand, "a byte that is not UTF-8, and has no place in a link", err);
-    if (bad)
-        return complain(err, MOTUS_ARGUMENT, "%s: this is not UTF-8, and has no place in a link", i->value);
+    if (bad) return complain(err, MOTUS_ARGUMENT, "%s: this is not UTF-8, and has no place in a link", i->value);
     *total += strlen(i->value);
     if (*total > SHARE_TEXT_MAX) {
-        complain(err, MOTUS_LIMIT, "the model and its settings are longer than %zu bytes: too long for a link", SHARE_TEXT_MAX);
+        complain(err, MOTUS_LIMIT, "the model and its settings are longer than %zu bytes: too long for a link",
+                 SHARE_TEXT_MAX);
         complain_hint(err, "hand on the file itself, or leave out comments and tables");
         return MOTUS_LIMIT;
     }
@@ -79,12 +84,10 @@ static motus_status write_items(const items *all, const options *o, char **fragm
     size_t total = 0;
     for (size_t k = 0; k < all->count; k++) {
         motus_status status = check_item(&all->list[k], o, &total, err);
-        if (status)
-            return status;
+        if (status) return status;
     }
     char *out = *fragment = malloc(3 * total + 3 * all->count + 1);
-    if (!out)
-        return complain_memory(err);
+    if (!out) return complain_memory(err);
     for (size_t k = 0; k < all->count; k++) {
         *out++ = k > 0 ? '&' : '#';
         *out++ = all->list[k].key;
@@ -99,26 +102,27 @@ static motus_status write_items(const items *all, const options *o, char **fragm
 static char *methods_of(const options *o)
 {
     const char *const main[] = {o->method ? o->method : ""};
-    const struct { const char *const *items; size_t count; } lists[] = {{main, o->method ? 1 : 0}, {o->methods.items, o->methods.count}};
+    const struct {
+        const char *const *items;
+        size_t count;
+    } lists[] = {{main, o->method ? 1 : 0}, {o->methods.items, o->methods.count}};
     size_t room = strlen(main[0]) + 2;
-    for (size_t k = 0; k < o->methods.count; k++)
-        room += strlen(o->methods.items[k]) + 1;
+    for (size_t k = 0; k < o->methods.count; k++) room += strlen(o->methods.items[k]) + 1;
     char *out = malloc(room);
     size_t used = 0;
     for (size_t l = 0; out && l < 2; l++)
         for (size_t k = 0; k < lists[l].count; k++) {
-            if (l == 1 && strcmp(lists[l].items[k], main[0]) == 0)
-                continue;
+            if (l == 1 && strcmp(lists[l].items[k], main[0]) == 0) continue;
             memcpy(out + used, lists[l].items[k], strlen(lists[l].items[k]));
             used += strlen(lists[l].items[k]);
             out[used++] = ',';
         }
-    if (out)
-        out[used > 0 ? used - 1 : 0] = 0;
+    if (out) out[used > 0 ? used - 1 : 0] = 0;
     return out;
 }
 
-/* A number of the command line as the language writes it: as it was typed where that says the same there, in digits elsewhere (.5, 1.). */
+/* A number of the command line as the language writes it: as it was typed where that says the same there, in digits
+ * elsewhere (.5, 1.). */
 static void number_of(double value, const char *typed, char *out, size_t size)
 {
     motus_text_def def = motus_default_text();
@@ -136,15 +140,14 @@ static void number_of(double value, const char *typed, char *out, size_t size)
     snprintf(out, size, "%s", same ? typed : digits);
 }
 
-static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment, motus_error *err)
+static motus_status gather(items *all, const load *m, const options *o, const char *methods, char **fragment,
+                           motus_error *err)
 {
     char step[256], until[256];
     all->list[all->count++] = (item){'v', "1"};
     all->list[all->count++] = (item){'m', m->text};
-    for (size_t k = 0; k < o->set.count; k++)
-        all->list[all->count++] = (item){'s', o->set.items[k]};
-    if (*methods)
-        all->list[all->count++] = (item){'a', methods};
+    for (size_t k = 0; k < o->set.count; k++) all->list[all->count++] = (item){'s', o->set.items[k]};
+    if (*methods) all->list[all->count++] = (item){'a', methods};
     if (o->step_typed) {
         number_of(o->step, o->step_typed, step, sizeof step);
         all->list[all->count++] = (item){'h', step};
@@ -158,7 +161,7 @@ static motus_status gather(items *all, const load *m, const options *o, const ch
 
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    enum { OTHERS = 5 };                        /* v m a h T */
+    enum { OTHERS = 5 }; /* v m a h T */
     char *methods = methods_of(o);
     items all = {malloc((o->set.count + OTHERS) * sizeof *all.list), 0};
     motus_status status;
@@ -171,7 +174,8 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
     return status;
 }
 
-/* What compare would find wrong before it computes: a method that nobody knows. Any method that fits then stands for the others. */
+/* What compare would find wrong before it computes: a method that nobody knows. Any method that fits then stands for
+ * the others. */
 static motus_status check_methods(const load *m, const options *o, const char **fits, motus_error *err)
 {
     const motus_method *found;
@@ -192,10 +196,9 @@ static motus_status check_run(const load *m, const options *o, motus_error *err)
     def.method = o->method;
     def.step = o->step;
     def.until = o->until;
-    def.machine = "interpreter";                /* nothing is to be compiled for this */
+    def.machine = "interpreter"; /* nothing is to be compiled for this */
     motus_status status = o->verb == VERB_COMPARE ? check_methods(m, o, &def.method, err) : MOTUS_OK;
-    if (!status)
-        status = motus_run_create(m->system, &def, &run, err);
+    if (!status) status = motus_run_create(m->system, &def, &run, err);
     motus_run_destroy(run);
     return status;
 }
@@ -205,10 +208,8 @@ motus_status share_verb(const options *o, motus_error *err)
     load m = {0};
     char *fragment = NULL;
     motus_status status = load_model(&m, o, err);
-    if (!status)
-        status = check_run(&m, o, err);
-    if (!status)
-        status = share_fragment(&m, o, &fragment, err);
+    if (!status) status = check_run(&m, o, err);
+    if (!status) status = share_fragment(&m, o, &fragment, err);
     if (!status && o->json) {
         json j = text_json(stdout);
         json_string(&j, "share", fragment);
@@ -216,8 +217,7 @@ motus_status share_verb(const options *o, motus_error *err)
     } else if (!status) {
         puts(fragment);
     }
-    if (!status)
-        status = file_flush_output(err);
+    if (!status) status = file_flush_output(err);
     free(fragment);
     load_free(&m);
     return status;

@@ -15,8 +15,7 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
-    if (posix_spawn_file_actions_init(&actions) != 0)
-        return ENOMEM;
+    if (posix_spawn_file_actions_init(&actions) != 0) return ENOMEM;
     if (posix_spawnattr_init(&attributes) != 0) {
         posix_spawn_file_actions_destroy(&actions);
         return ENOMEM;
@@ -25,15 +24,11 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
     sigemptyset(&plain);
     sigaddset(&plain, SIGPIPE);
     int code = posix_spawnattr_setsigdefault(&attributes, &plain);
-    for (int i = 0; !code && i < 3; i++)
-        code = posix_spawn_file_actions_adddup2(&actions, streams[i], i);
+    for (int i = 0; !code && i < 3; i++) code = posix_spawn_file_actions_adddup2(&actions, streams[i], i);
     const int group = apart ? POSIX_SPAWN_SETPGROUP : 0;
-    if (!code && apart)
-        code = posix_spawnattr_setpgroup(&attributes, 0);
-    if (!code)
-        code = posix_spawnattr_setflags(&attributes, (short)(POSIX_SPAWN_SETSIGDEF | group));
-    if (!code)
-        code = posix_spawnp(process, arguments[0], &actions, &attributes, arguments, environ);
+    if (!code && apart) code = posix_spawnattr_setpgroup(&attributes, 0);
+    if (!code) code = posix_spawnattr_setflags(&attributes, (short)(POSIX_SPAWN_SETSIGDEF | group));
+    if (!code) code = posix_spawnp(process, arguments[0], &actions, &attributes, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     return code;

@@ -1,7 +1,7 @@
 /* Requests to stop, and progress.
  *
- * Invariant: a handler only notes the signal; work ends at the next look, temporary files are removed, and then the program dies of that
- * same signal, so that a shell and its loops stop as well. A second signal kills at once.
+ * Invariant: a handler only notes the signal; work ends at the next look, temporary files are removed, and then the
+ * program dies of that same signal, so that a shell and its loops stop as well. A second signal kills at once.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/stop.h"
@@ -15,10 +15,7 @@
 /* The one variable of the program that changes: a signal handler has no other way to speak. */
 static volatile sig_atomic_t asked;
 
-static void note(int number)
-{
-    asked = number;
-}
+static void note(int number) { asked = number; }
 
 void stop_watch(void)
 {
@@ -36,20 +33,13 @@ void stop_watch(void)
     sigaction(SIGPIPE, &action, NULL);
 }
 
-bool stop_requested(void)
-{
-    return asked != 0;
-}
+bool stop_requested(void) { return asked != 0; }
 
-void stop_reader_gone(void)
-{
-    asked = SIGPIPE;
-}
+void stop_reader_gone(void) { asked = SIGPIPE; }
 
 void stop_obey(void)
 {
-    if (!asked)
-        return;
+    if (!asked) return;
     fflush(stderr);
     signal((int)asked, SIG_DFL);
     raise((int)asked);
@@ -74,10 +64,10 @@ static void show(const stop_progress *p, double fraction, double spent)
     fprintf(stderr, "\r\033[K%s %3.0f %%", p->what, 100 * fraction);
     if (p->unit) {
         int full = (int)(BAR * fraction);
-        fprintf(stderr, " [%.*s%.*s] %.3g %s/s", full, "####################", BAR - full, "....................", p->amount * gone / spent, p->unit);
+        fprintf(stderr, " [%.*s%.*s] %.3g %s/s", full, "####################", BAR - full, "....................",
+                p->amount * gone / spent, p->unit);
     }
-    if (gone > 0.02 * (1 - p->before) && fraction < 1)
-        fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / gone);
+    if (gone > 0.02 * (1 - p->before) && fraction < 1) fprintf(stderr, ", %.0f s left", spent * (1 - fraction) / gone);
     fflush(stderr);
 }
 

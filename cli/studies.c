@@ -14,10 +14,8 @@ motus_status studies_begin(studies *s, const char *what, const options *o, motus
     motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
         status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
-    if (!status)
-        status = load_model(&s->model, o, err);
-    if (status)
-        return status;
+    if (!status) status = load_model(&s->model, o, err);
+    if (status) return status;
     *def = motus_default_study();
     def->methods = o->methods.count ? o->methods.items : NULL;
     def->method_count = o->methods.count;
@@ -35,8 +33,7 @@ void studies_title(const studies *s, const char *reference, double error)
     const bool colours = complain_colours(1);
     printf("%s%s%s, errors against ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
     text_put(stdout, reference ? reference : "nothing");
-    if (error > 0)
-        printf(" (itself good to %.1g)", error);
+    if (error > 0) printf(" (itself good to %.1g)", error);
     putchar('\n');
 }
 
@@ -47,19 +44,15 @@ motus_status studies_show(studies *s, const studies_ways *ways, const void *resu
     file_out picture = {0};
     if (o->plot) {
         status = file_create(&picture, o->plot, err);
-        if (!status)
-            status = ways->draw(s, result, &picture, err);
-        if (!status)
-            status = file_finish(&picture, err);
+        if (!status) status = ways->draw(s, result, &picture, err);
+        if (!status) status = file_finish(&picture, err);
     }
     if (!status && o->json)
         ways->json(s, result);
     else if (!status && !o->quiet)
         status = ways->tables(s, result, err);
-    if (!status)
-        status = file_flush_output(err);
-    if (!status)
-        status = file_keep(&picture, err);
+    if (!status) status = file_flush_output(err);
+    if (!status) status = file_keep(&picture, err);
     file_drop(&picture);
     return status;
 }

@@ -1,7 +1,7 @@
 /* What `motus run` says about a finished run.
  *
- * Invariant: the values shown are read from the run by column, so that they are those of the CSV; all of them are read before the first is
- * printed, so that a failure leaves no half of an answer.
+ * Invariant: the values shown are read from the run by column, so that they are those of the CSV; all of them are
+ * read before the first is printed, so that a failure leaves no half of an answer.
  */
 #include "cli/summary.h"
 
@@ -14,17 +14,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHOWN = 12 };              /* numbers of one name, for people */
+enum { SHOWN = 12 }; /* numbers of one name, for people */
 
 static motus_status values_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
 {
     size_t *columns = malloc((count + 1) * sizeof *columns);
     *out = malloc((count + 1) * sizeof **out);
     motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
-    for (size_t k = 0; !status && k < count; k++)
-        columns[k] = first + k;
-    if (!status && count > 0)
-        status = motus_run_values(s->run, columns, count, *out, err);
+    for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
+    if (!status && count > 0) status = motus_run_values(s->run, columns, count, *out, err);
     free(columns);
     if (status) {
         free(*out);
@@ -46,8 +44,8 @@ static size_t exact_column(const summary *s, size_t variable, bool velocity, siz
 }
 
 /* Rows of columns [first, first + count), at most SHOWN of them. */
-static motus_status rows(const summary *s, table *t, size_t first, size_t count, size_t variable, bool velocity, bool state,
-                         motus_error *err)
+static motus_status rows(const summary *s, table *t, size_t first, size_t count, size_t variable, bool velocity,
+                         bool state, motus_error *err)
 {
     bool truth = state && motus_has_exact(s->model->system);
     for (size_t k = 0; k < count && k < SHOWN; k++) {
@@ -55,15 +53,12 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
         double value[2] = {NAN, NAN};
         size_t columns[2] = {first + k, truth ? exact_column(s, variable, velocity, k) : 0};
         motus_status status = motus_column_at(s->model->system, columns[0], &c);
-        if (status)
-            return complain(err, status, "column %zu has no name", columns[0]);
+        if (status) return complain(err, status, "column %zu has no name", columns[0]);
         status = motus_run_values(s->run, columns, columns[1] ? 2 : 1, value, err);
-        if (status)
-            return status;
+        if (status) return status;
         table_cell(t, c.name);
         table_exact(t, value[0]);
-        if (!truth)
-            continue;
+        if (!truth) continue;
         if (columns[1])
             table_exact(t, value[1]);
         else
@@ -74,8 +69,7 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
         char more[64];
         snprintf(more, sizeof more, "… and %zu more", count - SHOWN);
         table_cell(t, more);
-        for (int i = 0; i < (truth ? 3 : 1); i++)
-            table_cell(t, "");
+        for (int i = 0; i < (truth ? 3 : 1); i++) table_cell(t, "");
     }
     return MOTUS_OK;
 }
@@ -93,8 +87,7 @@ static table *state_table(const summary *s, motus_error *err, motus_status *stat
     motus_variable v = motus_default_variable();
     for (size_t k = 0; !*status && motus_variable_at(s->model->system, k, &v) == MOTUS_OK; k++) {
         figure_place p;
-        if (figure_find(s->model, &v, "", "", &p))
-            *status = rows(s, t, p.first, v.count, k, false, true, err);
+        if (figure_find(s->model, &v, "", "", &p)) *status = rows(s, t, p.first, v.count, k, false, true, err);
         if (!*status && v.order == 2 && figure_find(s->model, &v, "", "'", &p))
             *status = rows(s, t, p.first, v.count, k, true, true, err);
     }
@@ -104,8 +97,7 @@ static table *state_table(const summary *s, motus_error *err, motus_status *stat
 static table *quantity_table(const summary *s, motus_error *err, motus_status *status)
 {
     size_t count = motus_quantity_count(s->model->system), column = load_quantity_column(s->model);
-    if (count == 0)
-        return NULL;
+    if (count == 0) return NULL;
     table *t = table_create("ll");
     table_cell(t, "quantity");
     table_cell(t, "value");
@@ -120,8 +112,7 @@ static table *quantity_table(const summary *s, motus_error *err, motus_status *s
 
 static table *invariant_table(const summary *s)
 {
-    if (s->drift->count == 0)
-        return NULL;
+    if (s->drift->count == 0) return NULL;
     table *t = table_create("lllr");
     table_cell(t, "invariant");
     table_cell(t, "at the start");
@@ -149,8 +140,7 @@ static void head(const summary *s, FILE *out, bool colours)
     fprintf(out, "%s%s%s: %s, step %s, %s\n", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "",
             motus_run_method(s->run), step, motus_run_machine(s->run));
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
-    if (motus_run_last_step(s->run) != 0)
-        fprintf(out, " (the last one %s)", last);
+    if (motus_run_last_step(s->run) != 0) fprintf(out, " (the last one %s)", last);
     fprintf(out, ", %lld evaluations", (long long)motus_run_evaluations(s->run));
     if (motus_run_iterations(s->run) > 0)
         fprintf(out, ", %lld iterations of Newton's method", (long long)motus_run_iterations(s->run));
@@ -166,21 +156,17 @@ motus_status summary_print(const summary *s, motus_error *err)
     bool colours = complain_colours(data ? 2 : 1), printed = true;
     table *tables[3] = {NULL, NULL, NULL};
     tables[0] = state_table(s, err, &status);
-    if (!status)
-        tables[1] = quantity_table(s, err, &status);
-    if (!status)
-        tables[2] = invariant_table(s);
+    if (!status) tables[1] = quantity_table(s, err, &status);
+    if (!status) tables[2] = invariant_table(s);
     if (!status) {
         head(s, out, colours);
         for (int i = 0; i < 3; i++) {
-            if (i > 0 && !tables[i])
-                continue;
+            if (i > 0 && !tables[i]) continue;
             putc('\n', out);
             printed = table_print(tables[i], out, 2, colours) && printed;
         }
     }
-    for (int i = 0; i < 3; i++)
-        table_destroy(tables[i]);
+    for (int i = 0; i < 3; i++) table_destroy(tables[i]);
     return status || printed ? status : complain_memory(err);
 }
 
@@ -190,12 +176,10 @@ motus_status summary_print(const summary *s, motus_error *err)
 static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector,
                       size_t *left)
 {
-    if (vector)
-        json_open(j, key, '[');
-    for (size_t c = 0; c < p->components && *left > 0; c++, --*left)
+    if (vector) json_open(j, key, '[');
+    for (size_t c = 0; c<p->components && * left> 0; c++, --*left)
         json_number(j, vector ? NULL : key, values[cell * p->cell_step + c * p->component_step]);
-    if (vector)
-        json_close(j, ']');
+    if (vector) json_close(j, ']');
 }
 
 /* Lists within lists, one level per index. */
@@ -212,12 +196,11 @@ static void nest_json(json *j, const char *key, const double *values, const figu
     json_close(j, ']');
 }
 
-static void variable_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
-                          size_t *left)
+static void variable_json(json *j, const char *key, const double *values, const figure_place *p,
+                          const motus_variable *v, size_t *left)
 {
     double grid = 1;
-    for (int d = 0; d < v->dimensions; d++)
-        grid *= (double)(v->last[d] - v->first[d] + 1);
+    for (int d = 0; d < v->dimensions; d++) grid *= (double)(v->last[d] - v->first[d] + 1);
     size_t cell = 0;
     /* a family with holes in its ranges is a plain list of its cells */
     if (v->dimensions == 0 || grid == (double)p->cells) {
@@ -225,8 +208,7 @@ static void variable_json(json *j, const char *key, const double *values, const 
         return;
     }
     json_open(j, key, '[');
-    while (cell < p->cells && *left > 0)
-        cell_json(j, NULL, values, p, cell++, v->components > 0, left);
+    while (cell<p->cells && * left> 0) cell_json(j, NULL, values, p, cell++, v->components > 0, left);
     json_close(j, ']');
 }
 
@@ -239,8 +221,7 @@ static bool state_json(json *j, const summary *s, const double *values)
         for (int prime = 0; prime < (v.order == 2 ? 2 : 1) && left > 0; prime++) {
             char name[MOTUS_NAME_MAX + 1];
             figure_place p;
-            if (!figure_find(s->model, &v, "", prime ? "'" : "", &p))
-                continue;
+            if (!figure_find(s->model, &v, "", prime ? "'" : "", &p)) continue;
             snprintf(name, sizeof name, "%s%s", v.name, prime ? "'" : "");
             variable_json(j, name, values + (p.first - 1), &p, &v, &left);
         }
@@ -265,8 +246,7 @@ static void invariants_json(json *j, const summary *s)
         const char *name = motus_invariant_name(s->model->system, k, &numbers);
         double most = 0;
         for (size_t i = at; i < at + numbers; i++)
-            if (!(s->drift->most[i] <= most) && !isnan(most))
-                most = s->drift->most[i];
+            if (!(s->drift->most[i] <= most) && !isnan(most)) most = s->drift->most[i];
         json_open(j, name, '{');
         numbers_json(j, "initial", s->drift->initial + at, numbers);
         numbers_json(j, "final", s->drift->final + at, numbers);
@@ -293,8 +273,7 @@ motus_status summary_json(const summary *s, motus_error *err)
 {
     double *state = NULL, *quantities = NULL;
     motus_status status = values_of(s, 1, s->model->positions + s->model->velocities, &state, err);
-    if (!status)
-        status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
+    if (!status) status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
     if (!status) {
         json j = text_json(stdout);
         json_string(&j, "model", s->options->operand);
@@ -305,8 +284,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         json_integer(&j, "evaluations", motus_run_evaluations(s->run));
         json_integer(&j, "iterations", motus_run_iterations(s->run));
         json_number(&j, "time", motus_run_time(s->run));
-        if (state_json(&j, s, state))
-            json_bool(&j, "cut", true);
+        if (state_json(&j, s, state)) json_bool(&j, "cut", true);
         quantities_json(&j, s, quantities);
         invariants_json(&j, s);
         json_number(&j, "seconds", s->seconds);

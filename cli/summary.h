@@ -5,7 +5,7 @@
 #include "cli/drift.h"
 #include "cli/load.h"
 
-#define SUMMARY_STATE_MAX ((size_t)1000000)      /* numbers of the state in JSON */
+#define SUMMARY_STATE_MAX ((size_t)1000000) /* numbers of the state in JSON */
 
 typedef struct summary {
     const load *model;

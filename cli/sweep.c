@@ -1,7 +1,7 @@
 /* motus sweep: one model, many trajectories.
  *
- * Invariant: what is in memory is one batch, whatever the number of trajectories; the rows of a batch are written before the next begins; no
- * file is touched before everything that was asked for is known to be right.
+ * Invariant: what is in memory is one batch, whatever the number of trajectories; the rows of a batch are written
+ * before the next begins; no file is touched before everything that was asked for is known to be right.
  */
 #include "cli/sweep.h"
 
@@ -21,7 +21,7 @@
 enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
 typedef struct batch {
-    size_t most, count, lanes;   /* lanes: of all threads together */
+    size_t most, count, lanes; /* lanes: of all threads together */
     double **values, **results, *stopped, *room;
 } batch;
 
@@ -31,16 +31,13 @@ static motus_status batch_begin(batch *b, const sweep *s, motus_error *err)
     int lanes = motus_ensemble_lanes(s->ensemble), threads = motus_ensemble_threads(s->ensemble);
     b->lanes = (size_t)(lanes > 0 ? lanes : 1) * (size_t)(threads > 0 ? threads : 1);
     b->most = BATCH_BYTES / sizeof(double) / columns;
-    if (b->most > BATCH_MOST)
-        b->most = BATCH_MOST;
+    if (b->most > BATCH_MOST) b->most = BATCH_MOST;
     b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
     b->count = 4 * b->lanes < b->most ? 4 * b->lanes : b->most;
     b->values = calloc(columns, sizeof *b->values);
     b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
-    if (!b->values || !b->room)
-        return complain_memory(err);
-    for (size_t k = 0; k < columns; k++)
-        b->values[k] = b->room + k * b->most;
+    if (!b->values || !b->room) return complain_memory(err);
+    for (size_t k = 0; k < columns; k++) b->values[k] = b->room + k * b->most;
     b->results = b->values + s->grid.count;
     b->stopped = b->room + (columns - 1) * b->most;
     return MOTUS_OK;
@@ -96,7 +93,9 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.context = progress;
     motus_status status = motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
     if (!status && motus_ensemble_note(s->ensemble)[0] && !o->quiet)
-        complain_note("the %s runs this: %s", strcmp(motus_ensemble_machine(s->ensemble), "interpreter") == 0 ? "interpreter" : "compiled machine",
+        complain_note("the %s runs this: %s",
+                      strcmp(motus_ensemble_machine(s->ensemble), "interpreter") == 0 ? "interpreter"
+                                                                                      : "compiled machine",
                       motus_ensemble_note(s->ensemble));
     return status;
 }
@@ -112,27 +111,21 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
     motus_status status = check_options(o, err);
-    if (!status)
-        status = load_model(&s->model, o, err);
-    if (!status)
-        status = grid_read(&s->grid, o, err);
+    if (!status) status = load_model(&s->model, o, err);
+    if (!status) status = grid_read(&s->grid, o, err);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
             status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
-    if (!status)
-        status = sweep_records_read(&s->records, &s->model, o->record, err);
-    if (status)
-        return status;
+    if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
+    if (status) return status;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
     s->step = isnan(o->step) ? settings.step : o->step;
     s->until = load_until(&s->model, o);
     s->columns = 2 + s->grid.count + s->records.count;
     status = look_every(s, err);
-    if (!status)
-        status = create(s, progress, err);
-    if (status)
-        return status;
+    if (!status) status = create(s, progress, err);
+    if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
     size_t length = o->output ? strlen(o->output) : 0;
     return sweep_head_make(s, length > 4 && strcmp(o->output + length - 4, ".npy") == 0, err);
@@ -154,8 +147,7 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
         p->span = (double)count / total;
         grid_values(&s->grid, f->rows, count, b.values);
         status = motus_ensemble_run(s->ensemble, count, (const double *const *)b.values, b.results, b.stopped, err);
-        if (!status)
-            status = sweep_file_rows(f, count, b.values, b.results, b.stopped, err);
+        if (!status) status = sweep_file_rows(f, count, b.values, b.results, b.stopped, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
             status = complain(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, stop_clock() - began);
@@ -188,7 +180,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
 static void report(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble *e = s->ensemble;
-    bool output = strcmp(f->path, "-") == 0;         /* then this is a message */
+    bool output = strcmp(f->path, "-") == 0; /* then this is a message */
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
@@ -196,15 +188,14 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
-    fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method, step,
-            (long long)motus_ensemble_steps(e), until, motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
-            motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e), motus_ensemble_threads(e) == 1 ? "" : "s");
+    fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method,
+            step, (long long)motus_ensemble_steps(e), until, motus_ensemble_machine(e),
+            s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e), motus_ensemble_lanes(e) == 1 ? "" : "s",
+            motus_ensemble_threads(e), motus_ensemble_threads(e) == 1 ? "" : "s");
     fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);
-    if (f->found > 0)
-        fprintf(out, ", %llu of them were there", (unsigned long long)f->found);
+    if (f->found > 0) fprintf(out, ", %llu of them were there", (unsigned long long)f->found);
     fprintf(out, ": %s, integration %s", all, inside);
-    if (work > 0 && seconds > 0)
-        fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
+    if (work > 0 && seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
     putc('\n', out);
     if (!output) {
         text_put(out, f->path);
@@ -216,8 +207,8 @@ static void report(const sweep *s, const sweep_file *f, double wall)
 static void say_unfinished(const sweep *s, const sweep_file *f)
 {
     if (f->regular && f->rows < s->grid.total)
-        complain_note("%llu of %llu trajectories are in %s; the same command with --resume goes on", (unsigned long long)f->rows,
-                      (unsigned long long)s->grid.total, f->path);
+        complain_note("%llu of %llu trajectories are in %s; the same command with --resume goes on",
+                      (unsigned long long)f->rows, (unsigned long long)s->grid.total, f->path);
 }
 
 static motus_status finish(const sweep *s, sweep_file *f, double began, motus_error *err)
@@ -225,16 +216,15 @@ static motus_status finish(const sweep *s, sweep_file *f, double began, motus_er
     const options *o = s->options;
     motus_status status = sweep_file_finish(f, err);
     double wall = stop_clock() - began;
-    if (status)
-        return status;
+    if (status) return status;
     if (o->json)
         report_json(s, f, wall);
     else if (!o->quiet)
         report(s, f, wall);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
-        complain_note("%llu of %llu trajectories left the finite numbers: their column `stopped` says when", (unsigned long long)f->stopped,
-                      (unsigned long long)s->grid.total);
+        complain_note("%llu of %llu trajectories left the finite numbers: their column `stopped` says when",
+                      (unsigned long long)f->stopped, (unsigned long long)s->grid.total);
     return status;
 }
 
@@ -249,8 +239,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
         status = sweep_file_open(&f, &s, err);
         bool open = !status;
         progress.began = stop_clock();
-        if (!status)
-            status = go(&s, &f, &progress, err);
+        if (!status) status = go(&s, &f, &progress, err);
         stop_progress_end(&progress);
         if (!status)
             status = finish(&s, &f, began, err);

@@ -1,8 +1,8 @@
 /* The rows of a sweep, written as they come.
  *
- * Invariant: whatever ends the program, the file holds its head and whole rows, but for a torn last one after a kill or a power cut, which
- * --resume cuts off. A write that failed is taken back to the last whole row. A .npy says in its head how many rows are there, and says so
- * after they are.
+ * Invariant: whatever ends the program, the file holds its head and whole rows, but for a torn last one after a kill
+ * or a power cut, which --resume cuts off. A write that failed is taken back to the last whole row. A .npy says in
+ * its head how many rows are there, and says so after they are.
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
@@ -34,8 +34,7 @@ motus_status sweep_file_check(const options *o, motus_error *err)
 {
     const char *path = o->output ? o->output : "-";
     bool output = strcmp(path, "-") == 0;
-    if (!*path)
-        return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
+    if (!*path) return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
     if (o->force && o->resume) {
         complain(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
         complain_hint(err, "--resume goes on with the file, --force replaces it");
@@ -54,12 +53,11 @@ motus_status sweep_file_check(const options *o, motus_error *err)
     if (o->operand && !output && file_same(path, o->operand))
         return complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     struct stat about;
-    if (output || stat(path, &about) != 0)
-        return MOTUS_OK;
-    if (S_ISDIR(about.st_mode))
-        return complain(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
+    if (output || stat(path, &about) != 0) return MOTUS_OK;
+    if (S_ISDIR(about.st_mode)) return complain(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
     if (!S_ISREG(about.st_mode) && (o->resume || ends_with(path, ".npy")))
-        return complain(err, MOTUS_ARGUMENT, "%s is no regular file: %s", path, o->resume ? "there is nothing to go on with" : "a .npy has to be one");
+        return complain(err, MOTUS_ARGUMENT, "%s is no regular file: %s", path,
+                        o->resume ? "there is nothing to go on with" : "a .npy has to be one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
         complain(err, MOTUS_ARGUMENT, "%s is there already", path);
         complain_hint(err, "--resume goes on with it, --force replaces it");
@@ -71,8 +69,7 @@ motus_status sweep_file_check(const options *o, motus_error *err)
 static motus_status cannot_write(const sweep_file *f, int code, motus_error *err)
 {
     bool output = strcmp(f->path, "-") == 0;
-    if (code == EPIPE && output)
-        stop_reader_gone();
+    if (code == EPIPE && output) stop_reader_gone();
     return complain(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
@@ -81,10 +78,8 @@ static int write_all(int descriptor, const char *bytes, size_t count, size_t *wr
 {
     for (*written = 0; *written < count;) {
         ssize_t more = write(descriptor, bytes + *written, count - *written);
-        if (more < 0 && errno != EINTR)
-            return errno;
-        if (more > 0)
-            *written += (size_t)more;
+        if (more < 0 && errno != EINTR) return errno;
+        if (more > 0) *written += (size_t)more;
     }
     return 0;
 }
@@ -107,8 +102,7 @@ static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t coun
 {
     size_t written;
     int code = write_all(f->descriptor, bytes, count, &written);
-    if (code && f->regular && ftruncate(f->descriptor, 0) != 0)
-        code = errno;
+    if (code && f->regular && ftruncate(f->descriptor, 0) != 0) code = errno;
     f->bytes = code ? 0 : count;
     return code ? cannot_write(f, code, err) : MOTUS_OK;
 }
@@ -119,11 +113,11 @@ void sweep_npy_head(const sweep *s, uint64_t rows, char out[SWEEP_NPY_HEAD])
     bool little = *(const char *)&(int){1} == 1;
     memset(out, ' ', SWEEP_NPY_HEAD);
     memcpy(out, magic, sizeof magic - 1);
-    out[8] = SWEEP_NPY_HEAD - 10;                    /* the length of what follows, two bytes */
+    out[8] = SWEEP_NPY_HEAD - 10; /* the length of what follows, two bytes */
     out[9] = 0;
     char text[SWEEP_NPY_HEAD];
-    int length = snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (%llu, %zu), }", little ? '<' : '>',
-                          (unsigned long long)rows, s->columns);
+    int length = snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (%llu, %zu), }",
+                          little ? '<' : '>', (unsigned long long)rows, s->columns);
     memcpy(out + 10, text, (size_t)length);
     out[SWEEP_NPY_HEAD - 1] = '\n';
 }
@@ -140,17 +134,13 @@ static motus_status put_npy_head(sweep_file *f, motus_error *err)
 static motus_status put_beside(const sweep_file *f, motus_error *err)
 {
     char *path = malloc(strlen(f->path) + sizeof ".json");
-    if (!path)
-        return complain_memory(err);
+    if (!path) return complain_memory(err);
     sprintf(path, "%s.json", f->path);
     file_out out = {0};
     motus_status status = file_create(&out, path, err);
-    if (!status)
-        status = file_write(&out, f->sweep->head, f->sweep->head_length, err);
-    if (!status)
-        status = file_finish(&out, err);
-    if (!status)
-        status = file_keep(&out, err);
+    if (!status) status = file_write(&out, f->sweep->head, f->sweep->head_length, err);
+    if (!status) status = file_finish(&out, err);
+    if (!status) status = file_keep(&out, err);
     file_drop(&out);
     free(path);
     return status;
@@ -161,13 +151,10 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     f->rows = f->bytes = f->stopped = 0;
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
         return cannot_write(f, errno, err);
-    if (!f->npy)
-        return put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
+    if (!f->npy) return put_head_bytes(f, f->sweep->head, f->sweep->head_length, err);
     motus_status status = put_beside(f, err);
-    if (!status)
-        status = put_npy_head(f, err);
-    if (!status && lseek(f->descriptor, SWEEP_NPY_HEAD, SEEK_SET) < 0)
-        return cannot_write(f, errno, err);
+    if (!status) status = put_npy_head(f, err);
+    if (!status && lseek(f->descriptor, SWEEP_NPY_HEAD, SEEK_SET) < 0) return cannot_write(f, errno, err);
     f->bytes = SWEEP_NPY_HEAD;
     return status;
 }
@@ -175,13 +162,11 @@ static motus_status put_head(sweep_file *f, motus_error *err)
 static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
 {
     motus_status status = sweep_resume(f, end, err);
-    if (status || f->bytes == 0)                     /* 0: not even a head is there */
+    if (status || f->bytes == 0) /* 0: not even a head is there */
         return status ? status : put_head(f, err);
     f->found = f->rows;
-    if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0)
-        return cannot_write(f, errno, err);
-    if (lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0)
-        return cannot_write(f, errno, err);
+    if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0) return cannot_write(f, errno, err);
+    if (lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0) return cannot_write(f, errno, err);
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
@@ -192,21 +177,18 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     f->npy = ends_with(f->path, ".npy");
     f->room = s->columns < SIZE_MAX / 64 - BUFFER ? BUFFER + s->columns * DECIMAL_MAX : 0;
     f->buffer = f->room ? malloc(f->room) : NULL;
-    if (!f->buffer)
-        return complain_memory(err);
+    if (!f->buffer) return complain_memory(err);
     if (strcmp(f->path, "-") == 0) {
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
     }
     struct stat about;
     f->descriptor = open(f->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (f->descriptor < 0)                           /* a pipe or a printer is not to be read from */
+    if (f->descriptor < 0) /* a pipe or a printer is not to be read from */
         f->descriptor = open(f->path, O_WRONLY | O_CLOEXEC);
-    if (f->descriptor < 0 || fstat(f->descriptor, &about) != 0)
-        return cannot_write(f, errno, err);
+    if (f->descriptor < 0 || fstat(f->descriptor, &about) != 0) return cannot_write(f, errno, err);
     f->regular = S_ISREG(about.st_mode);
-    if (!f->regular)
-        return put_head(f, err);
+    if (!f->regular) return put_head(f, err);
     if (flock(f->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         complain(err, MOTUS_FILE, "%s is being written by another program", f->path);
         complain_hint(err, "wait for that sweep, or stop it");
@@ -214,8 +196,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     }
     /* once more, with nobody else at it */
     motus_status status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
-    if (status)
-        return status;
+    if (status) return status;
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
@@ -232,8 +213,7 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     }
     *rows += whole_rows(f, f->buffer, written, &end);
     f->bytes += end;
-    if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0)
-        code = errno;
+    if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
     return cannot_write(f, code, err);
 }
 
@@ -248,12 +228,10 @@ static void csv_row(sweep_file *f, size_t i, double *const *values, double *cons
     }
     for (size_t k = 0; k < s->records.count; k++) {
         *out++ = ',';
-        if (isnan(stopped))
-            out += decimal_write(results[k][i], out);
+        if (isnan(stopped)) out += decimal_write(results[k][i], out);
     }
     *out++ = ',';
-    if (!isnan(stopped))
-        out += decimal_write(stopped, out);
+    if (!isnan(stopped)) out += decimal_write(stopped, out);
     *out++ = '\n';
     f->used = (size_t)(out - f->buffer);
 }
@@ -265,28 +243,26 @@ static void npy_row(sweep_file *f, size_t i, double *const *values, double *cons
     char *out = f->buffer + f->used;
     const size_t one = sizeof number;
     memcpy(out, &number, one);
-    for (size_t k = 0; k < s->grid.count; k++)
-        memcpy(out + (1 + k) * one, &values[k][i], one);
+    for (size_t k = 0; k < s->grid.count; k++) memcpy(out + (1 + k) * one, &values[k][i], one);
     for (size_t k = 0; k < s->records.count; k++)
         memcpy(out + (1 + s->grid.count + k) * one, isnan(stopped) ? &results[k][i] : &none, one);
     memcpy(out + (s->columns - 1) * one, &stopped, one);
     f->used += s->columns * one;
 }
 
-motus_status sweep_file_rows(sweep_file *f, size_t count, double *const *values, double *const *results, const double *stopped, motus_error *err)
+motus_status sweep_file_rows(sweep_file *f, size_t count, double *const *values, double *const *results,
+                             const double *stopped, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    uint64_t rows = f->rows;                         /* that are in the file */
+    uint64_t rows = f->rows; /* that are in the file */
     for (size_t i = 0; !status && i < count; i++) {
         (f->npy ? npy_row : csv_row)(f, i, values, results, stopped[i]);
         f->rows++;
         f->stopped += !isnan(stopped[i]);
-        if (f->used >= BUFFER || i + 1 == count)
-            status = flush(f, &rows, err);
+        if (f->used >= BUFFER || i + 1 == count) status = flush(f, &rows, err);
     }
     f->rows = rows;
-    if (!f->npy)
-        return status;
+    if (!f->npy) return status;
     motus_status head = put_npy_head(f, status ? NULL : err);
     return status ? status : head;
 }
@@ -303,8 +279,7 @@ motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 
 void sweep_file_close(sweep_file *f)
 {
-    if (f->descriptor > STDERR_FILENO)
-        close(f->descriptor);
+    if (f->descriptor > STDERR_FILENO) close(f->descriptor);
     free(f->buffer);
     *f = (sweep_file){.descriptor = -1};
 }

@@ -1,7 +1,8 @@
 /* What stands above the rows of a sweep: what was asked for, in one line; its fingerprint; the names of the columns.
  *
- * Invariant: every byte follows from what decides the numbers; not from the machine, the threads, the name of the file or how often the work was
- * interrupted. So two files of the same sweep are equal, and a fingerprint that differs says that the numbers would.
+ * Invariant: every byte follows from what decides the numbers; not from the machine, the threads, the name of the
+ * file or how often the work was interrupted. So two files of the same sweep are equal, and a fingerprint that
+ * differs says that the numbers would.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
@@ -18,8 +19,7 @@
 static void mix(uint64_t *hash, const void *bytes, size_t count)
 {
     const unsigned char *s = bytes;
-    for (size_t i = 0; i < count; i++)
-        *hash = (*hash ^ s[i]) * 0x100000001B3;
+    for (size_t i = 0; i < count; i++) *hash = (*hash ^ s[i]) * 0x100000001B3;
 }
 
 static void mix_number(uint64_t *hash, double value) { mix(hash, &value, sizeof value); }
@@ -46,15 +46,13 @@ static void fingerprint(sweep *s)
     const options *o = s->options;
     mix_text(&hash, motus_version());
     mix_text(&hash, s->model.text);
-    for (size_t i = 0; i < o->set.count; i++)
-        mix_text(&hash, o->set.items[i]);
+    for (size_t i = 0; i < o->set.count; i++) mix_text(&hash, o->set.items[i]);
     mix_text(&hash, s->method);
     mix_number(&hash, s->step);
     mix_number(&hash, s->until);
     mix_count(&hash, (uint64_t)s->every);
     mix_count(&hash, o->fast);
-    for (size_t k = 0; k < s->grid.count; k++)
-        mix_axis(&hash, &s->grid.axes[k]);
+    for (size_t k = 0; k < s->grid.count; k++) mix_axis(&hash, &s->grid.axes[k]);
     mix_count(&hash, s->grid.zip);
     mix_count(&hash, s->grid.draws);
     mix_count(&hash, s->grid.seed);
@@ -84,30 +82,22 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
 {
     const options *o = s->options;
     motus_status status = file_text(f, "motus sweep", err);
-    if (!status)
-        status = csv_word(f, o->operand, err);
+    if (!status) status = csv_word(f, o->operand, err);
     for (size_t k = 0; !status && k < s->grid.count; k++)
         status = option(f, s->grid.axes[k].kind <= AXIS_LIST ? "--vary" : "--random", s->grid.axes[k].spec, err);
-    if (!status && s->grid.zip)
-        status = option(f, "--zip", NULL, err);
+    if (!status && s->grid.zip) status = option(f, "--zip", NULL, err);
     if (!status && o->random.count > 0) {
         char number[DECIMAL_MAX];
         decimal_write_whole(s->grid.draws, number);
         status = option(f, "--count", number, err);
         decimal_write_whole(s->grid.seed, number);
-        if (!status)
-            status = option(f, "--seed", number, err);
+        if (!status) status = option(f, "--seed", number, err);
     }
-    for (size_t i = 0; !status && i < o->set.count; i++)
-        status = option(f, "--set", o->set.items[i], err);
-    if (!status)
-        status = option(f, "--record", o->record ? o->record : "final", err);
-    if (!status)
-        status = option(f, "--method", s->method, err);
-    if (!status)
-        status = option_number(f, "--step", s->step, err);
-    if (!status)
-        status = option_number(f, "--until", s->until, err);
+    for (size_t i = 0; !status && i < o->set.count; i++) status = option(f, "--set", o->set.items[i], err);
+    if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
+    if (!status) status = option(f, "--method", s->method, err);
+    if (!status) status = option_number(f, "--step", s->step, err);
+    if (!status) status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
         char text[DECIMAL_MAX + 8];
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);
@@ -119,12 +109,9 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
 /* The name of column k of a row. */
 static const char *name_of(const sweep *s, size_t k, char out[SWEEP_NAME])
 {
-    if (k == 0)
-        return "index";
-    if (k <= s->grid.count)
-        return s->grid.names[k - 1];
-    if (k == s->columns - 1)
-        return "stopped";
+    if (k == 0) return "index";
+    if (k <= s->grid.count) return s->grid.names[k - 1];
+    if (k == s->columns - 1) return "stopped";
     sweep_record_name(&s->model, &s->records.items[k - 1 - s->grid.count], out);
     return out;
 }
@@ -133,16 +120,13 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
 {
     char line[160], name[SWEEP_NAME];
     motus_status status = file_text(f, "# ", err);
-    if (!status)
-        status = command(s, f, err);
-    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(), s->grid.total, s->fingerprint);
-    if (!status)
-        status = file_text(f, line, err);
+    if (!status) status = command(s, f, err);
+    snprintf(line, sizeof line, "\n# motus %s, trajectories %" PRIu64 ", fingerprint %s\n", motus_version(),
+             s->grid.total, s->fingerprint);
+    if (!status) status = file_text(f, line, err);
     for (size_t k = 0; !status && k < s->columns; k++) {
-        if (k > 0)
-            status = file_text(f, ",", err);
-        if (!status)
-            status = csv_name(f, name_of(s, k, name), err);
+        if (k > 0) status = file_text(f, ",", err);
+        if (!status) status = csv_name(f, name_of(s, k, name), err);
     }
     return status ? status : file_text(f, "\n", err);
 }
@@ -153,8 +137,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
     size_t length = 0;
     file_out line = {.stream = open_memstream(&text, &length), .path = memory};
     motus_status status = line.stream ? command(s, &line, err) : complain_memory(err);
-    if (line.stream && fclose(line.stream) != 0 && !status)
-        status = complain_memory(err);
+    if (line.stream && fclose(line.stream) != 0 && !status) status = complain_memory(err);
     if (!status) {
         json j = text_json(f->stream);
         json_string(&j, "motus", motus_version());
@@ -162,8 +145,7 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
         json_integer(&j, "trajectories", (int64_t)s->grid.total);
         json_string(&j, "fingerprint", s->fingerprint);
         json_open(&j, "columns", '[');
-        for (size_t k = 0; k < s->columns; k++)
-            json_string(&j, NULL, name_of(s, k, name));
+        for (size_t k = 0; k < s->columns; k++) json_string(&j, NULL, name_of(s, k, name));
         json_close(&j, ']');
         json_end(&j);
     }
@@ -176,11 +158,9 @@ motus_status sweep_head_make(sweep *s, bool npy, motus_error *err)
     fingerprint(s);
     char memory[] = "memory";
     file_out f = {.stream = open_memstream(&s->head, &s->head_length), .path = memory};
-    if (!f.stream)
-        return complain_memory(err);
+    if (!f.stream) return complain_memory(err);
     motus_status status = npy ? npy_head(s, &f, err) : csv_head(s, &f, err);
     bool failed = ferror(f.stream) != 0;
-    if ((fclose(f.stream) != 0 || failed) && !status)
-        status = complain_memory(err);
+    if ((fclose(f.stream) != 0 || failed) && !status) status = complain_memory(err);
     return status;
 }

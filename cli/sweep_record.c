@@ -12,20 +12,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct { const char *word; motus_reduction how; } reductions[] = {
-    {"final", MOTUS_REDUCE_FINAL}, {"min", MOTUS_REDUCE_MIN}, {"max", MOTUS_REDUCE_MAX}, {"mean", MOTUS_REDUCE_MEAN},
-    {"time_of_min", MOTUS_REDUCE_TIME_OF_MIN}, {"time_of_max", MOTUS_REDUCE_TIME_OF_MAX},
+static const struct {
+    const char *word;
+    motus_reduction how;
+} reductions[] = {
+    {"final", MOTUS_REDUCE_FINAL},
+    {"min", MOTUS_REDUCE_MIN},
+    {"max", MOTUS_REDUCE_MAX},
+    {"mean", MOTUS_REDUCE_MEAN},
+    {"time_of_min", MOTUS_REDUCE_TIME_OF_MIN},
+    {"time_of_max", MOTUS_REDUCE_TIME_OF_MAX},
 };
 enum { REDUCTIONS = sizeof reductions / sizeof *reductions };
 
 static motus_status add(sweep_records *r, motus_reduction how, size_t first, size_t count, motus_error *err)
 {
-    motus_record *items = count < SIZE_MAX / sizeof *items - r->count ? realloc(r->items, (r->count + count + 1) * sizeof *items) : NULL;
-    if (!items)
-        return complain_memory(err);
+    motus_record *items =
+        count < SIZE_MAX / sizeof *items - r->count ? realloc(r->items, (r->count + count + 1) * sizeof *items) : NULL;
+    if (!items) return complain_memory(err);
     r->items = items;
-    for (size_t k = 0; k < count; k++)
-        items[r->count++] = (motus_record){how, first + k};
+    for (size_t k = 0; k < count; k++) items[r->count++] = (motus_record){how, first + k};
     return MOTUS_OK;
 }
 
@@ -53,23 +59,19 @@ static motus_status unknown(const char *item, const char *word, size_t length, m
 static motus_status one(sweep_records *r, const load *m, char *item, motus_error *err)
 {
     size_t length = strlen(item), first, count;
-    if (strcmp(item, "final") == 0)
-        return add(r, MOTUS_REDUCE_FINAL, 1, m->positions + m->velocities, err);
+    if (strcmp(item, "final") == 0) return add(r, MOTUS_REDUCE_FINAL, 1, m->positions + m->velocities, err);
     motus_reduction how = MOTUS_REDUCE_FINAL;
     char *name = item, *open = strchr(item, '(');
     if (open && item[length - 1] == ')') {
         size_t i = 0, word = (size_t)(open - item);
-        while (word > 0 && item[word - 1] == ' ')
-            word--;
+        while (word > 0 && item[word - 1] == ' ') word--;
         while (i < REDUCTIONS && !(strlen(reductions[i].word) == word && strncmp(reductions[i].word, item, word) == 0))
             i++;
-        if (i == REDUCTIONS)
-            return unknown(item, item, word, err);
+        if (i == REDUCTIONS) return unknown(item, item, word, err);
         how = reductions[i].how;
         name = open + 1 + strspn(open + 1, " ");
         item[--length] = 0;
-        while (item + length > name && item[length - 1] == ' ')
-            item[--length] = 0;
+        while (item + length > name && item[length - 1] == ' ') item[--length] = 0;
     }
     motus_status status = motus_column_find(m->system, name, &first, &count, err);
     return status ? status : add(r, how, first, count, err);
@@ -81,10 +83,8 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
     char *copy;
     options_list items;
     motus_status status = options_split(list ? list : "final", "--record", &copy, &items, err);
-    if (status)
-        return status;
-    for (size_t i = 0; !status && i < items.count; i++)
-        status = one(r, m, copy + (items.items[i] - copy), err);
+    if (status) return status;
+    for (size_t i = 0; !status && i < items.count; i++) status = one(r, m, copy + (items.items[i] - copy), err);
     free(items.items);
     free(copy);
     return status;
@@ -96,7 +96,6 @@ void sweep_record_name(const load *m, const motus_record *r, char out[SWEEP_NAME
     motus_column_at(m->system, r->column, &c);
     const char *word = "";
     for (size_t i = 1; i < REDUCTIONS; i++)
-        if (reductions[i].how == r->how)
-            word = reductions[i].word;
+        if (reductions[i].how == r->how) word = reductions[i].word;
     snprintf(out, SWEEP_NAME, *word ? "%s(%s)" : "%s%s", word, c.name);
 }

@@ -22,14 +22,12 @@ static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t pl
     size_t done = 0;
     while (done < count) {
         ssize_t got = pread(f->descriptor, out + done, count - done, (off_t)(place + done));
-        if (got < 0 && errno == EINTR)
-            continue;
+        if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
             complain(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
             return -1;
         }
-        if (got == 0)
-            break;
+        if (got == 0) break;
         done += (size_t)got;
     }
     return (ssize_t)done;
@@ -47,14 +45,14 @@ static motus_status another(const sweep_file *f, const char *said, motus_error *
 
 /* ---- CSV ---- */
 
-/* The length of the head, or 0 where the file ends within it. Another way to the same model (the first line) is no other sweep. */
+/* The length of the head, or 0 where the file ends within it. Another way to the same model (the first line) is no
+ * other sweep. */
 static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, motus_error *err)
 {
     const sweep *s = f->sweep;
-    size_t room = s->head_length + 65536;            /* a longer way to the model than ours */
+    size_t room = s->head_length + 65536; /* a longer way to the model than ours */
     char *text = malloc(room + 1);
-    if (!text)
-        return complain_memory(err);
+    if (!text) return complain_memory(err);
     ssize_t got = read_at(f, text, room, 0, err);
     motus_status status = got < 0 ? MOTUS_FILE : MOTUS_OK;
     *length = 0;
@@ -65,7 +63,8 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
     else if (!status) {
         text[got] = 0;
         /* "# command \n# motus … \nnames\n" */
-        char *second = strchr(text, '\n'), *names = second ? strchr(second + 1, '\n') : NULL, *last = names ? strchr(names + 1, '\n') : NULL;
+        char *second = strchr(text, '\n'), *names = second ? strchr(second + 1, '\n') : NULL,
+             *last = names ? strchr(names + 1, '\n') : NULL;
         char *mark = last ? strstr(second, s->fingerprint) : NULL;
         if (strncmp(text, "# motus sweep ", 14) != 0 || !last)
             status = another(f, NULL, err);
@@ -82,7 +81,7 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
 
 /* One row as far as it is read. */
 typedef struct scan {
-    char number[DECIMAL_MAX];    /* the number it should begin with */
+    char number[DECIMAL_MAX]; /* the number it should begin with */
     size_t at, commas;
     bool good, stopped;
 } scan;
@@ -94,8 +93,9 @@ static void scan_row(scan *r, uint64_t number)
 }
 
 static const bool in_numbers[256] = {
-    ['0'] = true, ['1'] = true, ['2'] = true, ['3'] = true, ['4'] = true, ['5'] = true, ['6'] = true, ['7'] = true, ['8'] = true, ['9'] = true,
-    ['+'] = true, ['-'] = true, ['.'] = true, ['e'] = true, [','] = true, ['n'] = true, ['a'] = true, ['i'] = true, ['f'] = true,
+    ['0'] = true, ['1'] = true, ['2'] = true, ['3'] = true, ['4'] = true, ['5'] = true, ['6'] = true,
+    ['7'] = true, ['8'] = true, ['9'] = true, ['+'] = true, ['-'] = true, ['.'] = true, ['e'] = true,
+    [','] = true, ['n'] = true, ['a'] = true, ['i'] = true, ['f'] = true,
 };
 
 static void scan_byte(scan *r, char c)
@@ -112,8 +112,7 @@ static void scan_byte(scan *r, char c)
 static motus_status csv_rows(sweep_file *f, motus_error *err)
 {
     char *chunk = malloc(CHUNK);
-    if (!chunk)
-        return complain_memory(err);
+    if (!chunk) return complain_memory(err);
     motus_status status = MOTUS_OK;
     uint64_t place = f->bytes;
     scan row;
@@ -128,8 +127,7 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
                 continue;
             }
             row.good = row.good && row.commas == f->sweep->columns - 1;
-            if (!row.good)
-                break;
+            if (!row.good) break;
             f->stopped += row.stopped;
             f->bytes = place;
             scan_row(&row, ++f->rows);
@@ -145,19 +143,17 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
     char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[64];
-    if (!path)
-        return complain_memory(err);
+    if (!path) return complain_memory(err);
     sprintf(path, "%s.json", f->path);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
-    if (status)
-        complain_hint(err, "it says which sweep %s belongs to; --force begins anew", f->path);
+    if (status) complain_hint(err, "it says which sweep %s belongs to; --force begins anew", f->path);
     free(path);
     snprintf(key, sizeof key, "\"fingerprint\": \"%s\"", f->sweep->fingerprint);
     if (!status && !strstr(text, key)) {
-        char *command = strstr(text, "\"command\": \""), *end = command ? strstr(command, "\", \"trajectories\"") : NULL;
-        if (end)
-            *end = 0;
+        char *command = strstr(text, "\"command\": \""),
+             *end = command ? strstr(command, "\", \"trajectories\"") : NULL;
+        if (end) *end = 0;
         status = another(f, end ? command + 12 : NULL, err);
     }
     free(text);
@@ -169,8 +165,7 @@ static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, mo
 {
     size_t at_once = width < CHUNK ? CHUNK / width : 1;
     char *chunk = malloc(at_once * width);
-    if (!chunk)
-        return complain_memory(err);
+    if (!chunk) return complain_memory(err);
     motus_status status = MOTUS_OK;
     while (!status && f->rows < rows) {
         size_t count = rows - f->rows < at_once ? (size_t)(rows - f->rows) : at_once;
@@ -191,24 +186,18 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
 {
     char head[SWEEP_NPY_HEAD + 1] = "", ours[SWEEP_NPY_HEAD];
     motus_status status = npy_beside(f, err);
-    if (status)
-        return status;
-    if (end < SWEEP_NPY_HEAD)
-        return MOTUS_OK;
-    if (read_at(f, head, SWEEP_NPY_HEAD, 0, err) < 0)
-        return MOTUS_FILE;
+    if (status) return status;
+    if (end < SWEEP_NPY_HEAD) return MOTUS_OK;
+    if (read_at(f, head, SWEEP_NPY_HEAD, 0, err) < 0) return MOTUS_FILE;
     sweep_npy_head(f->sweep, 0, ours);
     const char *shape = memchr(ours, '(', sizeof ours);
     uint64_t rows = 0;
-    decimal_read_whole(head + (shape + 1 - ours), SWEEP_NPY_HEAD, &rows);     /* ends at the comma */
+    decimal_read_whole(head + (shape + 1 - ours), SWEEP_NPY_HEAD, &rows); /* ends at the comma */
     sweep_npy_head(f->sweep, rows, ours);
-    if (memcmp(head, ours, sizeof ours) != 0)
-        return another(f, NULL, err);
+    if (memcmp(head, ours, sizeof ours) != 0) return another(f, NULL, err);
     uint64_t width = f->sweep->columns * sizeof(double), there = (end - SWEEP_NPY_HEAD) / width;
-    if (rows > there)
-        rows = there;
-    if (rows > f->sweep->grid.total)
-        rows = f->sweep->grid.total;
+    if (rows > there) rows = there;
+    if (rows > f->sweep->grid.total) rows = f->sweep->grid.total;
     f->bytes = SWEEP_NPY_HEAD + rows * width;
     return npy_stopped(f, rows, width, err);
 }
@@ -216,8 +205,7 @@ static motus_status npy_rows(sweep_file *f, uint64_t end, motus_error *err)
 motus_status sweep_resume(sweep_file *f, uint64_t end, motus_error *err)
 {
     f->rows = f->bytes = f->stopped = 0;
-    if (f->npy)
-        return npy_rows(f, end, err);
+    if (f->npy) return npy_rows(f, end, err);
     size_t length = 0;
     motus_status status = csv_head(f, end, &length, err);
     f->bytes = length;

@@ -1,6 +1,7 @@
 /* A table for people.
  *
- * Invariant: cells are kept in safe form, in one row-major list; a table that ran out of memory remembers it and prints nothing.
+ * Invariant: cells are kept in safe form, in one row-major list; a table that ran out of memory remembers it and
+ * prints nothing.
  */
 #include "cli/table.h"
 
@@ -21,29 +22,24 @@ struct table {
 table *table_create(const char *align)
 {
     table *t = calloc(1, sizeof *t);
-    if (!t)
-        return NULL;
+    if (!t) return NULL;
     t->columns = strlen(align);
-    if (t->columns > MOST_COLUMNS)
-        t->columns = MOST_COLUMNS;
+    if (t->columns > MOST_COLUMNS) t->columns = MOST_COLUMNS;
     memcpy(t->align, align, t->columns);
     return t;
 }
 
 void table_destroy(table *t)
 {
-    if (!t)
-        return;
-    for (size_t i = 0; i < t->count; i++)
-        free(t->cells[i]);
+    if (!t) return;
+    for (size_t i = 0; i < t->count; i++) free(t->cells[i]);
     free(t->cells);
     free(t);
 }
 
 void table_cell(table *t, const char *text)
 {
-    if (!t || t->failed)
-        return;
+    if (!t || t->failed) return;
     if (t->count == t->room) {
         size_t room = t->room ? 2 * t->room : 64;
         char **cells = realloc(t->cells, room * sizeof *cells);
@@ -54,7 +50,7 @@ void table_cell(table *t, const char *text)
         t->cells = cells;
         t->room = room;
     }
-    size_t size = 3 * strlen(text) + 1;             /* a replaced byte becomes three */
+    size_t size = 3 * strlen(text) + 1; /* a replaced byte becomes three */
     char *cell = malloc(size);
     if (!cell) {
         t->failed = true;
@@ -87,13 +83,11 @@ void table_integer(table *t, long long value)
 
 bool table_print(const table *t, FILE *out, int indent, bool colours)
 {
-    if (!t || t->failed)
-        return false;
+    if (!t || t->failed) return false;
     size_t width[MOST_COLUMNS] = {0};
     for (size_t i = 0; i < t->count; i++) {
         size_t w = text_width(t->cells[i]);
-        if (w > width[i % t->columns])
-            width[i % t->columns] = w;
+        if (w > width[i % t->columns]) width[i % t->columns] = w;
     }
     for (size_t i = 0; i < t->count; i++) {
         size_t column = i % t->columns, pad = width[column] - text_width(t->cells[i]);
@@ -103,35 +97,30 @@ bool table_print(const table *t, FILE *out, int indent, bool colours)
             continue;
         }
         fprintf(out, "%*s", column == 0 ? indent : 2, "");
-        if (t->align[column] == 'r')
-            fprintf(out, "%*s", (int)pad, "");
+        if (t->align[column] == 'r') fprintf(out, "%*s", (int)pad, "");
         fprintf(out, "%s%s%s", heading && colours ? "\033[2m" : "", t->cells[i], heading && colours ? "\033[0m" : "");
-        if (t->align[column] != 'r' && !last)
-            fprintf(out, "%*s", (int)pad, "");
-        if (last)
-            putc('\n', out);
+        if (t->align[column] != 'r' && !last) fprintf(out, "%*s", (int)pad, "");
+        if (last) putc('\n', out);
     }
     return true;
 }
 
 bool table_markdown(const table *t, FILE *out)
 {
-    if (!t || t->failed)
-        return false;
+    if (!t || t->failed) return false;
     for (size_t i = 0; i < t->count; i++) {
         size_t column = i % t->columns;
         fputs(column == 0 ? "| " : " | ", out);
         for (const char *s = t->cells[i]; *s; s++) {
-            if (*s == '|' || *s == '\\' || *s == '*' || *s == '_' || *s == '`' || *s == '<')
-                putc('\\', out);
+            if (*s == '|' || *s == '\\' || *s == '*' || *s == '_' || *s == '`' || *s == '<') putc('\\', out);
             putc(*s, out);
         }
-        if (column < t->columns - 1)
-            continue;
+        if (column < t->columns - 1) continue;
         fputs(" |\n", out);
         if (i == t->columns - 1)
             for (size_t k = 0; k < t->columns; k++)
-                fprintf(out, "%s%s%s", k == 0 ? "|" : "", t->align[k] == 'r' ? "--:|" : ":--|", k == t->columns - 1 ? "\n" : "");
+                fprintf(out, "%s%s%s", k == 0 ? "|" : "", t->align[k] == 'r' ? "--:|" : ":--|",
+                        k == t->columns - 1 ? "\n" : "");
     }
     return true;
 }

@@ -16,8 +16,7 @@ enum { REPLACEMENT = 0xFFFD };
 size_t text_decode(const char *s, uint32_t *character)
 {
     const size_t n = utf8_read(s, SIZE_MAX, character);
-    if (n == 0)
-        *character = REPLACEMENT;
+    if (n == 0) *character = REPLACEMENT;
     return n ? n : 1;
 }
 
@@ -29,13 +28,11 @@ void text_safe(const char *s, char *out, size_t size)
         char bytes[4];
         s += text_decode(s, &c);
         size_t n = utf8_write(utf8_visible(c) ? c : REPLACEMENT, bytes);
-        if (used + n >= size)
-            break;
+        if (used + n >= size) break;
         memcpy(out + used, bytes, n);
         used += n;
     }
-    if (size)
-        out[used] = 0;
+    if (size) out[used] = 0;
 }
 
 void text_put(FILE *out, const char *s)
@@ -48,34 +45,34 @@ void text_put(FILE *out, const char *s)
     }
 }
 
-typedef struct range { uint32_t first, last; } range;
+typedef struct range {
+    uint32_t first, last;
+} range;
 
 static bool within(uint32_t c, const range *ranges, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (c >= ranges[i].first && c <= ranges[i].last)
-            return true;
+        if (c >= ranges[i].first && c <= ranges[i].last) return true;
     return false;
 }
 
 size_t text_width(const char *s)
 {
     static const range none[] = {
-        {0x300, 0x36F}, {0x483, 0x489}, {0x591, 0x5BD}, {0x610, 0x61A}, {0x64B, 0x65F}, {0x1AB0, 0x1AFF},
+        {0x300, 0x36F},   {0x483, 0x489},   {0x591, 0x5BD},   {0x610, 0x61A},   {0x64B, 0x65F},   {0x1AB0, 0x1AFF},
         {0x1DC0, 0x1DFF}, {0x200B, 0x200D}, {0x20D0, 0x20FF}, {0xFE00, 0xFE0F}, {0xFE20, 0xFE2F},
     };
     static const range two[] = {
-        {0x1100, 0x115F}, {0x2E80, 0x303E}, {0x3041, 0xA4CF}, {0xA960, 0xA97F}, {0xAC00, 0xD7A3}, {0xF900, 0xFAFF},
-        {0xFE30, 0xFE6F}, {0xFF00, 0xFF60}, {0xFFE0, 0xFFE6}, {0x1F300, 0x1F64F}, {0x1F900, 0x1F9FF}, {0x20000, 0x3FFFD},
+        {0x1100, 0x115F}, {0x2E80, 0x303E},   {0x3041, 0xA4CF},   {0xA960, 0xA97F},
+        {0xAC00, 0xD7A3}, {0xF900, 0xFAFF},   {0xFE30, 0xFE6F},   {0xFF00, 0xFF60},
+        {0xFFE0, 0xFFE6}, {0x1F300, 0x1F64F}, {0x1F900, 0x1F9FF}, {0x20000, 0x3FFFD},
     };
     size_t width = 0;
     while (*s) {
         uint32_t c;
         s += text_decode(s, &c);
-        if (!utf8_visible(c))
-            c = REPLACEMENT;
-        if (within(c, none, sizeof none / sizeof *none))
-            continue;
+        if (!utf8_visible(c)) c = REPLACEMENT;
+        if (within(c, none, sizeof none / sizeof *none)) continue;
         width += within(c, two, sizeof two / sizeof *two) ? 2 : 1;
     }
     return width;

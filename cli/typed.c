@@ -16,8 +16,7 @@ bool typed_decimal(const char *s, double *value)
 
 static const char *blanks(const char *s)
 {
-    while (*s == ' ')
-        s++;
+    while (*s == ' ') s++;
     return s;
 }
 
@@ -29,8 +28,7 @@ bool typed_number(const char *s, double *value)
     size_t length = decimal_read(s, SIZE_MAX, &result);
     bool some = length > 0;
     s = blanks(s + length);
-    if (some && *s == '*')
-        s++;
+    if (some && *s == '*') s++;
     s = blanks(s);
     if (s[0] == 'p' && s[1] == 'i') {
         result *= 3.14159265358979323846;
@@ -52,14 +50,12 @@ bool typed_count(const char *s, int64_t *count, const char **rest)
 {
     uint64_t n;
     size_t length = decimal_read_whole(s, SIZE_MAX, &n);
-    if (length == 0)
-        return false;
+    if (length == 0) return false;
     /* 1e6 is how people write a million */
     if (s[length] == 'e' || s[length] == 'E' || s[length] == '.') {
         double d;
         length = decimal_read(s, SIZE_MAX, &d);
-        if (!(d >= 1 && d < 9e18) || d != trunc(d))
-            return false;
+        if (!(d >= 1 && d < 9e18) || d != trunc(d)) return false;
         n = (uint64_t)d;
     }
     *count = (int64_t)n;

@@ -4,8 +4,8 @@
 
 #include "motus.h"
 
-/* One who looks: at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period (values between
- * steps) and at the end. */
+/* One who looks: at steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at times start + k period
+ * (values between steps) and at the end. */
 typedef struct walk_watcher {
     int64_t stride;
     double period;

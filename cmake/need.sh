@@ -2,7 +2,7 @@
 # What a target needs from outside: looks whether it is there; what is missing is installed by apt-get where this user may
 # install (root, or sudo without a password), and otherwise the line to run is printed and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|tidy ...        --check: only look, and say
+#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|format|tidy ...        --check: only look, and say
 set -eu
 check_only=no
 if [ "${1-}" = --check ]; then check_only=yes; shift; fi
@@ -33,13 +33,14 @@ for what; do
     build) tool cmake cmake; tool make make; tool cc build-essential; header math.h build-essential ;;
     demo)  tool gnuplot gnuplot-nox ;;
     test)  tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
-           tool clang clang; fuzzer_runs || add clang-runtime ;;
+           tool clang clang; tool clang-format clang-format; fuzzer_runs || add clang-runtime ;;
     lab)   tool node nodejs; tool npm npm; tool wasm-opt binaryen; tool clang clang; tool wasm-ld lld; wasm_links || add wasi ;;
     page)  tool chromium chromium ;;
     bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
            header boost/version.hpp libboost-dev
            module numpy python3-numpy; module scipy python3-scipy; module numba python3-numba ;;
     fuzz)  tool clang clang; fuzzer_runs || add clang-runtime ;;
+    format) tool clang-format clang-format ;;
     tidy)  tool run-clang-tidy clang-tidy ;;
     *)     echo "need.sh: unknown target $what" >&2; exit 2 ;;
     esac

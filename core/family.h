@@ -1,54 +1,71 @@
-/* The functions of families.def, each by a switch over the row's family. A compiled model, which knows its family, has none of them. */
-#define FAMILY_SWITCH(CASE) switch (w->row->family) { FAMILIES(CASE) }
+/* The functions of families.def, each by a switch over the row's family. A compiled model, which knows its family,
+ * has none of them. */
+#define FAMILY_SWITCH(CASE)   \
+    switch (w->row->family) { \
+        FAMILIES(CASE)        \
+    }
 
-#define CASE_PLAN(NAME, name, shared) case NAME: name##_plan(w, argument, unit, c); break;
+#define CASE_PLAN(NAME, name, shared) \
+    case NAME: name##_plan(w, argument, unit, c); break;
 static inline void family_plan(work *w, const double argument[2], coef *unit, coef *c) { FAMILY_SWITCH(CASE_PLAN) }
 
-#define CASE_PLACE(NAME, name, shared) case NAME: name##_place(w, p); break;
+#define CASE_PLACE(NAME, name, shared) \
+    case NAME: name##_place(w, p); break;
 static inline void family_place(work *w, placing *p) { FAMILY_SWITCH(CASE_PLACE) }
 
-#define CASE_STEP(NAME, name, shared) case NAME: return name##_step(w);
+#define CASE_STEP(NAME, name, shared) \
+    case NAME: return name##_step(w);
 static inline int family_step(work *w)
 {
     FAMILY_SWITCH(CASE_STEP)
     return STEP_OK;
 }
 
-#define CASE_ACCEPT(NAME, name, shared) case NAME: name##_accept(w, good); break;
+#define CASE_ACCEPT(NAME, name, shared) \
+    case NAME: name##_accept(w, good); break;
 static inline void family_accept(work *w, mask good) { FAMILY_SWITCH(CASE_ACCEPT) }
 
-#define CASE_OBSERVE(NAME, name, shared) case NAME: return name##_observe(w);
+#define CASE_OBSERVE(NAME, name, shared) \
+    case NAME: return name##_observe(w);
 static inline int family_observe(work *w)
 {
     FAMILY_SWITCH(CASE_OBSERVE)
     return STEP_OK;
 }
 
-#define CASE_SYNC(NAME, name, shared) case NAME: return name##_sync(w, x, v);
+#define CASE_SYNC(NAME, name, shared) \
+    case NAME: return name##_sync(w, x, v);
 static inline int family_sync(work *w, real *x, real *v)
 {
     FAMILY_SWITCH(CASE_SYNC)
     return STEP_OK;
 }
 
-#define CASE_CARRY(NAME, name, shared) case NAME: return name##_carry(w, list);
+#define CASE_CARRY(NAME, name, shared) \
+    case NAME: return name##_carry(w, list);
 static inline int family_carry(const work *w, real *list[CARRY_MAX])
 {
     FAMILY_SWITCH(CASE_CARRY)
     return 0;
 }
 
-#define CASE_DENSE(NAME, name, shared) case NAME: name##_dense(w, end, t, x, v); break;
-static inline void family_dense(const work *w, const dense_end end[2], clock t, real *x, real *v) { FAMILY_SWITCH(CASE_DENSE) }
+#define CASE_DENSE(NAME, name, shared) \
+    case NAME: name##_dense(w, end, t, x, v); break;
+static inline void family_dense(const work *w, const dense_end end[2], clock t, real *x, real *v)
+{
+    FAMILY_SWITCH(CASE_DENSE)
+}
 
 #ifdef TRACING
-#define CASE_ROOM(NAME, name, shared) case NAME: return name##_room(w);
+#define CASE_ROOM(NAME, name, shared) \
+    case NAME: return name##_room(w);
 static inline trace_room family_room(const work *w)
 {
     FAMILY_SWITCH(CASE_ROOM)
     return (trace_room){0};
 }
 
-#define CASE_TRACE(NAME, name, shared) case NAME: name##_trace(w, i); break;
+#define CASE_TRACE(NAME, name, shared) \
+    case NAME: name##_trace(w, i); break;
 static inline void family_trace(work *w, int i) { FAMILY_SWITCH(CASE_TRACE) }
 #endif

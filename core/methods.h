@@ -4,14 +4,15 @@
 
 #include "core/system.h"
 
-typedef struct row row;       /* the whole row; core/ and the laws test see inside (core/rows.h), nobody else needs to */
+/* the whole row; core/ and the laws test see inside (core/rows.h), nobody else needs to */
+typedef struct row row;
 
 /* A row together with the arguments it was called with: newmark(1/6, 1/2). */
 typedef struct chosen {
     const row *row;
     double argument[2];
-    int threads;                    /* that a large system may use; it changes no bit */
-    char name[MOTUS_NAME_MAX];      /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
+    int threads;               /* that a large system may use; it changes no bit */
+    char name[MOTUS_NAME_MAX]; /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
 } chosen;
 
 size_t row_count(void);

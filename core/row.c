@@ -1,6 +1,7 @@
 /* The catalogue: finding a row by its name and saying which problems it admits. The rows themselves are in methods.c.
  *
- * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order where there is one.
+ * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order
+ * where there is one.
  */
 #include "base/near.h"
 #include "core/rows.h"
@@ -46,7 +47,8 @@ static bool also_called(const motus_method *card, const char *name, size_t lengt
 static const row *find(const char *name, size_t length)
 {
     for (size_t k = 0; k < methods_count; k++)
-        if (same(name, length, methods_table[k].card.name, strlen(methods_table[k].card.name))) return &methods_table[k];
+        if (same(name, length, methods_table[k].card.name, strlen(methods_table[k].card.name)))
+            return &methods_table[k];
     for (size_t k = 0; k < methods_count; k++)
         if (also_called(&methods_table[k].card, name, length)) return &methods_table[k];
     return NULL;
@@ -73,8 +75,10 @@ static void suggest(motus_error *err, const char *name, size_t length)
             nearest = card->name;
         }
     }
-    if (nearest) hint(err, "did you mean %s? `motus methods` lists them all", nearest);
-    else hint(err, "`motus methods` lists them all");
+    if (nearest)
+        hint(err, "did you mean %s? `motus methods` lists them all", nearest);
+    else
+        hint(err, "`motus methods` lists them all");
 }
 
 /* Arguments ------------------------------------------------------------------------------------------------------- */
@@ -105,12 +109,14 @@ static const char *read_argument(const char *s, double *value)
 
 static motus_status read_arguments(const char *name, const char *s, chosen *out, motus_error *err)
 {
-    out->argument[0] = 0.25;      /* Newmark's beta and gamma: the trapezoidal rule */
+    out->argument[0] = 0.25; /* Newmark's beta and gamma: the trapezoidal rule */
     out->argument[1] = 0.5;
     if (*s == '(') {
         s = read_argument(s + 1, &out->argument[0]);
-        if (s && *s == ',') s = read_argument(s + 1, &out->argument[1]);
-        else s = NULL;
+        if (s && *s == ',')
+            s = read_argument(s + 1, &out->argument[1]);
+        else
+            s = NULL;
         if (!s || *s != ')' || *blanks(s + 1)) {
             fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers, beta and gamma", name, out->row->card.name);
             hint(err, "write %s(1/4, 1/2), or %s alone for just that", out->row->card.name, out->row->card.name);
@@ -138,7 +144,8 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
     const char *rest = blanks(start + length);
     result.row = find(start, length);
     if (!result.row) {
-        fail(err, MOTUS_METHOD, "there is no method called \"%.*s\"", (int)(length < MOTUS_NAME_MAX ? length : MOTUS_NAME_MAX), start);
+        fail(err, MOTUS_METHOD, "there is no method called \"%.*s\"",
+             (int)(length < MOTUS_NAME_MAX ? length : MOTUS_NAME_MAX), start);
         suggest(err, start, length);
         return MOTUS_METHOD;
     }
@@ -158,23 +165,26 @@ motus_status row_choose(const char *name, chosen *out, const motus_method **card
     return MOTUS_OK;
 }
 
-/* Admission --------------------------------------------------------------------------------------------------------- */
+/* Admission -------------------------------------------------------------------------------------------------------- */
 
 static const char *reason(const row *row, const traits *traits)
 {
     if (row->family == EXACT)
-        return traits->has_exact || traits->constant ? "" : "the model has no exact line, and its exact motion is not recognised";
+        return traits->has_exact || traits->constant
+                   ? ""
+                   : "the model has no exact line, and its exact motion is not recognised";
     if (row->gyroscopic) {
-        if (!traits->velocity) return "the acceleration does not depend on the velocity: there is no magnetic term to turn by";
+        if (!traits->velocity)
+            return "the acceleration does not depend on the velocity: there is no magnetic term to turn by";
         if (traits->companions) return "the model has first-order companions, which Boris' rotation does not cover";
         if (!traits->gyroscopic || !traits->linear_v)
             return "the velocity term is not of the form v × B: it is not antisymmetric, so it does work";
         return "";
     }
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
-        return traits->companions
-             ? "the acceleration or a companion's rate depends on a velocity or a companion, and this method's kicks must not"
-             : "the acceleration depends on the velocity, and this method's kicks must not";
+        return traits->companions ? "the acceleration or a companion's rate depends on a velocity or a companion, and "
+                                    "this method's kicks must not"
+                                  : "the acceleration depends on the velocity, and this method's kicks must not";
     if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
     return "";
 }
@@ -182,9 +192,9 @@ static const char *reason(const row *row, const traits *traits)
 /* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */
 static int unlike(const motus_method *wanted, const motus_method *other)
 {
-    int order = wanted->order == 0 ? 2 : wanted->order;      /* exact has none: offer the first choice */
-    return 8 * abs(order - other->order) + 4 * (wanted->symplectic > other->symplectic) + 4 * (wanted->reversible > other->reversible)
-         + 2 * (other->evaluations == 0);
+    int order = wanted->order == 0 ? 2 : wanted->order; /* exact has none: offer the first choice */
+    return 8 * abs(order - other->order) + 4 * (wanted->symplectic > other->symplectic) +
+           4 * (wanted->reversible > other->reversible) + 2 * (other->evaluations == 0);
 }
 
 motus_status row_admits(const chosen *method, const traits *traits, motus_error *err)
@@ -195,10 +205,14 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     for (size_t k = 0; k < methods_count; k++) {
         const row *other = &methods_table[k];
         if (other->family == EXACT || other->uniform || *reason(other, traits)) continue;
-        if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card)) nearest = other;
+        if (!nearest || unlike(&method->row->card, &other->card) < unlike(&method->row->card, &nearest->card))
+            nearest = other;
     }
     fail(err, MOTUS_METHOD, "%s does not admit this model: %s", method->name, why);
-    if (nearest) hint(err, "%s fits: order %d, %s", nearest->card.name, nearest->card.order,
-                      nearest->card.symplectic ? "symplectic and reversible" : nearest->card.reversible ? "reversible" : "for any force");
+    if (nearest)
+        hint(err, "%s fits: order %d, %s", nearest->card.name, nearest->card.order,
+             nearest->card.symplectic   ? "symplectic and reversible"
+             : nearest->card.reversible ? "reversible"
+                                        : "for any force");
     return MOTUS_METHOD;
 }

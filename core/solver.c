@@ -1,6 +1,7 @@
 /* Linear systems of implicit methods: derivatives by colours, the band matrix of all stages, and its solution.
  *
- * Invariant: what is known to be constant is computed once; a factorisation is reused exactly where the matrix would be the same.
+ * Invariant: what is known to be constant is computed once; a factorisation is reused exactly where the matrix would
+ * be the same.
  */
 #include "core/solver.h"
 
@@ -11,15 +12,15 @@
 struct solver {
     const problem *problem;
     motus_allocator allocator;
-    size_t n, stride, lower, upper;       /* n: stages × nv; bandwidths of the whole */
+    size_t n, stride, lower, upper; /* n: stages × nv; bandwidths of the whole */
     int stages;
     bool use_x, use_v, constant;
     bool derived, factored;
-    sparse x, v;                          /* da/dx, da/dv */
+    sparse x, v; /* da/dx, da/dv */
     uint32_t *place, *pivot;
-    double *matrix, *b;                   /* matrix: band storage, or one diagonal */
-    double *direction, *image, *base, *shifted;   /* scratch: nv each; the last two for difference quotients only */
-    double *ax, *av;                      /* of the factorisation at hand: stages × stages each */
+    double *matrix, *b;                         /* matrix: band storage, or one diagonal */
+    double *direction, *image, *base, *shifted; /* scratch: nv each; the last two for difference quotients only */
+    double *ax, *av;                            /* of the factorisation at hand: stages × stages each */
 };
 
 void solver_forget(solver *s) { s->derived = s->factored = false; }
@@ -45,9 +46,12 @@ void solver_destroy(solver *s)
 static motus_status too_wide(double bytes, motus_error *err)
 {
     char text[DECIMAL_MAX];
-    fail(err, MOTUS_LIMIT, "the implicit equations couple so many numbers that their matrix would take %s MiB; the bound is %d MiB",
+    fail(err, MOTUS_LIMIT,
+         "the implicit equations couple so many numbers that their matrix would take %s MiB; the bound is %d MiB",
          decimal(ceil(bytes / (1 << 20)), text), SOLVER_BAND_BYTES_MAX >> 20);
-    hint(err, "an explicit method needs no matrix: velocity-verlet or blanes-moan4 for forces without velocity, rk4 for any");
+    hint(
+        err,
+        "an explicit method needs no matrix: velocity-verlet or blanes-moan4 for forces without velocity, rk4 for any");
     return MOTUS_LIMIT;
 }
 
@@ -62,18 +66,22 @@ static motus_status structure(solver *s, motus_error *err)
     const problem *p = s->problem;
     const motus_allocator *allocator = &s->allocator;
     const double nv = (double)p->nv, stages = s->stages;
-    if (!p->pattern && nv * stages * nv * stages * 3 * 8 > SOLVER_BAND_BYTES_MAX) return too_wide(nv * stages * nv * stages * 24, err);
+    if (!p->pattern && nv * stages * nv * stages * 3 * 8 > SOLVER_BAND_BYTES_MAX)
+        return too_wide(nv * stages * nv * stages * 24, err);
     if (nv * stages > (double)UINT32_MAX) return too_wide(nv * stages * 8, err);
     bool broken = false;
-    if ((s->use_x && !solver_pattern(p, false, &s->x, allocator, &broken))
-        || (s->use_v && !solver_pattern(p, true, &s->v, allocator, &broken)))
-        return broken ? fail(err, MOTUS_ARGUMENT, "the pattern of the derivative names an entry outside of it") : no_memory(err);
-    if (p->prepare && ((s->use_x && !p->prepare(p->ctx, false)) || (s->use_v && !p->prepare(p->ctx, true)))) return no_memory(err);
+    if ((s->use_x && !solver_pattern(p, false, &s->x, allocator, &broken)) ||
+        (s->use_v && !solver_pattern(p, true, &s->v, allocator, &broken)))
+        return broken ? fail(err, MOTUS_ARGUMENT, "the pattern of the derivative names an entry outside of it")
+                      : no_memory(err);
+    if (p->prepare && ((s->use_x && !p->prepare(p->ctx, false)) || (s->use_v && !p->prepare(p->ctx, true))))
+        return no_memory(err);
     s->place = take(allocator, p->nv, sizeof *s->place);
-    if (!s->place || !solver_order(p->nv, s->use_x ? &s->x : NULL, s->use_v ? &s->v : NULL, s->place, &s->lower, &s->upper, allocator))
+    if (!s->place || !solver_order(p->nv, s->use_x ? &s->x : NULL, s->use_v ? &s->v : NULL, s->place, &s->lower,
+                                   &s->upper, allocator))
         return no_memory(err);
     s->n = p->nv * (size_t)s->stages;
-    s->lower = s->lower * (size_t)s->stages + (size_t)s->stages - 1;      /* stages of one unknown are neighbours */
+    s->lower = s->lower * (size_t)s->stages + (size_t)s->stages - 1; /* stages of one unknown are neighbours */
     s->upper = s->upper * (size_t)s->stages + (size_t)s->stages - 1;
     const double bytes = (double)s->n * (2 * (double)s->lower + (double)s->upper + 1) * sizeof(double);
     return bytes > SOLVER_BAND_BYTES_MAX ? too_wide(bytes, err) : MOTUS_OK;
@@ -84,12 +92,14 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
 {
     solver *s = take(allocator, 1, sizeof *s);
     if (!s) return no_memory(err);
-    *s = (solver){.problem = p, .stages = stages, .use_x = use_x, .use_v = use_v, .constant = constant, .stride = stride};
+    *s = (solver){
+        .problem = p, .stages = stages, .use_x = use_x, .use_v = use_v, .constant = constant, .stride = stride};
     if (allocator) s->allocator = *allocator;
     motus_status status = structure(s, err);
     if (!status) {
         const size_t height = diagonal(s) ? 1 : 2 * s->lower + s->upper + 1, nv = p->nv;
-        bool ok = (!use_x || solver_colour(nv, &s->x, &s->allocator)) && (!use_v || solver_colour(nv, &s->v, &s->allocator));
+        bool ok =
+            (!use_x || solver_colour(nv, &s->x, &s->allocator)) && (!use_v || solver_colour(nv, &s->v, &s->allocator));
         s->matrix = take(&s->allocator, s->n * height, sizeof *s->matrix);
         s->pivot = take(&s->allocator, s->n, sizeof *s->pivot);
         s->b = take(&s->allocator, s->n, sizeof *s->b);
@@ -113,15 +123,17 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
     return MOTUS_OK;
 }
 
-/* Derivatives --------------------------------------------------------------------------------------------------------- */
+/* Derivatives ------------------------------------------------------------------------------------------------------ */
 
 /* image = J direction for the columns of one colour, whose directions do not meet: by the problem's own derivative. */
 static int direct(solver *s, bool in_v, const sparse *m, size_t colour, double t, double *x, double *v)
 {
     const problem *p = s->problem;
-    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++) s->direction[m->colour_column[i]] = 1;
+    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++)
+        s->direction[m->colour_column[i]] = 1;
     int bad = p->jvp(p->ctx, t, x, v, in_v ? NULL : s->direction, in_v ? s->direction : NULL, s->image);
-    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++) s->direction[m->colour_column[i]] = 0;
+    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++)
+        s->direction[m->colour_column[i]] = 0;
     if (bad) return 1;
     for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++) {
         const size_t c = m->colour_column[i];
@@ -153,7 +165,8 @@ static int quotient(solver *s, bool in_v, const sparse *m, size_t colour, double
         for (size_t e = m->start[c]; e < m->start[c + 1]; e++)
             m->value[e] = (s->image[m->row[e]] - s->base[m->row[e]]) / s->direction[c];
     }
-    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++) s->direction[m->colour_column[i]] = 0;
+    for (size_t i = m->colour_start[colour]; i < m->colour_start[colour + 1]; i++)
+        s->direction[m->colour_column[i]] = 0;
     return bad ? 1 : 0;
 }
 
@@ -171,7 +184,7 @@ static int derive(solver *s, bool in_v, const sparse *m, double t, double *x, do
     return 0;
 }
 
-/* The matrix ---------------------------------------------------------------------------------------------------------- */
+/* The matrix ------------------------------------------------------------------------------------------------------- */
 
 static void add(solver *s, const sparse *m, const double *a)
 {
@@ -246,7 +259,8 @@ void solver_apply(const solver *s, double c, const double *y, double *out)
     const sparse *m = &s->v;
     memcpy(out, y, s->problem->nv * sizeof *out);
     if (!s->use_v) return;
-    for (size_t k = 0; k < m->columns; k++)           /* the diagonal first: (1 + c j) y is one factor, as people write it */
+    /* the diagonal first: (1 + c j) y is one factor, as people write it */
+    for (size_t k = 0; k < m->columns; k++)
         for (size_t e = m->start[k]; e < m->start[k + 1]; e++)
             if (m->row[e] == k) out[k] = (1 + c * m->value[e]) * y[k];
     for (size_t k = 0; k < m->columns; k++)

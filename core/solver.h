@@ -1,52 +1,58 @@
 /* Linear systems of implicit methods: (I - ax ⊗ da/dx - av ⊗ da/dv) z = r, by the structure that the problem tells.
  *
- * Pattern -> order (as it is if that is good, else reverse Cuthill-McKee) -> colours of columns -> derivatives by as many directional ones
- * as there are colours -> band matrix, LU with partial pivoting. Diagonal systems are divisions, so a million damped masses cost O(N).
+ * Pattern -> order (as it is if that is good, else reverse Cuthill-McKee) -> colours of columns -> derivatives by as
+ * many directional ones as there are colours -> band matrix, LU with partial pivoting. Diagonal systems are
+ * divisions, so a million damped masses cost O(N).
  */
 #ifndef CORE_SOLVER_H
 #define CORE_SOLVER_H
 
 #include "core/system.h"
 
-enum { SOLVER_BAND_BYTES_MAX = 256 << 20 };      /* refused beyond: MOTUS_LIMIT */
+enum { SOLVER_BAND_BYTES_MAX = 256 << 20 }; /* refused beyond: MOTUS_LIMIT */
 
 typedef struct solver solver;
 
-/* For `stages` equations at once; use_x, use_v: which derivatives occur. constant: they never change. stride: of the stages in r. */
-motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, bool constant, size_t stride, const motus_allocator *,
-                           solver **, motus_error *);
+/* For `stages` equations at once; use_x, use_v: which derivatives occur. constant: they never change. stride: of the
+ * stages in r. */
+motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, bool constant, size_t stride,
+                           const motus_allocator *, solver **, motus_error *);
 void solver_destroy(solver *);
 /* What was derived and factored holds no longer: the parameters have changed, or another motion begins. */
 void solver_forget(solver *);
-/* By how much y, one of numbers as large as `size`, is shifted for a difference quotient. A linear dependence has no truncation error, so there
- * the shift is as large as the numbers. */
+/* By how much y, one of numbers as large as `size`, is shifted for a difference quotient. A linear dependence has no
+ * truncation error, so there the shift is as large as the numbers. */
 double solver_shift(double y, double size, bool linear);
 /* 0; 1: the callback failed; 2: singular. *evaluations grows by what difference quotients cost. */
 int solver_factor(solver *, const double *ax, const double *av, double t, double *x, double *v, int64_t *evaluations);
-/* The matrix that was factored last, where it is diagonal and the same for good; else NULL. solver_back divides by it. */
+/* The matrix that was factored last, where it is diagonal and the same for good; else NULL. solver_back divides by
+ * it. */
 const double *solver_diagonal(const solver *);
 void solver_back(solver *, double *r);
-void solver_apply(const solver *, double c, const double *y, double *out);       /* out = (I + c da/dv) y */
+void solver_apply(const solver *, double c, const double *y, double *out); /* out = (I + c da/dv) y */
 
-/* The parts, each in its file. Columns of a sparse matrix: rows row[start[c]] … row[start[c+1]-1] of column c, ascending. */
+/* The parts, each in its file. Columns of a sparse matrix: rows row[start[c]] … row[start[c+1]-1] of column c,
+ * ascending. */
 typedef struct sparse {
     size_t columns, *start;
     uint32_t *row;
     double *value;
-    uint32_t *colour_column;      /* columns, colour by colour; */
-    size_t *colour_start;         /*   colour k: [colour_start[k], colour_start[k+1]) */
+    uint32_t *colour_column; /* columns, colour by colour; */
+    size_t *colour_start;    /*   colour k: [colour_start[k], colour_start[k+1]) */
     size_t colours;
 } sparse;
 
 /* solver_order.c. false: no memory, or (*broken) an entry outside the matrix. */
 bool solver_pattern(const problem *, bool in_v, sparse *, const motus_allocator *, bool *broken);
 /* place[k]: where unknown k comes in the order chosen for the union of both; lower, upper: the bandwidths there. */
-bool solver_order(size_t n, const sparse *x, const sparse *v, uint32_t *place, size_t *lower, size_t *upper, const motus_allocator *);
+bool solver_order(size_t n, const sparse *x, const sparse *v, uint32_t *place, size_t *lower, size_t *upper,
+                  const motus_allocator *);
 bool solver_colour(size_t rows, sparse *, const motus_allocator *);
 void solver_release(sparse *, const motus_allocator *);
 
 /* solver_band.c. Entry (i, j) is at matrix[j * (2 lower + upper + 1) + lower + upper + i - j]. */
-bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot);     /* false: singular */
+/* false: singular */
+bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot);
 void solver_band_back(size_t n, size_t lower, size_t upper, const double *matrix, const uint32_t *pivot, double *b);
 
 #endif

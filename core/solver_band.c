@@ -1,6 +1,7 @@
 /* Band matrices: LU with partial pivoting, column by column.
  *
- * Invariant: pivoting moves rows by at most `lower` places, so U needs `lower` diagonals more than the matrix; callers leave them zero.
+ * Invariant: pivoting moves rows by at most `lower` places, so U needs `lower` diagonals more than the matrix;
+ * callers leave them zero.
  */
 #include "core/solver.h"
 
@@ -9,9 +10,9 @@
 bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot)
 {
     const size_t height = 2 * lower + upper + 1, middle = lower + upper;
-    size_t reach = 0;                                     /* last column that the rows pivoted so far reach into */
+    size_t reach = 0; /* last column that the rows pivoted so far reach into */
     for (size_t j = 0; j < n; j++) {
-        double *column = matrix + j * height + middle;     /* column[i - j] */
+        double *column = matrix + j * height + middle; /* column[i - j] */
         size_t below = n - 1 - j < lower ? n - 1 - j : lower, best = 0;
         for (size_t i = 1; i <= below; i++)
             if (fabs(column[i]) > fabs(column[best])) best = i;

@@ -1,7 +1,8 @@
-/* The structure of a linear system: its pattern, an order of the unknowns with a narrow band, and colours of its columns.
+/* The structure of a linear system: its pattern, an order of the unknowns with a narrow band, and colours of its
+ * columns.
  *
- * Invariant: everything is linear in the number of entries (times the degree, for colours), with no recursion; a problem's pattern
- * is only believed after its indices were checked.
+ * Invariant: everything is linear in the number of entries (times the degree, for colours), with no recursion; a
+ * problem's pattern is only believed after its indices were checked.
  */
 #include "core/solver.h"
 
@@ -18,19 +19,27 @@ void solver_release(sparse *m, const motus_allocator *allocator)
     *m = (sparse){0};
 }
 
-/* Pattern ----------------------------------------------------------------------------------------------------------- */
+/* Pattern ---------------------------------------------------------------------------------------------------------- */
 
-typedef struct gather { sparse *to; size_t rows, room; bool filling, broken, torn; } gather;
+typedef struct gather {
+    sparse *to;
+    size_t rows, room;
+    bool filling, broken, torn;
+} gather;
 
-/* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. A problem that runs out of memory on
- * the way may say less the first time than the second: then the pattern is torn. */
+/* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. A problem that
+ * runs out of memory on the way may say less the first time than the second: then the pattern is torn. */
 static void gather_entry(void *arg, size_t row, size_t column)
 {
     gather *g = arg;
-    if (row >= g->rows || column >= g->to->columns) g->broken = true;
-    else if (g->filling && g->to->start[column] >= g->room) g->torn = true;
-    else if (g->filling) g->to->row[g->to->start[column]++] = (uint32_t)row;
-    else g->to->start[column + 1]++;
+    if (row >= g->rows || column >= g->to->columns)
+        g->broken = true;
+    else if (g->filling && g->to->start[column] >= g->room)
+        g->torn = true;
+    else if (g->filling)
+        g->to->row[g->to->start[column]++] = (uint32_t)row;
+    else
+        g->to->start[column + 1]++;
 }
 
 static void gather_all(const problem *p, bool in_v, gather *g)
@@ -65,7 +74,8 @@ bool solver_pattern(const problem *p, bool in_v, sparse *m, const motus_allocato
     g.room = entries;
     gather_all(p, in_v, &g);
     size_t kept = 0, first = 0;
-    for (size_t c = 0; c < m->columns; c++) {             /* start[c] now is the end of column c: sort, drop doubles, close up */
+    /* start[c] now is the end of column c: sort, drop doubles, close up */
+    for (size_t c = 0; c < m->columns; c++) {
         const size_t end = m->start[c];
         if (g.torn || end < first) return false;
         qsort(m->row + first, end - first, sizeof *m->row, ascending);
@@ -79,9 +89,12 @@ bool solver_pattern(const problem *p, bool in_v, sparse *m, const motus_allocato
     return m->value != NULL;
 }
 
-/* Order --------------------------------------------------------------------------------------------------------------- */
+/* Order ------------------------------------------------------------------------------------------------------------ */
 
-typedef struct net { size_t n, *start; uint32_t *to; } net;       /* neighbours of each unknown, in either direction */
+typedef struct net {
+    size_t n, *start;
+    uint32_t *to;
+} net; /* neighbours of each unknown, in either direction */
 
 static void net_entries(net *g, const sparse *m, bool fill)
 {
@@ -110,14 +123,16 @@ static bool net_build(net *g, size_t n, const sparse *x, const sparse *v, const 
     if (!g->to) return false;
     net_entries(g, x, true);
     net_entries(g, v, true);
-    memmove(g->start + 1, g->start, n * sizeof *g->start);    /* filling moved each start to its end, the next one's start */
+    /* filling moved each start to its end, the next one's start */
+    memmove(g->start + 1, g->start, n * sizeof *g->start);
     g->start[0] = 0;
     return true;
 }
 
 static size_t degree(const net *g, size_t k) { return g->start[k + 1] - g->start[k]; }
 
-/* Breadth first from `root` over what is not marked yet; neighbours by degree. Marks with `mark`; returns how many were reached. */
+/* Breadth first from `root` over what is not marked yet; neighbours by degree. Marks with `mark`; returns how many
+ * were reached. */
 static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *marks, uint32_t mark, uint32_t unmarked)
 {
     size_t head = 0, tail = 0;
@@ -131,7 +146,8 @@ static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *mark
             if (marks[other] != unmarked) continue;
             marks[other] = mark;
             size_t at = tail++;
-            if (tail - from <= 64)                         /* sorted by insertion; a hub's many neighbours stay as they come */
+            /* sorted by insertion; a hub's many neighbours stay as they come */
+            if (tail - from <= 64)
                 for (; at > from && degree(g, queue[at - 1]) > degree(g, other); at--) queue[at] = queue[at - 1];
             queue[at] = other;
         }
@@ -194,7 +210,7 @@ bool solver_order(size_t n, const sparse *x, const sparse *v, uint32_t *place, s
     return true;
 }
 
-/* Colours ------------------------------------------------------------------------------------------------------------- */
+/* Colours ---------------------------------------------------------------------------------------------------------- */
 
 /* Columns that share no row get the same colour, greedily: one directional derivative serves them all [CPR74]. */
 static bool paint(size_t rows, sparse *m, size_t *by_row, uint32_t *columns, uint32_t *colour, uint32_t *taken)
@@ -207,7 +223,7 @@ static bool paint(size_t rows, sparse *m, size_t *by_row, uint32_t *columns, uin
     by_row[0] = 0;
     m->colours = 0;
     for (size_t c = 0; c < m->columns; c++) {
-        if (m->start[c] == m->start[c + 1]) continue;      /* nothing depends on it: no colour */
+        if (m->start[c] == m->start[c + 1]) continue; /* nothing depends on it: no colour */
         for (size_t i = m->start[c]; i < m->start[c + 1]; i++)
             for (size_t j = by_row[m->row[i]]; j < by_row[m->row[i] + 1]; j++)
                 if (colour[columns[j]]) taken[colour[columns[j]]] = (uint32_t)c + 1;
@@ -223,7 +239,8 @@ bool solver_colour(size_t rows, sparse *m, const motus_allocator *allocator)
 {
     size_t *by_row = take(allocator, rows + 2, sizeof *by_row);
     uint32_t *columns = take(allocator, m->start[m->columns], sizeof *columns);
-    uint32_t *colour = take(allocator, m->columns, sizeof *colour), *taken = take(allocator, m->columns + 2, sizeof *taken);
+    uint32_t *colour = take(allocator, m->columns, sizeof *colour),
+             *taken = take(allocator, m->columns + 2, sizeof *taken);
     bool ok = by_row && columns && colour && taken && paint(rows, m, by_row, columns, colour, taken);
     if (ok) {
         m->colour_start = take(allocator, m->colours + 2, sizeof *m->colour_start);
@@ -234,7 +251,7 @@ bool solver_colour(size_t rows, sparse *m, const motus_allocator *allocator)
         for (size_t c = 0; c < m->columns; c++)
             if (colour[c]) m->colour_start[colour[c]]++;
         for (size_t k = 0; k < m->colours; k++) m->colour_start[k + 1] += m->colour_start[k];
-        for (size_t c = 0; c < m->columns; c++)            /* colour k + 1 starts where colour k ends */
+        for (size_t c = 0; c < m->columns; c++) /* colour k + 1 starts where colour k ends */
             if (colour[c]) m->colour_column[m->colour_start[colour[c] - 1]++] = (uint32_t)c;
         memmove(m->colour_start + 1, m->colour_start, m->colours * sizeof *m->colour_start);
         m->colour_start[0] = 0;

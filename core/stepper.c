@@ -1,26 +1,29 @@
-/* One trajectory of a problem: memory, the choice of instruction set, the way to a limit, and the way back from a failure. See stepper.h.
+/* One trajectory of a problem: memory, the choice of instruction set, the way to a limit, and the way back from a
+ * failure. See stepper.h.
  *
- * core/stepper_body.c, compiled once per instruction set, does the arithmetic (its first lines say with which flags); here the fastest
- * one that this processor has is chosen when a stepper is made. It cannot change the bits.
+ * core/stepper_body.c, compiled once per instruction set, does the arithmetic (its first lines say with which flags);
+ * here the fastest one that this processor has is chosen when a stepper is made. It cannot change the bits.
  *
- * Invariant: after a failure the stepper stands at the last step whose state was finite. Every SNAPSHOT steps the carried numbers are
- * kept (of large systems, where that costs more beside a step, every SNAPSHOT_LARGE); a failure goes back to them and takes the good steps once more,
- * which is exact, since steps are deterministic.
+ * Invariant: after a failure the stepper stands at the last step whose state was finite. Every SNAPSHOT steps the
+ * carried numbers are kept (of large systems, where that costs more beside a step, every SNAPSHOT_LARGE); a failure
+ * goes back to them and takes the good steps once more, which is exact, since steps are deterministic.
  */
 #include "core/stepper_parts.h"
 
 #include <string.h>
 
-enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };      /* LINE: bytes of a cache line, to which arrays are aligned */
+/* LINE: bytes of a cache line, to which arrays are aligned */
+enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };
 
 const stepper_body *stepper_best_body(void)
 {
-#if defined ONE_COPY            /* where size counts more: the one that could tell, too */
+#if defined ONE_COPY /* where size counts more: the one that could tell, too */
     return &trace_body;
 #elif defined __x86_64__
     __builtin_cpu_init();
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
         return &stepper_body_avx512;
     return avx2 ? &stepper_body_avx2 : &stepper_body_base;
 #else
@@ -41,7 +44,8 @@ static motus_status prepare_solver(stepper *s, motus_error *err)
 {
     const work *w = &s->work;
     if (!w->solves) return MOTUS_OK;
-    return solver_create(&s->problem, w->solves, w->solves_x, s->problem.traits.velocity, stepper_fixed(&s->problem, w), w->stride, &s->allocator, &s->library.solver, err);
+    return solver_create(&s->problem, w->solves, w->solves_x, s->problem.traits.velocity, stepper_fixed(&s->problem, w),
+                         w->stride, &s->allocator, &s->library.solver, err);
 }
 
 work stepper_plan(const problem *p, const chosen *method, coef *memory)
@@ -66,8 +70,8 @@ size_t stepper_carried(work plan)
     return (size_t)stepper_best_body()->carry(&plan, list);
 }
 
-motus_status stepper_create(const machine *m, const chosen *method, double t0, double h, const double *x, const double *v,
-                            const motus_allocator *allocator, stepper **out, motus_error *err)
+motus_status stepper_create(const machine *m, const chosen *method, double t0, double h, const double *x,
+                            const double *v, const motus_allocator *allocator, stepper **out, motus_error *err)
 {
     const problem *p = m->problem;
     motus_status status = row_admits(method, &p->traits, err);
@@ -126,7 +130,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     work *w = &s->work;
     double t = time_now(w);
     int64_t good = good_steps(s, bad);
-    if (!w->check) {                   /* infinities may be some steps old, and may be what made the last step fail */
+    if (!w->check) { /* infinities may be some steps old, and may be what made the last step fail */
         const size_t which = w->which;
         const bool in_v = w->in_v;
         const int64_t end = w->n;
@@ -167,7 +171,8 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     w->finite = false;
     if (s->library.tracing) trace_begin(w);
     int bad = body->run(w, steps);
-    s->library.tracing = NULL;         /* a recovery that follows takes these steps once more, and does not tell them again */
+    /* a recovery that follows takes these steps once more, and does not tell them again */
+    s->library.tracing = NULL;
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
@@ -183,7 +188,8 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
     return MOTUS_OK;
 }
 
-/* The shorter last step begins a leg of its own from the synchronised state: two-step methods take it in their one-step form. */
+/* The shorter last step begins a leg of its own from the synchronised state: two-step methods take it in their
+ * one-step form. */
 static motus_status short_step(stepper *s, double last, const stepper_body *body, motus_error *err)
 {
     work *w = &s->work;
@@ -223,7 +229,7 @@ static motus_status go(stepper *s, const stepper_limit *limit, const stepper_bod
     w->until = isnan(limit->until) ? INFINITY * w->h : limit->until;
     const stepper_way way = w->carried ? (stepper_way){INT64_MAX, 0} : stepper_way_of(w->t0, w->h, limit->until);
     const int64_t left = way.whole > w->n ? way.whole - w->n : 0, steps = limit->steps < left ? limit->steps : left;
-    if (limit->steps > 0) {                            /* a mark is the left end of one step */
+    if (limit->steps > 0) { /* a mark is the left end of one step */
         s->left = s->left && limit->steps == 1 && s->left_steps == stepper_steps(s);
         s->right = false;
     }
@@ -247,14 +253,17 @@ motus_status stepper_again(stepper *s, motus_error *err)
     const int64_t end = w->n;
     const double last = w->h;
     const bool shortened = s->shortened, arrived = s->arrived;
-    if (s->at.steps < 0 || (!shortened && s->at.steps >= end)) return MOTUS_OK;      /* no step has been taken since the start or a restart */
+    /* no step has been taken since the start or a restart */
+    if (s->at.steps < 0 || (!shortened && s->at.steps >= end)) return MOTUS_OK;
     s->arrived = false;
     go_back(s);
     int bad = shortened || end - 1 == w->n ? STEP_OK : s->body->run(w, end - 1 - w->n);
     motus_status status = bad ? stepper_report(s, bad, time_now(w), err) : stepper_mark(s, err);
     if (status) return status;
-    if (shortened) status = short_step(s, last, s->body, err);
-    else if ((bad = s->body->run(w, 1))) status = stepper_report(s, bad, time_now(w), err);
+    if (shortened)
+        status = short_step(s, last, s->body, err);
+    else if ((bad = s->body->run(w, 1)))
+        status = stepper_report(s, bad, time_now(w), err);
     s->arrived = arrived && !status;
     return status;
 }

@@ -1,10 +1,11 @@
 /* One trajectory of a problem by a row, on one core: the texts of step/ with real = double.
  *
- * A trajectory is made of legs: a leg begins at a state and a time, and takes steps of the row from there. A new leg begins when the caller says so
- * (another state, after an event), and for the shorter last step before a limit that lies between two whole steps.
- * Invariant: the stepper alone knows what time it is. Observing never touches the main line (the numbers that lead from a step to the next):
- * `stepper_sync` works aside, so the bits of a trajectory do not depend on when it was observed; and the main line of a leg is not touched by the
- * shorter step at its end, so a saved state goes on beyond the limit as if there had been none.
+ * A trajectory is made of legs: a leg begins at a state and a time, and takes steps of the row from there. A new leg
+ * begins when the caller says so (another state, after an event), and for the shorter last step before a limit that
+ * lies between two whole steps. Invariant: the stepper alone knows what time it is. Observing never touches the main
+ * line (the numbers that lead from a step to the next): `stepper_sync` works aside, so the bits of a trajectory do
+ * not depend on when it was observed; and the main line of a leg is not touched by the shorter step at its end, so a
+ * saved state goes on beyond the limit as if there had been none.
  */
 #ifndef CORE_STEPPER_H
 #define CORE_STEPPER_H
@@ -12,62 +13,77 @@
 #include "core/trace.h"
 
 typedef struct stepper stepper;
-typedef struct stepper_body stepper_body;          /* core/stepper_body.h */
+typedef struct stepper_body stepper_body; /* core/stepper_body.h */
 
-/* A machine: a problem that it can evaluate, and the loop that advances it. The bits of both are fixed by the problem's equations and the texts of
- * step/, so machines differ in speed alone. */
+/* A machine: a problem that it can evaluate, and the loop that advances it. The bits of both are fixed by the
+ * problem's equations and the texts of step/, so machines differ in speed alone. */
 typedef struct machine {
     const char *name;
     const problem *problem;
-    const stepper_body *body;                      /* NULL: the library's fastest */
-    const struct compiled_host *host;              /* of a compiled body: its own data */
+    const stepper_body *body;         /* NULL: the library's fastest */
+    const struct compiled_host *host; /* of a compiled body: its own data */
 } machine;
 
-/* A stepper at (t0, x, v) (nx, nv numbers, copied) with step h != 0 (negative: backward). The machine's problem must outlive it. */
-motus_status stepper_create(const machine *, const chosen *, double t0, double h, const double *x, const double *v, const motus_allocator *,
-                            stepper **, motus_error *);
+/* A stepper at (t0, x, v) (nx, nv numbers, copied) with step h != 0 (negative: backward). The machine's problem must
+ * outlive it. */
+motus_status stepper_create(const machine *, const chosen *, double t0, double h, const double *x, const double *v,
+                            const motus_allocator *, stepper **, motus_error *);
 void stepper_destroy(stepper *);
-/* A new leg from another state and time, with step h; the counters go on. What is known of the problem's derivatives is forgotten. */
+/* A new leg from another state and time, with step h; the counters go on. What is known of the problem's derivatives
+ * is forgotten. */
 motus_status stepper_start(stepper *, double t0, double h, const double *x, const double *v, motus_error *);
 
 /* How far: so many steps, or up to a time (NaN: none), whichever comes first; and which it was. */
-typedef struct stepper_limit { int64_t steps; double until; } stepper_limit;
+typedef struct stepper_limit {
+    int64_t steps;
+    double until;
+} stepper_limit;
 typedef enum stepper_stop { STOP_STEPS, STOP_UNTIL, STOP_FAILED } stepper_stop;
 
-/* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none. A few roundings of the quotient make no step. */
-typedef struct stepper_way { int64_t whole; double last; } stepper_way;
+/* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none. A few roundings of
+ * the quotient make no step. */
+typedef struct stepper_way {
+    int64_t whole;
+    double last;
+} stepper_way;
 stepper_way stepper_way_of(double t0, double h, double until);
 
-/* On to the limit; a last, shorter step is taken if the limit lies between two steps. DIVERGED, SOLVE and CALLBACK name time and variable; the
- * stepper then stands at the last good step. why may be NULL. */
+/* On to the limit; a last, shorter step is taken if the limit lies between two steps. DIVERGED, SOLVE and CALLBACK
+ * name time and variable; the stepper then stands at the last good step. why may be NULL. */
 motus_status stepper_advance(stepper *, stepper_limit, stepper_stop *why, motus_error *);
 /* One step on the way to `until`, to the same bits; what happens in it is told. */
 motus_status stepper_trace(stepper *, double until, const tracer *, motus_error *);
-/* The state at the present time, velocities synchronised. x, v of nx, nv numbers; a (may be NULL): the acceleration there. */
+/* The state at the present time, velocities synchronised. x, v of nx, nv numbers; a (may be NULL): the acceleration
+ * there. */
 motus_status stepper_sync(stepper *, double *x, double *v, double *a, motus_error *);
 
 double stepper_time(const stepper *);
-double stepper_time_of(const stepper *, int64_t n);      /* of step n of the leg; NaN where steps adapt */
-double stepper_step(const stepper *);              /* size of the present leg's steps, with its sign */
-double stepper_last_step(const stepper *);         /* size of the latest step, with its sign */
+double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
+double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */
+double stepper_last_step(const stepper *);          /* size of the latest step, with its sign */
 int64_t stepper_refused(const stepper *);
-int64_t stepper_steps(const stepper *);            /* finished since the start of the leg, a shorter last one included */
-int64_t stepper_evaluations(const stepper *);      /* by the method itself; observing is not counted */
+/* finished since the start of the leg, a shorter last one included */
+int64_t stepper_steps(const stepper *);
+int64_t stepper_evaluations(const stepper *); /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);
 
-/* Dense output: the state at a time within the last step. stepper_mark keeps the present state as the left end of the next step; without a mark
- * stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
+/* Dense output: the state at a time within the last step. stepper_mark keeps the present state as the left end of the
+ * next step; without a mark stepper_sample takes the last step once more, from the last snapshot, to the same bits. */
 motus_status stepper_mark(stepper *, motus_error *);
 motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_error *);
-/* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not known beforehand. */
+/* How many steps lead to the last time that is not after t; 0 where the stepper is there, or where sizes are not
+ * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);
 
-/* Everything that the next step of the leg needs, as `stepper_carry` numbers: saved and loaded into a stepper created alike, the run
- * goes on to the same bits. The counters travel too: *at. After a shorter last step this is the state before it. */
-typedef struct stepper_count { int64_t steps, evaluations, iterations; } stepper_count;
+/* Everything that the next step of the leg needs, as `stepper_carry` numbers: saved and loaded into a stepper created
+ * alike, the run goes on to the same bits. The counters travel too: *at. After a shorter last step this is the state
+ * before it. */
+typedef struct stepper_count {
+    int64_t steps, evaluations, iterations;
+} stepper_count;
 size_t stepper_carry(const stepper *);
 stepper_count stepper_save(const stepper *, double *carry);
-double stepper_time_saved(const stepper *, stepper_count, const double *carry);       /* the time of a saved state */
+double stepper_time_saved(const stepper *, stepper_count, const double *carry); /* the time of a saved state */
 motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_error *);
 
 /* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */

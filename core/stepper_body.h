@@ -1,4 +1,5 @@
-/* What core/stepper_body.c compiles to, once per instruction set, and the workspace that it works on: step/work.h with real = double. */
+/* What core/stepper_body.c compiles to, once per instruction set, and the workspace that it works on: step/work.h
+ * with real = double. */
 #ifndef CORE_STEPPER_BODY_H
 #define CORE_STEPPER_BODY_H
 
@@ -12,23 +13,28 @@
 #define ROWS
 #include "step/work.h"
 
-/* What the library's own bodies work with, found through work.library. tracing: of core/trace_body.h, while a step is traced. */
-struct stepper_host { const problem *problem; solver *solver; const struct tracing *tracing; };
+/* What the library's own bodies work with, found through work.library. tracing: of core/trace_body.h, while a step is
+ * traced. */
+struct stepper_host {
+    const problem *problem;
+    solver *solver;
+    const struct tracing *tracing;
+};
 
 typedef struct stepper_body {
     const char *name;
     void (*plan)(work *, const double argument[2], coef *memory);
     size_t (*place)(work *, real *memory);
     int (*carry)(const work *, real *list[CARRY_MAX]);
-    int (*run)(work *, whole steps);                         /* advance_run */
-    int (*sync)(work *, real *x, real *v, real *a);          /* advance_sync */
-    int (*check)(work *);                                    /* advance_check */
+    int (*run)(work *, whole steps);                /* advance_run */
+    int (*sync)(work *, real *x, real *v, real *a); /* advance_sync */
+    int (*check)(work *);                           /* advance_check */
     void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
     /* What a compiled body calls back for. */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
-    const real *(*diagonal)(const work *);                   /* solver_diagonal */
+    const real *(*diagonal)(const work *); /* solver_diagonal */
 } stepper_body;
 
 /* The fastest one here. */
@@ -38,8 +44,8 @@ extern const stepper_body stepper_body_base;
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 #endif
 
-/* A workspace without memory: what follows from the row, its arguments and the problem. With memory for work_plan_size numbers, which must stay, its
- * constants too. */
+/* A workspace without memory: what follows from the row, its arguments and the problem. With memory for
+ * work_plan_size numbers, which must stay, its constants too. */
 work stepper_plan(const problem *, const chosen *, coef *memory);
 /* Whether the matrix of the plan's linear systems is the same at every state and time. */
 bool stepper_fixed(const problem *, const work *plan);

@@ -1,6 +1,7 @@
 /* What the texts of step/ ask of their includer, for a problem, with real = double; and after it the texts.
  *
- * Included by the files that become a stepper_body, and by nothing else; such a file may define a TRACE of its own first.
+ * Included by the files that become a stepper_body, and by nothing else; such a file may define a TRACE of its own
+ * first.
  */
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
@@ -9,18 +10,25 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
     return p->accel(p->ctx, t, x, v, a) ? STEP_CALLBACK : STEP_OK;
 }
 
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
+static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
+                               real *v)
 {
-    (void)where, (void)s;                              /* the solver was made for this number of stages */
+    (void)where, (void)s; /* the solver was made for this number of stages */
     switch (solver_factor(w->library->solver, ax, av, t, x, v, &w->evaluations)) {
     case 0: return STEP_OK;
     case 1: return STEP_CALLBACK;
-    default: w->in_v = true; w->which = 0; return STEP_SOLVE;
+    default:
+        w->in_v = true;
+        w->which = 0;
+        return STEP_SOLVE;
     }
 }
 
 static inline void solve_back(work *w, real *r) { solver_back(w->library->solver, r); }
-static inline void solve_apply(work *w, clock c, const real *y, real *out) { solver_apply(w->library->solver, c, y, out); }
+static inline void solve_apply(work *w, clock c, const real *y, real *out)
+{
+    solver_apply(w->library->solver, c, y, out);
+}
 static const real *solve_diagonal(const work *w) { return solver_diagonal(w->library->solver); }
 
 static inline int exact_at(work *w, clock t, real *x, real *v)
@@ -37,6 +45,8 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 
 #include "core/texts.h"
 
-#define STEPPER_BODY(name)                                                                                                                      \
-    {name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, family_dense, solve_factor, solve_back, solve_apply, \
-     solve_diagonal}
+#define STEPPER_BODY(name)                                                                                 \
+    {                                                                                                      \
+        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, family_dense, \
+            solve_factor, solve_back, solve_apply, solve_diagonal                                          \
+    }

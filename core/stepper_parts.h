@@ -1,4 +1,5 @@
-/* The stepper from inside: what stepper.c (life and motion), stepper_start.c (legs) and stepper_state.c (carry, observation, dense output) share. */
+/* The stepper from inside: what stepper.c (life and motion), stepper_start.c (legs) and stepper_state.c (carry,
+ * observation, dense output) share. */
 #ifndef CORE_STEPPER_PARTS_H
 #define CORE_STEPPER_PARTS_H
 
@@ -6,7 +7,7 @@
 #include "core/stepper_body.h"
 #include "core/trace_body.h"
 
-enum { STEPPER_CLOCKS = 3 };         /* numbers of a carried time: t, its rounding error, the next step size */
+enum { STEPPER_CLOCKS = 3 }; /* numbers of a carried time: t, its rounding error, the next step size */
 
 struct stepper {
     problem problem;
@@ -15,17 +16,20 @@ struct stepper {
     chosen method;
     work work;
     const stepper_body *body;
-    double leg_h;                    /* step of the leg; work.h differs from it in a shorter last step, and where steps adapt */
-    bool shortened;                  /* the last step was the shorter one up to `until`; the snapshot is the state before it */
-    bool arrived;                    /* the stepper stands at `until` */
+    /* step of the leg; work.h differs from it in a shorter last step, and where steps adapt */
+    double leg_h;
+    /* the last step was the shorter one up to `until`; the snapshot is the state before it */
+    bool shortened;
+    bool arrived; /* the stepper stands at `until` */
     double until;
-    double *snapshot;                /* the carried numbers at `at`; at.steps < 0: none */
+    double *snapshot; /* the carried numbers at `at`; at.steps < 0: none */
     stepper_count at;
-    double main_t0;                  /* of the leg, while the shorter last step has its own */
-    double *ends;                    /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
+    double main_t0; /* of the leg, while the shorter last step has its own */
+    /* of dense output: x, v, a at the left end, then at the right; NULL until asked for */
+    double *ends;
     double left_t;
-    int64_t left_steps;              /* stepper_steps at the left end */
-    bool left, right;                /* which of them hold */
+    int64_t left_steps; /* stepper_steps at the left end */
+    bool left, right;   /* which of them hold */
 };
 
 /* The status for a STEP_ status, with the sentence: at time t. */
@@ -35,7 +39,7 @@ void stepper_put(stepper *, stepper_count, const double *carry);
 stepper_count stepper_get(const stepper *, double *carry);
 /* A leg's first state, without checks. */
 void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
-bool stepper_ends(stepper *);        /* memory for dense output is there */
+bool stepper_ends(stepper *); /* memory for dense output is there */
 /* The last step once more, with a mark before it. */
 motus_status stepper_again(stepper *, motus_error *);
 

@@ -23,13 +23,17 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
     name_of(s, w->in_v, w->which, name);
     motus_status status = MOTUS_CALLBACK;
     if (bad == STEP_DIVERGED) {
-        status = fail(err, MOTUS_DIVERGED, "the motion left the finite numbers at t = %s: %s is no longer finite", time, name);
-        hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name, step);
+        status = fail(err, MOTUS_DIVERGED, "the motion left the finite numbers at t = %s: %s is no longer finite", time,
+                      name);
+        hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name,
+             step);
     } else if (bad == STEP_SOLVE) {
-        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not settle", s->method.name, time, name);
+        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not settle",
+                      s->method.name, time, name);
         hint(err, "the step is %s; a smaller one brings the solution nearer to the starting guess", step);
     } else if (bad == STEP_STALLED) {
-        status = fail(err, MOTUS_DIVERGED, "the step that the tolerance asks for no longer moves time on at t = %s", time);
+        status =
+            fail(err, MOTUS_DIVERGED, "the step that the tolerance asks for no longer moves time on at t = %s", time);
         hint(err, "the motion may have a singularity there; otherwise allow a larger error");
     } else {
         const bool here = s->problem.returned && *s->problem.returned > 0;
@@ -57,9 +61,13 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
         return MOTUS_ARGUMENT;
     }
     for (size_t k = 0; k < s->problem.nx; k++)
-        if (!isfinite(x[k])) return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number", name_of(s, false, k, name));
+        if (!isfinite(x[k]))
+            return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number",
+                        name_of(s, false, k, name));
     for (size_t k = 0; k < s->problem.nv; k++)
-        if (!isfinite(v[k])) return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number", name_of(s, true, k, name));
+        if (!isfinite(v[k]))
+            return fail(err, MOTUS_ARGUMENT, "the initial value of %s is not a finite number",
+                        name_of(s, true, k, name));
     return MOTUS_OK;
 }
 

@@ -44,13 +44,13 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
 {
     double *list[CARRY_MAX];
     work *w = &s->work;
-    if (s->shortened) {                /* the shorter last step had a start and a size of its own */
+    if (s->shortened) { /* the shorter last step had a start and a size of its own */
         w->t0 = s->main_t0;
         work_scale(w, s->leg_h);
         if (s->library.solver) solver_forget(s->library.solver);
         s->shortened = false;
     }
-    w->n = at.steps;                   /* first: what is carried depends on it */
+    w->n = at.steps; /* first: what is carried depends on it */
     w->evaluations = at.evaluations;
     w->iterations = at.iterations;
     w->fresh = w->stalled = false;
@@ -78,7 +78,8 @@ double stepper_time_saved(const stepper *s, stepper_count at, const double *carr
 
 motus_status stepper_load(stepper *s, stepper_count at, const double *carry, motus_error *err)
 {
-    if (at.steps < 0 || at.evaluations < 0 || at.iterations < 0) return fail(err, MOTUS_STATE, "the restart state has a negative counter");
+    if (at.steps < 0 || at.evaluations < 0 || at.iterations < 0)
+        return fail(err, MOTUS_STATE, "the restart state has a negative counter");
     const size_t count = stepper_carry(s);
     for (size_t k = 0; k < count; k++)
         if (!isfinite(carry[k])) return fail(err, MOTUS_STATE, "number %zu of the restart state is not finite", k + 1);
@@ -147,13 +148,14 @@ int64_t stepper_steps_before(const stepper *s, double t)
     if (w->carried || s->arrived) return 0;
     const double q = floor((t - w->t0) / w->h), sign = w->h < 0 ? -1 : 1;
     int64_t n = q >= (double)way.whole ? way.whole : (int64_t)q;
-    if (sign * (stepper_time_of(s, n) - t) > 0) n--;      /* the quotient was rounded up */
+    if (sign * (stepper_time_of(s, n) - t) > 0) n--; /* the quotient was rounded up */
     return n > w->n ? n - w->n : 0;
 }
 
 motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
 {
-    motus_status status = marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
+    motus_status status =
+        marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
     if (status) return status;
     if (!marked(s, t)) {
         fail(err, MOTUS_ARGUMENT, "the time %g lies behind the run, which is at %g", t, stepper_time(s));
@@ -165,7 +167,8 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
     s->right = true;
     const size_t nx = s->work.nx, nv = s->work.nv, apart = nx + 2 * nv;
     const double *e = s->ends;
-    const dense_end ends[2] = {{s->left_t, e, e + nx, e + nx + nv}, {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}};
+    const dense_end ends[2] = {{s->left_t, e, e + nx, e + nx + nv},
+                               {stepper_time(s), e + apart, e + apart + nx, e + apart + nx + nv}};
     s->body->dense(&s->work, ends, t, x, v);
     if (s->problem.refresh) s->problem.refresh(s->problem.ctx, t, x, v);
     return MOTUS_OK;

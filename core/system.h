@@ -14,17 +14,17 @@
 #include <stdbool.h>
 
 typedef struct traits {
-    bool velocity;            /* a, or a companion's f, depends on v or on a companion */
+    bool velocity; /* a, or a companion's f, depends on v or on a companion */
     bool time;
-    bool linear_v;            /* at most affine in v (companions count as v) */
-    bool constant_jv;         /* da/dv depends on parameters alone */
-    bool gyroscopic;          /* velocity && linear_v && da/dv antisymmetric, no companions in it */
-    bool affine;              /* affine in (x, v) */
-    bool constant;            /* a depends on parameters alone */
+    bool linear_v;    /* at most affine in v (companions count as v) */
+    bool constant_jv; /* da/dv depends on parameters alone */
+    bool gyroscopic;  /* velocity && linear_v && da/dv antisymmetric, no companions in it */
+    bool affine;      /* affine in (x, v) */
+    bool constant;    /* a depends on parameters alone */
     bool gradient;
     bool smooth;
     bool has_exact;
-    bool companions;          /* nv > nx */
+    bool companions; /* nv > nx */
 } traits;
 
 typedef struct problem {
@@ -35,17 +35,17 @@ typedef struct problem {
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);
     /* da = (da/dx) dx + (da/dv) dv at (t, x, v); dx or dv may be NULL (zero). NULL function: difference quotients. */
     int (*jvp)(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da);
-    /* Makes jvp ready for calls with dv alone (in_v) or dx alone; false: there was no memory for that, or for what `pattern` last told. NULL: it is
-     * ready. */
+    /* Makes jvp ready for calls with dv alone (in_v) or dx alone; false: there was no memory for that, or for what
+     * `pattern` last told. NULL: it is ready. */
     bool (*prepare)(void *ctx, bool in_v);
-    /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero, duplicates
-     * allowed. NULL function: dense. */
+    /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero,
+     * duplicates allowed. NULL function: dense. */
     void (*pattern)(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg);
-    void (*refresh)(void *ctx, double t, double *x, double *v);         /* NULL: no driven boundary */
-    int (*exact)(void *ctx, double t, double *x, double *v);            /* NULL: unknown */
+    void (*refresh)(void *ctx, double t, double *x, double *v); /* NULL: no driven boundary */
+    int (*exact)(void *ctx, double t, double *x, double *v);    /* NULL: unknown */
     /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
-    const int *returned;      /* what the user's callback returned when it failed last; NULL: there is none */
+    const int *returned; /* what the user's callback returned when it failed last; NULL: there is none */
 } problem;
 
 #endif

@@ -1,7 +1,8 @@
 /* The texts of step/ with a TRACE that tells what happens: the body that a stepper uses for a traced step.
  *
- * Invariant: the operations on the state are the texts' own; what is told besides is read off their workspace after each stage, or formed
- * in the tracer's room and in arrays that no later operation reads. No formula of a step stands here.
+ * Invariant: the operations on the state are the texts' own; what is told besides is read off their workspace after
+ * each stage, or formed in the tracer's room and in arrays that no later operation reads. No formula of a step stands
+ * here.
  */
 #include "core/stepper_parts.h"
 

@@ -7,7 +7,7 @@
 
 typedef struct tracing {
     const tracer *to;
-    int64_t iterations;        /* before the step */
+    int64_t iterations; /* before the step */
 } tracing;
 
 extern const stepper_body trace_body;

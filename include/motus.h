@@ -54,7 +54,7 @@
 #define MOTUS_VERSION_MAJOR 0
 #define MOTUS_VERSION_MINOR 1
 #define MOTUS_VERSION_PATCH 0
-#define MOTUS_VERSION "0.1.0"
+#define MOTUS_VERSION       "0.1.0"
 
 #ifdef MOTUS_BUILDING
 #define MOTUS_API __attribute__((visibility("default")))
@@ -72,35 +72,35 @@ MOTUS_API const char *motus_version(void);
 /* 1. Status and errors ------------------------------------------------------------------------------------------- */
 
 /* Each status: its name, its word (the `kind` in JSON), its sentence, and the exit status of the program. */
-#define MOTUS_STATUS_MAP(X)                                                              \
-    X(OK,        "ok",        "done",                                                 0) \
-    X(MEMORY,    "memory",    "out of memory",                                        1) \
-    X(DIVERGED,  "diverged",  "the motion left the finite numbers",                   1) \
-    X(SOLVE,     "solve",     "an implicit equation could not be solved",             1) \
-    X(CALLBACK,  "callback",  "the acceleration callback reported a failure",         1) \
-    X(CANCELLED, "cancelled", "cancelled",                                            1) \
-    X(FILE,      "file",      "a file could not be read or written",                  1) \
-    X(ORDER,     "order",     "the observed order is below the declared one",         1) \
-    X(TOOL,      "tool",      "an outside program is missing or failed",              1) \
-    X(ARGUMENT,  "argument",  "an argument is out of its range",                      2) \
-    X(SYNTAX,    "syntax",    "the text cannot be read as a model",                   2) \
-    X(NAME,      "name",      "a name is unknown, missing or defined twice",          2) \
-    X(SHAPE,     "shape",     "scalars, vectors or lists do not fit together",        2) \
-    X(LIMIT,     "limit",     "a bound of the language or the library is exceeded",   2) \
-    X(METHOD,    "method",    "the method does not admit this model",                 2) \
-    X(STATE,     "state",     "the restart state does not fit this run",              2) \
-    X(UNAVAILABLE, "unavailable", "not available in this version",                    2)
+#define MOTUS_STATUS_MAP(X)                                                    \
+    X(OK, "ok", "done", 0)                                                     \
+    X(MEMORY, "memory", "out of memory", 1)                                    \
+    X(DIVERGED, "diverged", "the motion left the finite numbers", 1)           \
+    X(SOLVE, "solve", "an implicit equation could not be solved", 1)           \
+    X(CALLBACK, "callback", "the acceleration callback reported a failure", 1) \
+    X(CANCELLED, "cancelled", "cancelled", 1)                                  \
+    X(FILE, "file", "a file could not be read or written", 1)                  \
+    X(ORDER, "order", "the observed order is below the declared one", 1)       \
+    X(TOOL, "tool", "an outside program is missing or failed", 1)              \
+    X(ARGUMENT, "argument", "an argument is out of its range", 2)              \
+    X(SYNTAX, "syntax", "the text cannot be read as a model", 2)               \
+    X(NAME, "name", "a name is unknown, missing or defined twice", 2)          \
+    X(SHAPE, "shape", "scalars, vectors or lists do not fit together", 2)      \
+    X(LIMIT, "limit", "a bound of the language or the library is exceeded", 2) \
+    X(METHOD, "method", "the method does not admit this model", 2)             \
+    X(STATE, "state", "the restart state does not fit this run", 2)            \
+    X(UNAVAILABLE, "unavailable", "not available in this version", 2)
 
 #define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
     MOTUS_STATUS_MAP(MOTUS_STATUS_ENUMERATOR)
-    MOTUS_STATUS_COUNT               /* how many this header knows; a newer library may have more */
+        MOTUS_STATUS_COUNT /* how many this header knows; a newer library may have more */
 } motus_status;
 #undef MOTUS_STATUS_ENUMERATOR
 
-MOTUS_API const char *motus_status_word(motus_status);     /* "diverged"; static */
-MOTUS_API const char *motus_status_text(motus_status);     /* the sentence; static */
-MOTUS_API int motus_status_exit(motus_status);             /* 0, 1 or 2 */
+MOTUS_API const char *motus_status_word(motus_status); /* "diverged"; static */
+MOTUS_API const char *motus_status_text(motus_status); /* the sentence; static */
+MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
 
 #define MOTUS_TEXT_MAX 512
 #define MOTUS_NAME_MAX 64
@@ -108,17 +108,17 @@ MOTUS_API int motus_status_exit(motus_status);             /* 0, 1 or 2 */
 /* What went wrong, where, and what to do. Filled only when a call returns other than MOTUS_OK. Wherever a call takes
  * one it may be NULL. */
 typedef struct motus_error {
-    uint32_t size;                   /* by motus_default_error() */
+    uint32_t size; /* by motus_default_error() */
     motus_status status;
-    int line, column;                /* 1-based, in characters, for errors in a text; 0 where there is no place */
-    int returned;                    /* CALLBACK: what the callback returned, never 0; 0 elsewhere */
-    double time;                     /* DIVERGED, SOLVE, CALLBACK: when; NaN elsewhere */
-    char variable[MOTUS_NAME_MAX];   /* DIVERGED, SOLVE: which, "r[3].y"; else "" */
-    char message[MOTUS_TEXT_MAX];    /* one sentence, UTF-8, without a newline, safe to print on a terminal */
-    char hint[MOTUS_TEXT_MAX];       /* what would be right, or "" */
-    char source[MOTUS_TEXT_MAX];     /* the line of the text, control characters replaced, or "" */
-    char caret[MOTUS_TEXT_MAX];      /* blanks and carets that go under `source`, or "" */
-    char file[MOTUS_TEXT_MAX];       /* the name given in the definition, or "" */
+    int line, column;              /* 1-based, in characters, for errors in a text; 0 where there is no place */
+    int returned;                  /* CALLBACK: what the callback returned, never 0; 0 elsewhere */
+    double time;                   /* DIVERGED, SOLVE, CALLBACK: when; NaN elsewhere */
+    char variable[MOTUS_NAME_MAX]; /* DIVERGED, SOLVE: which, "r[3].y"; else "" */
+    char message[MOTUS_TEXT_MAX];  /* one sentence, UTF-8, without a newline, safe to print on a terminal */
+    char hint[MOTUS_TEXT_MAX];     /* what would be right, or "" */
+    char source[MOTUS_TEXT_MAX];   /* the line of the text, control characters replaced, or "" */
+    char caret[MOTUS_TEXT_MAX];    /* blanks and carets that go under `source`, or "" */
+    char file[MOTUS_TEXT_MAX];     /* the name given in the definition, or "" */
 } motus_error;
 
 /* Memory. Both may be NULL: malloc and free. `allocate` returns at least `bytes` bytes, aligned for any type, or
@@ -135,12 +135,12 @@ typedef struct motus_system motus_system;
 
 /* A system from the text of a model. Everything is copied. */
 typedef struct motus_text_def {
-    uint32_t size;                   /* by motus_default_text() */
-    const char *text;                /* UTF-8; need not end with 0 if length is given */
-    size_t length;                   /* bytes; SIZE_MAX: up to the terminating 0 */
-    const char *file;                /* for messages; NULL: none */
-    const char *const *set;          /* set_count strings "name=expression": replaces a parameter or initial value, */
-    size_t set_count;                /*   "F=0.2", "x(0)=1", "r'(0)=(1, 2)", "m=[1, 2]" */
+    uint32_t size;          /* by motus_default_text() */
+    const char *text;       /* UTF-8; need not end with 0 if length is given */
+    size_t length;          /* bytes; SIZE_MAX: up to the terminating 0 */
+    const char *file;       /* for messages; NULL: none */
+    const char *const *set; /* set_count strings "name=expression": replaces a parameter or initial value, */
+    size_t set_count;       /*   "F=0.2", "x(0)=1", "r'(0)=(1, 2)", "m=[1, 2]" */
     motus_allocator allocator;
 } motus_text_def;
 
@@ -157,10 +157,10 @@ typedef struct motus_text_def {
  * Either way the run is where it was before the step. (Where a method evaluates the force at the end of a step only
  * when that end is looked at or the next step begins, velocity-verlet say, it is this that fails.) */
 typedef struct motus_callback_def {
-    uint32_t size;                   /* by motus_default_callback() */
+    uint32_t size; /* by motus_default_callback() */
     size_t positions, companions;
-    const double *x, *v;             /* initial values, positions and positions + companions of them, copied; finite */
-    double start;                    /* initial time */
+    const double *x, *v; /* initial values, positions and positions + companions of them, copied; finite */
+    double start;        /* initial time */
     /* NULL, or positions + companions names as in a model, each its own: "theta", whose velocity is then "theta'".
      * Copied. Without them the positions are x and the companions s, counted from 1: x[1], x[2] …; a single one is
      * plain x, or s. */
@@ -170,7 +170,7 @@ typedef struct motus_callback_def {
      * dx has the length of x, dv and da that of v. */
     int (*derivative)(void *context, double t, const double *x, const double *v, const double *dx, const double *dv,
                       double *da);
-    int (*exact)(void *context, double t, double *x, double *v);         /* optional: the exact motion */
+    int (*exact)(void *context, double t, double *x, double *v); /* optional: the exact motion */
     /* Optional: `quantities` numbers worth looking at, and `invariants` numbers that should be kept; each function
      * fills all of its own. 1 by default. The names are copied; without them they are one quantity, "quantity", or
      * one invariant, "invariant", whose numbers count from 1 where there are several. */
@@ -178,9 +178,9 @@ typedef struct motus_callback_def {
     int (*invariant)(void *context, double t, const double *x, const double *v, double *values);
     size_t quantities, invariants;
     const char *const *quantity_names, *const *invariant_names;
-    int depends_on_velocity, depends_on_time;   /* what `acceleration` reads; both 1 by default: safe */
-    int linear_in_velocity;                     /* 1 lets implicit velocity terms be solved in one step */
-    void *context;                              /* the first argument of all of these */
+    int depends_on_velocity, depends_on_time; /* what `acceleration` reads; both 1 by default: safe */
+    int linear_in_velocity;                   /* 1 lets implicit velocity terms be solved in one step */
+    void *context;                            /* the first argument of all of these */
     motus_allocator allocator;
     /* Optional: the acceleration of `count` trajectories of an ensemble at once, the first of which is number
      * `first`: number k of trajectory first + j is x[k * count + j], and v and a alike. So it may be written as
@@ -221,18 +221,18 @@ MOTUS_API motus_status motus_system_clone(const motus_system *, motus_system **,
 
 /* 3. What a system holds ----------------------------------------------------------------------------------------- */
 
-MOTUS_API size_t motus_positions(const motus_system *);      /* nx: length of x as seen here, without boundary cells */
-MOTUS_API size_t motus_velocities(const motus_system *);     /* nv: length of v: velocities, then companions */
+MOTUS_API size_t motus_positions(const motus_system *);  /* nx: length of x as seen here, without boundary cells */
+MOTUS_API size_t motus_velocities(const motus_system *); /* nv: length of v: velocities, then companions */
 
 /* A variable of the model: a state with its family indices and components. */
 typedef struct motus_variable {
-    uint32_t size;                   /* by motus_default_variable() */
+    uint32_t size; /* by motus_default_variable() */
     const char *name;
-    int order;                       /* 2: x'' = …   1: s' = … */
-    int components;                  /* 0: scalar, else the length of the vector */
-    int dimensions;                  /* number of family indices, 0 … 4 */
-    int64_t first[4], last[4];       /* the index ranges that have equations (their hull) */
-    size_t count;                    /* numbers in all: cells × components */
+    int order;                 /* 2: x'' = …   1: s' = … */
+    int components;            /* 0: scalar, else the length of the vector */
+    int dimensions;            /* number of family indices, 0 … 4 */
+    int64_t first[4], last[4]; /* the index ranges that have equations (their hull) */
+    size_t count;              /* numbers in all: cells × components */
 } motus_variable;
 MOTUS_API size_t motus_variable_count(const motus_system *);
 /* Variable k, in the order of the model. MOTUS_ARGUMENT past the last; so with all calls …_at. */
@@ -242,17 +242,22 @@ MOTUS_API motus_status motus_variable_at(const motus_system *, size_t k, motus_v
  * quantities; invariants; exact. Names: "t", "x", "x'", "r.x", "r'.y", "x[3]'", "w[2]" (component 2 of a vector longer
  * than 3), "r[3].x", "energy", "exact x". */
 typedef enum motus_column_kind {
-    MOTUS_COLUMN_TIME, MOTUS_COLUMN_POSITION, MOTUS_COLUMN_VELOCITY, MOTUS_COLUMN_COMPANION,
-    MOTUS_COLUMN_QUANTITY, MOTUS_COLUMN_INVARIANT, MOTUS_COLUMN_EXACT
+    MOTUS_COLUMN_TIME,
+    MOTUS_COLUMN_POSITION,
+    MOTUS_COLUMN_VELOCITY,
+    MOTUS_COLUMN_COMPANION,
+    MOTUS_COLUMN_QUANTITY,
+    MOTUS_COLUMN_INVARIANT,
+    MOTUS_COLUMN_EXACT
 } motus_column_kind;
 typedef struct motus_column {
-    uint32_t size;                   /* by motus_default_column() */
+    uint32_t size; /* by motus_default_column() */
     motus_column_kind kind;
-    size_t variable;                 /* index of the variable, quantity or invariant it belongs to; of the time 0 */
-    int is_velocity;                 /* 1: of a velocity, exact or not */
-    int component;                   /* of a vector, from 0; of a number 0 */
-    int dimensions;                  /* number of family indices, 0 … 4, */
-    int64_t cell[4];                 /*   and these, as the language counts them */
+    size_t variable; /* index of the variable, quantity or invariant it belongs to; of the time 0 */
+    int is_velocity; /* 1: of a velocity, exact or not */
+    int component;   /* of a vector, from 0; of a number 0 */
+    int dimensions;  /* number of family indices, 0 … 4, */
+    int64_t cell[4]; /*   and these, as the language counts them */
     char name[MOTUS_NAME_MAX + 64];
 } motus_column;
 MOTUS_API size_t motus_column_count(const motus_system *);
@@ -271,20 +276,20 @@ MOTUS_API size_t motus_quantity_count(const motus_system *);
 MOTUS_API const char *motus_quantity_name(const motus_system *, size_t k, size_t *numbers);
 MOTUS_API size_t motus_invariant_count(const motus_system *);
 MOTUS_API const char *motus_invariant_name(const motus_system *, size_t k, size_t *numbers);
-MOTUS_API int motus_has_exact(const motus_system *);         /* by an exact line or callback, or recognised */
+MOTUS_API int motus_has_exact(const motus_system *); /* by an exact line or callback, or recognised */
 
 /* What may be set: parameters, in the order of the model, and initial values: by `set` in motus_text_def, or later by
  * motus_system_set. */
 typedef struct motus_parameter {
-    uint32_t size;                   /* by motus_default_parameter() */
+    uint32_t size; /* by motus_default_parameter() */
     const char *name;
-    const char *text;                /* what stands behind its =, in the model or in `set`: `length` bytes, not ended */
-    size_t length;                   /*   with 0; what motus_system_set gave it does not stand there */
-    int components;                  /* 0: numbers, else the length of the vector */
-    int list;                        /* 1: a list, or a family */
-    int dimensions;                  /* of a list: number of indices, 1 … 4, */
-    int64_t first[4], last[4];       /*   and their ranges */
-    size_t count;                    /* numbers in all: cells × components */
+    const char *text;          /* what stands behind its =, in the model or in `set`: `length` bytes, not ended */
+    size_t length;             /*   with 0; what motus_system_set gave it does not stand there */
+    int components;            /* 0: numbers, else the length of the vector */
+    int list;                  /* 1: a list, or a family */
+    int dimensions;            /* of a list: number of indices, 1 … 4, */
+    int64_t first[4], last[4]; /*   and their ranges */
+    size_t count;              /* numbers in all: cells × components */
     /* NULL: numbers alone follow from it. "a size or an index", "step", "until", "the start" …: it decides that (and
      * maybe more), so neither motus_system_set nor an ensemble can change it. "unknown": no memory to find out. */
     const char *decides;
@@ -295,11 +300,11 @@ MOTUS_API motus_status motus_parameter_at(const motus_system *, size_t k, motus_
 MOTUS_API motus_status motus_parameter_values(const motus_system *, size_t k, double *out);
 
 typedef struct motus_initial {
-    uint32_t size;                   /* by motus_default_initial() */
-    size_t variable;                 /* for motus_variable_at: its components, its indices */
+    uint32_t size;   /* by motus_default_initial() */
+    size_t variable; /* for motus_variable_at: its components, its indices */
     int is_velocity;
-    size_t count;                    /* numbers in all */
-    char name[MOTUS_NAME_MAX + 64];  /* "x(0)", "r'(0)", as `set` and motus_system_set take it */
+    size_t count;                   /* numbers in all */
+    char name[MOTUS_NAME_MAX + 64]; /* "x(0)", "r'(0)", as `set` and motus_system_set take it */
 } motus_initial;
 MOTUS_API size_t motus_initial_count(const motus_system *);
 MOTUS_API motus_status motus_initial_at(const motus_system *, size_t k, motus_initial *);
@@ -308,22 +313,22 @@ MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, doub
 
 /* What the model's settings say. NaN, 0 or NULL where it says nothing. */
 typedef struct motus_settings {
-    uint32_t size;                   /* by motus_default_settings() */
-    const char *method;              /* "verlet", "newmark(0.25, 0.5)" */
+    uint32_t size;      /* by motus_default_settings() */
+    const char *method; /* "verlet", "newmark(0.25, 0.5)" */
     double step, from, until;
-    double every_time;               /* every T */
-    int64_t every_steps;             /* every n steps */
+    double every_time;   /* every T */
+    int64_t every_steps; /* every n steps */
 } motus_settings;
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
 
 /* What the program understood by reading the equations. Of a callback it is what the definition says. */
 typedef struct motus_analysis {
-    uint32_t size;                   /* by motus_default_analysis() */
+    uint32_t size; /* by motus_default_analysis() */
     int velocity_dependent, linear_in_velocity, time_dependent, affine, constant;
-    int gyroscopic;                  /* a = E(x,t) + v × B(x,t): the velocity term does no work */
-    int gradient;                    /* 1 shown, 0 not shown */
-    int smooth;                      /* 1: no abs, min, max, floor, mod, sign, if */
-    int exact_recognised;            /* exact motion known without an exact line */
+    int gyroscopic;       /* a = E(x,t) + v × B(x,t): the velocity term does no work */
+    int gradient;         /* 1 shown, 0 not shown */
+    int smooth;           /* 1: no abs, min, max, floor, mod, sign, if */
+    int exact_recognised; /* exact motion known without an exact line */
 } motus_analysis;
 MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
 /* The same in plain words, one sentence a line, with the coefficients of the velocity; owned by the system. ""
@@ -335,20 +340,22 @@ MOTUS_API const char *motus_equation_text(motus_system *, size_t k);
 
 /* The statements of the model, in the order of its text; of a callback there are none. */
 typedef enum motus_statement_kind {
-    MOTUS_STATEMENT_MOTION,          /* x'' = … */
-    MOTUS_STATEMENT_COMPANION,       /* s' = … */
-    MOTUS_STATEMENT_PARAMETER, MOTUS_STATEMENT_QUANTITY,
-    MOTUS_STATEMENT_START,           /* x(0) = …, x'(0) = … */
-    MOTUS_STATEMENT_BOUNDARY,        /* x[0] = … */
-    MOTUS_STATEMENT_EXACT, MOTUS_STATEMENT_INVARIANT,
-    MOTUS_STATEMENT_SETTING          /* method, step, from, until, every */
+    MOTUS_STATEMENT_MOTION,    /* x'' = … */
+    MOTUS_STATEMENT_COMPANION, /* s' = … */
+    MOTUS_STATEMENT_PARAMETER,
+    MOTUS_STATEMENT_QUANTITY,
+    MOTUS_STATEMENT_START,    /* x(0) = …, x'(0) = … */
+    MOTUS_STATEMENT_BOUNDARY, /* x[0] = … */
+    MOTUS_STATEMENT_EXACT,
+    MOTUS_STATEMENT_INVARIANT,
+    MOTUS_STATEMENT_SETTING /* method, step, from, until, every */
 } motus_statement_kind;
 typedef struct motus_statement {
-    uint32_t size;                   /* by motus_default_statement() */
+    uint32_t size; /* by motus_default_statement() */
     motus_statement_kind kind;
-    const char *name;                /* what it is about: "x", "energy"; of a setting its word: "step" */
-    int line;                        /* of the model's text, 1-based, where it begins; 0: added by `set` */
-    int is_set;                      /* `set` gave its value */
+    const char *name; /* what it is about: "x", "energy"; of a setting its word: "step" */
+    int line;         /* of the model's text, 1-based, where it begins; 0: added by `set` */
+    int is_set;       /* `set` gave its value */
 } motus_statement;
 MOTUS_API size_t motus_statement_count(const motus_system *);
 MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_statement *);
@@ -363,16 +370,16 @@ MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
 
 typedef enum motus_forces { MOTUS_FORCES_X, MOTUS_FORCES_XT, MOTUS_FORCES_XVT } motus_forces;
 typedef struct motus_method {
-    const char *name, *aliases;      /* aliases: blank-separated, "" if none */
-    const char *title;               /* as a text or a legend has it: "velocity Verlet" */
-    const char *family;              /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
+    const char *name, *aliases; /* aliases: blank-separated, "" if none */
+    const char *title;          /* as a text or a legend has it: "velocity Verlet" */
+    const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
     int order, stages;
-    int evaluations;                 /* of the acceleration, per step in the long run; 0: depends on the solve */
-    motus_forces forces;             /* what the force may depend on */
+    int evaluations;     /* of the acceleration, per step in the long run; 0: depends on the solve */
+    motus_forces forces; /* what the force may depend on */
     int symplectic, reversible;
-    double stability_limit;          /* of h ω for x'' = -ω² x: largest stable; INFINITY; 0 if never */
-    const char *cite;                /* key in doc/references.bib, with the place */
-    const char *formula, *use;       /* for the card */
+    double stability_limit;    /* of h ω for x'' = -ω² x: largest stable; INFINITY; 0 if never */
+    const char *cite;          /* key in doc/references.bib, with the place */
+    const char *formula, *use; /* for the card */
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
 MOTUS_API const motus_method *motus_method_at(size_t k);
@@ -399,16 +406,16 @@ MOTUS_API motus_status motus_stability(const char *method, size_t count, const d
 typedef struct motus_run motus_run;
 
 typedef struct motus_run_def {
-    uint32_t size;                   /* by motus_default_run() */
-    const char *method;              /* NULL: the model's, or "verlet" */
-    double step;                     /* > 0, NaN: the model's. The sign is taken from the direction of `until` */
-    double until;                    /* NaN: the model's. Before the start: the run goes backward */
-    double start;                    /* NaN: the model's; with x and v (copied), another initial state at this time */
-    const double *x, *v;             /* nx and nv finite numbers; NULL: the model's */
+    uint32_t size;       /* by motus_default_run() */
+    const char *method;  /* NULL: the model's, or "verlet" */
+    double step;         /* > 0, NaN: the model's. The sign is taken from the direction of `until` */
+    double until;        /* NaN: the model's. Before the start: the run goes backward */
+    double start;        /* NaN: the model's; with x and v (copied), another initial state at this time */
+    const double *x, *v; /* nx and nv finite numbers; NULL: the model's */
     /* Called now and then (not more often than every 10 ms or so of work), with the part of the way that is done, 0
      * … 1; a value other than 0 cancels. */
     int (*progress)(void *context, double fraction);
-    void *context;                   /* of `progress` and of `observer` */
+    void *context; /* of `progress` and of `observer` */
     /* NULL, or called after every step, the shortened last one included, by motus_run_step, motus_run_finish and
      * motus_run_sample; not at the start, where the run can be looked at before its first step. It may look (state,
      * values, jacobian, statistics, save), and may not step, restore, set or destroy the run. Other than 0 stops the
@@ -439,28 +446,31 @@ MOTUS_API void motus_run_destroy(motus_run *);
 MOTUS_API motus_status motus_run_step(motus_run *, int64_t n, motus_error *);
 /* On to `until`. Fails as motus_run_step does. */
 MOTUS_API motus_status motus_run_finish(motus_run *, motus_error *);
-MOTUS_API int motus_run_done(const motus_run *);              /* 1: it is at `until` */
+MOTUS_API int motus_run_done(const motus_run *); /* 1: it is at `until` */
 
 MOTUS_API double motus_run_time(const motus_run *);
-MOTUS_API double motus_run_step_size(const motus_run *);      /* > 0 */
-MOTUS_API int64_t motus_run_steps(const motus_run *);         /* taken so far */
-MOTUS_API int64_t motus_run_steps_total(const motus_run *);   /* up to `until`, the last short one included; of steps that adapt: at their first size */
-MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);   /* of step 0, 1 …; `until` from the last one on. NaN where steps adapt */
-MOTUS_API double motus_run_last_step(const motus_run *);      /* size of the shortened last step, 0 if none is needed */
-MOTUS_API int64_t motus_run_evaluations(const motus_run *);   /* of the acceleration; looking is not counted */
-MOTUS_API int64_t motus_run_iterations(const motus_run *);    /* of Newton's method, in all */
+MOTUS_API double motus_run_step_size(const motus_run *); /* > 0 */
+MOTUS_API int64_t motus_run_steps(const motus_run *);    /* taken so far */
+/* up to `until`, the last short one included; of steps that adapt: at their first size */
+MOTUS_API int64_t motus_run_steps_total(const motus_run *);
+/* of step 0, 1 …; `until` from the last one on. NaN where steps adapt */
+MOTUS_API double motus_run_time_of(const motus_run *, int64_t step);
+MOTUS_API double motus_run_last_step(const motus_run *);    /* size of the shortened last step, 0 if none is needed */
+MOTUS_API int64_t motus_run_evaluations(const motus_run *); /* of the acceleration; looking is not counted */
+MOTUS_API int64_t motus_run_iterations(const motus_run *);  /* of Newton's method, in all */
 MOTUS_API const char *motus_run_method(const motus_run *);
-MOTUS_API const char *motus_run_machine(const motus_run *);   /* "interpreter", "compiled", "callback" */
+MOTUS_API const char *motus_run_machine(const motus_run *); /* "interpreter", "compiled", "callback" */
 /* All that a run has done so far, in one struct. */
 typedef struct motus_statistics {
-    uint32_t size;                   /* by motus_default_statistics() */
-    int legs;                        /* 1, and one more for every motus_run_set_state */
-    const char *method, *machine;    /* as motus_run_method and motus_run_machine say */
-    int64_t steps;                   /* taken, in all legs, shortened last ones included */
-    int64_t refused;                 /* tried, and taken back by a method that chooses its own step; 0 of a fixed step */
-    int64_t evaluations;             /* of the acceleration, for both; looking is not counted */
-    int64_t iterations;              /* of Newton's method, for both */
-    double first_step, last_step;    /* sizes of the first and of the latest step taken, > 0; NaN before the first */
+    uint32_t size;                /* by motus_default_statistics() */
+    int legs;                     /* 1, and one more for every motus_run_set_state */
+    const char *method, *machine; /* as motus_run_method and motus_run_machine say */
+    int64_t steps;                /* taken, in all legs, shortened last ones included */
+    /* tried, and taken back by a method that chooses its own step; 0 of a fixed step */
+    int64_t refused;
+    int64_t evaluations;          /* of the acceleration, for both; looking is not counted */
+    int64_t iterations;           /* of Newton's method, for both */
+    double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Why "auto" took the interpreter where it would have compiled, or "". */
@@ -536,17 +546,17 @@ typedef enum motus_event {
 } motus_event;
 typedef struct motus_trace_entry {
     motus_event kind;
-    int stage, stages;               /* which, from 1, of how many; START, SOLVE, END: 0 of as many */
-    int64_t iterations;              /* of Newton's method, in this step up to here */
-    double time, step;               /* step: negative backward; the last one may be shorter */
-    double coefficient;              /* of a kick, a drift; the node of a stage: in units of the step */
-    double weight, weight_x;         /* of a stage */
-    const double *row, *row_x;       /* of a stage: `stages` numbers each; else NULL */
+    int stage, stages;         /* which, from 1, of how many; START, SOLVE, END: 0 of as many */
+    int64_t iterations;        /* of Newton's method, in this step up to here */
+    double time, step;         /* step: negative backward; the last one may be shorter */
+    double coefficient;        /* of a kick, a drift; the node of a stage: in units of the step */
+    double weight, weight_x;   /* of a stage */
+    const double *row, *row_x; /* of a stage: `stages` numbers each; else NULL */
     /* nx and nv numbers after the event, as in motus_run_state; of a stage its own. TAYLOR and STEP of verlet and
      * verlet-literal: v is (x - x₀)/step, to which half a kick by the acceleration of the end is still to come. */
     const double *x, *v;
-    const double *a;                 /* nv numbers. NULL: the event has none, or at START and END none can be had */
-    const double *before_x, *before_a;       /* of a recurrence: those of the step before; else NULL */
+    const double *a;                   /* nv numbers. NULL: the event has none, or at START and END none can be had */
+    const double *before_x, *before_a; /* of a recurrence: those of the step before; else NULL */
 } motus_trace_entry;
 /* *entries gets *count pointers, the run's until it is traced again or destroyed. At the end of the run there is
  * nothing left to take: *count is 0. Fails as motus_run_step does; and where the step could be taken but the state
@@ -566,34 +576,40 @@ typedef enum motus_reduction {
     /* The value at the end. */
     MOTUS_REDUCE_FINAL,
     /* Over the looks: the start, every `every` steps, and the end. */
-    MOTUS_REDUCE_MIN, MOTUS_REDUCE_MAX, MOTUS_REDUCE_MEAN,
+    MOTUS_REDUCE_MIN,
+    MOTUS_REDUCE_MAX,
+    MOTUS_REDUCE_MEAN,
     /* The time of the first look with that value. */
-    MOTUS_REDUCE_TIME_OF_MIN, MOTUS_REDUCE_TIME_OF_MAX
+    MOTUS_REDUCE_TIME_OF_MIN,
+    MOTUS_REDUCE_TIME_OF_MAX
 } motus_reduction;
 /* column: from motus_column_find or motus_column_of */
-typedef struct motus_record { motus_reduction how; size_t column; } motus_record;
+typedef struct motus_record {
+    motus_reduction how;
+    size_t column;
+} motus_record;
 
 typedef struct motus_ensemble_def {
-    uint32_t size;                   /* by motus_default_ensemble() */
+    uint32_t size; /* by motus_default_ensemble() */
     /* What differs: a parameter "F", a component of one "g.x", an initial value "x(0)", "x'(0)", "r.x(0)",
      * "x[3](0)". Values that are computed from these follow. What decides sizes, the step or the end cannot differ. */
     const char *const *vary;
     size_t vary_count;
-    const motus_record *records;     /* at least one */
+    const motus_record *records; /* at least one */
     size_t record_count;
-    const char *method;              /* NULL: the model's, or "verlet" */
-    double step, until;              /* NaN: the model's */
-    int64_t every;                   /* steps between two looks, for all records but the one of the end; 1 by default */
-    const char *machine;             /* as in motus_run_def */
+    const char *method;  /* NULL: the model's, or "verlet" */
+    double step, until;  /* NaN: the model's */
+    int64_t every;       /* steps between two looks, for all records but the one of the end; 1 by default */
+    const char *machine; /* as in motus_run_def */
     /* 0: as many as there are processors; of a system from C, 1: with more, its callbacks are called from several
      * threads at once, and must be able to be. Outside lanes, a system with an allocator of its own is served by one
      * thread, which alone calls it. */
     int threads;
-    int lanes;                       /* trajectories side by side in one thread: 1, 2, 4, …; 0: as many as suit */
-    int fast;                        /* 1: the compiler may fuse and reorder; last bits may differ between machines */
-    int (*progress)(void *context, double fraction);     /* of a motus_ensemble_run; as in motus_run_def */
+    int lanes; /* trajectories side by side in one thread: 1, 2, 4, …; 0: as many as suit */
+    int fast;  /* 1: the compiler may fuse and reorder; last bits may differ between machines */
+    int (*progress)(void *context, double fraction); /* of a motus_ensemble_run; as in motus_run_def */
     void *context;
-    uint64_t expected;               /* trajectories to come in all: "auto" compiles not for a few; 0: many */
+    uint64_t expected; /* trajectories to come in all: "auto" compiles not for a few; 0: many */
 } motus_ensemble_def;
 
 /* MOTUS_NAME, MOTUS_SHAPE: what should vary is not there, or is several numbers. MOTUS_ARGUMENT: it decides what
@@ -610,10 +626,10 @@ MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const 
                                           double *const *results, double *stopped, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
-MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *);       /* of each trajectory */
+MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory */
 MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
-MOTUS_API const char *motus_ensemble_note(const motus_ensemble *);    /* why not another machine, or "" */
+MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why not another machine, or "" */
 MOTUS_API int motus_ensemble_lanes(const motus_ensemble *);
 MOTUS_API int motus_ensemble_threads(const motus_ensemble *);
 /* Spent in the integration alone by all runs so far, without reading models or compiling. */
@@ -622,42 +638,42 @@ MOTUS_API double motus_ensemble_seconds(const motus_ensemble *);
 /* 7. Studies ----------------------------------------------------------------------------------------------------- */
 
 typedef struct motus_study_def {
-    uint32_t size;                   /* by motus_default_study() */
-    const char *const *methods;      /* method_count names; NULL: every admitted method */
+    uint32_t size;              /* by motus_default_study() */
+    const char *const *methods; /* method_count names; NULL: every admitted method */
     size_t method_count;
-    double step, until;              /* NaN: the model's */
-    int64_t evaluations;             /* compare: > 0: equal work; each method's step is chosen to spend this many */
-    int (*progress)(void *context, double fraction);     /* as in motus_run_def, of the whole study */
+    double step, until;  /* NaN: the model's */
+    int64_t evaluations; /* compare: > 0: equal work; each method's step is chosen to spend this many */
+    int (*progress)(void *context, double fraction); /* as in motus_run_def, of the whole study */
     void *context;
 } motus_study_def;
 
-typedef struct motus_drift {         /* of one invariant (largest of its numbers) */
+typedef struct motus_drift { /* of one invariant (largest of its numbers) */
     const char *name;
     double initial, final, max_drift;
-    double trend;                    /* slope of a straight line through the drift, times the length of the run */
-    int trending;                    /* 1: the trend is above 4 standard errors, and above round-off */
+    double trend; /* slope of a straight line through the drift, times the length of the run */
+    int trending; /* 1: the trend is above 4 standard errors, and above round-off */
 } motus_drift;
 
 typedef struct motus_compare_row {
     const char *method;
     int order;
-    motus_status status;             /* other than OK: the run failed; note says how */
+    motus_status status; /* other than OK: the run failed; note says how */
     double step;
     int64_t steps, evaluations;
     double seconds;
-    double error_max_x, error_max_v, error_final_x, error_final_v;   /* norm: largest component; NaN where unknown */
+    double error_max_x, error_max_v, error_final_x, error_final_v; /* norm: largest component; NaN where unknown */
     size_t invariant_count;
-    const motus_drift *const *invariants;    /* invariant_count, in the order of motus_invariant_name */
-    double reversal;                 /* distance from the start after going there and back */
+    const motus_drift *const *invariants; /* invariant_count, in the order of motus_invariant_name */
+    double reversal;                      /* distance from the start after going there and back */
     const char *note;
 } motus_compare_row;
 
 typedef struct motus_comparison {
     size_t row_count;
-    const motus_compare_row *const *rows;    /* row_count, in the order of the methods */
-    const char *reference;           /* "exact", or "gauss6 at step 0.00125" */
-    double reference_error;          /* estimated error of the reference itself; 0 for exact */
-    const char *remarks;             /* why the numbers are as they are, one sentence a line; "": no more to say */
+    const motus_compare_row *const *rows; /* row_count, in the order of the methods */
+    const char *reference;                /* "exact", or "gauss6 at step 0.00125" */
+    double reference_error;               /* estimated error of the reference itself; 0 for exact */
+    const char *remarks;                  /* why the numbers are as they are, one sentence a line; "": no more to say */
 } motus_comparison;
 /* The definition may be NULL: all as the model says; so with motus_converge and motus_reference_create. A method
  * that fails has a row that says so. MOTUS_ARGUMENT: no end, no step, or numbers that are none. MOTUS_CANCELLED:
@@ -667,8 +683,8 @@ MOTUS_API void motus_comparison_destroy(motus_comparison *);
 
 typedef struct motus_point {
     double step, error;
-    int used;                        /* in the fit */
-    int64_t evaluations;             /* of the acceleration over the whole motion; of a run that failed: until then */
+    int used;            /* in the fit */
+    int64_t evaluations; /* of the acceleration over the whole motion; of a run that failed: until then */
 } motus_point;
 typedef struct motus_converge_row {
     const char *method;
@@ -678,15 +694,15 @@ typedef struct motus_converge_row {
     int passed;                      /* the certificate */
     motus_status status;
     size_t point_count;
-    const motus_point *const *points;        /* point_count, from the largest step to the smallest */
-    const char *certificate;         /* "observed 2.00, declared 2" */
+    const motus_point *const *points; /* point_count, from the largest step to the smallest */
+    const char *certificate;          /* "observed 2.00, declared 2" */
 } motus_converge_row;
 typedef struct motus_convergence {
     size_t row_count;
-    const motus_converge_row *const *rows;   /* row_count, in the order of the methods */
+    const motus_converge_row *const *rows; /* row_count, in the order of the methods */
     const char *reference;
     double reference_error;
-    int passed;                      /* every row */
+    int passed; /* every row */
 } motus_convergence;
 /* As motus_compare; and MOTUS_DIVERGED where no method followed the motion to the end, so that errors cannot be
  * measured. */
@@ -706,26 +722,37 @@ MOTUS_API motus_status motus_reference_at(motus_reference *, const double *times
                                           motus_error *);
 /* Estimated, of the largest component; 0 for the exact motion. */
 MOTUS_API double motus_reference_error(const motus_reference *);
-MOTUS_API const char *motus_reference_name(const motus_reference *);  /* "exact", or "gauss6 at step 0.00125" */
+MOTUS_API const char *motus_reference_name(const motus_reference *); /* "exact", or "gauss6 at step 0.00125" */
 MOTUS_API void motus_reference_destroy(motus_reference *);
 
 /* 8. Defaults ---------------------------------------------------------------------------------------------------- */
 
 typedef enum motus_def_kind {
-    MOTUS_DEF_ERROR, MOTUS_DEF_TEXT, MOTUS_DEF_CALLBACK, MOTUS_DEF_RUN, MOTUS_DEF_STUDY, MOTUS_DEF_ENSEMBLE,
-    MOTUS_DEF_VARIABLE, MOTUS_DEF_COLUMN, MOTUS_DEF_PARAMETER, MOTUS_DEF_INITIAL, MOTUS_DEF_SETTINGS,
-    MOTUS_DEF_ANALYSIS, MOTUS_DEF_STATEMENT, MOTUS_DEF_STATISTICS
+    MOTUS_DEF_ERROR,
+    MOTUS_DEF_TEXT,
+    MOTUS_DEF_CALLBACK,
+    MOTUS_DEF_RUN,
+    MOTUS_DEF_STUDY,
+    MOTUS_DEF_ENSEMBLE,
+    MOTUS_DEF_VARIABLE,
+    MOTUS_DEF_COLUMN,
+    MOTUS_DEF_PARAMETER,
+    MOTUS_DEF_INITIAL,
+    MOTUS_DEF_SETTINGS,
+    MOTUS_DEF_ANALYSIS,
+    MOTUS_DEF_STATEMENT,
+    MOTUS_DEF_STATISTICS
 } motus_def_kind;
 /* Fills the `size` bytes of a struct; the functions below do so with the size that this header knows. What is beyond
  * the library's own size is zero, and so is all of a struct that it does not know. */
 MOTUS_API void motus_default(motus_def_kind, void *made, uint32_t size);
 
-#define MOTUS_DEFAULT_FUNCTION(name, KIND, type)                                  \
-    static inline type motus_default_##name(void)                                \
-    {                                                                            \
-        type made;                                                               \
-        motus_default(MOTUS_DEF_##KIND, &made, (uint32_t)sizeof made);           \
-        return made;                                                             \
+#define MOTUS_DEFAULT_FUNCTION(name, KIND, type)                       \
+    static inline type motus_default_##name(void)                      \
+    {                                                                  \
+        type made;                                                     \
+        motus_default(MOTUS_DEF_##KIND, &made, (uint32_t)sizeof made); \
+        return made;                                                   \
     }
 MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
 MOTUS_DEFAULT_FUNCTION(text, TEXT, motus_text_def)

@@ -1,11 +1,12 @@
 /* The cache of compiled objects: $XDG_CACHE_HOME/motus/KEY.so. See cache.h.
  *
- * KEY is a hash of the C text, the options, the compiler (real path, size, time) and the processor's features, since homes are shared
- * between machines. An entry is an ELF object followed by a seal: a magic word, the length, and a hash of all before it. It is written
- * under another name, sealed, and renamed; it is never changed in place.
+ * KEY is a hash of the C text, the options, the compiler (real path, size, time) and the processor's features, since
+ * homes are shared between machines. An entry is an ELF object followed by a seal: a magic word, the length, and a
+ * hash of all before it. It is written under another name, sealed, and renamed; it is never changed in place.
  *
- * Invariant: nothing is loaded that has not been opened without following links, found to be a regular file that is ours and that nobody
- * else may write, in a directory that is ours and that nobody else may write, and whose seal holds.
+ * Invariant: nothing is loaded that has not been opened without following links, found to be a regular file that is
+ * ours and that nobody else may write, in a directory that is ours and that nobody else may write, and whose seal
+ * holds.
  */
 #include "machine/cache.h"
 
@@ -22,12 +23,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef struct hash { uint64_t a, b; } hash;
-typedef struct seal { char magic[8]; uint64_t length; hash sum; } seal;
+typedef struct hash {
+    uint64_t a, b;
+} hash;
+typedef struct seal {
+    char magic[8];
+    uint64_t length;
+    hash sum;
+} seal;
 static const char magic[8] = "motus so";
 
-/* Two multiplicative hashes of different constants: for damage and for telling texts apart, not against an enemy, whom the owner and the
- * mode of the file keep out. */
+/* Two multiplicative hashes of different constants: for damage and for telling texts apart, not against an enemy,
+ * whom the owner and the mode of the file keep out. */
 static hash hash_bytes(hash h, const void *bytes, size_t n)
 {
     const unsigned char *p = bytes;
@@ -47,15 +54,13 @@ static hash hash_processor(hash h)
     char line[4096];
     FILE *f = fopen("/proc/cpuinfo", "re");
     while (f && fgets(line, sizeof line, f)) {
-        bool wanted = !strncmp(line, "flags", 5) || !strncmp(line, "model", 5) || !strncmp(line, "cpu family", 10) || !strncmp(line, "vendor_id", 9) ||
-                      !strncmp(line, "stepping", 8) || !strncmp(line, "Features", 8) || !strncmp(line, "CPU ", 4);
-        if (wanted)
-            h = hash_text(h, line);
-        if (line[0] == '\n')
-            break;                   /* the first core speaks for all */
+        bool wanted = !strncmp(line, "flags", 5) || !strncmp(line, "model", 5) || !strncmp(line, "cpu family", 10) ||
+                      !strncmp(line, "vendor_id", 9) || !strncmp(line, "stepping", 8) ||
+                      !strncmp(line, "Features", 8) || !strncmp(line, "CPU ", 4);
+        if (wanted) h = hash_text(h, line);
+        if (line[0] == '\n') break; /* the first core speaks for all */
     }
-    if (f)
-        fclose(f);
+    if (f) fclose(f);
     return h;
 }
 
@@ -74,14 +79,12 @@ static const char *directory_of(char *out, size_t size)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     out[0] = 0;
-    if (privileged())
-        return out;
+    if (privileged()) return out;
     if (base && base[0] == '/')
         snprintf(out, size, "%s/motus", base);
     else if (home && home[0] == '/')
         snprintf(out, size, "%s/.cache/motus", home);
-    if (strlen(out) + 64 > size)
-        out[0] = 0;
+    if (strlen(out) + 64 > size) out[0] = 0;
     return out;
 }
 
@@ -109,26 +112,26 @@ static int open_directory(const char *path)
 static bool sound(int fd)
 {
     struct stat s;
-    if (fstat(fd, &s) || !S_ISREG(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 022) || s.st_size <= (off_t)sizeof(seal))
+    if (fstat(fd, &s) || !S_ISREG(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 022) ||
+        s.st_size <= (off_t)sizeof(seal))
         return false;
     size_t n = (size_t)s.st_size;
     unsigned char *bytes = mmap(NULL, n, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (bytes == MAP_FAILED)
-        return false;
+    if (bytes == MAP_FAILED) return false;
     seal end;
     memcpy(&end, bytes + n - sizeof end, sizeof end);
     hash sum = hash_bytes(hash_start, bytes, n - sizeof end);
     munmap(bytes, n);
-    return !memcmp(end.magic, magic, sizeof magic) && end.length == n - sizeof end && end.sum.a == sum.a && end.sum.b == sum.b;
+    return !memcmp(end.magic, magic, sizeof magic) && end.length == n - sizeof end && end.sum.a == sum.a &&
+           end.sum.b == sum.b;
 }
 
 static void *load_sound(int directory, const char *name, const char *path)
 {
     int fd = openat(directory, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-    if (fd < 0)
-        return NULL;
-    /* By its path: the loader tells objects apart by name, and /proc/self/fd/N would be the name of many. The directory is ours alone, so the
-     * path still leads to what was judged. */
+    if (fd < 0) return NULL;
+    /* By its path: the loader tells objects apart by name, and /proc/self/fd/N would be the name of many. The
+     * directory is ours alone, so the path still leads to what was judged. */
     void *handle = sound(fd) ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     close(fd);
     return handle;
@@ -139,10 +142,8 @@ static bool write_all(int fd, const void *bytes, size_t n)
     const char *p = bytes;
     while (n > 0) {
         ssize_t k = write(fd, p, n);
-        if (k < 0 && errno == EINTR)
-            continue;
-        if (k <= 0)
-            return false;
+        if (k < 0 && errno == EINTR) continue;
+        if (k <= 0) return false;
         p += k;
         n -= (size_t)k;
     }
@@ -153,8 +154,7 @@ static bool write_source(const char *path, const char *text, size_t length)
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     bool ok = fd >= 0 && write_all(fd, text, length);
-    if (fd >= 0)
-        close(fd);
+    if (fd >= 0) close(fd);
     return ok;
 }
 
@@ -175,13 +175,13 @@ static bool put_seal(const char *path)
         }
     }
     ok = ok && lseek(fd, 0, SEEK_END) == s.st_size && write_all(fd, &end, sizeof end) && !fsync(fd);
-    if (fd >= 0)
-        close(fd);
+    if (fd >= 0) close(fd);
     return ok;
 }
 
 /* Compiles in a directory of its own, seals, and (where there is a cache) moves the object to its place. */
-static void *build(const compiler *c, const char *text, size_t length, bool fast, const char *target, char *why, size_t size)
+static void *build(const compiler *c, const char *text, size_t length, bool fast, const char *target, char *why,
+                   size_t size)
 {
     char workshop[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96];
     if (target) {
@@ -190,7 +190,8 @@ static void *build(const compiler *c, const char *text, size_t length, bool fast
         strcat(workshop, "/build-XXXXXX");
     } else {
         const char *tmp = getenv("TMPDIR");
-        snprintf(workshop, sizeof workshop, "%s/motus-XXXXXX", !privileged() && tmp && tmp[0] == '/' && strlen(tmp) < 512 ? tmp : "/tmp");
+        snprintf(workshop, sizeof workshop, "%s/motus-XXXXXX",
+                 !privileged() && tmp && tmp[0] == '/' && strlen(tmp) < 512 ? tmp : "/tmp");
     }
     if (!mkdtemp(workshop)) {
         snprintf(why, size, "%s: %s", workshop, strerror(errno));
@@ -226,7 +227,8 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
     char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
     directory_of(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;
-    hash key = hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(fast)), c.identity));
+    hash key =
+        hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(fast)), c.identity));
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
@@ -234,25 +236,23 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
         snprintf(why, size, "it has not been compiled before");
     else if (!handle)
         handle = build(&c, text, length, fast, fd >= 0 ? path : NULL, why, size);
-    if (fd >= 0)
-        close(fd);
+    if (fd >= 0) close(fd);
     return handle;
 }
 
 int cache_clear(void)
 {
     char directory[PATH_MAX];
-    int fd = directory_of(directory, sizeof directory)[0] ? open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
-    if (fd < 0)
-        return directory[0] && errno == ENOENT ? 0 : -1;
+    int fd = directory_of(directory, sizeof directory)[0]
+                 ? open(directory, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)
+                 : -1;
+    if (fd < 0) return directory[0] && errno == ENOENT ? 0 : -1;
     DIR *d = fdopendir(fd);
     int count = 0;
     for (struct dirent *e; d && (e = readdir(d));) {
         size_t n = strlen(e->d_name);
-        if (n == 35 && !strcmp(e->d_name + 32, ".so") && !unlinkat(fd, e->d_name, 0))
-            count++;
+        if (n == 35 && !strcmp(e->d_name + 32, ".so") && !unlinkat(fd, e->d_name, 0)) count++;
     }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
     return count;
 }

@@ -4,8 +4,8 @@
 
 #include "machine/compiler.h"
 
-/* A shared object for the C text, loaded: from the cache if a sound one is there, else compiled. NULL: `why` says why. The handle is for
- * dlsym and dlclose. FAST: compiled with what --fast allows; KEPT: never compiled. */
+/* A shared object for the C text, loaded: from the cache if a sound one is there, else compiled. NULL: `why` says
+ * why. The handle is for dlsym and dlclose. FAST: compiled with what --fast allows; KEPT: never compiled. */
 enum { CACHE_FAST = 1, CACHE_KEPT = 2 };
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size);
 /* Removes every entry. How many, or -1. */

@@ -5,13 +5,11 @@
  */
 #include "machine/machine.h"
 
-
 #include <stdio.h>
 
 static int heard(calling *c, int answer)
 {
-    if (answer)
-        c->returned = answer;
+    if (answer) c->returned = answer;
     return answer;
 }
 
@@ -62,11 +60,20 @@ motus_status callback_problem(calling *c, problem *p, motus_error *err)
         return fail(err, MOTUS_LIMIT, "at most %d positions and companions fit", MODEL_NUMBERS_MAX);
     if ((def->positions && !def->x) || !def->v)
         return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
-    *p = (problem){.ctx = c, .nx = def->positions, .nv = def->positions + def->companions, .accel = accel,
-                   .jvp = def->derivative ? jvp : NULL, .exact = def->exact ? exact : NULL, .name = name,
+    *p = (problem){.ctx = c,
+                   .nx = def->positions,
+                   .nv = def->positions + def->companions,
+                   .accel = accel,
+                   .jvp = def->derivative ? jvp : NULL,
+                   .exact = def->exact ? exact : NULL,
+                   .name = name,
                    .returned = &c->returned};
-    p->traits = (traits){.velocity = def->depends_on_velocity, .time = def->depends_on_time, .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
-                         .smooth = true, .has_exact = def->exact != NULL, .companions = def->companions > 0};
+    p->traits = (traits){.velocity = def->depends_on_velocity,
+                         .time = def->depends_on_time,
+                         .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
+                         .smooth = true,
+                         .has_exact = def->exact != NULL,
+                         .companions = def->companions > 0};
     return MOTUS_OK;
 }
 
@@ -77,6 +84,6 @@ problem callback_block(calling *c, const problem *one)
     p.returned = &c->returned;
     p.nx *= c->count;
     p.nv *= c->count;
-    p.jvp = NULL;                    /* a derivative that the user wrote knows of one trajectory only */
+    p.jvp = NULL; /* a derivative that the user wrote knows of one trajectory only */
     return p;
 }

@@ -1,7 +1,9 @@
-/* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the system's compiler and loaded.
+/* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the
+ * system's compiler and loaded.
  *
- * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart and looking are the library's
- * own, and the bits are the interpreter's. One object serves every N and every parameter; the rows share nothing but the cache.
+ * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart
+ * and looking are the library's own, and the bits are the interpreter's. One object serves every N and every
+ * parameter; the rows share nothing but the cache.
  */
 #include "machine/compiled.h"
 
@@ -19,22 +21,29 @@ enum { OBJECTS_MAX = 64, NOTE_MAX = 400 };
 
 #include "machine/text/host.h"
 
-typedef struct object { const row *row; double argument[2]; void *handle; stepper_body body; } object;
+typedef struct object {
+    const row *row;
+    double argument[2];
+    void *handle;
+    stepper_body body;
+} object;
 
 struct compiled {
-    compiled_host host;              /* what the objects read */
+    compiled_host host; /* what the objects read */
     model *model;
-    const problem *interpreted;      /* the interpreter's */
-    problem problem;                 /* and the one that the objects serve */
+    const problem *interpreted; /* the interpreter's */
+    problem problem;            /* and the one that the objects serve */
     object objects[OBJECTS_MAX];
     int count;
     program *force, *boundary;
     locality locality;
-    const tiling *tiling;            /* where the force is divisible */
+    const tiling *tiling; /* where the force is divisible */
     double *u;
     int64_t *q;
-    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);     /* of any of the objects: they have the same bits */
-    void (*bind)(const double *, const int64_t *, double *);       /* of the last object: what it computes is the same for every row */
+    /* of any of the objects: they have the same bits */
+    void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
+    /* of the last object: what it computes is the same for every row */
+    void (*bind)(const double *, const int64_t *, double *);
     char note[NOTE_MAX];
 };
 
@@ -45,8 +54,7 @@ static const problem *of(void *ctx) { return ((compiled *)ctx)->interpreted; }
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     const compiled *c = ctx;
-    if (!c->accel)
-        return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
+    if (!c->accel) return of(ctx)->accel(of(ctx)->ctx, t, x, v, a);
     c->accel(&c->host, t, x, v, a);
     return 0;
 }
@@ -55,30 +63,41 @@ static int jvp(void *ctx, double t, double *x, double *v, const double *dx, cons
     return of(ctx)->jvp(of(ctx)->ctx, t, x, v, dx, dv, da);
 }
 static bool prepare(void *ctx, bool in_v) { return of(ctx)->prepare(of(ctx)->ctx, in_v); }
-static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), void *arg) { of(ctx)->pattern(of(ctx)->ctx, in_v, emit, arg); }
+static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), void *arg)
+{
+    of(ctx)->pattern(of(ctx)->ctx, in_v, emit, arg);
+}
 static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refresh(of(ctx)->ctx, t, x, v); }
 static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
-static void name(void *ctx, bool in_v, size_t k, char *out, size_t size) { of(ctx)->name(of(ctx)->ctx, in_v, k, out, size); }
+static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
+{
+    of(ctx)->name(of(ctx)->ctx, in_v, k, out, size);
+}
 
 motus_status compiled_create(model *m, const problem *interpreted, compiled **out, motus_error *err)
 {
     compiled *c = arena_room(m->arena, sizeof *c);
-    if (!c)
-        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    if (!c) return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(c, 0, sizeof *c);
     c->model = m;
     c->interpreted = interpreted;
-    c->problem = (problem){.ctx = c, .nx = m->nx, .nv = m->nv, .accel = accel, .jvp = interpreted->jvp ? jvp : NULL,
-                           .prepare = interpreted->prepare ? prepare : NULL, .pattern = interpreted->pattern ? pattern : NULL,
-                           .refresh = interpreted->refresh ? refresh : NULL, .exact = interpreted->exact ? exact : NULL, .name = name};
+    c->problem = (problem){.ctx = c,
+                           .nx = m->nx,
+                           .nv = m->nv,
+                           .accel = accel,
+                           .jvp = interpreted->jvp ? jvp : NULL,
+                           .prepare = interpreted->prepare ? prepare : NULL,
+                           .pattern = interpreted->pattern ? pattern : NULL,
+                           .refresh = interpreted->refresh ? refresh : NULL,
+                           .exact = interpreted->exact ? exact : NULL,
+                           .name = name};
     *out = c;
     return MOTUS_OK;
 }
 
 void compiled_close(compiled *c)
 {
-    for (int i = 0; c && i < c->count; i++)
-        dlclose(c->objects[i].handle);
+    for (int i = 0; c && i < c->count; i++) dlclose(c->objects[i].handle);
     if (c) {
         parallel_dismiss(c->host.crew);
         c->host.crew = NULL;
@@ -95,26 +114,27 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     model *m = c->model;
     if (!c->force) {
         c->force = program_create(m->graph, m->accel, m->accel_count);
-        if (c->force)
-            c->locality = emit_local(c->force);
-        if (c->locality.divisible)
-            c->tiling = tiles_create(m, &c->locality);
+        if (c->force) c->locality = emit_local(c->force);
+        if (c->locality.divisible) c->tiling = tiles_create(m, &c->locality);
     }
-    if (!c->boundary && m->driven)
-        c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
-    if (m->arena->failed)
-        return false;
-    const composed_program programs[] = {{c->force, "compiled_force", !row_adaptive(chosen)}, {c->boundary, "compiled_boundary", false}};
+    if (!c->boundary && m->driven) c->boundary = program_create(m->graph, m->boundary, m->boundary_count);
+    if (m->arena->failed) return false;
+    const composed_program programs[] = {{c->force, "compiled_force", !row_adaptive(chosen)},
+                                         {c->boundary, "compiled_boundary", false}};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
-    return compose(e, &(composition){.model = m, .problem = c->interpreted, .chosen = chosen, .programs = programs, .program_count = m->driven ? 2 : 1,
-                                     .locality = &c->locality, .last = last});
+    return compose(e, &(composition){.model = m,
+                                     .problem = c->interpreted,
+                                     .chosen = chosen,
+                                     .programs = programs,
+                                     .program_count = m->driven ? 2 : 1,
+                                     .locality = &c->locality,
+                                     .last = last});
 }
 
 const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 {
     emit e = {.text = {.arena = c->model->arena}};
-    if (!write_text(c, chosen, &e))
-        return NULL;
+    if (!write_text(c, chosen, &e)) return NULL;
     *length = e.text.length;
     return e.text.bytes;
 }
@@ -127,20 +147,20 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     model *m = c->model;
     c->q = arena_room(m->arena, (e->int_count + 1) * sizeof *c->q);
     c->u = arena_room(m->arena, (e->fixed + 1) * sizeof *c->u);
-    if (!c->q || !c->u)
-        return false;
-    for (uint32_t k = 0; k < e->int_count; k++)
-        c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
+    if (!c->q || !c->u) return false;
+    for (uint32_t k = 0; k < e->int_count; k++) c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     c->bind = bind;
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){.pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .crew = c->host.crew, .parallel = parallel_by};
+    c->host = (compiled_host){
+        .pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .crew = c->host.crew, .parallel = parallel_by};
     return true;
 }
 
 static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
     for (int i = 0; i < c->count; i++)
-        if (c->objects[i].row == chosen->row && !memcmp(c->objects[i].argument, chosen->argument, sizeof chosen->argument))
+        if (c->objects[i].row == chosen->row &&
+            !memcmp(c->objects[i].argument, chosen->argument, sizeof chosen->argument))
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {
@@ -148,18 +168,21 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
         return NULL;
     }
     if (c->model->graph->count > OPERATIONS_MAX) {
-        snprintf(c->note, sizeof c->note, "its equations are too long for a compiler: %u operations, and %d are the most", c->model->graph->count, OPERATIONS_MAX);
+        snprintf(c->note, sizeof c->note,
+                 "its equations are too long for a compiler: %u operations, and %d are the most",
+                 c->model->graph->count, OPERATIONS_MAX);
         return NULL;
     }
     emit e = {.text = {.arena = c->model->arena}};
-    if (!write_text(c, chosen, &e))
-        return NULL;
+    if (!write_text(c, chosen, &e)) return NULL;
     void *handle = cache_load(e.text.bytes, e.text.length, how, c->note, sizeof c->note);
-    if (!handle)
-        return NULL;
+    if (!handle) return NULL;
     void (*bind)(const double *, const int64_t *, double *);
     object *o = &c->objects[c->count];
-    *o = (object){.row = chosen->row, .argument = {chosen->argument[0], chosen->argument[1]}, .handle = handle, .body = *stepper_best_body()};
+    *o = (object){.row = chosen->row,
+                  .argument = {chosen->argument[0], chosen->argument[1]},
+                  .handle = handle,
+                  .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();
     o->body.name = "compiled";
     /* POSIX promises that a function's address survives the way through void *. */
@@ -183,21 +206,23 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 
 void compiled_rebind(compiled *c)
 {
-    if (c && c->bind)
-        c->bind(c->model->pool, c->q, c->u);
+    if (c && c->bind) c->bind(c->model->pool, c->q, c->u);
 }
 
-const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept) { return body_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note; }
+const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)
+{
+    return body_of(c, chosen, kept ? CACHE_KEPT : 0) ? NULL : c->note;
+}
 
 motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, motus_error *err)
 {
     const stepper_body *body = body_of(c, chosen, 0);
-    if (!body)
-        return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
+    if (!body) return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
     /* One crew for all runs of the model, large enough for any: more threads than processors bring nothing. */
     const int processors = parallel_processors();
     if (chosen->threads > 1 && c->tiling && !c->host.crew)
-        c->host.crew = parallel_hire(chosen->threads > processors ? chosen->threads : processors, &c->model->arena->allocator);
+        c->host.crew =
+            parallel_hire(chosen->threads > processors ? chosen->threads : processors, &c->model->arena->allocator);
     c->problem.traits = c->interpreted->traits;
     *out = (machine){.name = "compiled", .problem = &c->problem, .body = body, .host = &c->host};
     return MOTUS_OK;

@@ -1,7 +1,7 @@
 /* Finding and running the system's C compiler. See compiler.h.
  *
- * Invariant: no shell sees any of it; the child has limits of time and memory, and is killed with us (Linux) or by the terminal's signal,
- * since it stays in our process group.
+ * Invariant: no shell sees any of it; the child has limits of time and memory, and is killed with us (Linux) or by
+ * the terminal's signal, since it stays in our process group.
  */
 #include "machine/compiler.h"
 
@@ -21,12 +21,23 @@
 #include <sys/prctl.h>
 #endif
 
-/* -fno-unroll-loops: clang would unroll every loop of unknown length, those around a whole acceleration too, which doubles its time and
- * makes nothing faster that was measured. gcc does not unroll such loops anyway. */
-static const char *const options[] = {"-std=gnu17", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fno-stack-protector",
-                                      "-fno-unroll-loops", "-fPIC", "-shared", "-w", "-x", "c"};
-/* An object of arithmetic needs no start files, and of the libraries at most fmod, where the machine has none (and fma, on old ones): linking the
- * rest would take longer than compiling a small model. memcpy and memset come from the C library that every process has. */
+/* -fno-unroll-loops: clang would unroll every loop of unknown length, those around a whole acceleration too, which
+ * doubles its time and makes nothing faster that was measured. gcc does not unroll such loops anyway. */
+static const char *const options[] = {"-std=gnu17",
+                                      "-O3",
+                                      "-march=native",
+                                      "-ffp-contract=off",
+                                      "-fno-math-errno",
+                                      "-fno-stack-protector",
+                                      "-fno-unroll-loops",
+                                      "-fPIC",
+                                      "-shared",
+                                      "-w",
+                                      "-x",
+                                      "c"};
+/* An object of arithmetic needs no start files, and of the libraries at most fmod, where the machine has none (and
+ * fma, on old ones): linking the rest would take longer than compiling a small model. memcpy and memset come from the
+ * C library that every process has. */
 #ifdef __ELF__
 static const char *const libraries[] = {"-nostdlib", "-Wl,--as-needed", "-lm", "-lgcc"};
 #else
@@ -34,9 +45,11 @@ static const char *const libraries[] = {"-lm"};
 #endif
 enum { OPTIONS = sizeof options / sizeof *options, LIBRARIES = sizeof libraries / sizeof *libraries };
 
-/* --fast: products and sums may be fused, quotients become products. Not more: sums in another order would undo error words and the reductions
- * of the elementary functions, and numbers that are assumed finite could not be seen to diverge. */
-static const char *const fast_options[] = {"-ffp-contract=fast", "-freciprocal-math", "-fno-signed-zeros", "-fno-trapping-math"};
+/* --fast: products and sums may be fused, quotients become products. Not more: sums in another order would undo error
+ * words and the reductions of the elementary functions, and numbers that are assumed finite could not be seen to
+ * diverge. */
+static const char *const fast_options[] = {"-ffp-contract=fast", "-freciprocal-math", "-fno-signed-zeros",
+                                           "-fno-trapping-math"};
 enum { FAST_OPTIONS = sizeof fast_options / sizeof *fast_options };
 
 const char *compiler_options(bool fast)
@@ -49,27 +62,27 @@ static bool executable(const char *path, compiler *c)
 {
     char real[PATH_MAX];
     struct stat s;
-    if (!realpath(path, real) || strlen(real) >= sizeof c->path || stat(real, &s) || !S_ISREG(s.st_mode) || access(real, X_OK))
+    if (!realpath(path, real) || strlen(real) >= sizeof c->path || stat(real, &s) || !S_ISREG(s.st_mode) ||
+        access(real, X_OK))
         return false;
     snprintf(c->path, sizeof c->path, "%s", real);
-    snprintf(c->identity, sizeof c->identity, "%s %lld %lld.%09ld", real, (long long)s.st_size, (long long)s.st_mtim.tv_sec, s.st_mtim.tv_nsec);
+    snprintf(c->identity, sizeof c->identity, "%s %lld %lld.%09ld", real, (long long)s.st_size,
+             (long long)s.st_mtim.tv_sec, s.st_mtim.tv_nsec);
     return true;
 }
 
 static bool search(const char *name, compiler *c)
 {
-    if (!*name)
-        return false;
-    if (strchr(name, '/'))
-        return executable(name, c);
+    if (!*name) return false;
+    if (strchr(name, '/')) return executable(name, c);
     const char *path = getenv("PATH");
-    if (!path)
-        path = "/usr/local/bin:/usr/bin:/bin";
+    if (!path) path = "/usr/local/bin:/usr/bin:/bin";
     while (*path) {
         size_t n = strcspn(path, ":");
         char full[PATH_MAX];
         /* An empty entry means the present directory: not a place to take a compiler from. */
-        if (n > 0 && path[0] == '/' && (size_t)snprintf(full, sizeof full, "%.*s/%s", (int)n, path, name) < sizeof full && executable(full, c))
+        if (n > 0 && path[0] == '/' &&
+            (size_t)snprintf(full, sizeof full, "%.*s/%s", (int)n, path, name) < sizeof full && executable(full, c))
             return true;
         path += n + (path[n] == ':');
     }
@@ -80,28 +93,26 @@ bool compiler_find(compiler *c)
 {
     const char *names[] = {getenv("CC"), "cc", "gcc", "clang"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (names[i] && search(names[i], c))
-            return true;
+        if (names[i] && search(names[i], c)) return true;
     return false;
 }
 
 /* In the child: only calls that are safe after fork. */
 static void become_compiler(char *const *arguments, const char *path, int log, pid_t parent)
 {
-    struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX}, memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
+    struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
+                  memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CORE, &core);
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(127);
+    if (getppid() != parent) _exit(127);
 #else
     (void)parent;
 #endif
     int none = open("/dev/null", O_RDWR);
-    if (none >= 0)
-        dup2(none, 0);
+    if (none >= 0) dup2(none, 0);
     dup2(log, 1);
     dup2(log, 2);
     execv(path, arguments);
@@ -114,10 +125,8 @@ static bool wait_for(pid_t child)
     for (int i = 0; i < COMPILER_SECONDS_MAX * 500; i++) {
         int status;
         pid_t ended = waitpid(child, &status, WNOHANG);
-        if (ended == child)
-            return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-        if (ended < 0 && errno != EINTR)
-            return false;
+        if (ended == child) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        if (ended < 0 && errno != EINTR) return false;
         nanosleep(&nap, NULL);
     }
     kill(child, SIGKILL);
@@ -148,22 +157,17 @@ bool compiler_run(const compiler *c, const char *source, const char *object, boo
     char *arguments[OPTIONS + FAST_OPTIONS + LIBRARIES + 5];
     int n = 0;
     arguments[n++] = (char *)c->path;
-    for (int i = 0; i < OPTIONS; i++)
-        arguments[n++] = (char *)options[i];
-    for (int i = 0; fast && i < FAST_OPTIONS; i++)
-        arguments[n++] = (char *)fast_options[i];
+    for (int i = 0; i < OPTIONS; i++) arguments[n++] = (char *)options[i];
+    for (int i = 0; fast && i < FAST_OPTIONS; i++) arguments[n++] = (char *)fast_options[i];
     arguments[n++] = (char *)source;
     arguments[n++] = "-o";
     arguments[n++] = (char *)object;
-    for (int i = 0; i < LIBRARIES; i++)
-        arguments[n++] = (char *)libraries[i];
+    for (int i = 0; i < LIBRARIES; i++) arguments[n++] = (char *)libraries[i];
     arguments[n] = NULL;
     pid_t parent = getpid(), child = fork();
-    if (child == 0)
-        become_compiler(arguments, c->path, log, parent);
+    if (child == 0) become_compiler(arguments, c->path, log, parent);
     bool ok = child > 0 && wait_for(child);
-    if (!ok)
-        first_line(log, why, size);
+    if (!ok) first_line(log, why, size);
     close(log);
     return ok;
 }

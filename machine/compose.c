@@ -1,7 +1,8 @@
 /* Composing the C text of a compiled model. See compose.h.
  *
- * Invariant: only what the model, the row and the problem's traits use is in the text, since a compiler's time is what a first run waits for; no
- * system header is read, and what is known when the text is written stands there as a constant, so that nothing else is translated.
+ * Invariant: only what the model, the row and the problem's traits use is in the text, since a compiler's time is
+ * what a first run waits for; no system header is read, and what is known when the text is written stands there as a
+ * constant, so that nothing else is translated.
  */
 #include "machine/compose.h"
 
@@ -13,9 +14,9 @@
 #include <string.h>
 
 enum {
-    SMALL_MAX = 16,                  /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200,           /* operations in all stages of a step, up to which they are written out */
-    FORCE_INLINE_MAX = 150           /* operations: a longer force is compiled once, and called */
+    SMALL_MAX = 16,        /* numbers: what registers, or at least the fastest loads, may hold */
+    WRITTEN_OUT_MAX = 200, /* operations in all stages of a step, up to which they are written out */
+    FORCE_INLINE_MAX = 150 /* operations: a longer force is compiled once, and called */
 };
 
 static void add_text(emit_text *t, const char *which)
@@ -31,8 +32,7 @@ static void add_text(emit_text *t, const char *which)
 bool compose_sizes_are_structure(const model *m)
 {
     for (uint32_t i = 0; i < m->state_count; i++)
-        if (m->states[i].dims > 0)
-            return false;
+        if (m->states[i].dims > 0) return false;
     return true;
 }
 
@@ -42,42 +42,40 @@ static void add_numbers(emit_text *t, const char *name, const double *numbers, i
 {
     char number[EMIT_NUMBER];
     emit_add(t, "static const double %s[] = {", name);
-    for (int i = 0; i < count; i++)
-        emit_add(t, "%s%s", i ? ", " : "", emit_number(numbers[i], number));
+    for (int i = 0; i < count; i++) emit_add(t, "%s%s", i ? ", " : "", emit_number(numbers[i], number));
     emit_add(t, count ? "};\n" : "0};\n");
 }
 
-/* The times at which a step evaluates the force, each once: at[m] in steps; stage i is at moment[i], which may be `count`: the first moment of the
- * next step, which is the end of this one. Tables of what depends on time alone have a place for each. */
-typedef struct moments { int count, *moment; double *at; } moments;
+/* The times at which a step evaluates the force, each once: at[m] in steps; stage i is at moment[i], which may be
+ * `count`: the first moment of the next step, which is the end of this one. Tables of what depends on time alone have
+ * a place for each. */
+typedef struct moments {
+    int count, *moment;
+    double *at;
+} moments;
 
 /* False: no memory. */
 static bool find_moments(const work *w, arena *a, moments *m)
 {
     const size_t room = (size_t)w->stages + 2;
     *m = (moments){0, arena_room(a, room * sizeof *m->moment), arena_room(a, room * sizeof *m->at)};
-    if (!m->moment || !m->at)
-        return false;
+    if (!m->moment || !m->at) return false;
     memset(m->moment, 0, room * sizeof *m->moment);
     const int stages = w->stages - w->fsal;
-    if (w->row->family == IMPLICIT)                        /* it begins with the acceleration there */
+    if (w->row->family == IMPLICIT) /* it begins with the acceleration there */
         m->at[m->count++] = 0;
-    for (int start = 1; start >= 0; start--)               /* the start of the step first, where the force is evaluated there */
+    /* the start of the step first, where the force is evaluated there */
+    for (int start = 1; start >= 0; start--)
         for (int i = 0; i < stages; i++) {
-            if ((w->c[i] == 0) != start || (w->row->family == SPLITTING && w->unit[i] == 0))
-                continue;
+            if ((w->c[i] == 0) != start || (w->row->family == SPLITTING && w->unit[i] == 0)) continue;
             int k = 0;
-            while (k < m->count && m->at[k] != w->c[i])
-                k++;
-            if (w->c[i] == 1 && m->count && m->at[0] == 0)
-                k = -1;
+            while (k < m->count && m->at[k] != w->c[i]) k++;
+            if (w->c[i] == 1 && m->count && m->at[0] == 0) k = -1;
             m->moment[i] = k;
-            if (k == m->count)
-                m->at[m->count++] = w->c[i];
+            if (k == m->count) m->at[m->count++] = w->c[i];
         }
     for (int i = 0; i < stages; i++)
-        if (m->moment[i] < 0)
-            m->moment[i] = m->count;
+        if (m->moment[i] < 0) m->moment[i] = m->count;
     return true;
 }
 
@@ -91,8 +89,7 @@ static void add_family_names(emit_text *t, const char *name)
 
 static const char *const family_names[] = {
 #define NAME_OF(NAME, name, shared) [NAME] = #name,
-    FAMILIES(NAME_OF)
-};
+    FAMILIES(NAME_OF)};
 
 /* The constants that ROW and FACT lead to: the same that the plan finds. */
 static bool add_facts(emit *e, const composition *c, bool structure)
@@ -101,25 +98,30 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     const row *r = c->chosen->row;
     work w = stepper_plan(c->problem, c->chosen, NULL);
     coef *memory = arena_room(t->arena, (work_plan_size(&w) + 1) * sizeof *memory);
-    if (!memory)
-        return false;
+    if (!memory) return false;
     w = stepper_plan(c->problem, c->chosen, memory);
     moments m;
-    if (!find_moments(&w, t->arena, &m))
-        return false;
+    if (!find_moments(&w, t->arena, &m)) return false;
     const int stages = w.stages ? w.stages : 1, constants = (int)work_constants(&w);
-    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n", r->compensated, r->adaptive);
-    emit_add(t, "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define FACT_constant %d\n", w.velocity, w.linear, w.constant);
+    emit_add(t, "#define ROW(w, member) ROW_##member\n#define ROW_compensated %d\n#define ROW_adaptive %d\n",
+             r->compensated, r->adaptive);
+    emit_add(t,
+             "#define FACT(w, member) FACT_##member\n#define FACT_velocity %d\n#define FACT_linear %d\n#define "
+             "FACT_constant %d\n",
+             w.velocity, w.linear, w.constant);
     if (structure)
         emit_add(t, "#define FACT_nx %zu\n#define FACT_nv %zu\n", w.nx, w.nv);
     else
         emit_add(t, "#define FACT_nx w->nx\n#define FACT_nv w->nv\n");
-    emit_add(t, "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
-                "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.direct, w.order, r->family == SPLITTING && w.unit[0] == 0);
-    emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d", m.moment[0]);
-    for (int i = 1; i < stages; i++)
-        emit_add(t, ", %d", m.moment[i]);
+    emit_add(t,
+             "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
+             "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
+             "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define DRIFTS_FIRST %d\n",
+             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.direct, w.order,
+             r->family == SPLITTING && w.unit[0] == 0);
+    emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
+             m.moment[0]);
+    for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
     emit_add(t, "};\n");
     add_numbers(t, "fact_unit", w.unit, constants);
     add_numbers(t, "fact_c", w.c, w.stages);
@@ -127,8 +129,7 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     e->moments = m.count;
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
-             stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX),
-             structure ? w.nv : 0);
+             stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX), structure ? w.nv : 0);
     if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
@@ -140,18 +141,19 @@ static bool add_facts(emit *e, const composition *c, bool structure)
 /* The row's family, the text that it shares with others, and Newton's method where an equation is solved. */
 static void add_family(emit_text *t, const composition *c)
 {
-    static const struct { const char *text, *shared; } families[] = {
+    static const struct {
+        const char *text, *shared;
+    } families[] = {
 #define TEXT_OF(NAME, name, shared) [NAME] = {"step/" #name ".h", shared},
-        FAMILIES(TEXT_OF)
-    };
+        FAMILIES(TEXT_OF)};
     const row *r = c->chosen->row;
     if (stepper_plan(c->problem, c->chosen, NULL).solves)
         add_text(t, "step/newton.h");
     else
-        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
+        emit_add(t, "#define NEWTON_NOW (-1)\n#define newton_increment(w, g, s, u, stage) STEP_OK\n#define "
+                    "solve_factor(w, where, s, ax, av, t, x, v) STEP_OK\n"
                     "#define solve_back(w, r) ((void)0)\n#define solve_apply(w, c, y, out) ((void)0)\n");
-    if (*families[r->family].shared)
-        add_text(t, families[r->family].shared);
+    if (*families[r->family].shared) add_text(t, families[r->family].shared);
     add_text(t, families[r->family].text);
     add_text(t, "step/plan.h");
     if (r->adaptive)
@@ -168,8 +170,7 @@ int compose_width(void)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma"))
         return 8;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return 4;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 4;
     return 2;
 #elif defined __aarch64__
     return 2;
@@ -183,18 +184,27 @@ static void add_functions(emit_text *t, uint64_t used)
 {
 #define ANY_OF(a, b, c, d) (OPERATION_BIT(a) | OPERATION_BIT(b) | OPERATION_BIT(c) | OPERATION_BIT(d))
     static const uint64_t hyperbolic = ANY_OF(SINH, SINH, COSH, TANH), circular = ANY_OF(SIN, SIN, COS, TAN),
-                          inverse = ANY_OF(ASIN, ACOS, ATAN, ATAN2), root = ANY_OF(CBRT, CBRT, HYPOT, HYPOT), power = OPERATION_BIT(POW),
-                          error = OPERATION_BIT(ERF), logarithm = OPERATION_BIT(LOG) | power,
+                          inverse = ANY_OF(ASIN, ACOS, ATAN, ATAN2), root = ANY_OF(CBRT, CBRT, HYPOT, HYPOT),
+                          power = OPERATION_BIT(POW), error = OPERATION_BIT(ERF),
+                          logarithm = OPERATION_BIT(LOG) | power,
                           exponential = OPERATION_BIT(EXP) | power | hyperbolic | error,
                           plain = ANY_OF(SQRT, ABS, FLOOR, MOD) | ANY_OF(MIN, MIN, MAX, SIGN);
-    const struct { uint64_t needed_by; const char *text; } texts[] = {
-        {~(uint64_t)0, "step/functions/core.h"}, {plain, "step/functions/plain.h"}, {exponential, "step/functions/exponential.h"},
-        {logarithm, "step/functions/logarithm.h"}, {power, "step/functions/power.h"}, {hyperbolic, "step/functions/hyperbolic.h"},
-        {circular, "step/functions/circular.h"}, {inverse, "step/functions/inverse.h"}, {root, "step/functions/root.h"},
-        {error, "step/functions/error.h"}, {~(uint64_t)0, "step/functions/end.h"}};
+    const struct {
+        uint64_t needed_by;
+        const char *text;
+    } texts[] = {{~(uint64_t)0, "step/functions/core.h"},
+                 {plain, "step/functions/plain.h"},
+                 {exponential, "step/functions/exponential.h"},
+                 {logarithm, "step/functions/logarithm.h"},
+                 {power, "step/functions/power.h"},
+                 {hyperbolic, "step/functions/hyperbolic.h"},
+                 {circular, "step/functions/circular.h"},
+                 {inverse, "step/functions/inverse.h"},
+                 {root, "step/functions/root.h"},
+                 {error, "step/functions/error.h"},
+                 {~(uint64_t)0, "step/functions/end.h"}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        if (used & texts[i].needed_by)
-            add_text(t, texts[i].text);
+        if (used & texts[i].needed_by) add_text(t, texts[i].text);
 #undef ANY_OF
 }
 
@@ -203,33 +213,40 @@ static void add_operations(emit *e, int width)
 {
     emit_text *t = &e->text;
     add_functions(t, e->used | (width == 1 ? e->used_lanes : 0));
-    emit_add(t, "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
+    emit_add(t, "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) "
+                "((condition) ? (a) : (b))\n");
     emit_operations(e, e->used, "double", "op");
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
     if (width == 1)
-        emit_add(t, "typedef double reals;\n#define MANY(x) (x)\n#define LANE_OF(x, l) (x)\n#define OF_LANES(f) motus_##f\n#define CHOOSE(m, a, b) ((m) ? (a) : (b))\n#define MANY_FUSED(a, b, c) fma(a, b, c)\n"
-                    "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) ((condition) ? (a) : (b))\n");
+        emit_add(t, "typedef double reals;\n#define MANY(x) (x)\n#define LANE_OF(x, l) (x)\n#define OF_LANES(f) "
+                    "motus_##f\n#define CHOOSE(m, a, b) ((m) ? (a) : (b))\n#define MANY_FUSED(a, b, c) fma(a, b, c)\n"
+                    "#define OF(f) motus_##f\n#define FUSE(a, b, c) fma(a, b, c)\n#define WHEN(condition, a, b) "
+                    "((condition) ? (a) : (b))\n");
     if (width > 1) {
         emit_add(t, "#define LANES %d\n", width);
         add_text(t, "step/functions/lanes.h");
         add_functions(t, e->used_lanes);
-        emit_add(t, "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
-                    "#define OF_LANES(f) motus_##f##_x%d\n#define CHOOSE(m, a, b) motus_select_x%d(m, MANY(a), MANY(b))\n"
-                    "#define MANY_FUSED(a, b, c) motus_fused_x%d(MANY(a), MANY(b), MANY(c))\n#define OF(f) motus_##f##_x%d\n"
-                    "#define FUSE(a, b, c) motus_fused_x%d(a, b, c)\n#define WHEN(condition, a, b) motus_select_x%d(condition, MANY(a), MANY(b))\n",
-                 width, width, width, width, width, width, width);
+        emit_add(
+            t,
+            "typedef motus_reals_x%d reals;\n#define MANY(x) ((x) - (reals){0})\n#define LANE_OF(x, l) (x)[l]\n"
+            "#define OF_LANES(f) motus_##f##_x%d\n#define CHOOSE(m, a, b) motus_select_x%d(m, MANY(a), MANY(b))\n"
+            "#define MANY_FUSED(a, b, c) motus_fused_x%d(MANY(a), MANY(b), MANY(c))\n#define OF(f) motus_##f##_x%d\n"
+            "#define FUSE(a, b, c) motus_fused_x%d(a, b, c)\n#define WHEN(condition, a, b) motus_select_x%d(condition, "
+            "MANY(a), MANY(b))\n",
+            width, width, width, width, width, width, width);
     }
-    if (width)
-        emit_operations(e, e->used_lanes, "reals", "ops");
+    if (width) emit_operations(e, e->used_lanes, "reals", "ops");
     emit_add(t, "#undef OF\n#undef FUSE\n#undef WHEN\n\n");
 }
 
 /* ---- windows ---- */
 
-/* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved, and steps have one size. */
+/* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved,
+ * and steps have one size. */
 static bool by_number(const composition *c)
 {
-    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !stepper_plan(c->problem, c->chosen, NULL).solves;
+    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive &&
+           !stepper_plan(c->problem, c->chosen, NULL).solves;
 }
 
 static void add_windows(emit *e)
@@ -237,11 +254,12 @@ static void add_windows(emit *e)
     emit_text *t = &e->text;
     add_text(t, "machine/text/tiling.h");
     add_text(t, "machine/text/window.h");
-    emit_add(t, "#define NUMBER double\n#define NUMBER_OF(x) (x)\n#define NUMBER_AT(array, k) (array)[k]\n#define window_number window_keep\n");
+    emit_add(t, "#define NUMBER double\n#define NUMBER_OF(x) (x)\n#define NUMBER_AT(array, k) (array)[k]\n#define "
+                "window_number window_keep\n");
     add_text(t, "machine/text/window_put.h");
-    if (!e->uses_vectors)
-        return;
-    emit_add(t, "#define NUMBER reals\n#define NUMBER_OF(x) MANY(x)\n#define NUMBER_AT(array, k) (*(reals_anywhere *)&(array)[k])\n"
+    if (!e->uses_vectors) return;
+    emit_add(t, "#define NUMBER reals\n#define NUMBER_OF(x) MANY(x)\n#define NUMBER_AT(array, k) (*(reals_anywhere "
+                "*)&(array)[k])\n"
                 "#define window_number window_keep_many\n#undef FMA\n#define FMA(a, b, c) MANY_FUSED(a, b, c)\n");
     add_text(t, "machine/text/window_put.h");
     emit_add(t, "#undef FMA\n#define FMA(a, b, c) fma(a, b, c)\n");
@@ -252,7 +270,8 @@ static void add_windows(emit *e)
 bool compose(emit *e, const composition *c)
 {
     emit_text *t = &e->text;
-    const bool structure = compose_sizes_are_structure(c->model), lanes = c->width > 0, windowed = c->locality && c->locality->divisible;
+    const bool structure = compose_sizes_are_structure(c->model), lanes = c->width > 0,
+               windowed = c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
     e->literal = structure;
     e->arrays = c->model->arrays;
@@ -262,62 +281,56 @@ bool compose(emit *e, const composition *c)
         e->windowed = !i && windowed;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
-    if (lanes)
-        e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX);          /* what is recorded wants them */
+    if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* what is recorded wants them */
     const emit_text bodies = *t;
     const int own = e->uses_vectors ? compose_width() : e->terms ? 4 : 0, width = lanes ? c->width : own;
     *t = (emit_text){.arena = bodies.arena};
-    emit_add(t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
-                "typedef double coef;\ntypedef struct row row;\n");
+    emit_add(
+        t, "/* A model of motion, compiled by motus: its acceleration, a method, and the loop that advances them. */\n"
+           "typedef double coef;\ntypedef struct row row;\n");
     add_text(t, "machine/text/freestanding.h");
-    if (!add_facts(e, c, structure))
-        return false;
+    if (!add_facts(e, c, structure)) return false;
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {
-        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)", c->model->boundary_count > 0, c->groups, c->width);
-        for (int group = 0; group < c->groups; group++)
-            emit_add(t, " DO(%d)", group);
+        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)",
+                 c->model->boundary_count > 0, c->groups, c->width);
+        for (int group = 0; group < c->groups; group++) emit_add(t, " DO(%d)", group);
         emit_add(t, "\n");
     }
     if (windowed)
-        emit_add(t, "#define ADVANCE_STEP __attribute__((noinline)) static\n#define WINDOWED 1\n#define LOCAL %d\n#define COMPANIONS %d\n", local, c->problem->traits.companions);
-    if (e->terms)
-        emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
-    if (!lanes)
-        add_text(t, "core/scalar.h");
+        emit_add(t,
+                 "#define ADVANCE_STEP __attribute__((noinline)) static\n#define WINDOWED 1\n#define LOCAL %d\n#define "
+                 "COMPANIONS %d\n",
+                 local, c->problem->traits.companions);
+    if (e->terms) emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
+    if (!lanes) add_text(t, "core/scalar.h");
     add_operations(e, width);
-    if (lanes)
-        add_text(t, "machine/text/lanes_scalar.h");
+    if (lanes) add_text(t, "machine/text/lanes_scalar.h");
     add_text(t, "step/work.h");
     add_text(t, "machine/text/host.h");
     if (e->wraps)
         emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"
-                    "static inline int64_t wrapped(int64_t k, int64_t n) { return (uint64_t)k < (uint64_t)n ? k : (k %% n + n) %% n; }\n");
+                    "static inline int64_t wrapped(int64_t k, int64_t n) { return (uint64_t)k < (uint64_t)n ? k : (k "
+                    "%% n + n) %% n; }\n");
     if (e->uses_vectors) {
         emit_add(t, "#define WIDTH %d\n", width);
         add_text(t, "machine/text/index_lanes.h");
     }
-    if (windowed)
-        add_windows(e);
+    if (windowed) add_windows(e);
     emit_add(t, "\n%s", bodies.bytes ? bodies.bytes : "");
     add_text(t, "machine/text/compiled.h");
     if (lanes) {
         add_text(t, "machine/text/lanes_job.h");
-        if (c->solves && !solve_text_write(t, c))
-            return false;
+        if (c->solves && !solve_text_write(t, c)) return false;
         add_text(t, c->solves ? "machine/text/solve.h" : "machine/text/solve_none.h");
         emit_add(t, "%s", c->glue);
     }
-    if (windowed)
-        add_text(t, "machine/text/pass.h");
+    if (windowed) add_text(t, "machine/text/pass.h");
     add_family(t, c);
     add_text(t, "step/advance.h");
-    if (!lanes)
-        add_text(t, "step/loop.h");
-    if (local)
-        add_text(t, "machine/text/tiled.h");
-    for (const char *const *last = c->last; *last; last++)
-        add_text(t, *last);
+    if (!lanes) add_text(t, "step/loop.h");
+    if (local) add_text(t, "machine/text/tiled.h");
+    for (const char *const *last = c->last; *last; last++) add_text(t, *last);
     return !t->arena->failed;
 }

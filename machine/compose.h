@@ -1,4 +1,5 @@
-/* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for lanes, are made here. */
+/* The C text of a compiled model: what it is made of, in order. Both compiled machines, for one trajectory and for
+ * lanes, are made here. */
 #ifndef MACHINE_COMPOSE_H
 #define MACHINE_COMPOSE_H
 
@@ -7,21 +8,27 @@
 #include "lang/model/model.h"
 #include "core/methods.h"
 
-enum { OPERATIONS_MAX = 20000 };         /* of a graph, in one text: compilers take more than linear time, and minutes beyond this */
+/* of a graph, in one text: compilers take more than linear time, and minutes beyond this */
+enum { OPERATIONS_MAX = 20000 };
 
-typedef struct composed_program { const program *program; const char *name; bool terms; } composed_program;
+typedef struct composed_program {
+    const program *program;
+    const char *name;
+    bool terms;
+} composed_program;
 
 typedef struct composition {
     const model *model;
     const problem *problem;
     const chosen *chosen;
-    const composed_program *programs;    /* "compiled_force" first */
+    const composed_program *programs; /* "compiled_force" first */
     size_t program_count;
-    const locality *locality;            /* of the first program, where it may be taken window by window; NULL */
-    bool solves;                         /* lanes: the row solves equations, by solve_text.h */
-    int width, groups;                   /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
-    const char *glue;                    /* C text between the programs and the texts of step/, or NULL */
-    const char *const *last;             /* the texts that stand last, up to a NULL */
+    const locality *locality; /* of the first program, where it may be taken window by window; NULL */
+    bool solves;              /* lanes: the row solves equations, by solve_text.h */
+    /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
+    int width, groups;
+    const char *glue;        /* C text between the programs and the texts of step/, or NULL */
+    const char *const *last; /* the texts that stand last, up to a NULL */
 } composition;
 
 /* Whether the numbers of a state are the same in every run: scalar models have them, families do not. */

@@ -8,10 +8,10 @@
 struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
-    tape *jvp[4];                    /* along dx (1), dv (2), or both (3) */
-    tape **looks;                    /* one per definition, made when first looked at */
-    double *acceleration;            /* scratch for quantities that contain x'' */
-    double *zeros;                   /* stands in for a direction that is not given */
+    tape *jvp[4];         /* along dx (1), dv (2), or both (3) */
+    tape **looks;         /* one per definition, made when first looked at */
+    double *acceleration; /* scratch for quantities that contain x'' */
+    double *zeros;        /* stands in for a direction that is not given */
 };
 
 static tape *make(model *m, const output *outputs, size_t count)
@@ -26,8 +26,7 @@ static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
     interpreter *in = ctx;
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
-    if (in->model->driven)
-        tape_run(in->boundary, t, base);
+    if (in->model->driven) tape_run(in->boundary, t, base);
     tape_run(in->accel, t, base);
     return 0;
 }
@@ -43,33 +42,32 @@ static int exact(void *ctx, double t, double *x, double *v)
 {
     interpreter *in = ctx;
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v};
-    if (in->boundary)
-        tape_run(in->boundary, t, base);
+    if (in->boundary) tape_run(in->boundary, t, base);
     tape_run(in->exact, t, base);
     return 0;
 }
 
 enum { ALONG_X = 1, ALONG_V = 2 };
 
-typedef struct direction { graph_shift shift; int along; } direction;
+typedef struct direction {
+    graph_shift shift;
+    int along;
+} direction;
 
 static node seed(graph *g, node leaf, void *ctx)
 {
     direction *d = ctx;
     const graph_node *n = graph_at(g, leaf);
-    if (n->op != OP_LOAD)
-        return 0;
+    if (n->op != OP_LOAD) return 0;
     space from = g->arrays[g->references[n->a].array].space;
-    if ((from == SPACE_X && !(d->along & ALONG_X)) || (from == SPACE_V && !(d->along & ALONG_V)))
-        return 0;
+    if ((from == SPACE_X && !(d->along & ALONG_X)) || (from == SPACE_V && !(d->along & ALONG_V))) return 0;
     return graph_seed_direction(g, leaf, &d->shift);
 }
 
 static output *derivatives(model *m, int along)
 {
     output *o = arena_room(m->arena, m->accel_count * sizeof *o);
-    if (!o)
-        return NULL;
+    if (!o) return NULL;
     direction d = {{(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)}, along};
     for (size_t i = 0; i < m->accel_count; i++) {
         o[i] = m->accel[i];
@@ -81,8 +79,7 @@ static output *derivatives(model *m, int along)
 /* Derived only when a method asks for it: most do not. */
 static tape *derive(interpreter *in, int along)
 {
-    if (in->jvp[along])
-        return in->jvp[along];
+    if (in->jvp[along]) return in->jvp[along];
     const output *o = derivatives(in->model, along);
     return o ? in->jvp[along] = make(in->model, o, in->model->accel_count) : NULL;
 }
@@ -103,9 +100,9 @@ static int jvp(void *ctx, double t, double *x, double *v, const double *dx, cons
 {
     interpreter *in = ctx;
     tape *tp = derive(in, (dx ? ALONG_X : 0) | (dv ? ALONG_V : 0));
-    if (!tp)
-        return 1;
-    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = da, [SPACE_DX] = (double *)dx, [SPACE_DV] = (double *)dv};
+    if (!tp) return 1;
+    double *base[SPACES] = {
+        [SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = da, [SPACE_DX] = (double *)dx, [SPACE_DV] = (double *)dv};
     tape_run(tp, t, base);
     return 0;
 }
@@ -123,8 +120,7 @@ typedef struct structure {
 static int64_t subscript_value(const model *m, const subscript *s, const int64_t *index)
 {
     int64_t k = (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-    if (s->modulus < 0)
-        return k;
+    if (s->modulus < 0) return k;
     int64_t n = m->ints[s->modulus];
     return 1 + (k % n + n) % n;
 }
@@ -133,8 +129,7 @@ static size_t element(const model *m, const reference *r, const int64_t *index)
 {
     const array *a = &m->arrays[r->array];
     int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++)
-        at += (subscript_value(m, &r->at[d], index) - a->first[d]) * a->stride[d];
+    for (int d = 0; d < r->dims; d++) at += (subscript_value(m, &r->at[d], index) - a->first[d]) * a->stride[d];
     return (size_t)at;
 }
 
@@ -146,7 +141,8 @@ static void emit_loops(structure *s, const range *sums, int first_sum, int level
         return;
     }
     const range *loop = level < s->output->loops ? &s->output->loop[level] : &sums[level - first_sum];
-    int64_t first = subscript_value(s->model, &loop->first, s->index), last = subscript_value(s->model, &loop->last, s->index);
+    int64_t first = subscript_value(s->model, &loop->first, s->index),
+            last = subscript_value(s->model, &loop->last, s->index);
     for (s->index[level] = first; s->index[level] <= last; s->index[level]++)
         emit_loops(s, sums, first_sum, level + 1, levels, r);
 }
@@ -176,18 +172,25 @@ static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_error *err)
 {
     interpreter *in = arena_take(m->arena, sizeof *in);
-    if (m->arena->failed)
-        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    if (m->arena->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
     in->model = m;
     in->accel = make(m, m->accel, m->accel_count);
     in->boundary = m->boundary_count ? make(m, m->boundary, m->boundary_count) : NULL;
     in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
     in->looks = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->looks);
-    if (m->arena->failed || !in->accel || !in->looks)
-        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    if (m->arena->failed || !in->accel || !in->looks) return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(in->looks, 0, (m->definition_count + 1) * sizeof *in->looks);
-    *p = (problem){.ctx = in, .nx = m->nx, .nv = m->nv, .traits = m->traits, .accel = accel, .jvp = jvp, .prepare = prepare, .pattern = pattern,
-                   .refresh = m->driven ? refresh : NULL, .exact = in->exact ? exact : NULL, .name = name};
+    *p = (problem){.ctx = in,
+                   .nx = m->nx,
+                   .nv = m->nv,
+                   .traits = m->traits,
+                   .accel = accel,
+                   .jvp = jvp,
+                   .prepare = prepare,
+                   .pattern = pattern,
+                   .refresh = m->driven ? refresh : NULL,
+                   .exact = in->exact ? exact : NULL,
+                   .name = name};
     *out = in;
     return MOTUS_OK;
 }
@@ -197,14 +200,10 @@ bool interpreter_look(interpreter *in, model_definition *d, double t, double *x,
     model *m = in->model;
     tape **look = &in->looks[d - m->definitions];
     bool wants_a = false;
-    if (!*look)
-        *look = make(m, d->outputs, d->output_count);
-    for (size_t k = 0; k < d->output_count; k++)
-        wants_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
-    if (wants_a && !in->acceleration)
-        in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
-    if (!*look || (wants_a && !in->acceleration))
-        return false;
+    if (!*look) *look = make(m, d->outputs, d->output_count);
+    for (size_t k = 0; k < d->output_count; k++) wants_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
+    if (wants_a && !in->acceleration) in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
+    if (!*look || (wants_a && !in->acceleration)) return false;
     if (wants_a) {
         memset(in->acceleration, 0, m->nv * sizeof(double));
         accel(in, t, x, v, in->acceleration);
@@ -220,13 +219,10 @@ bool interpreter_rebind(interpreter *in)
     binding b = {m->arrays, m->ints, m->pool};
     tape *const tapes[] = {in->accel, in->boundary, in->exact, in->jvp[0], in->jvp[1], in->jvp[2], in->jvp[3]};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
-        if (tapes[k] && !tape_bind(tapes[k], &b))
-            return false;
+        if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
-        if (in->looks[k] && !tape_bind(in->looks[k], &b))
-            return false;
+        if (in->looks[k] && !tape_bind(in->looks[k], &b)) return false;
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
-    if (in->boundary)
-        tape_run(in->boundary, m->start, base);
+    if (in->boundary) tape_run(in->boundary, m->start, base);
     return true;
 }

@@ -1,6 +1,7 @@
 /* Lanes: what they can do, the text, the object. See lanes.h.
  *
- * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and of threads are not in it.
+ * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and
+ * of threads are not in it.
  */
 #include "machine/lanes_parts.h"
 
@@ -11,21 +12,21 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, LOOK_WEIGHT = 30 };      /* vectors in a block; operations in one step of all of
-                                                                              * them; in a function; in a quantity */
+/* vectors in a block; operations in one step of all of them; in a function; in a quantity */
+enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, LOOK_WEIGHT = 30 };
 enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
-/* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one is company enough for
- * itself, and a compiler has enough to do. */
+/* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one
+ * is company enough for itself, and a compiler has enough to do. */
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
     if (plan->solves && !(plan->row->family == IMPLICIT ? plan->direct : plan->linear))
-        return 1;                                    /* a step of several iterations is long */
+        return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
-    for (uint32_t k = 0; k < g->count; k++)          /* what depends on time alone is in the table */
+    for (uint32_t k = 0; k < g->count; k++) /* what depends on time alone is in the table */
         operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
     for (size_t k = 0; k < d->source_count; k++)
         operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
@@ -36,14 +37,12 @@ static int best_groups(const lanes_def *d, const work *plan)
 
 const char *lanes_refuse(const lanes_def *d)
 {
-    if (d->chosen->row->family == EXACT)
-        return "the exact motion is computed one trajectory at a time";
+    if (d->chosen->row->family == EXACT) return "the exact motion is computed one trajectory at a time";
     if (!solve_text_admits(d->model, d->problem, d->chosen))
         return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
     if (d->chosen->row->gyroscopic && (!d->problem->traits.constant_jv || (!d->whole && d->last == 0)))
         return "whether the velocity term does no work depends on the state: trajectories are computed one at a time";
-    if (row_adaptive(d->chosen))
-        return "the steps of this method adapt to each trajectory, one at a time";
+    if (row_adaptive(d->chosen)) return "the steps of this method adapt to each trajectory, one at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
     if (d->model->graph->count > OPERATIONS_MAX)
@@ -51,14 +50,16 @@ const char *lanes_refuse(const lanes_def *d)
     uint32_t count;
     const vary_active *active = vary_entries(d->vary, &count);
     for (uint32_t k = 0; k < count; k++)
-        if (active[k].entry->map)
-            return "initial values of a family vary: trajectories are computed one at a time";
+        if (active[k].entry->map) return "initial values of a family vary: trajectories are computed one at a time";
     return NULL;
 }
 
 /* ---- the text ---- */
 
-typedef struct looked { const model_definition *definition; size_t first; } looked;
+typedef struct looked {
+    const model_definition *definition;
+    size_t first;
+} looked;
 
 static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *outs)
 {
@@ -67,12 +68,9 @@ static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *out
     for (size_t i = 0; i < d->source_count; i++) {
         const lanes_source *s = &d->sources[i];
         bool known = s->kind != SOURCE_DEFINITION;
-        for (size_t k = 0; k < count; k++)
-            known |= s->definition == list[k].definition;
-        if (known)
-            continue;
-        if (count == LOOKS_MAX)
-            return SIZE_MAX;
+        for (size_t k = 0; k < count; k++) known |= s->definition == list[k].definition;
+        if (known) continue;
+        if (count == LOOKS_MAX) return SIZE_MAX;
         list[count++] = (looked){s->definition, *outs};
         *outs += s->definition->numbers;
     }
@@ -90,15 +88,17 @@ static void write_records(emit_text *t, const lanes_def *d, const looked *looks,
         const lanes_source *s = &d->sources[i];
         size_t first = 0;
         for (size_t k = 0; k < look_count; k++)
-            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition)
-                first = looks[k].first;
-        static const int from[] = {[SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
+            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition) first = looks[k].first;
+        static const int from[] = {
+            [SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
         emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
         looking |= s->how != REDUCE_FINAL;
         velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
     }
-    emit_add(t, "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define WRITTEN_OUT_RECORDS%s\n", d->source_count, looking,
-             velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
+    emit_add(t,
+             "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define "
+             "WRITTEN_OUT_RECORDS%s\n",
+             d->source_count, looking, velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
 }
 
 /* The functions of the text that call the programs, all of one kind in one. */
@@ -107,29 +107,35 @@ static char *write_glue(lanes *l, const composed_program *along, size_t entries,
     emit_text t = {.arena = l->def.model->arena};
     const bool bounded = l->def.model->boundary_count > 0;
     write_records(&t, &l->def, looks, look_count);
-    emit_add(&t, "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    compiled_force_bind(pool, q, u);\n%s",
+    emit_add(&t,
+             "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    "
+             "compiled_force_bind(pool, q, u);\n%s",
              bounded ? "    compiled_boundary_bind(pool, q, u);\n" : "");
-    for (const composed_program *p = along; p->name; p++)
-        emit_add(&t, "    %s_bind(pool, q, u);\n", p->name);
-    for (size_t k = 0; k < entries; k++)
-        emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
-    for (size_t k = 0; k < look_count; k++)
-        emit_add(&t, "    look_%zu_bind(pool, q, u);\n", k);
-    emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host, const real *values)\n{\n    (void)host;\n");
+    for (const composed_program *p = along; p->name; p++) emit_add(&t, "    %s_bind(pool, q, u);\n", p->name);
+    for (size_t k = 0; k < entries; k++) emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
+    for (size_t k = 0; k < look_count; k++) emit_add(&t, "    look_%zu_bind(pool, q, u);\n", k);
+    emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host, const real "
+                 "*values)\n{\n    (void)host;\n");
     for (size_t k = 0; k <= entries; k++) {
         emit_add(&t, "    for (whole k = 0; k < job->value_count; k++) host->own[job->places[k]] = values[k];\n");
         if (k < entries)
-            emit_add(&t, "    start_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n    start_%zu" CALL
-                         "0, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n", k, k);
+            emit_add(
+                &t,
+                "    start_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n    start_%zu" CALL
+                "0, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n",
+                k, k);
     }
-    emit_add(&t, "}\n\nstatic inline void lanes_bind_lanes(const compiled_host *host)\n{\n"
-                 "    compiled_force_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n%s",
-             bounded ? "    compiled_boundary_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n" : "");
+    emit_add(&t,
+             "}\n\nstatic inline void lanes_bind_lanes(const compiled_host *host)\n{\n"
+             "    compiled_force_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n%s",
+             bounded ? "    compiled_boundary_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n"
+                     : "");
     for (const composed_program *p = along; p->name; p++)
         emit_add(&t, "    %s_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", p->name);
     for (size_t k = 0; k < look_count; k++)
         emit_add(&t, "    look_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", k);
-    emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, real *out)\n{\n"
+    emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, "
+                 "real *out)\n{\n"
                  "    (void)host, (void)t, (void)x, (void)v, (void)a, (void)out;\n");
     for (size_t k = 0; k < look_count; k++)
         emit_add(&t, "    look_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu);\n", k, looks[k].first);
@@ -149,16 +155,15 @@ static bool write_text(lanes *l)
     const size_t look_count = list_looks(d, looks, &l->outs), count = 4 + entries + look_count;
     composed_program *programs = arena_room(m->arena, count * sizeof *programs);
     char *names = arena_room(m->arena, count * PROGRAM_NAME);
-    if (!programs || !names)
-        return false;
+    if (!programs || !names) return false;
     size_t n = 0;
     programs[n++] = (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", true};
     composed_program along[3] = {{0}};
     const size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
-    for (size_t k = 0; k < alongs; k++)
-        programs[n++] = along[k];
+    for (size_t k = 0; k < alongs; k++) programs[n++] = along[k];
     if (m->boundary_count)
-        programs[n++] = (composed_program){program_create(m->graph, m->boundary, m->boundary_count), "compiled_boundary", false};
+        programs[n++] =
+            (composed_program){program_create(m->graph, m->boundary, m->boundary_count), "compiled_boundary", false};
     for (uint32_t k = 0; k < entries; k++) {
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "start_%u", k);
         programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false};
@@ -169,15 +174,24 @@ static bool write_text(lanes *l)
         for (size_t i = 0; i < definition->output_count; i++)
             l->wants_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "look_%zu", k);
-        programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count), names + n * PROGRAM_NAME, false};
+        programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count),
+                                         names + n * PROGRAM_NAME, false};
         n++;
     }
-    static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h", "machine/text/lanes.h", NULL};
+    static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h",
+                                       "machine/text/lanes.h", NULL};
     l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
-    const composition c = {.model = m, .problem = d->problem, .chosen = d->chosen, .programs = programs, .program_count = n, .width = l->width,
-                           .solves = l->plan.solves > 0, .groups = l->groups, .glue = write_glue(l, along, entries, looks, look_count), .last = last};
-    if (m->arena->failed || !compose(&l->e, &c))
-        return false;
+    const composition c = {.model = m,
+                           .problem = d->problem,
+                           .chosen = d->chosen,
+                           .programs = programs,
+                           .program_count = n,
+                           .width = l->width,
+                           .solves = l->plan.solves > 0,
+                           .groups = l->groups,
+                           .glue = write_glue(l, along, entries, looks, look_count),
+                           .last = last};
+    if (m->arena->failed || !compose(&l->e, &c)) return false;
     return true;
 }
 
@@ -195,21 +209,18 @@ static bool prepare(lanes *l)
     l->places = arena_room(a, (d->place_count + 1) * sizeof *l->places);
     l->from_x = arena_room(a, (m->nx + 1) * sizeof *l->from_x);
     l->from_v = arena_room(a, (m->nv + 1) * sizeof *l->from_v);
-    if (a->failed)
-        return false;
-    for (uint32_t k = 0; k < l->e.int_count; k++)
-        l->q[k] = emit_int_value(&l->e.ints[k], m->arrays, m->ints);
+    if (a->failed) return false;
+    for (uint32_t k = 0; k < l->e.int_count; k++) l->q[k] = emit_int_value(&l->e.ints[k], m->arrays, m->ints);
     l->bind(m->pool, l->q, l->u);
-    for (size_t k = 0; k < d->place_count; k++)
-        l->places[k] = (int64_t)d->places[k];
+    for (size_t k = 0; k < d->place_count; k++) l->places[k] = (int64_t)d->places[k];
     const uint8_t *affected = vary_affected(d->vary);
     for (uint32_t i = 0; i < m->state_count; i++) {
         const model_state *s = &m->states[i];
         size_t numbers = s->hull * (size_t)(s->components ? s->components : 1);
         for (size_t k = 0; k < numbers; k++) {
-            size_t first = m->arrays[s->start_array[0]].base + k, second = s->order == 2 ? m->arrays[s->start_array[1]].base + k : first;
-            if (s->order == 2)
-                l->from_x[s->base + k] = affected[first] ? (int64_t)first : -1;
+            size_t first = m->arrays[s->start_array[0]].base + k,
+                   second = s->order == 2 ? m->arrays[s->start_array[1]].base + k : first;
+            if (s->order == 2) l->from_x[s->base + k] = affected[first] ? (int64_t)first : -1;
             l->from_v[s->base + k] = affected[second] ? (int64_t)second : -1;
         }
     }
@@ -219,7 +230,8 @@ static bool prepare(lanes *l)
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
-    l->solve_size = (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
+    l->solve_size =
+        (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
     l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
     return true;
 }
@@ -230,8 +242,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     looked looks[LOOKS_MAX];
     size_t outs;
     lanes *l = arena_take(m->arena, sizeof *l);
-    if (m->arena->failed)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (m->arena->failed) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *l = (lanes){.def = *d, .width = compose_width()};
     if (list_looks(d, looks, &outs) == SIZE_MAX) {
         snprintf(note, size, "more than %d quantities are recorded", LOOKS_MAX);
@@ -239,18 +250,14 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     }
     l->plan = stepper_plan(d->problem, d->chosen, NULL);
     coef *constants = arena_room(m->arena, (work_plan_size(&l->plan) + 1) * sizeof *constants);
-    if (!constants)
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (!constants) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     l->plan = stepper_plan(d->problem, d->chosen, constants);
-    if (d->lanes && d->lanes < l->width)
-        l->width = d->lanes;
+    if (d->lanes && d->lanes < l->width) l->width = d->lanes;
     l->groups = d->lanes ? d->lanes / l->width : best_groups(d, &l->plan);
     l->block = l->width * l->groups;
-    if (!write_text(l))
-        return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
+    if (!write_text(l)) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
-    if (!l->handle)
-        return MOTUS_TOOL;
+    if (!l->handle) return MOTUS_TOOL;
     /* POSIX promises that a function's address survives the way through void *. */
     *(void **)&l->bind = dlsym(l->handle, "motus_lanes_bind");
     *(void **)&l->table = dlsym(l->handle, "motus_lanes_table");
@@ -276,8 +283,6 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
 
 void lanes_destroy(lanes *l)
 {
-    if (l && l->handle)
-        dlclose(l->handle);
-    if (l)
-        l->handle = NULL;
+    if (l && l->handle) dlclose(l->handle);
+    if (l) l->handle = NULL;
 }

@@ -1,5 +1,6 @@
-/* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for the model, the method and what
- * varies. Where a method solves equations, they are small and of one structure; those of families go one trajectory at a time.
+/* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for
+ * the model, the method and what varies. Where a method solves equations, they are small and of one structure; those
+ * of families go one trajectory at a time.
  */
 #ifndef MACHINE_LANES_H
 #define MACHINE_LANES_H
@@ -9,11 +10,12 @@
 
 typedef struct lanes lanes;
 
-typedef struct lanes_source {        /* a number that is recorded: time, x[place], v[place], or number `place` of a definition */
+/* a number that is recorded: time, x[place], v[place], or number `place` of a definition */
+typedef struct lanes_source {
     enum { SOURCE_TIME, SOURCE_X, SOURCE_V, SOURCE_DEFINITION } kind;
     const model_definition *definition;
     size_t place;
-    int how;                         /* REDUCE_ of machine/text/reduce.h */
+    int how; /* REDUCE_ of machine/text/reduce.h */
 } lanes_source;
 
 typedef struct lanes_def {
@@ -21,11 +23,13 @@ typedef struct lanes_def {
     const problem *problem;
     const chosen *chosen;
     const vary *vary;
-    const size_t *places; size_t place_count;        /* of the pool, that vary */
-    const lanes_source *sources; size_t source_count;
-    double t0, h, last, until;       /* last: the shorter last step, 0 none */
+    const size_t *places;
+    size_t place_count; /* of the pool, that vary */
+    const lanes_source *sources;
+    size_t source_count;
+    double t0, h, last, until; /* last: the shorter last step, 0 none */
     int64_t whole, every;
-    int lanes, threads;              /* lanes 0: as many as suits */
+    int lanes, threads; /* lanes 0: as many as suits */
     bool fast;
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
@@ -37,9 +41,10 @@ const char *lanes_refuse(const lanes_def *);
 /* The definition's pointers must outlive it. note[size]: why there is no object, where the status is MOTUS_TOOL. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
-/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. MOTUS_METHOD, with no error: lanes cannot tell whether the method admits the
- * parameters of every trajectory; one at a time can. */
-motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped, motus_error *);
+/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. MOTUS_METHOD, with no error: lanes cannot tell
+ * whether the method admits the parameters of every trajectory; one at a time can. */
+motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped,
+                       motus_error *);
 int lanes_in_block(const lanes *);
 
 #endif

@@ -1,5 +1,5 @@
-/* The compiled machine where there is no compiler: in a browser. It stands in for machine/compiled.c (and all that it needs) in the page's module;
- * whoever asks for machine code is told, and the interpreter serves.
+/* The compiled machine where there is no compiler: in a browser. It stands in for machine/compiled.c (and all that it
+ * needs) in the page's module; whoever asks for machine code is told, and the interpreter serves.
  */
 #include "machine/compiled.h"
 

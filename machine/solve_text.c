@@ -29,8 +29,7 @@ size_t solve_text_programs(model *m, const problem *p, const chosen *chosen, com
 {
     const work plan = stepper_plan(p, chosen, NULL);
     size_t count = 0;
-    if (!plan.solves)
-        return 0;
+    if (!plan.solves) return 0;
     if (plan.solves_x)
         programs[count++] = (composed_program){interpreter_derivative(m, false), "compiled_along_x", false};
     if (p->traits.velocity)
@@ -70,8 +69,7 @@ static void write_derivative(emit_text *t, const sparse *m, const char *name)
 {
     for (size_t colour = 0; colour < m->colours; colour++) {
         const size_t first = m->colour_start[colour], end = m->colour_start[colour + 1];
-        for (size_t i = first; i < end; i++)
-            emit_add(t, "    d[%u] = MANY(1.0);\n", m->colour_column[i]);
+        for (size_t i = first; i < end; i++) emit_add(t, "    d[%u] = MANY(1.0);\n", m->colour_column[i]);
         emit_add(t,
                  "    compiled_along_%s(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, "
                  "v, image, d);\n",
@@ -106,10 +104,8 @@ static void write_matrix(emit_text *t, const structure *s)
                 "m)\n{\n    (void)z, (void)ax, (void)av;\n");
     for (size_t k = 0; k < (diagonal ? s->n : s->n * s->n); k++)
         emit_add(t, "    m[%zu] = MANY(%s);\n", k, diagonal || k % (s->n + 1) == 0 ? "1.0" : "0.0");
-    if (s->use_x)
-        write_entries(t, s, &s->x, "x");
-    if (s->use_v)
-        write_entries(t, s, &s->v, "v");
+    if (s->use_x) write_entries(t, s, &s->x, "x");
+    if (s->use_v) write_entries(t, s, &s->v, "v");
     emit_add(t, "}\n\n");
 }
 
@@ -134,8 +130,7 @@ static void write_apply(emit_text *t, const structure *s, size_t nv)
 {
     emit_add(t, "static inline void solve_multiply(const solving *z, clock c, const real *restrict y, real *restrict "
                 "out)\n{\n    (void)z, (void)c;\n");
-    for (size_t k = 0; k < nv; k++)
-        emit_add(t, "    out[%zu] = y[%zu];\n", k, k);
+    for (size_t k = 0; k < nv; k++) emit_add(t, "    out[%zu] = y[%zu];\n", k, k);
     for (int off = 0; off < 2; off++)
         for (size_t k = 0; s->use_v && k < s->v.columns; k++)
             for (size_t e = s->v.start[k]; e < s->v.start[k + 1]; e++)
@@ -154,8 +149,7 @@ static void write_turns(emit_text *t, const structure *s, bool gyroscopic)
         for (size_t e = s->v.start[c]; e < s->v.start[c + 1]; e++) {
             const size_t row = s->v.row[e];
             size_t other = s->v.start[row];
-            while (other < s->v.start[row + 1] && s->v.row[other] != c)
-                other++;
+            while (other < s->v.start[row + 1] && s->v.row[other] != c) other++;
             if (row == c || other == s->v.start[row + 1])
                 emit_add(t, "    turns = turns & (z->v[%zu] == 0);\n", e);
             else
@@ -186,12 +180,9 @@ bool solve_text_write(emit_text *t, const composition *c)
             "static inline void solve_derive(const compiled_host *host, clock t, real *x, real *v, solving *z)\n{\n"
             "    real d[%zu], image[%zu];\n    (void)host, (void)t, (void)x, (void)v, (void)z, (void)image;\n",
             p->nv, p->nv);
-        for (size_t k = 0; k < p->nv; k++)
-            emit_add(t, "    d[%zu] = MANY(0.0);\n", k);
-        if (s.use_x)
-            write_derivative(t, &s.x, "x");
-        if (s.use_v)
-            write_derivative(t, &s.v, "v");
+        for (size_t k = 0; k < p->nv; k++) emit_add(t, "    d[%zu] = MANY(0.0);\n", k);
+        if (s.use_x) write_derivative(t, &s.x, "x");
+        if (s.use_v) write_derivative(t, &s.v, "v");
         emit_add(t, "}\n\n");
         write_matrix(t, &s);
         write_moves(t, &s, p->nv);

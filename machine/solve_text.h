@@ -7,8 +7,8 @@
 #include "machine/compose.h"
 
 enum {
-    SOLVE_TEXT_MAX = 12,                 /* unknowns of all stages: their matrix is in the text, entry by entry */
-    SOLVE_OPERATIONS_MAX = OPERATIONS_MAX / 8      /* of the graph: a derivative is some times as long */
+    SOLVE_TEXT_MAX = 12,                      /* unknowns of all stages: their matrix is in the text, entry by entry */
+    SOLVE_OPERATIONS_MAX = OPERATIONS_MAX / 8 /* of the graph: a derivative is some times as long */
 };
 
 /* Whether a row's linear systems, if it has any, can be a text. */

@@ -2,7 +2,9 @@
 #ifndef MACHINE_TEXTS_H
 #define MACHINE_TEXTS_H
 
-typedef struct embedded_text { const char *name, *text; } embedded_text;     /* "step/splitting.h"; the last row is NULL */
+typedef struct embedded_text {
+    const char *name, *text;
+} embedded_text; /* "step/splitting.h"; the last row is NULL */
 extern const embedded_text texts_table[];
 
 #endif

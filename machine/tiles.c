@@ -1,7 +1,7 @@
 /* See tiles.h. */
 #include "machine/tiles.h"
 
-enum { LINE = 8 };                   /* numbers in a cache line: where windows of a chain begin and end */
+enum { LINE = 8 }; /* numbers in a cache line: where windows of a chain begin and end */
 
 static whole up_to(whole k, whole unit) { return (k + unit - 1) / unit * unit; }
 
@@ -14,15 +14,12 @@ static size_t stills(const model *m, size_t *to)
             const model_state *s = &m->states[i];
             const size_t components = s->components ? (size_t)s->components : 1;
             for (size_t k = 0; s->order == order && s->owner && k < components * s->hull; k++) {
-                if (s->owner[k % s->hull] == 1)
-                    continue;
+                if (s->owner[k % s->hull] == 1) continue;
                 const size_t place = s->base + k;
-                if (place != end && to)
-                    to[2 * count] = place;
+                if (place != end && to) to[2 * count] = place;
                 count += place != end;
                 end = place + 1;
-                if (to)
-                    to[2 * count - 1] = end;
+                if (to) to[2 * count - 1] = end;
             }
         }
     return count;
@@ -37,23 +34,22 @@ const tiling *tiles_create(const model *m, const locality *l)
     tiling_part *part = arena_room(m->arena, (parts + 1) * sizeof *part);
     const size_t count = stills(m, NULL);
     size_t *still = arena_room(m->arena, (2 * count + 1) * sizeof *still);
-    if (!t || !part || !still)
-        return NULL;
+    if (!t || !part || !still) return NULL;
     stills(m, still);
-    *t = (tiling){.part = part, .still = still, .stills = count, .first = INT64_MAX, .last = INT64_MIN, .reach = l->reach};
+    *t = (tiling){
+        .part = part, .still = still, .stills = count, .first = INT64_MAX, .last = INT64_MIN, .reach = l->reach};
     for (int order = 2; order >= 1; order--)
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];
-            if (s->order != order)
-                continue;
+            if (s->order != order) continue;
             const size_t cells = (size_t)(s->last[0] - s->first[0] + 1);
             for (size_t c = 0; c < (s->components ? (size_t)s->components : 1); c++) {
-                part[t->parts] = (tiling_part){.base = s->base + c * s->hull, .stride = s->hull / cells, .cells = cells, .first = s->first[0]};
+                part[t->parts] = (tiling_part){
+                    .base = s->base + c * s->hull, .stride = s->hull / cells, .cells = cells, .first = s->first[0]};
                 t->numbers += part[t->parts].stride;
                 t->parts++;
             }
-            if (order == 2)
-                t->positions = t->parts;
+            if (order == 2) t->positions = t->parts;
             t->first = s->first[0] < t->first ? s->first[0] : t->first;
             t->last = s->last[0] > t->last ? s->last[0] : t->last;
         }

@@ -1,4 +1,5 @@
-/* BEEMAN: x[n+1] = x + h v + h²/6 (4 a[n] - a[n-1]), v[n+1] = v + h/6 (2 a[n+1] + 5 a[n] - a[n-1]), a[-1] = a[0] [Beeman76].
+/* BEEMAN: x[n+1] = x + h v + h²/6 (4 a[n] - a[n-1]), v[n+1] = v + h/6 (2 a[n+1] + 5 a[n] - a[n-1]), a[-1] = a[0]
+ * [Beeman76].
  *
  * Invariant: between steps `v` lacks the term h/3 a[n+1] until that acceleration is needed for the positions.
  */
@@ -10,8 +11,10 @@ static int beeman_step(work *w)
     if (bad) return bad;
     real *restrict x = w->x, *restrict v = w->v, *restrict a = w->a, *restrict old = w->old;
     const clock h = w->h, third = h / 3, sixth = h / 6, hh_sixth = w->hh / 6;
-    if (FIRST(w)) EACHV(k) old[k] = a[k];
-    else EACHV(k) ADVANCE(v[k], third, a[k]);
+    if (FIRST(w))
+        EACHV(k) old[k] = a[k];
+    else
+        EACHV(k) ADVANCE(v[k], third, a[k]);
     EACH(k) x[k] += FMA(h, v[k], hh_sixth * FMA((clock)4, a[k], -old[k]));
     EACHV(k) ADVANCE(v[k], sixth, FMA((clock)5, a[k], -old[k]));
     if (SMALL) {
@@ -29,8 +32,10 @@ static int beeman_sync(work *w, real *x, real *v)
 {
     const clock third = w->h / 3;
     EACH(k) x[k] = w->x[k];
-    if (FIRST(w)) EACHV(k) v[k] = w->v[k];
-    else EACHV(k) v[k] = FMA(third, w->a[k], w->v[k]);
+    if (FIRST(w))
+        EACHV(k) v[k] = w->v[k];
+    else
+        EACHV(k) v[k] = FMA(third, w->a[k], w->v[k]);
     return STEP_OK;
 }
 
@@ -64,6 +69,8 @@ static void beeman_trace(work *w, int i)
 {
     if (i < 0) return;
     /* The array of the acceleration is free for the next one. */
-    tell(w, (trace_event){.kind = MOTUS_EVENT_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x, .before_a = w->a});
+    tell(w,
+         (trace_event){
+             .kind = MOTUS_EVENT_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x, .before_a = w->a});
 }
 #endif

@@ -1,7 +1,7 @@
 /* THE STEP SIZE of adaptive rows: the size of the next candidate, and whether a candidate is accepted.
  *
- * Invariant: no step passes w->until, and the one that reaches it ends there exactly. Sizes are halved and doubled, so they are exact; the order of
- * the error estimate says when twice the size would do.
+ * Invariant: no step passes w->until, and the one that reaches it ends there exactly. Sizes are halved and doubled,
+ * so they are exact; the order of the error estimate says when twice the size would do.
  */
 static inline clock control_size(work *w)
 {

@@ -1,12 +1,12 @@
-/* EXACT: the motion itself, where it is known: by the formula of free fall from the start where the acceleration is constant, else by the model's
- * own exact line.
+/* EXACT: the motion itself, where it is known: by the formula of free fall from the start where the acceleration is
+ * constant, else by the model's own exact line.
  *
  * Invariant: nothing leads from step to step but their number.
  */
 static int exact_step(work *w) { return (void)w, STEP_OK; }
-#define exact_accept step_is_final
+#define exact_accept  step_is_final
 #define exact_observe state_is_complete
-#define exact_dense dense_hermite
+#define exact_dense   dense_hermite
 
 static int exact_sync(work *w, real *x, real *v)
 {
@@ -25,7 +25,10 @@ static int exact_carry(const work *w, real *list[CARRY_MAX]) { return (void)w, (
 static inline void exact_place(work *w, placing *p) { (void)w, (void)p; }
 
 #ifdef ROWS
-static void exact_plan(work *w, const double argument[2], coef *unit, coef *c) { (void)w, (void)argument, (void)unit, (void)c; }
+static void exact_plan(work *w, const double argument[2], coef *unit, coef *c)
+{
+    (void)w, (void)argument, (void)unit, (void)c;
+}
 #endif
 
 #ifdef TRACING

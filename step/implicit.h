@@ -1,8 +1,10 @@
-/* IMPLICIT: stages K[i] = a(X[i], V[i], t + c[i] h), X[i] = x + c[i] h v + h² Σ aa[i][j] K[j], V[i] = v + h Σ a[i][j] K[j]: collocation at the
- * Gauss nodes, and Newmark's method, whose one implicit stage is the end of the step [HLW06, II.1; Newmark59].
+/* IMPLICIT: stages K[i] = a(X[i], V[i], t + c[i] h), X[i] = x + c[i] h v + h² Σ aa[i][j] K[j], V[i] = v + h Σ a[i][j]
+ * K[j]: collocation at the Gauss nodes, and Newmark's method, whose one implicit stage is the end of the step [HLW06,
+ * II.1; Newmark59].
  *
- * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state multiplied by h; they are iterated
- * until they no longer change. Simplified Newton: one matrix a step, evaluated in the middle of the stages, and again where it does not contract.
+ * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
+ * multiplied by h; they are iterated until they no longer change. Simplified Newton: one matrix a step, evaluated in
+ * the middle of the stages, and again where it does not contract.
  */
 static inline void implicit_stage(work *w, int i)
 {
@@ -14,7 +16,8 @@ static inline void implicit_stage(work *w, int i)
     EACHV(k) V[k] = v[k] + tableau_sum(w, a, false, K, k, s);
 }
 
-/* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first iteration. */
+/* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first
+ * iteration. */
 static inline int implicit_matrix(work *w, truth *where)
 {
     const int first = FACT(w, known), all = FACT(w, stages), s = all - first;
@@ -56,7 +59,8 @@ static inline int implicit_iterate(work *w)
         STOP(w, open & now.lost, m == 0 ? STEP_DIVERGED : STEP_SOLVE);
         open = open & NOT(now.lost | now.done);
         if (!SOME(open) || FACT(w, direct)) return STEP_OK;
-        const truth stuck = open & now.stuck, slow = m % PATIENCE == PATIENCE - 1 ? open : stuck, renew = slow & (renewed < RENEWALS);
+        const truth stuck = open & now.stuck, slow = m % PATIENCE == PATIENCE - 1 ? open : stuck,
+                    renew = slow & (renewed < RENEWALS);
         truth good = renew;
         renewed = PICK(slow, renewed + 1, renewed);
         STOP(w, stuck & NOT(renew), STEP_SOLVE);
@@ -75,13 +79,14 @@ static int implicit_step(work *w)
     const size_t stride = w->stride;
     const clock h = w->h;
     const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
-    if (!FACT(w, known) || FIRST(w)) {               /* newmark's last stage is the next step's first */
+    if (!FACT(w, known) || FIRST(w)) { /* newmark's last stage is the next step's first */
         EACH(k) w->xs[k] = x[k];
         EACHV(k) w->vs[k] = v[k];
         int bad = accel_now(w, w->xs, w->vs, w->a);
         if (bad) return bad;
     }
-    for (int i = 0; i < s; i++) EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
+    for (int i = 0; i < s; i++)
+        EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
     int bad = implicit_iterate(w);
     if (bad) return bad;
     for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
@@ -93,13 +98,14 @@ static int implicit_step(work *w)
         EACH(k) x[k] += FMA(h, v[k], tableau_sum(w, bb, false, K, k, s));
         EACHV(k) v[k] += tableau_sum(w, b, false, K, k, s);
     }
-    if (FACT(w, known)) EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
+    if (FACT(w, known))
+        EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
     return STEP_OK;
 }
-#define implicit_accept step_is_final
+#define implicit_accept  step_is_final
 #define implicit_observe state_is_complete
-#define implicit_sync work_sync_main
-#define implicit_dense dense_hermite
+#define implicit_sync    work_sync_main
+#define implicit_dense   dense_hermite
 
 static int implicit_carry(const work *w, real *list[CARRY_MAX])
 {

@@ -1,7 +1,8 @@
-/* VERLET, LITERALLY: x[n+1] = 2 x[n] - x[n-1] + h² a with plain products and sums; and where a = g + j v its quotient form
- * x[n+1] = (2 x[n] - (1 + h j/2) x[n-1] + h² g)/(1 - h j/2) [Verlet67].
+/* VERLET, LITERALLY: x[n+1] = 2 x[n] - x[n-1] + h² a with plain products and sums; and where a = g + j v its quotient
+ * form x[n+1] = (2 x[n] - (1 + h j/2) x[n-1] + h² g)/(1 - h j/2) [Verlet67].
  *
- * Invariant: as in verlet.h, v[n] = (x[n+1] - x[n-1])/2h. First-order variables are carried as integrals that start at 0.
+ * Invariant: as in verlet.h, v[n] = (x[n+1] - x[n-1])/2h. First-order variables are carried as integrals that start
+ * at 0.
  */
 static int literal_observe(work *w)
 {
@@ -12,10 +13,12 @@ static int literal_observe(work *w)
     int bad = STEP_OK;
     if (FIRST(w)) {
         bad = accel_now(w, w->x, w->v, w->a);
-        if (!bad) EACHV(k) next[k] = x[k] + h * w->v[k] + w->half_hh * w->a[k];
+        if (!bad)
+            EACHV(k) next[k] = x[k] + h * w->v[k] + w->half_hh * w->a[k];
     } else if (!FACT(w, velocity)) {
         bad = accel_now(w, w->x, w->vs, w->a);
-        if (!bad) EACHV(k) next[k] = 2 * x[k] - old[k] + hh * w->a[k];
+        if (!bad)
+            EACHV(k) next[k] = 2 * x[k] - old[k] + hh * w->a[k];
     } else if (FACT(w, linear)) {
         EACHV(k) w->vs[k] = (real){0};
         bad = accel_now(w, w->x, w->vs, w->a);
@@ -27,7 +30,8 @@ static int literal_observe(work *w)
     } else {
         EACHV(k) next[k] = x[k] - old[k];
         bad = newton_increment(w, hh, w->per_h, next, NEWTON_NOW);
-        if (!bad) EACHV(k) next[k] = 2 * x[k] - old[k] + w->delta[k];
+        if (!bad)
+            EACHV(k) next[k] = 2 * x[k] - old[k] + w->delta[k];
     }
     return bad;
 }
@@ -53,8 +57,10 @@ static int literal_step(work *w)
 static int literal_sync(work *w, real *x, real *v)
 {
     EACH(k) x[k] = w->x[k];
-    if (FIRST(w)) EACHV(k) v[k] = w->v[k];
-    else EACHV(k) v[k] = (w->next_x[k] - w->old[k]) / (2 * w->h);
+    if (FIRST(w))
+        EACHV(k) v[k] = w->v[k];
+    else
+        EACHV(k) v[k] = (w->next_x[k] - w->old[k]) / (2 * w->h);
     return STEP_OK;
 }
 
@@ -90,7 +96,12 @@ static void literal_trace(work *w, int i)
         return;
     }
     EACHV(k) to->v[k] = (w->x[k] - w->old[k]) * w->per_h;
-    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x,
-                          .v = to->v, .before_x = FIRST(w) ? NULL : to->x});
+    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
+                          .stage = 1,
+                          .time = time_now(w),
+                          .coefficient = 1,
+                          .x = w->x,
+                          .v = to->v,
+                          .before_x = FIRST(w) ? NULL : to->x});
 }
 #endif

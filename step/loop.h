@@ -24,20 +24,22 @@ static inline int advance_check(work *w)
     const real *restrict x = w->x, *restrict v = w->v;
     if (advance_finite(w)) return STEP_OK;
     w->in_v = false;
-    EACH(k) if (!FINITE(x[k])) {
-        w->which = k;
-        return STEP_DIVERGED;
-    }
+    EACH(k)
+        if (!FINITE(x[k])) {
+            w->which = k;
+            return STEP_DIVERGED;
+        }
     w->in_v = true;
-    EACHV(k) if (!FINITE(v[k])) {
-        w->which = k;
-        break;
-    }
+    EACHV(k)
+        if (!FINITE(v[k])) {
+            w->which = k;
+            break;
+        }
     return STEP_DIVERGED;
 }
 
-/* `steps` more, or up to w->until where time is carried; stops in the middle of a step that fails. Where a number is no longer finite,
- * advance_check says afterwards. */
+/* `steps` more, or up to w->until where time is carried; stops in the middle of a step that fails. Where a number is
+ * no longer finite, advance_check says afterwards. */
 static int advance_run(work *w, whole steps)
 {
     for (const whole end = w->n + steps; w->n < end;) {

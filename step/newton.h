@@ -8,7 +8,9 @@
 enum { NEWTON_MAX = 100 };
 
 /* What follows from a correction; where none of them holds, the iteration goes on. */
-typedef struct newton_verdict { truth done, stuck, lost; } newton_verdict;
+typedef struct newton_verdict {
+    truth done, stuck, lost;
+} newton_verdict;
 
 /* Judges the correction r of `value` (`count` vectors each), an increment to `unit` times `base`. *before: the last
  * judgement; start with a negative number. */
@@ -30,7 +32,7 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     }
     for (int i = 0; i < count; i++) {
         const real *value_i = value + (size_t)i * w->stride, *r_i = r + (size_t)i * w->stride;
-        EACHV(k) {                               /* 0/0 is no larger than anything */
+        EACHV(k) { /* 0/0 is no larger than anything */
             const real share = ABS(r_i[k]) / (ABS(value_i[k]) + ABS(unit * base[k]) + SQRT_EPSILON * largest);
             const truth more = share > worst;
             worst = PICK(more, share, worst);
@@ -51,8 +53,10 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
  * last judgement. */
 static inline void newton_correct(const work *w, truth open, real *restrict y, const real *restrict r)
 {
-    if (!SOME(NOT(open))) EACHV(k) y[k] += r[k];
-    else EACHV(k) y[k] = PICK(open, y[k] + r[k], y[k]);
+    if (!SOME(NOT(open)))
+        EACHV(k) y[k] += r[k];
+    else
+        EACHV(k) y[k] = PICK(open, y[k] + r[k], y[k]);
 }
 
 /* w->delta solves delta = g a(x, s (u + delta/2), t), at the time of stage `stage`, or of the present step:
@@ -82,7 +86,7 @@ static inline int newton_increment(work *w, clock g, clock s, const real *u, int
         w->iterations++;
         const newton_verdict now = newton_judge(w, r, delta, 1, u, 1, &before);
         STOP(w, open & now.lost, i == 0 ? STEP_DIVERGED : STEP_SOLVE);
-        open = open & NOT(now.lost | now.done);  /* far from the solution a full step may well grow once or twice */
+        open = open & NOT(now.lost | now.done); /* far from the solution a full step may well grow once or twice */
     }
     STOP(w, open, STEP_SOLVE);
     SPOIL(w, delta);

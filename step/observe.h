@@ -1,6 +1,7 @@
 /* OBSERVING a trajectory: its state at the present time, whatever form the method carries it in.
  *
- * Invariant: observing leaves the main line as it was; what had to be evaluated is kept, and counted when the method comes to use it.
+ * Invariant: observing leaves the main line as it was; what had to be evaluated is kept, and counted when the method
+ * comes to use it.
  */
 
 /* What the present state needs before it can be read; fills a (and delta, or next_x). */

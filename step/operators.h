@@ -1,8 +1,9 @@
 /* The operators kick, v += b h a, and drift, x += d h v, of stage i of a splitting row, on a problem of any size.
  *
- * Invariant: how the operators share their work changes no bit. A kick makes the drift of its stage in the same pass over memory where it can
- * (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the closing kick of a step waits and becomes one with the
- * opening kick of the next, which has the same acceleration. A kick whose acceleration is known from an observation does not evaluate it again.
+ * Invariant: how the operators share their work changes no bit. A kick makes the drift of its stage in the same pass
+ * over memory where it can (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the
+ * closing kick of a step waits and becomes one with the opening kick of the next, which has the same acceleration. A
+ * kick whose acceleration is known from an observation does not evaluate it again.
  */
 static inline coef kick_unit(const work *w, int i) { return w->unit[i]; }
 static inline coef drift_unit(const work *w, int i) { return w->unit[FACT(w, stages) + i]; }
@@ -10,11 +11,12 @@ static inline bool kicks(const work *w, int i) { return LIVE(w, i); }
 static inline bool drifts(const work *w, int i) { return LIVE(w, FACT(w, stages) + i); }
 static inline clock kick_size(const work *w, int i) { return w->scaled[i]; }
 static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, stages) + i]; }
-static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }          /* closing and opening kick in one */
+/* closing and opening kick in one */
+static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }
 static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stages) - 1]; }
 
-/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' rotation, the Cayley form of
- * exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' rotation, the Cayley
+ * form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
 static int kick_implicit(work *w, int i)
 {
     int bad = newton_increment(w, kick_size(w, i), 1, w->v, i);
@@ -23,10 +25,7 @@ static int kick_implicit(work *w, int i)
     return STEP_OK;
 }
 
-static inline bool kick_drifts(const work *w, int i)
-{
-    return FACT(w, fused) && kicks(w, i) && drifts(w, i);
-}
+static inline bool kick_drifts(const work *w, int i) { return FACT(w, fused) && kicks(w, i) && drifts(w, i); }
 
 static inline int kick(work *w, int i)
 {
@@ -34,7 +33,7 @@ static inline int kick(work *w, int i)
     if (FACT(w, solves)) return kick_implicit(w, i);
     const bool known = i == 0 && work_reuse(w);
     const clock b = i == 0 && FACT(w, fsal) && !FIRST(w) ? kick_joint(w) : kick_size(w, i), c = drift_size(w, i);
-#ifdef PASS                      /* a machine's own: acceleration, kick and drift of stage i in one pass over memory */
+#ifdef PASS /* a machine's own: acceleration, kick and drift of stage i in one pass over memory */
     if (!known && drifts(w, i)) {
         PASS(w, i, b, c);
         return STEP_OK;
@@ -70,6 +69,8 @@ static inline void drift(work *w, int i)
     real *restrict x = w->x, *restrict ex = w->ex;
     const real *restrict v = w->v;
     const clock c = drift_size(w, i);
-    if (ROW(w, compensated)) EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], c, v[k]);
-    else EACH(k) ADVANCE(x[k], c, v[k]);
+    if (ROW(w, compensated))
+        EACH(k) ADVANCE_COMPENSATED(x[k], ex[k], c, v[k]);
+    else
+        EACH(k) ADVANCE(x[k], c, v[k]);
 }

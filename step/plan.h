@@ -1,6 +1,7 @@
 /* The plan of a row and the places of the arrays, by the functions of its family. */
 #ifdef ROWS
-/* Sizes and facts of the plan; with memory for work_plan_size numbers, which must stay, its constants too. row, velocity and linear must be set. */
+/* Sizes and facts of the plan; with memory for work_plan_size numbers, which must stay, its constants too. row,
+ * velocity and linear must be set. */
 static void work_plan(work *w, const double argument[2], coef *memory)
 {
     w->carried = w->row->adaptive;
@@ -19,7 +20,8 @@ static void work_plan(work *w, const double argument[2], coef *memory)
 }
 #endif
 
-/* Gives every array its place in `memory`, and returns how many there are; memory NULL: counts alone. After work_plan. */
+/* Gives every array its place in `memory`, and returns how many there are; memory NULL: counts alone. After
+ * work_plan. */
 static size_t work_place(work *w, real *memory)
 {
     placing p = {memory, w->stride, 0};

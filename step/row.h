@@ -1,31 +1,36 @@
 /* A row: a method's family and its coefficients.
  *
- * Before this text the includer defines coef, a number, and ROW_CARD, the members that come first, and declares `row`; step/families.def stands
- * before it. The coefficients are lists of any length, so no row is larger than its method.
+ * Before this text the includer defines coef, a number, and ROW_CARD, the members that come first, and declares
+ * `row`; step/families.def stands before it. The coefficients are lists of any length, so no row is larger than its
+ * method.
  */
 #define FAMILY_NAME(NAME, name, shared) NAME,
 typedef enum family { FAMILIES(FAMILY_NAME) } family;
 #undef FAMILY_NAME
 
 struct row {
-    ROW_CARD                  /* what people see */
-    family family;
-    int arguments;            /* newmark takes two */
-    bool compensated;         /* x and v carry error words: where truncation is so small that round-off would rule */
-    bool uniform;             /* every step must have the same size: no shorter last one */
-    bool adaptive;            /* a step is a candidate that is accepted or refused, and the step size follows from its error */
-    bool gyroscopic;          /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
-    struct {                  /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
+    ROW_CARD /* what people see */
+        family family;
+    int arguments;    /* newmark takes two */
+    bool compensated; /* x and v carry error words: where truncation is so small that round-off would rule */
+    bool uniform;     /* every step must have the same size: no shorter last one */
+    /* a step is a candidate that is accepted or refused, and the step size follows from its error */
+    bool adaptive;
+    bool gyroscopic; /* the kick is implicit in v; only for a = E(x, t) + v × B(x, t) */
+    struct {         /* SPLITTING: v += kick[i] h a, then x += drift[i] h v, for i = 0 … stages-1 */
         int stages;
         const coef *kick, *drift;
     } splitting;
-    struct {                  /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, … w[count-1] h, symmetric: the first half is given */
+    /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, … w[count-1] h, symmetric: the first half is
+     * given */
+    struct {
         int count;
         const coef *weight;
     } composition;
-    struct {                  /* c: abscissae. a, row by row: RUNGE_KUTTA below the diagonal, 1 + 2 + … numbers; IMPLICIT all stages × stages */
+    /* c: abscissae. a, row by row: RUNGE_KUTTA below the diagonal, 1 + 2 + … numbers; IMPLICIT all stages × stages */
+    struct {
         int stages;
         const coef *c, *a, *b;
     } tableau;
-    bool newmark;             /* IMPLICIT: the tableau follows from the arguments */
+    bool newmark; /* IMPLICIT: the tableau follows from the arguments */
 };

@@ -1,4 +1,5 @@
-/* RUNGE-KUTTA, explicit: X[i] = x + h Σ a[i][j] V[j], V[i] = v + h Σ a[i][j] K[j], K[i] = a(X[i], V[i], t + c[i] h) [HNW93, II.1].
+/* RUNGE-KUTTA, explicit: X[i] = x + h Σ a[i][j] V[j], V[i] = v + h Σ a[i][j] K[j], K[i] = a(X[i], V[i], t + c[i] h)
+ * [HNW93, II.1].
  *
  * Invariant: sums of increments are formed first, the smallest numbers among themselves, and added to the state once.
  */
@@ -31,11 +32,11 @@ static int runge_kutta_step(work *w)
     }
     return STEP_OK;
 }
-#define runge_kutta_accept step_is_final
+#define runge_kutta_accept  step_is_final
 #define runge_kutta_observe state_is_complete
-#define runge_kutta_sync work_sync_main
-#define runge_kutta_carry work_carry_main
-#define runge_kutta_dense dense_hermite
+#define runge_kutta_sync    work_sync_main
+#define runge_kutta_carry   work_carry_main
+#define runge_kutta_dense   dense_hermite
 
 static inline void runge_kutta_place(work *w, placing *p)
 {

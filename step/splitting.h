@@ -1,7 +1,8 @@
-/* SPLITTING: every method of kicks v += b h a(x, t) and drifts x += d h v, once [HLW06, II.5]. operators.h makes them.
+/* SPLITTING: every method of kicks v += b h a(x, t) and drifts x += d h v, once [HLW06, II.5]. operators.h makes
+ * them.
  *
- * Invariant: in a row that begins and ends with a kick, `v` lacks the closing kick between steps; splitting_sync forms it aside, so observing
- * changes no bit.
+ * Invariant: in a row that begins and ends with a kick, `v` lacks the closing kick between steps; splitting_sync
+ * forms it aside, so observing changes no bit.
  */
 static int splitting_step(work *w)
 {
@@ -22,9 +23,12 @@ static int splitting_sync(work *w, real *x, real *v)
     const clock b = kick_closing(w);
     const bool waiting = FACT(w, fsal) && !FIRST(w);
     EACH(k) x[k] = w->x[k];
-    if (waiting && ROW(w, compensated)) EACHV(k) v[k] = w->v[k] + FMA(b, w->a[k], w->ev[k]);
-    else if (waiting) EACHV(k) v[k] = FMA(b, w->a[k], w->v[k]);
-    else EACHV(k) v[k] = w->v[k];
+    if (waiting && ROW(w, compensated))
+        EACHV(k) v[k] = w->v[k] + FMA(b, w->a[k], w->ev[k]);
+    else if (waiting)
+        EACHV(k) v[k] = FMA(b, w->a[k], w->v[k]);
+    else
+        EACHV(k) v[k] = w->v[k];
     return STEP_OK;
 }
 
@@ -50,20 +54,22 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     w->linears = 2 * w->stages + 1;
     w->solves = m->gyroscopic;
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
-    w->fsal = w->waits = !count && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
+    w->fsal = w->waits =
+        !count && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
     if (!unit) return;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
     for (int i = 0; i <= last; i++) {
         kick[i] = count ? 0 : m->splitting.kick[i];
         drift[i] = count ? 0 : m->splitting.drift[i];
     }
-    for (int i = 0; i < count; i++) {                      /* neighbouring half drifts are one */
+    for (int i = 0; i < count; i++) { /* neighbouring half drifts are one */
         const coef weight = m->composition.weight[i < count - 1 - i ? i : count - 1 - i];
         drift[i] += weight / 2;
         kick[i + 1] = weight;
         drift[i + 1] += weight / 2;
     }
-    for (int i = 0; i <= last; i++) {                      /* a kick happens at the time to which the drifts have come */
+    /* a kick happens at the time to which the drifts have come */
+    for (int i = 0; i <= last; i++) {
         bool over = true;
         for (int j = i; j <= last; j++) over = over && drift[j] == 0;
         c[i] = over ? 1 : time;
@@ -85,7 +91,8 @@ static trace_room splitting_room(const work *w)
     return room;
 }
 
-/* Kick and drift may have been made in one pass: who sees the kick without positions knows that they still are what they were. */
+/* Kick and drift may have been made in one pass: who sees the kick without positions knows that they still are what
+ * they were. */
 static void splitting_trace(work *w, int i)
 {
     if (i < 0) return;
@@ -93,16 +100,28 @@ static void splitting_trace(work *w, int i)
     const int last = w->stages - 1;
     if (kicks(w, i)) {
         const real *a = w->a;
-        if (w->solves) {                               /* the slope that solves the implicit kick: the increment is b h a */
+        /* the slope that solves the implicit kick: the increment is b h a */
+        if (w->solves) {
             EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
             a = to->v;
         }
-        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK, .stage = i + 1, .time = time_in(w, w->c[i]), .coefficient = kick_unit(w, i), .v = w->v, .a = a});
+        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK,
+                              .stage = i + 1,
+                              .time = time_in(w, w->c[i]),
+                              .coefficient = kick_unit(w, i),
+                              .v = w->v,
+                              .a = a});
     }
     if (drifts(w, i))
-        tell(w, (trace_event){.kind = MOTUS_EVENT_DRIFT, .stage = i + 1, .time = time_in(w, i < last ? w->c[i + 1] : 1),
-                              .coefficient = drift_unit(w, i), .x = w->x});
+        tell(w, (trace_event){.kind = MOTUS_EVENT_DRIFT,
+                              .stage = i + 1,
+                              .time = time_in(w, i < last ? w->c[i + 1] : 1),
+                              .coefficient = drift_unit(w, i),
+                              .x = w->x});
     if (w->fsal && i == last - 1)
-        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK, .stage = last + 1, .time = time_in(w, 1), .coefficient = kick_unit(w, last)});
+        tell(w, (trace_event){.kind = MOTUS_EVENT_KICK,
+                              .stage = last + 1,
+                              .time = time_in(w, 1),
+                              .coefficient = kick_unit(w, last)});
 }
 #endif

@@ -1,13 +1,16 @@
-/* What the families of tableaus share: where the constants of s stages lie in `unit` and `scaled`, and the sums over stages.
+/* What the families of tableaus share: where the constants of s stages lie in `unit` and `scaled`, and the sums over
+ * stages.
  *
- * a (s × s, row by row) and b go with h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14], go with h².
+ * a (s × s, row by row) and b go with h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14],
+ * go with h².
  */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }
 static inline int tableau_aa(const work *w, int i) { return tableau_b(w) + (1 + i) * FACT(w, stages); }
 static inline int tableau_bb(const work *w) { return 2 * tableau_b(w) + FACT(w, stages); }
 
-/* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0 in the row. */
+/* Σ c[j] y[j][k] over `count` stages, c the constants from number `from` on; where `sparse`, without those that are 0
+ * in the row. */
 static inline real tableau_sum(const work *w, int from, bool sparse, const real *restrict y, size_t k, int count)
 {
     real sum = {0};
@@ -15,8 +18,10 @@ static inline real tableau_sum(const work *w, int from, bool sparse, const real 
     EACH_STAGE(j, count) {
         if (sparse && !LIVE(w, from + j)) continue;
         real term = y[(size_t)j * w->stride + k];
-        if (first) sum = w->scaled[from + j] * term;
-        else sum = FMA(w->scaled[from + j], term, sum);
+        if (first)
+            sum = w->scaled[from + j] * term;
+        else
+            sum = FMA(w->scaled[from + j], term, sum);
         first = false;
     }
     return sum;
@@ -55,9 +60,17 @@ static void tableau_fill(work *w, bool explicit, const coef *given_a, const coef
 static void tableau_tell(const work *w, int i, const real *X, const real *V, const real *A)
 {
     const coef *unit = w->unit;
-    tell(w, (trace_event){.kind = MOTUS_EVENT_STAGE, .stage = i + 1, .time = time_in(w, w->c[i]), .coefficient = w->c[i],
-                          .weight = unit[tableau_b(w) + i], .weight_x = unit[tableau_bb(w) + i], .row = unit + tableau_a(w, i),
-                          .row_x = unit + tableau_aa(w, i), .x = X, .v = V, .a = A});
+    tell(w, (trace_event){.kind = MOTUS_EVENT_STAGE,
+                          .stage = i + 1,
+                          .time = time_in(w, w->c[i]),
+                          .coefficient = w->c[i],
+                          .weight = unit[tableau_b(w) + i],
+                          .weight_x = unit[tableau_bb(w) + i],
+                          .row = unit + tableau_a(w, i),
+                          .row_x = unit + tableau_aa(w, i),
+                          .x = X,
+                          .v = V,
+                          .a = A});
 }
 
 static trace_room tableau_room(const work *w)

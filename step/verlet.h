@@ -1,9 +1,9 @@
-/* VERLET: Störmer's recurrence x[n+1] - 2 x[n] + x[n-1] = h² a [HLW03], in summed form: d += h² a; x += d, with d = x[n] - x[n-1], so that nothing
- * is lost to round-off at small steps. The start is Taylor's, d = h v + h²/2 a.
+/* VERLET: Störmer's recurrence x[n+1] - 2 x[n] + x[n-1] = h² a [HLW03], in summed form: d += h² a; x += d, with d =
+ * x[n] - x[n-1], so that nothing is lost to round-off at small steps. The start is Taylor's, d = h v + h²/2 a.
  *
- * Invariant: velocities are formed at the time of the positions, v[n] = (x[n+1] - x[n-1])/2h, whatever the force depends on. A force that depends
- * on v is taken at that central difference, (d + delta/2)/h, delta being the change of d that it causes. First-order variables are
- * velocities without a position: d/h is their value half a step later.
+ * Invariant: velocities are formed at the time of the positions, v[n] = (x[n+1] - x[n-1])/2h, whatever the force
+ * depends on. A force that depends on v is taken at that central difference, (d + delta/2)/h, delta being the change
+ * of d that it causes. First-order variables are velocities without a position: d/h is their value half a step later.
  */
 static int verlet_observe(work *w)
 {
@@ -18,7 +18,7 @@ static int verlet_step(work *w)
     const real *restrict a = w->a;
     const clock hh = w->hh;
     const bool known = work_reuse(w);
-#ifdef PASS                                    /* as in operators.h: d += h² a, x += d */
+#ifdef PASS /* as in operators.h: d += h² a, x += d */
     if (!known && !FIRST(w)) {
         PASS(w, 0, hh, 1);
         TRACE(w, 0);
@@ -29,14 +29,17 @@ static int verlet_step(work *w)
     int bad = known ? STEP_OK : verlet_observe(w);
     if (bad) return bad;
     if (!FIRST(w) && !FACT(w, velocity) && FACT(w, nv) == FACT(w, nx)) {
-        EACH(k) {                              /* the common case in one pass over memory */
+        EACH(k) { /* the common case in one pass over memory */
             ADVANCE(d[k], hh, a[k]);
             x[k] += d[k];
         }
     } else {
-        if (FIRST(w)) EACHV(k) d[k] = FMA(w->half_hh, a[k], w->h * d[k]);
-        else if (FACT(w, velocity)) EACHV(k) d[k] += w->delta[k];
-        else EACHV(k) ADVANCE(d[k], hh, a[k]);
+        if (FIRST(w))
+            EACHV(k) d[k] = FMA(w->half_hh, a[k], w->h * d[k]);
+        else if (FACT(w, velocity))
+            EACHV(k) d[k] += w->delta[k];
+        else
+            EACHV(k) ADVANCE(d[k], hh, a[k]);
         EACH(k) x[k] += d[k];
     }
     TRACE(w, 0);
@@ -48,9 +51,12 @@ static int verlet_sync(work *w, real *x, real *v)
 {
     const real *d = w->v;
     EACH(k) x[k] = w->x[k];
-    if (FIRST(w)) EACHV(k) v[k] = d[k];
-    else if (FACT(w, velocity)) EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
-    else EACHV(k) v[k] = FMA(w->half_hh, w->a[k], d[k]) * w->per_h;
+    if (FIRST(w))
+        EACHV(k) v[k] = d[k];
+    else if (FACT(w, velocity))
+        EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
+    else
+        EACHV(k) v[k] = FMA(w->half_hh, w->a[k], d[k]) * w->per_h;
     return STEP_OK;
 }
 
@@ -88,7 +94,12 @@ static void verlet_trace(work *w, int i)
         return;
     }
     EACHV(k) to->v[k] = w->v[k] * w->per_h;
-    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP, .stage = 1, .time = time_now(w), .coefficient = 1, .x = w->x,
-                          .v = to->v, .before_x = FIRST(w) ? NULL : to->x});
+    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
+                          .stage = 1,
+                          .time = time_now(w),
+                          .coefficient = 1,
+                          .x = w->x,
+                          .v = to->v,
+                          .before_x = FIRST(w) ? NULL : to->x});
 }
 #endif

@@ -1,31 +1,40 @@
-/* The workspace of one trajectory, or of a block of them: its state, its time, and the constants that follow from a row and a step.
+/* The workspace of one trajectory, or of a block of them: its state, its time, and the constants that follow from a
+ * row and a step.
  *
  * The texts of step/ include nothing. Before this one the includer defines
- *     real        a number, or a vector with one trajectory per lane      clock   time and step; apart from real, since lanes may share them
+ *     real        a number, or a vector with one trajectory per lane clock time and step; apart from real, since
+ *                 lanes may share them
  *     whole       a signed integer of 64 bits                             coef    a coefficient of a row
- *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of real
- *     EACH(k)     a loop over the positions of `w`                        EACHV(k)  over velocities, then first-order variables
- *     TRACE(w,i)  called after stage i, of implicit stages when all are solved and not yet summed; empty unless the step is traced
- *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change. Without a definition they are read; a compiled model makes them
+ *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of
+ *                                                                         real
+ *     EACH(k)     a loop over the positions of `w` EACHV(k) over velocities, then first-order variables
+ *     TRACE(w,i) called after stage i, of implicit stages when all are solved and not yet summed; empty unless the
+ *         step is traced
+ *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change. Without a definition they are read; a
+ *                             compiled model makes them
  *                             constants, so that the compiler never translates what the model does not use
  * and, before the families, the functions
  *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
- *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)     the same at the time of stage i, and of the present step. Macros of this file, unless
- *                                           the includer has its own (and defines both): it may have tabulated what depends on time alone
- *     solve_factor(w, where, s, ax, av, t, x, v)     factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status. Lanes: where *where
+ *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)     the same at the time of stage i, and of the present step.
+ *                                                        Macros of this file, unless
+ *                                           the includer has its own (and defines both): it may have tabulated what
+ *                                               depends on time alone
+ *     solve_factor(w, where, s, ax, av, t, x, v)     factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_
+ *                                                    status. Lanes: where *where
  *                                           holds; it no longer does where the matrix is singular
  *     solve_back(w, r)                      r, stage after stage, becomes the solution
  *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
  *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
  *     family_step(w) … family_dense(…)      the functions of families.def, of the row's family
  *
- * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and nowhere else. `a` and
- * `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them takes them by work_reuse, which ends that.
+ * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and
+ * nowhere else. `a` and `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them
+ * takes them by work_reuse, which ends that.
  */
 #ifndef ROW
-#define ROW(w, member) ((w)->row->member)
+#define ROW(w, member)  ((w)->row->member)
 #define FACT(w, member) ((w)->member)
-#define LIVE(w, k) ((w)->live[k])      /* constant k of the plan is not 0 */
+#define LIVE(w, k)      ((w)->live[k]) /* constant k of the plan is not 0 */
 #endif
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
@@ -33,100 +42,115 @@ enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEM
 /* Which trajectories of the workspace something holds for: one, unless real is a vector. */
 #ifndef EVERY
 typedef bool mask;
-#define EVERY true
+#define EVERY                    true
 #define CHOOSE_WHERE(good, a, b) ((good) ? (a) : (b))
-#define NONE(good) (!(good))
+#define NONE(good)               (!(good))
 #endif
 
-/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is whether it holds for any. A step
- * that cannot go on STOPs with its status; of lanes it marks those `where` it cannot, SPOIL makes NaN of what they compute, and the others go on.
- * BLAME says which entry of v it was. */
+/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is
+ * whether it holds for any. A step that cannot go on STOPs with its status; of lanes it marks those `where` it
+ * cannot, SPOIL makes NaN of what they compute, and the others go on. BLAME says which entry of v it was. */
 #ifndef ALWAYS
 typedef bool truth;
-#define ALWAYS true
+#define ALWAYS            true
 #define PICK(where, a, b) ((where) ? (a) : (b))
-#define SOME(where) (where)
-#define STOP(w, where, status) do { if (where) return (status); } while (0)
+#define SOME(where)       (where)
+#define STOP(w, where, status)      \
+    do {                            \
+        if (where) return (status); \
+    } while (0)
 #define SPOIL(w, y) ((void)0)
-#define BLAME(w, where, k) do { if (where) (w)->which = (k); } while (0)
+#define BLAME(w, where, k)           \
+    do {                             \
+        if (where) (w)->which = (k); \
+    } while (0)
 #endif
-#define NEVER NOT(ALWAYS)
+#define NEVER      NOT(ALWAYS)
 #define NOT(where) ((where) == 0)
 
 /* The outer indices that a tile is at, from … to-1, and how they move: tiled.h. Only machines that tile look at it. */
 typedef struct window {
     whole from, to;
-    whole strip[2], block[2];      /* their intersection is from … to; a strip moves down with every pass, a block's ends by `slope` */
+    /* their intersection is from … to; a strip moves down with every pass, a block's ends by `slope` */
+    whole strip[2], block[2];
     int slope[2];
-    bool more;                     /* another step follows in this tile */
+    bool more; /* another step follows in this tile */
 } window;
 
 /* One end of a step: dense.h. */
-typedef struct dense_end { clock t; const real *x, *v, *a; } dense_end;
+typedef struct dense_end {
+    clock t;
+    const real *x, *v, *a;
+} dense_end;
 
 /* No member is a `real`: lanes, where that is a vector, are given the library's workspace. */
 typedef struct work {
     const row *row;
-    size_t nx, nv, stride;         /* stride: distance of two arrays below; at least nv */
-    bool velocity, linear;         /* the acceleration depends on v; at most linearly */
-    bool constant;                 /* it depends on parameters alone */
-    bool check;                    /* look for infinities after every step */
-    bool finite;                   /* whoever took the last steps saw that all is finite */
-    int threads;                   /* how many may share one evaluation, or the tiles of one sweep */
-    whole evaluations, iterations, refused;       /* refused: candidates that were not accepted */
+    size_t nx, nv, stride;                  /* stride: distance of two arrays below; at least nv */
+    bool velocity, linear;                  /* the acceleration depends on v; at most linearly */
+    bool constant;                          /* it depends on parameters alone */
+    bool check;                             /* look for infinities after every step */
+    bool finite;                            /* whoever took the last steps saw that all is finite */
+    int threads;                            /* how many may share one evaluation, or the tiles of one sweep */
+    whole evaluations, iterations, refused; /* refused: candidates that were not accepted */
 
     /* Time. Fixed: step n begins at t0 + n h. Carried: it begins at t, a sum whose rounding error is `lost`. */
-    bool carried, stalled;         /* stalled: the next step would not move time on */
-    mask ends;                     /* the candidate reaches `until` */
+    bool carried, stalled; /* stalled: the next step would not move time on */
+    mask ends;             /* the candidate reaches `until` */
     clock t0, h;
-    whole n;                       /* steps finished since t0 */
-    clock t, lost, until;          /* carried only; no step passes `until` */
-    clock next;                    /* adaptive: the size that the next candidate should have */
+    whole n;              /* steps finished since t0 */
+    clock t, lost, until; /* carried only; no step passes `until` */
+    clock next;           /* adaptive: the size that the next candidate should have */
 
-    /* The plan, without dimensions, from the row alone: constants, of which the first `linears` go with h and the `squares` behind them with h²;
-     * c: times of the stages. `scaled` are the same for the present h. */
+    /* The plan, without dimensions, from the row alone: constants, of which the first `linears` go with h and the
+     * `squares` behind them with h²; c: times of the stages. `scaled` are the same for the present h. */
     int stages, linears, squares;
     const coef *unit, *c;
     const unsigned char *live;
     clock *scaled, hh, half_hh, per_h;
-    clock *matrix;                 /* room for the coefficients of the coupled stages: 2 solves² */
-    int known;                     /* implicit stages that are explicit after all (newmark's first) */
-    int solves;                    /* stages that are coupled in one equation; 0: nothing is solved */
-    bool solves_x;                 /* that equation contains da/dx */
-    bool direct;                   /* it is linear in the unknowns, or none: one solve is exact */
-    bool fsal;                     /* first same as last: the closing kick of a step waits for the opening kick of the next */
-    bool fused;                    /* a kick and the drift after it are made in one pass over memory */
-    bool waits;                    /* the state between two steps lacks something that an evaluation supplies */
+    clock *matrix; /* room for the coefficients of the coupled stages: 2 solves² */
+    int known;     /* implicit stages that are explicit after all (newmark's first) */
+    int solves;    /* stages that are coupled in one equation; 0: nothing is solved */
+    bool solves_x; /* that equation contains da/dx */
+    bool direct;   /* it is linear in the unknowns, or none: one solve is exact */
+    /* first same as last: the closing kick of a step waits for the opening kick of the next */
+    bool fsal;
+    bool fused; /* a kick and the drift after it are made in one pass over memory */
+    bool waits; /* the state between two steps lacks something that an evaluation supplies */
 
-    bool fresh;                    /* the acceleration of the present state is known already, because it was observed */
-    whole owed_evaluations, owed_iterations;      /* what it cost: counted when the method uses it */
-    int moved;                     /* drifts to come that a machine's PASS has made together with a kick */
-    int order;                     /* adaptive: of the error estimate, which goes with h^(order + 1) */
-    clock error;                   /* adaptive: the candidate's error, in units of what is allowed */
+    bool fresh; /* the acceleration of the present state is known already, because it was observed */
+    whole owed_evaluations, owed_iterations; /* what it cost: counted when the method uses it */
+    int moved;                               /* drifts to come that a machine's PASS has made together with a kick */
+    int order;                               /* adaptive: of the error estimate, which goes with h^(order + 1) */
+    clock error;                             /* adaptive: the candidate's error, in units of what is allowed */
 
-    real *x, *v, *ex, *ev;         /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
+    real *x, *v, *ex, *ev; /* v: verlet keeps the increment d = x[n] - x[n-1] here once n > 0 */
     real *a, *old, *next_x;
-    real *delta, *r;               /* change of v by an implicit kick; residual */
-    real *xs, *vs, *ks;            /* stages: positions, velocities, accelerations */
+    real *delta, *r;    /* change of v by an implicit kick; residual */
+    real *xs, *vs, *ks; /* stages: positions, velocities, accelerations */
 
-    const clock *table;            /* the includer's: of what depends on time alone, from step `first` on; NULL where there is none now */
+    /* the includer's: of what depends on time alone, from step `first` on; NULL where there is none now */
+    const clock *table;
     whole first;
-    const real *diagonal;          /* the includer's: the matrix of an implicit kick, where it is diagonal and constant, for this slope */
+    /* the includer's: the matrix of an implicit kick, where it is diagonal and constant, for this slope */
+    const real *diagonal;
     clock slope;
 
-    size_t which;                  /* what went wrong: entry of v, or of x where !in_v */
+    size_t which; /* what went wrong: entry of v, or of x where !in_v */
     bool in_v;
-    struct stepper_host *library;  /* the includer's: what the library's own bodies work with, */
-    const struct compiled_host *host;             /* and a compiled model's */
+    struct stepper_host *library;     /* the includer's: what the library's own bodies work with, */
+    const struct compiled_host *host; /* and a compiled model's */
     window window;
 } work;
 
-/* 1: the arrays are so short that to copy them is nothing, and that they may then live in registers; known when the text is compiled. */
+/* 1: the arrays are so short that to copy them is nothing, and that they may then live in registers; known when the
+ * text is compiled. */
 #ifndef SMALL
 #define SMALL 0
 #endif
 
-/* A loop over stages; a compiled model may ask for it to be written out, so that every coefficient and every time is a constant. */
+/* A loop over stages; a compiled model may ask for it to be written out, so that every coefficient and every time is
+ * a constant. */
 #ifndef EACH_STAGE
 #define EACH_STAGE(i, count) for (int i = 0; i < (count); i++)
 #endif
@@ -136,20 +160,22 @@ typedef struct work {
 #define FIRST(w) ((w)->n == 0)
 #endif
 
-/* y += c z, and the same with the error word e of y: compensated by Knuth's two-sum, exact whichever operand is larger. */
+/* y += c z, and the same with the error word e of y: compensated by Knuth's two-sum, exact whichever operand is
+ * larger. */
 #define ADVANCE(y, c, z) ((y) = FMA((c), (z), (y)))
-#define ADVANCE_COMPENSATED(y, e, c, z)                             \
-    do {                                                            \
+#define ADVANCE_COMPENSATED(y, e, c, z)                                      \
+    do {                                                                     \
         __typeof__(y) p_ = FMA((c), (z), (e)), s_ = (y) + p_, b_ = s_ - (y); \
-        (e) = ((y) - (s_ - b_)) + (p_ - b_);                        \
-        (y) = s_;                                                   \
+        (e) = ((y) - (s_ - b_)) + (p_ - b_);                                 \
+        (y) = s_;                                                            \
     } while (0)
 
 /* Time ------------------------------------------------------------------------------------------------------------ */
 
-/* Fixed: the time of the part c of step n, a clock or a vector of them. Both ends of a step are times t0 + n h, so that a force that is evaluated
- * there is the neighbouring step's too. */
-#define TIME_FIXED(w, n, c) ((c) == 0 || (c) == 1 ? (w)->t0 + ((n) + (c)) * (w)->h : ((w)->t0 + (n) * (w)->h) + (c) * (w)->h)
+/* Fixed: the time of the part c of step n, a clock or a vector of them. Both ends of a step are times t0 + n h, so
+ * that a force that is evaluated there is the neighbouring step's too. */
+#define TIME_FIXED(w, n, c) \
+    ((c) == 0 || (c) == 1 ? (w)->t0 + ((n) + (c)) * (w)->h : ((w)->t0 + (n) * (w)->h) + (c) * (w)->h)
 
 /* The time of the part c of the present step. */
 static inline clock time_in(const work *w, coef c)
@@ -178,7 +204,7 @@ static inline void time_tick(work *w, mask good)
 
 #ifndef accel_in
 #define accel_in(w, i, x, v, a) accel(w, time_in(w, FACT(w, c)[i]), x, v, a)
-#define accel_now(w, x, v, a) accel(w, time_now(w), x, v, a)
+#define accel_now(w, x, v, a)   accel(w, time_now(w), x, v, a)
 #endif
 
 /* The acceleration at the start of a step, from where it is known already. */
@@ -193,11 +219,18 @@ static inline bool work_reuse(work *w)
 
 /* Constants ------------------------------------------------------------------------------------------------------- */
 
-/* The numbers that a plan needs memory for: unit, c and live; then `scaled` and `matrix`, which belong to a step size. */
+/* The numbers that a plan needs memory for: unit, c and live; then `scaled` and `matrix`, which belong to a step
+ * size. */
 static inline size_t work_constants(const work *w) { return (size_t)(w->linears + w->squares); }
-static inline size_t work_scaled_size(const work *w) { return work_constants(w) + 2 * (size_t)w->solves * (size_t)w->solves; }
+static inline size_t work_scaled_size(const work *w)
+{
+    return work_constants(w) + 2 * (size_t)w->solves * (size_t)w->solves;
+}
 static inline size_t work_live_size(const work *w) { return (work_constants(w) + sizeof(coef) - 1) / sizeof(coef); }
-static inline size_t work_plan_size(const work *w) { return work_constants(w) + (size_t)w->stages + work_live_size(w) + work_scaled_size(w); }
+static inline size_t work_plan_size(const work *w)
+{
+    return work_constants(w) + (size_t)w->stages + work_live_size(w) + work_scaled_size(w);
+}
 
 /* The step is h from now on. */
 static inline void work_scale(work *w, clock h)
@@ -213,7 +246,10 @@ static inline void work_scale(work *w, clock h)
 /* Memory ---------------------------------------------------------------------------------------------------------- */
 
 /* Arrays, `stride` apart, handed out one after the other; memory NULL: only counted. */
-typedef struct placing { real *memory; size_t stride, used; } placing;
+typedef struct placing {
+    real *memory;
+    size_t stride, used;
+} placing;
 
 static inline real *work_array(placing *p, int count)
 {
@@ -225,7 +261,8 @@ static inline real *work_array(placing *p, int count)
 /* From one workspace to another, the numbers of all arrays but of the stages after the first. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
-#define MOVE(name) for (size_t k = 0; to->name && k < count; k++) to->name[k] = from->name[k]
+#define MOVE(name) \
+    for (size_t k = 0; to->name && k < count; k++) to->name[k] = from->name[k]
     MOVE(x);
     MOVE(v);
     MOVE(a);

@@ -1,9 +1,9 @@
 /* Every method side by side: motus_compare.
  *
- * Each method runs from the start to `until`, then a new run goes from where it ended back to the start; in between it is looked at
- * at times where a step of its own falls, so no number here is interpolated. At equal step all methods share these times; at equal
- * work each has its own, and the truth is made for them.
- * Invariant: the result is one block; a row whose method failed says so and holds NaN where nothing was measured.
+ * Each method runs from the start to `until`, then a new run goes from where it ended back to the start; in between
+ * it is looked at at times where a step of its own falls, so no number here is interpolated. At equal step all
+ * methods share these times; at equal work each has its own, and the truth is made for them. Invariant: the result is
+ * one block; a row whose method failed says so and holds NaN where nothing was measured.
  */
 #include "probe.h"
 #include "remarks.h"
@@ -13,26 +13,30 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LOOKS_MAX 2048               /* at the invariants of one run */
-#define REMARKS_MAX 4096
+#define LOOKS_MAX     2048 /* at the invariants of one run */
+#define REMARKS_MAX   4096
 #define NAME_MAX_LONG 128
-#define WORK_TRIES 4                 /* to find the step that spends the wanted evaluations */
-#define WORK_CLOSE 0.02
-#define PROBES 5                     /* states along the motion at which the equations are asked */
-#define TRUTH_SHARE 0.1              /* of the progress */
+#define WORK_TRIES    4 /* to find the step that spends the wanted evaluations */
+#define WORK_CLOSE    0.02
+#define PROBES        5   /* states along the motion at which the equations are asked */
+#define TRUTH_SHARE   0.1 /* of the progress */
 /* The trend that rounding may explain: each evaluation rounds the state by some ulps at random. */
 #define ROUNDING 8.0
 
-typedef struct row_text { char method[MOTUS_NAME_MAX], note[MOTUS_TEXT_MAX]; } row_text;
-typedef struct invariant_name { char text[NAME_MAX_LONG]; } invariant_name;
+typedef struct row_text {
+    char method[MOTUS_NAME_MAX], note[MOTUS_TEXT_MAX];
+} row_text;
+typedef struct invariant_name {
+    char text[NAME_MAX_LONG];
+} invariant_name;
 
 typedef struct result {
-    motus_comparison seen;           /* first: the handle the user holds */
+    motus_comparison seen; /* first: the handle the user holds */
     motus_allocator allocator;
     char reference[TRUTH_TEXT_MAX], remarks[REMARKS_MAX];
     motus_compare_row *rows;
-    motus_drift *drifts;             /* rows × invariants */
-    const motus_compare_row **row_list;              /* to each of them: what the user reads */
+    motus_drift *drifts;                /* rows × invariants */
+    const motus_compare_row **row_list; /* to each of them: what the user reads */
     const motus_drift **drift_list;
     row_text *texts;
     invariant_name *names;
@@ -42,16 +46,16 @@ typedef struct compare {
     study s;
     motus_study_def def;
     truth truth;
-    double step;                     /* equal step */
+    double step; /* equal step */
     size_t invariants, columns;
-    size_t *first;                   /* invariants + 1: where in `column` each one begins */
+    size_t *first; /* invariants + 1: where in `column` each one begins */
     size_t *column;
     double *column_scale;
-    double *t, *drift;               /* looks_max: times; one number's way from its start */
-    double *series;                  /* looks_max × columns */
+    double *t, *drift; /* looks_max: times; one number's way from its start */
+    double *series;    /* looks_max × columns */
     size_t looks, looks_max;
     double *y, *a, *own_truth;
-    double *roundoff;                /* rows × invariants */
+    double *roundoff; /* rows × invariants */
     remarks_fact *facts;
     const char **methods;
     size_t count;
@@ -68,10 +72,7 @@ static motus_status no_memory(compare *c, const char *what)
     return fail(c->s.err, MOTUS_MEMORY, "out of memory for %s", what);
 }
 
-static size_t aligned(size_t bytes)
-{
-    return (bytes + 15) & ~(size_t)15;
-}
+static size_t aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
 
 static motus_status make_result(compare *c)
 {
@@ -81,8 +82,7 @@ static motus_status make_result(compare *c)
     size_t row_list = aligned(c->count * sizeof(void *));
     size_t drift_list = aligned(c->count * c->invariants * sizeof(void *));
     char *block = take(c->s.allocator, head + rows + drifts + texts + names + row_list + drift_list, 1);
-    if (!block)
-        return no_memory(c, "the comparison");
+    if (!block) return no_memory(c, "the comparison");
     result *r = c->out = (result *)(void *)block;
     r->allocator = *c->s.allocator;
     r->rows = (motus_compare_row *)(void *)(block + head);
@@ -91,20 +91,27 @@ static motus_status make_result(compare *c)
     r->names = (invariant_name *)(void *)(block + head + rows + drifts + texts);
     r->row_list = (const motus_compare_row **)(void *)(block + head + rows + drifts + texts + names);
     r->drift_list = (const motus_drift **)(void *)(block + head + rows + drifts + texts + names + row_list);
-    r->seen = (motus_comparison){ c->count, r->row_list, r->reference, 0, r->remarks };
+    r->seen = (motus_comparison){c->count, r->row_list, r->reference, 0, r->remarks};
     for (size_t k = 0; k < c->invariants; k++)
         snprintf(r->names[k].text, sizeof r->names[k].text, "%s", motus_invariant_name(c->s.system, k, NULL));
     for (size_t k = 0; k < c->count; k++) {
         motus_drift *d = r->drifts + k * c->invariants;
         const motus_drift **list = r->drift_list + k * c->invariants;
         for (size_t i = 0; i < c->invariants; i++) {
-            d[i] = (motus_drift){ r->names[i].text, NAN, NAN, NAN, NAN, 0 };
+            d[i] = (motus_drift){r->names[i].text, NAN, NAN, NAN, NAN, 0};
             list[i] = &d[i];
         }
         r->row_list[k] = &r->rows[k];
-        r->rows[k] = (motus_compare_row){ .method = r->texts[k].method, .step = NAN, .error_max_x = NAN, .error_max_v = NAN,
-            .error_final_x = NAN, .error_final_v = NAN, .invariant_count = c->invariants, .invariants = list,
-            .reversal = NAN, .note = r->texts[k].note };
+        r->rows[k] = (motus_compare_row){.method = r->texts[k].method,
+                                         .step = NAN,
+                                         .error_max_x = NAN,
+                                         .error_max_v = NAN,
+                                         .error_final_x = NAN,
+                                         .error_final_v = NAN,
+                                         .invariant_count = c->invariants,
+                                         .invariants = list,
+                                         .reversal = NAN,
+                                         .note = r->texts[k].note};
     }
     return MOTUS_OK;
 }
@@ -114,18 +121,16 @@ static motus_status find_columns(compare *c)
     study *s = &c->s;
     c->invariants = motus_invariant_count(s->system);
     c->first = take(s->allocator, c->invariants + 1, sizeof *c->first);
-    if (!c->first)
-        return no_memory(c, "the names of the invariants");
+    if (!c->first) return no_memory(c, "the names of the invariants");
     for (int pass = 0; pass < 2; pass++) {
         c->columns = 0;
         for (size_t k = 0; k < c->invariants; k++) {
             size_t first, count;
-            motus_status status = motus_column_find(s->system, motus_invariant_name(s->system, k, NULL), &first, &count, s->err);
-            if (status != MOTUS_OK)
-                return status;
+            motus_status status =
+                motus_column_find(s->system, motus_invariant_name(s->system, k, NULL), &first, &count, s->err);
+            if (status != MOTUS_OK) return status;
             c->first[k] = c->columns;
-            for (size_t i = 0; i < count && pass; i++)
-                c->column[c->columns + i] = first + i;
+            for (size_t i = 0; i < count && pass; i++) c->column[c->columns + i] = first + i;
             c->columns += count;
         }
         c->first[c->invariants] = c->columns;
@@ -149,8 +154,7 @@ static motus_status find_columns(compare *c)
 
 static motus_status look_at_invariants(compare *c, motus_run *run, motus_error *err)
 {
-    if (!c->columns || c->looks >= c->looks_max)
-        return MOTUS_OK;
+    if (!c->columns || c->looks >= c->looks_max) return MOTUS_OK;
     c->t[c->looks] = motus_run_time(run);
     motus_status status = motus_run_values(run, c->column, c->columns, c->series + c->looks * c->columns, err);
     c->looks += status == MOTUS_OK;
@@ -160,7 +164,7 @@ static motus_status look_at_invariants(compare *c, motus_run *run, motus_error *
 /* The worst number of invariant k. */
 static motus_drift drift_of(compare *c, size_t k, int64_t evaluations, double *roundoff)
 {
-    motus_drift d = { c->out->names[k].text, NAN, NAN, NAN, NAN, 0 };
+    motus_drift d = {c->out->names[k].text, NAN, NAN, NAN, NAN, 0};
     size_t worst = c->first[k];
     double largest = 0;
     for (size_t j = c->first[k]; j < c->first[k + 1]; j++) {
@@ -170,19 +174,16 @@ static motus_drift drift_of(compare *c, size_t k, int64_t evaluations, double *r
             most = study_larger(most, fabs(value - c->series[j]));
             size = study_larger(size, fabs(value));
         }
-        if (j > c->first[k] && !(most > d.max_drift || isnan(most)))
-            continue;
+        if (j > c->first[k] && !(most > d.max_drift || isnan(most))) continue;
         worst = j;
         largest = size;
         d.max_drift = most;
     }
-    if (c->looks == 0 || c->first[k] == c->first[k + 1])
-        return d;
+    if (c->looks == 0 || c->first[k] == c->first[k + 1]) return d;
     *roundoff = ROUNDING * DBL_EPSILON * (c->column_scale[worst] + largest) * sqrt((double)evaluations + 1);
     d.initial = c->series[worst];
     d.final = c->series[(c->looks - 1) * c->columns + worst];
-    for (size_t i = 0; i < c->looks; i++)
-        c->drift[i] = c->series[i * c->columns + worst] - d.initial;
+    for (size_t i = 0; i < c->looks; i++) c->drift[i] = c->series[i * c->columns + worst] - d.initial;
     trend_result trend = trend_find(c->t, c->drift, c->looks, *roundoff);
     d.trend = trend.trend;
     d.trending = trend.trending;
@@ -194,8 +195,7 @@ static motus_drift drift_of(compare *c, size_t k, int64_t evaluations, double *r
 static motus_status row_failed(compare *c, size_t k, motus_status status, const motus_error *e)
 {
     if (study_fatal(status)) {
-        if (c->s.err && !c->s.cancelled)
-            *c->s.err = *e;
+        if (c->s.err && !c->s.cancelled) *c->s.err = *e;
         return c->s.cancelled ? MOTUS_CANCELLED : status;
     }
     c->out->rows[k].status = status;
@@ -218,18 +218,14 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
         motus_error e = motus_default_error();
         *step = span / (double)n;
         motus_status status = study_run(s, method, *step, NAN, s->until, NULL, &run, &e);
-        if (status == MOTUS_OK)
-            status = motus_run_finish(run, &e);
+        if (status == MOTUS_OK) status = motus_run_finish(run, &e);
         double spent = run ? (double)motus_run_evaluations(run) : 0;
         motus_run_destroy(run);
-        if (study_fatal(status))
-            return row_failed(c, k, status, &e);
+        if (study_fatal(status)) return row_failed(c, k, status, &e);
         /* A run that failed spends what it spends; the row will say so. */
-        if (status != MOTUS_OK || spent <= 0 || fabs(spent - wanted) <= WORK_CLOSE * wanted)
-            return MOTUS_OK;
+        if (status != MOTUS_OK || spent <= 0 || fabs(spent - wanted) <= WORK_CLOSE * wanted) return MOTUS_OK;
         int64_t next = (int64_t)fmax(1, floor((double)n * wanted / spent));
-        if (next == n)
-            return MOTUS_OK;
+        if (next == n) return MOTUS_OK;
         n = next;
     }
     *step = span / (double)n;
@@ -237,36 +233,33 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
 }
 
 /* On by one interval of the grid (or to the end), looking at the invariants `looks` times. */
-static motus_status advance(compare *c, motus_run *run, int64_t per, int64_t looks, bool last, double *seconds, motus_error *e)
+static motus_status advance(compare *c, motus_run *run, int64_t per, int64_t looks, bool last, double *seconds,
+                            motus_error *e)
 {
     motus_status status = MOTUS_OK;
     for (int64_t i = 0; i < looks && status == MOTUS_OK && !(last && motus_run_done(run)); i++) {
         double began = study_seconds();
         status = last && i + 1 == looks ? motus_run_finish(run, e) : motus_run_step(run, per / looks, e);
         *seconds += study_seconds() - began;
-        if (status == MOTUS_OK)
-            status = look_at_invariants(c, run, e);
+        if (status == MOTUS_OK) status = look_at_invariants(c, run, e);
     }
     return status;
 }
 
-static motus_status forward(compare *c, size_t k, motus_run *run, const study_grid *g, int64_t per, const double *truth_rows,
-                            motus_error *e)
+static motus_status forward(compare *c, size_t k, motus_run *run, const study_grid *g, int64_t per,
+                            const double *truth_rows, motus_error *e)
 {
     study *s = &c->s;
     motus_compare_row *row = &c->out->rows[k];
     int64_t looks = 1;
-    while (2 * looks <= per && (2 * looks * (int64_t)g->points) < (int64_t)c->looks_max)
-        looks *= 2;
+    while (2 * looks <= per && (2 * looks * (int64_t)g->points) < (int64_t)c->looks_max) looks *= 2;
     c->looks = 0;
     double x = 0, v = 0;
     motus_status status = look_at_invariants(c, run, e);
     for (size_t p = 0; p < g->points && status == MOTUS_OK; p++) {
         status = advance(c, run, per, looks, p + 1 == g->points, &row->seconds, e);
-        if (status == MOTUS_OK)
-            status = study_look(s, run, c->y, e);
-        if (status != MOTUS_OK || !truth_rows)
-            continue;
+        if (status == MOTUS_OK) status = study_look(s, run, c->y, e);
+        if (status != MOTUS_OK || !truth_rows) continue;
         study_distance d = study_measure(s, c->y, truth_rows + p * s->numbers);
         x = study_larger(x, d.x);
         v = study_larger(v, d.v);
@@ -290,7 +283,7 @@ static motus_status backward(compare *c, size_t k, const char *method, int64_t t
     study *s = &c->s;
     motus_compare_row *row = &c->out->rows[k];
     double direction = s->until > s->from ? 1 : -1;
-    double legs[3] = { s->until, s->from, s->from }, steps[2] = { row->step, row->step };
+    double legs[3] = {s->until, s->from, s->from}, steps[2] = {row->step, row->step};
     int count = 1;
     if (last_step > 0 && total > 1) {
         legs[1] = s->from + direction * (double)(total - 1) * row->step;
@@ -303,14 +296,11 @@ static motus_status backward(compare *c, size_t k, const char *method, int64_t t
     for (int leg = 0; leg < count && status == MOTUS_OK; leg++) {
         motus_run *run = NULL;
         status = study_run(s, method, steps[leg], legs[leg], legs[leg + 1], c->y, &run, e);
-        if (status == MOTUS_OK)
-            status = motus_run_finish(run, e);
-        if (status == MOTUS_OK)
-            status = study_look(s, run, c->y, e);
+        if (status == MOTUS_OK) status = motus_run_finish(run, e);
+        if (status == MOTUS_OK) status = study_look(s, run, c->y, e);
         motus_run_destroy(run);
     }
-    if (status == MOTUS_OK)
-        row->reversal = study_measure(s, c->y, s->start).scaled;
+    if (status == MOTUS_OK) row->reversal = study_measure(s, c->y, s->start).scaled;
     return status;
 }
 
@@ -322,17 +312,14 @@ static motus_status make_row(compare *c, size_t k)
     motus_error e = motus_default_error();
     snprintf(c->out->texts[k].method, sizeof c->out->texts[k].method, "%s", method);
     motus_status status = motus_method_find(method, &c->facts[k].card, &e);
-    if (status != MOTUS_OK)
-        return row_failed(c, k, status, &e);
+    if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     row->order = c->facts[k].card->order;
-    if ((status = motus_method_admits(s->system, method, &e)) != MOTUS_OK)
-        return row_failed(c, k, status, &e);
+    if ((status = motus_method_admits(s->system, method, &e)) != MOTUS_OK) return row_failed(c, k, status, &e);
 
     row->step = c->step;
     double base = s->base, span = s->span;
     study_part(s, base, 0);
-    if (c->def.evaluations > 0 && (status = equal_work_step(c, k, method, &row->step)) != MOTUS_OK)
-        return status;
+    if (c->def.evaluations > 0 && (status = equal_work_step(c, k, method, &row->step)) != MOTUS_OK) return status;
     study_part(s, base, span / 2);
     motus_run *run = NULL;
     if ((status = study_run(s, method, row->step, NAN, s->until, NULL, &run, &e)) != MOTUS_OK)
@@ -348,7 +335,8 @@ static motus_status make_row(compare *c, size_t k)
     if (c->def.evaluations > 0 && truth_rows) {
         give(s->allocator, c->own_truth);
         c->own_truth = take(s->allocator, g.points * s->numbers, sizeof(double));
-        status = c->own_truth ? truth_on(s, &c->truth, &g, c->own_truth) : no_memory(c, "the truth at the times of a method");
+        status = c->own_truth ? truth_on(s, &c->truth, &g, c->own_truth)
+                              : no_memory(c, "the truth at the times of a method");
         truth_rows = c->own_truth;
     }
     if (status != MOTUS_OK) {
@@ -359,16 +347,14 @@ static motus_status make_row(compare *c, size_t k)
     row->steps = motus_run_steps(run);
     row->evaluations = motus_run_evaluations(run);
     motus_run_destroy(run);
-    if (status != MOTUS_OK)
-        return row_failed(c, k, status, &e);
+    if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     motus_drift *drifts = c->out->drifts + k * c->invariants;
     for (size_t i = 0; i < c->invariants; i++)
         drifts[i] = drift_of(c, i, row->evaluations, &c->roundoff[k * c->invariants + i]);
 
     study_part(s, base + span / 2, span / 2);
     status = backward(c, k, method, total, last_step, &e);
-    if (study_fatal(status))
-        return row_failed(c, k, status, &e);
+    if (study_fatal(status)) return row_failed(c, k, status, &e);
     char *note = c->out->texts[k].note;
     if (status != MOTUS_OK)
         snprintf(note, MOTUS_TEXT_MAX, "on the way back: %.400s", e.message);
@@ -379,16 +365,15 @@ static motus_status make_row(compare *c, size_t k)
 
 /* The comparison ------------------------------------------------------------------------------------------------- */
 
-/* Asks the equations themselves, at states along the motion: what rounding does to the invariants, the fastest rate, and whether
- * the acceleration is constant. */
+/* Asks the equations themselves, at states along the motion: what rounding does to the invariants, the fastest rate,
+ * and whether the acceleration is constant. */
 static motus_status ask(compare *c, const study_grid *g)
 {
     study *s = &c->s;
     double direction = s->until > s->from ? 1 : -1;
     size_t count = c->truth.known ? PROBES : 1;
     c->rate = c->acceleration = NAN;
-    if (motus_analysis_of(s->system, &c->analysis) != MOTUS_OK)
-        return no_memory(c, "what the equations are like");
+    if (motus_analysis_of(s->system, &c->analysis) != MOTUS_OK) return no_memory(c, "what the equations are like");
     if (c->analysis.constant && probe_acceleration(s, s->from, s->start, c->a))
         for (size_t k = 0; k < s->nx; k++)
             if (k == 0 || fabs(c->a[k]) > fabs(c->acceleration)) {
@@ -403,8 +388,7 @@ static motus_status ask(compare *c, const study_grid *g)
         c->rate = p == 0 ? rate : study_larger(c->rate, rate);
         if (c->columns) {
             motus_status status = probe_columns(s, t, y, c->column, c->columns, c->column_scale);
-            if (status != MOTUS_OK)
-                return status;
+            if (status != MOTUS_OK) return status;
         }
     }
     return study_broken(s);
@@ -422,16 +406,12 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
         return MOTUS_ARGUMENT;
     }
     motus_status status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
-    if (status == MOTUS_OK)
-        status = study_methods(s, &c->def, &c->methods, &c->count);
-    if (status == MOTUS_OK)
-        status = find_columns(c);
-    if (status != MOTUS_OK)
-        return status;
+    if (status == MOTUS_OK) status = study_methods(s, &c->def, &c->methods, &c->count);
+    if (status == MOTUS_OK) status = find_columns(c);
+    if (status != MOTUS_OK) return status;
     c->facts = take(s->allocator, c->count, sizeof *c->facts);
     c->roundoff = take(s->allocator, c->count * c->invariants, sizeof(double));
-    if (!c->facts || !c->roundoff)
-        return no_memory(c, "the rows of the comparison");
+    if (!c->facts || !c->roundoff) return no_memory(c, "the rows of the comparison");
     for (size_t k = 0; k < c->count; k++) {
         c->facts[k].miss = NAN;
         c->facts[k].roundoff = c->roundoff + k * c->invariants;
@@ -445,44 +425,46 @@ static motus_status compare_all(compare *c)
     study_grid g = truth_grid(s, c->def.evaluations > 0 ? NAN : c->step);
     study_part(s, 0, TRUTH_SHARE);
     motus_status status = truth_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, 0, &c->truth);
-    if (status == MOTUS_OK)
-        status = ask(c, &g);
+    if (status == MOTUS_OK) status = ask(c, &g);
     for (size_t k = 0; k < c->count && status == MOTUS_OK; k++) {
         double share = (1 - TRUTH_SHARE) / (double)c->count;
         study_part(s, TRUTH_SHARE + share * (double)k, share);
         status = make_row(c, k);
     }
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     snprintf(c->out->reference, sizeof c->out->reference, "%s", c->truth.text);
     c->out->seen.reference_error = c->truth.error;
-    remarks_view view = { .s = s, .analysis = c->analysis, .truth = &c->truth, .rows = c->out->rows, .facts = c->facts,
-        .count = c->count, .axis = c->axis, .acceleration = c->acceleration, .rate = c->rate };
+    remarks_view view = {.s = s,
+                         .analysis = c->analysis,
+                         .truth = &c->truth,
+                         .rows = c->out->rows,
+                         .facts = c->facts,
+                         .count = c->count,
+                         .axis = c->axis,
+                         .acceleration = c->acceleration,
+                         .rate = c->rate};
     remarks_write(&view, c->out->remarks, sizeof c->out->remarks);
     return MOTUS_OK;
 }
 
-motus_status motus_compare(motus_system *system, const motus_study_def *given, motus_comparison **comparison, motus_error *err)
+motus_status motus_compare(motus_system *system, const motus_study_def *given, motus_comparison **comparison,
+                           motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!system || !comparison)
         return fail(err, MOTUS_ARGUMENT, "motus_compare needs a system and a place for its result");
     *comparison = NULL;
-    compare c = { .rate = NAN, .analysis = motus_default_analysis() };
+    compare c = {.rate = NAN, .analysis = motus_default_analysis()};
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
-    if (status == MOTUS_OK)
-        status = prepare(&c, system, err);
-    if (status == MOTUS_OK)
-        status = compare_all(&c);
+    if (status == MOTUS_OK) status = prepare(&c, system, err);
+    if (status == MOTUS_OK) status = compare_all(&c);
     if (c.s.allocator) {
         const motus_allocator *a = c.s.allocator;
         truth_free(&c.s, &c.truth);
-        void *blocks[] = { c.first, c.column, c.column_scale, c.t, c.drift, c.series, c.y, c.a, c.own_truth, c.roundoff, c.facts,
-                           (void *)c.methods };
-        for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++)
-            give(a, blocks[k]);
+        void *blocks[] = {c.first, c.column, c.column_scale, c.t,        c.drift, c.series,
+                          c.y,     c.a,      c.own_truth,    c.roundoff, c.facts, (void *)c.methods};
+        for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) give(a, blocks[k]);
         if (status == MOTUS_OK)
             *comparison = &c.out->seen;
         else
@@ -495,8 +477,7 @@ motus_status motus_compare(motus_system *system, const motus_study_def *given, m
 
 void motus_comparison_destroy(motus_comparison *comparison)
 {
-    if (!comparison)
-        return;
+    if (!comparison) return;
     result *r = (result *)(void *)comparison;
     motus_allocator allocator = r->allocator;
     give(&allocator, r);

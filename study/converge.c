@@ -1,15 +1,15 @@
 /* Error against step, the observed order and its certificate: motus_converge.
  *
- * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS times; its error is the
- * largest over these times and over all numbers of the state, each in units of how far its variable moves. Where even T/8 is so fine
- * for a high order that too few points lie above round-off, the row begins at T/4, T/2 or T, and all of it is compared at as many
- * times. Orders from 4 on also run with steps between, because few doublings fit between instability and round-off there. Steps are
- * halved until round-off is reached or the work is spent, never only until the slope looks right. Which points the slope is taken from
- * is said at the top of fit.c.
+ * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS
+ * times; its error is the largest over these times and over all numbers of the state, each in units of how far its
+ * variable moves. Where even T/8 is so fine for a high order that too few points lie above round-off, the row begins
+ * at T/4, T/2 or T, and all of it is compared at as many times. Orders from 4 on also run with steps between, because
+ * few doublings fit between instability and round-off there. Steps are halved until round-off is reached or the work
+ * is spent, never only until the slope looks right. Which points the slope is taken from is said at the top of fit.c.
  *
- * If the model's motion lasts so many turns that low orders would need steps without number, a shorter beginning of it is taken, and
- * the result says so.
- * Invariant: the result is one block, and the same on every machine: no decision depends on a clock.
+ * If the model's motion lasts so many turns that low orders would need steps without number, a shorter beginning of
+ * it is taken, and the result says so. Invariant: the result is one block, and the same on every machine: no decision
+ * depends on a clock.
  */
 #include "fit.h"
 #include "probe.h"
@@ -18,39 +18,41 @@
 #include <stdio.h>
 #include <string.h>
 
-#define INTERVALS 8                  /* a power of 2 */
-#define POINTS_MAX 80
-#define POINTS_LEAST 7               /* before anything is concluded */
-#define STEPS_LEAST 32               /* in an interval: taken whatever they cost */
-#define FINE_ORDER 4                 /* from here on four steps an octave */
+#define INTERVALS    8 /* a power of 2 */
+#define POINTS_MAX   80
+#define POINTS_LEAST 7  /* before anything is concluded */
+#define STEPS_LEAST  32 /* in an interval: taken whatever they cost */
+#define FINE_ORDER   4  /* from here on four steps an octave */
 /* The bound on the work (study_work) is first 2^18 evaluations of one oscillator per method. A method that is
  * neither at round-off by then nor shows a slope that has come to rest gets EXTENSION times as much. */
-#define WORK 4.7e6
-#define EXTENSION 8
-#define REST 0.03
-#define COARSE_ENOUGH 1e-4         /* a row whose coarsest error is larger than this lacks no coarse steps */
-/* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could move, excited or
- * not: more than STIFF_MOST would leave explicit methods no stable step. And where the motion is at its most violent, low orders need
- * very short steps: no more than VIOLENT_MOST of such turns. */
-#define TURNS_MOST 12.0
-#define TURNS_GOOD 8.0
-#define STIFF_MOST 2000.0
-#define VIOLENT_MOST 200.0
-#define SURVEY 64                    /* intervals of the look at the whole motion */
-#define SURVEY_PROBES 8              /* states of it whose fastest rate is asked */
-#define SURVEY_TRUST 0.1             /* of the motion's size: a survey less certain tells only of the start */
+#define WORK          4.7e6
+#define EXTENSION     8
+#define REST          0.03
+#define COARSE_ENOUGH 1e-4 /* a row whose coarsest error is larger than this lacks no coarse steps */
+/* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could
+ * move, excited or not: more than STIFF_MOST would leave explicit methods no stable step. And where the motion is at
+ * its most violent, low orders need very short steps: no more than VIOLENT_MOST of such turns. */
+#define TURNS_MOST    12.0
+#define TURNS_GOOD    8.0
+#define STIFF_MOST    2000.0
+#define VIOLENT_MOST  200.0
+#define SURVEY        64  /* intervals of the look at the whole motion */
+#define SURVEY_PROBES 8   /* states of it whose fastest rate is asked */
+#define SURVEY_TRUST  0.1 /* of the motion's size: a survey less certain tells only of the start */
 #define REFERENCE_MAX (TRUTH_TEXT_MAX + 320)
-#define TRUTH_SHARE 0.1              /* of the progress */
+#define TRUTH_SHARE   0.1 /* of the progress */
 
-typedef struct row_text { char method[MOTUS_NAME_MAX], certificate[MOTUS_TEXT_MAX]; } row_text;
+typedef struct row_text {
+    char method[MOTUS_NAME_MAX], certificate[MOTUS_TEXT_MAX];
+} row_text;
 
 typedef struct result {
-    motus_convergence seen;          /* first: the handle the user holds */
+    motus_convergence seen; /* first: the handle the user holds */
     motus_allocator allocator;
     char reference[REFERENCE_MAX];
     motus_converge_row *rows;
-    motus_point *points;             /* rows × POINTS_MAX */
-    const motus_converge_row **row_list;             /* to each of them: what the user reads */
+    motus_point *points;                 /* rows × POINTS_MAX */
+    const motus_converge_row **row_list; /* to each of them: what the user reads */
     const motus_point **point_list;
     row_text *texts;
 } result;
@@ -60,17 +62,14 @@ typedef struct converge {
     motus_study_def def;
     truth truth;
     study_grid grid;
-    double whole;                    /* the model's own end, where a shorter one is taken; NaN otherwise */
-    double *table;                   /* INTERVALS × numbers */
+    double whole;  /* the model's own end, where a shorter one is taken; NaN otherwise */
+    double *table; /* INTERVALS × numbers */
     const char **methods;
     size_t count;
     result *out;
 } converge;
 
-static size_t aligned(size_t bytes)
-{
-    return (bytes + 15) & ~(size_t)15;
-}
+static size_t aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
 
 static motus_status make_result(converge *c)
 {
@@ -90,12 +89,14 @@ static motus_status make_result(converge *c)
     r->texts = (row_text *)(void *)(block + head + rows + points);
     r->row_list = (const motus_converge_row **)(void *)(block + head + rows + points + texts);
     r->point_list = (const motus_point **)(void *)(block + head + rows + points + texts + row_list);
-    for (size_t i = 0; i < c->count * POINTS_MAX; i++)
-        r->point_list[i] = &r->points[i];
-    r->seen = (motus_convergence){ c->count, r->row_list, r->reference, NAN, 0 };
+    for (size_t i = 0; i < c->count * POINTS_MAX; i++) r->point_list[i] = &r->points[i];
+    r->seen = (motus_convergence){c->count, r->row_list, r->reference, NAN, 0};
     for (size_t k = 0; k < c->count; k++) {
-        r->rows[k] = (motus_converge_row){ .method = r->texts[k].method, .observed = NAN, .standard_error = NAN,
-            .points = r->point_list + k * POINTS_MAX, .certificate = r->texts[k].certificate };
+        r->rows[k] = (motus_converge_row){.method = r->texts[k].method,
+                                          .observed = NAN,
+                                          .standard_error = NAN,
+                                          .points = r->point_list + k * POINTS_MAX,
+                                          .certificate = r->texts[k].certificate};
         r->row_list[k] = &r->rows[k];
         snprintf(r->texts[k].method, sizeof r->texts[k].method, "%s", c->methods[k]);
     }
@@ -106,18 +107,19 @@ static motus_status make_result(converge *c)
 
 static study_grid even_grid(const study *s, double until, size_t intervals)
 {
-    return (study_grid){ .from = s->from, .until = until, .interval = fabs(until - s->from) / (double)intervals,
-                         .intervals = intervals, .points = intervals };
+    return (study_grid){.from = s->from,
+                        .until = until,
+                        .interval = fabs(until - s->from) / (double)intervals,
+                        .intervals = intervals,
+                        .points = intervals};
 }
 
 /* Down to 1, 2 or 5 times a power of ten: a duration that a reader can take in. */
 static double round_down(double duration)
 {
     double whole = 1, parts = 1;
-    while (10 * whole <= duration)
-        whole *= 10;
-    while (1 / parts > duration)
-        parts *= 10;
+    while (10 * whole <= duration) whole *= 10;
+    while (1 / parts > duration) parts *= 10;
     double power = whole / parts, digit = duration / power;
     return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
@@ -128,7 +130,7 @@ static motus_status choose_end(converge *c, double *until)
     study *s = &c->s;
     *until = s->until;
     c->whole = NAN;
-    if (!isnan(c->def.until))        /* asked for in so many words */
+    if (!isnan(c->def.until)) /* asked for in so many words */
         return MOTUS_OK;
     study_grid g = even_grid(s, s->until, SURVEY);
     truth survey;
@@ -139,26 +141,19 @@ static motus_status choose_end(converge *c, double *until)
         double t = s->from + direction * (double)r * g.interval;
         const double *y = survey.rows + r * s->numbers;
         double speed = 2 * probe_speed(s, t, y);
-        violent = fmax(violent, speed);      /* a NaN does not count */
+        violent = fmax(violent, speed); /* a NaN does not count */
         turns += isnan(speed) ? 0 : speed / (trusted ? SURVEY + 1 : 1);
-        if (r % (SURVEY / SURVEY_PROBES) == 0)
-            stiff = fmax(stiff, probe_rate(s, t, y));
+        if (r % (SURVEY / SURVEY_PROBES) == 0) stiff = fmax(stiff, probe_rate(s, t, y));
     }
     truth_free(s, &survey);
-    if (status == MOTUS_OK)
-        status = study_broken(s);
-    if (status != MOTUS_OK)
-        return status;
+    if (status == MOTUS_OK) status = study_broken(s);
+    if (status != MOTUS_OK) return status;
     double duration = fabs(s->until - s->from);
     double longest = duration;
-    if (turns * duration > TURNS_MOST)
-        longest = TURNS_GOOD / turns;
-    if (violent * longest > VIOLENT_MOST)
-        longest = VIOLENT_MOST / violent;
-    if (stiff * longest > STIFF_MOST)
-        longest = STIFF_MOST / stiff;
-    if (longest == duration)
-        return MOTUS_OK;
+    if (turns * duration > TURNS_MOST) longest = TURNS_GOOD / turns;
+    if (violent * longest > VIOLENT_MOST) longest = VIOLENT_MOST / violent;
+    if (stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
+    if (longest == duration) return MOTUS_OK;
     c->whole = s->until;
     *until = s->from + direction * round_down(longest);
     return MOTUS_OK;
@@ -170,24 +165,22 @@ static motus_status choose_end(converge *c, double *until)
 static int64_t steps_per_interval(int64_t i, int order)
 {
     int64_t octave = order < FINE_ORDER ? 1 : 4;
-    if (i < octave - 1)
-        return i + 1;
+    if (i < octave - 1) return i + 1;
     i -= octave - 1;
     return (octave + i % octave) << (i / octave);
 }
 
-static motus_status measure(converge *c, const motus_method *card, const char *method, const study_grid *g, int64_t per, motus_point *point,
-                            double *spent, motus_error *e, motus_status *failed)
+static motus_status measure(converge *c, const motus_method *card, const char *method, const study_grid *g, int64_t per,
+                            motus_point *point, double *spent, motus_error *e, motus_status *failed)
 {
     study *s = &c->s;
     study_cost cost;
-    *point = (motus_point){ .step = g->interval / (double)per, .error = NAN };
+    *point = (motus_point){.step = g->interval / (double)per, .error = NAN};
     motus_status status = study_walk(s, method, g, per, c->table, &cost, e);
     point->evaluations = cost.evaluations;
     *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
     if (study_fatal(status)) {
-        if (s->err && !s->cancelled)
-            motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
+        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
         return status;
     }
     if (status != MOTUS_OK) {
@@ -204,31 +197,29 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
 }
 
 /* The points of a row, from `intervals` steps on, and their fit. */
-static motus_status measure_all(converge *c, const motus_method *card, const char *method, size_t intervals, motus_converge_row *row,
-                                motus_point *points, fit_order_result *fit, motus_error *e, motus_status *failed)
+static motus_status measure_all(converge *c, const motus_method *card, const char *method, size_t intervals,
+                                motus_converge_row *row, motus_point *points, fit_order_result *fit, motus_error *e,
+                                motus_status *failed)
 {
     study *s = &c->s;
     study_grid g = even_grid(s, c->grid.until, intervals);
     double work = 0, bound = WORK, base = s->base, span = s->span, duration = fabs(g.until - g.from);
-    *fit = (fit_order_result){ .verdict = FIT_FEW, .observed = NAN, .standard_error = NAN };
+    *fit = (fit_order_result){.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN};
     for (size_t i = 0; i < POINTS_MAX; i++) {
         int64_t per = steps_per_interval((int64_t)i, row->declared);
         double next = study_work(s, card, (double)intervals * (double)per, -1), spent;
         if (per > STEPS_LEAST && work + next > bound) {
             bool shown = fit->settled || fit->verdict == FIT_EXACT || (fit->verdict == FIT_SLOPE && fit->unrest < REST);
-            if (shown || bound > WORK || work + next > EXTENSION * WORK)
-                break;
+            if (shown || bound > WORK || work + next > EXTENSION * WORK) break;
             bound = EXTENSION * WORK;
         }
         study_part(s, base + span * fmin(1, work / bound), span * fmin(1, next / bound));
         motus_status status = measure(c, card, method, &g, per, &points[i], &spent, e, failed);
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
         work += fmax(next, spent);
         row->point_count = i + 1;
         *fit = fit_order(points, row->point_count, duration, s->noise, c->truth.scaled);
-        if (row->point_count > POINTS_LEAST && (fit->settled || fit->verdict == FIT_EXACT))
-            break;
+        if (row->point_count > POINTS_LEAST && (fit->settled || fit->verdict == FIT_EXACT)) break;
     }
     return MOTUS_OK;
 }
@@ -238,22 +229,20 @@ static void certify(motus_converge_row *row, const fit_order_result *fit, char *
     row->observed = fit->observed;
     row->standard_error = fit->standard_error;
     row->exact_here = fit->verdict == FIT_EXACT;
-    row->passed = row->exact_here || (fit->verdict == FIT_SLOPE && fit_passes(fit->observed, fit->standard_error, row->declared));
+    row->passed =
+        row->exact_here || (fit->verdict == FIT_SLOPE && fit_passes(fit->observed, fit->standard_error, row->declared));
     switch (fit->verdict) {
-    case FIT_EXACT:
-        snprintf(text, size, "exact here, declared %d", row->declared);
-        break;
+    case FIT_EXACT: snprintf(text, size, "exact here, declared %d", row->declared); break;
     case FIT_SLOPE:
         snprintf(text, size, "observed %.2f, declared %d", fit->observed, row->declared);
-        if (!row->passed)
-            row->status = MOTUS_ORDER;
+        if (!row->passed) row->status = MOTUS_ORDER;
         break;
     case FIT_ROUGH:
         snprintf(text, size, "no slope: the errors follow no power of the step, declared %d", row->declared);
         break;
     case FIT_FEW:
-        snprintf(text, size, "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d", fit->above,
-                 FIT_POINTS_MIN, row->declared);
+        snprintf(text, size, "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d",
+                 fit->above, FIT_POINTS_MIN, row->declared);
         break;
     }
 }
@@ -273,8 +262,7 @@ static motus_status make_row(converge *c, size_t k)
         status = motus_method_admits(s->system, method, &e);
     }
     if (study_fatal(status)) {
-        if (s->err && !s->cancelled)
-            motus_struct_write(MOTUS_DEF_ERROR, &e, s->err);
+        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &e, s->err);
         return status;
     }
     if (status != MOTUS_OK) {
@@ -287,16 +275,13 @@ static motus_status make_row(converge *c, size_t k)
     for (size_t intervals = INTERVALS; intervals > 0; intervals /= 2) {
         study_part(s, base, span);
         status = measure_all(c, card, method, intervals, row, points, &fit, &e, &failed);
-        if (status != MOTUS_OK)
-            return status;
-        if (fit.verdict != FIT_FEW || !(points[0].error < COARSE_ENOUGH))
-            break;
+        if (status != MOTUS_OK) return status;
+        if (fit.verdict != FIT_FEW || !(points[0].error < COARSE_ENOUGH)) break;
     }
     size_t finite = 0;
-    for (size_t i = 0; i < row->point_count; i++)
-        finite += !isnan(points[i].error);
+    for (size_t i = 0; i < row->point_count; i++) finite += !isnan(points[i].error);
     if (finite == 0 && failed != MOTUS_OK) {
-        row->status = failed;        /* at no step did it run: the last sentence says why */
+        row->status = failed; /* at no step did it run: the last sentence says why */
         snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
         return MOTUS_OK;
     }
@@ -312,8 +297,8 @@ static void describe(converge *c)
     int n = snprintf(r->reference, sizeof r->reference, "%s", c->truth.text);
     if (!isnan(c->whole) && n > 0 && (size_t)n < sizeof r->reference)
         snprintf(r->reference + n, sizeof r->reference - (size_t)n,
-                 "; until %.6g, not %.6g: a longer motion has too many turns for every order to show above round-off", c->grid.until,
-                 c->whole);
+                 "; until %.6g, not %.6g: a longer motion has too many turns for every order to show above round-off",
+                 c->grid.until, c->whole);
     r->seen.reference_error = c->truth.scaled;
 }
 
@@ -323,12 +308,10 @@ static motus_status converge_all(converge *c)
     double until;
     study_part(s, 0, TRUTH_SHARE / 2);
     motus_status status = choose_end(c, &until);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     c->grid = even_grid(s, until, INTERVALS);
     study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
-    if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK)
-        return status;
+    if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK) return status;
     if (!c->truth.known) {
         fail(s->err, MOTUS_DIVERGED,
              "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
@@ -339,8 +322,7 @@ static motus_status converge_all(converge *c)
     for (size_t k = 0; k < c->count; k++) {
         double share = (1 - TRUTH_SHARE) / (double)c->count;
         study_part(s, TRUTH_SHARE + share * (double)k, share);
-        if ((status = make_row(c, k)) != MOTUS_OK)
-            return status;
+        if ((status = make_row(c, k)) != MOTUS_OK) return status;
         passed = passed && c->out->rows[k].passed;
     }
     c->out->seen.passed = passed;
@@ -348,24 +330,20 @@ static motus_status converge_all(converge *c)
     return MOTUS_OK;
 }
 
-motus_status motus_converge(motus_system *system, const motus_study_def *given, motus_convergence **convergence, motus_error *err)
+motus_status motus_converge(motus_system *system, const motus_study_def *given, motus_convergence **convergence,
+                            motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!system || !convergence)
         return fail(err, MOTUS_ARGUMENT, "motus_converge needs a system and a place for its result");
     *convergence = NULL;
-    converge c = { .whole = NAN };
+    converge c = {.whole = NAN};
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
-    if (status == MOTUS_OK)
-        status = study_open(&c.s, system, &c.def, 0, err);
-    if (status == MOTUS_OK)
-        status = study_methods(&c.s, &c.def, &c.methods, &c.count);
-    if (status == MOTUS_OK)
-        status = make_result(&c);
-    if (status == MOTUS_OK)
-        status = converge_all(&c);
+    if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, 0, err);
+    if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, &c.methods, &c.count);
+    if (status == MOTUS_OK) status = make_result(&c);
+    if (status == MOTUS_OK) status = converge_all(&c);
     if (c.s.allocator) {
         truth_free(&c.s, &c.truth);
         give(c.s.allocator, c.table);
@@ -382,8 +360,7 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
 
 void motus_convergence_destroy(motus_convergence *convergence)
 {
-    if (!convergence)
-        return;
+    if (!convergence) return;
     result *r = (result *)(void *)convergence;
     motus_allocator allocator = r->allocator;
     give(&allocator, r);

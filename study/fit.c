@@ -1,47 +1,57 @@
 /* The observed order of a method from its errors at a sequence of steps.
  *
- * The rule that chooses the points of a fit (nothing is chosen by hand; the declared order has no part in it; points run coarse to
- * fine):
+ * The rule that chooses the points of a fit (nothing is chosen by hand; the declared order has no part in it; points
+ * run coarse to fine):
  *
- *  1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if its step is at most half of
+ * 1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if its step is at
+ * most half of
  *     the shortest at which this failed: close to its limit of stability a method is not itself.
- *  2. Round-off. It is at least the error of the truth. The rest is read off the errors: where the slope to the next point and to
- *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already below FIT_PLATEAU
- *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first errors are the
- *     round-off. Where no plateau was reached, it is taken for what a random walk of n roundings may come to, FIT_WALK sqrt(n) of
- *     one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not count: the remaining share of
+ * 2. Round-off. It is at least the error of the truth. The rest is read off the errors: where the slope to the next
+ * point and to
+ *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already
+ *         below FIT_PLATEAU
+ *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first
+ *         errors are the
+ *     round-off. Where no plateau was reached, it is taken for what a random walk of n roundings may come to,
+ *         FIT_WALK sqrt(n) of
+ *     one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not count: the remaining
+ *         share of
  *     round-off, 1/30, bends a local slope by less than the certificate's margin.
- *  3. Of what is left, the finest are nearest to the limit that the order speaks of. The finest FIT_POINTS_MIN are taken, and
- *     as many more as it takes to span an octave; the range is carried on to coarser steps as long as the local slope stays within
- *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better (superconvergent) or
+ * 3. Of what is left, the finest are nearest to the limit that the order speaks of. The finest FIT_POINTS_MIN are
+ * taken, and
+ *     as many more as it takes to span an octave; the range is carried on to coarser steps as long as the local slope
+ *         stays within
+ *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better
+ *         (superconvergent) or
  *     worse (not yet asymptotic) than the order are left out by the same rule.
- *  4. At least FIT_POINTS_MIN points; the order is the least-squares slope of log error against log step. If its standard error is
+ * 4. At least FIT_POINTS_MIN points; the order is the least-squares slope of log error against log step. If its
+ * standard error is
  *     above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
  *
- * A method is exact here if every error lies under the line that rounding n steps can explain, at coarse steps as at fine ones.
+ * A method is exact here if every error lies under the line that rounding n steps can explain, at coarse steps as at
+ * fine ones.
  */
 #include "fit.h"
 #include <math.h>
 #include <stdbool.h>
 
-#define FIT_CEILING 0.1
-#define FIT_PLATEAU 1e-8
-#define FIT_FLAT 0.5
-#define FIT_CLEARANCE 30.0
-#define FIT_WALK 2.0
-#define FIT_STEADY 0.05
+#define FIT_CEILING     0.1
+#define FIT_PLATEAU     1e-8
+#define FIT_FLAT        0.5
+#define FIT_CLEARANCE   30.0
+#define FIT_WALK        2.0
+#define FIT_STEADY      0.05
 #define FIT_STEADY_PART 0.02
-#define FIT_ROUGHNESS 0.5
-#define OCTAVE 1.999               /* 2, but for the rounding of steps */
-#define EXACT_STEPS 8.0
-#define FIT_MARGIN 0.15           /* the certificate's */
-#define FIT_POINTS_MAX 128
+#define FIT_ROUGHNESS   0.5
+#define OCTAVE          1.999 /* 2, but for the rounding of steps */
+#define EXACT_STEPS     8.0
+#define FIT_MARGIN      0.15 /* the certificate's */
+#define FIT_POINTS_MAX  128
 
 fit_result fit_line(const double *x, const double *y, size_t count)
 {
-    fit_result r = { NAN, NAN, NAN };
-    if (count < 2)
-        return r;
+    fit_result r = {NAN, NAN, NAN};
+    if (count < 2) return r;
     double mx = 0, my = 0;
     for (size_t i = 0; i < count; i++) {
         mx += (x[i] - x[0]) / (double)count;
@@ -54,8 +64,7 @@ fit_result fit_line(const double *x, const double *y, size_t count)
         sxx += (x[i] - mx) * (x[i] - mx);
         sxy += (x[i] - mx) * (y[i] - my);
     }
-    if (!(sxx > 0))
-        return r;
+    if (!(sxx > 0)) return r;
     r.slope = sxy / sxx;
     r.intercept = my - r.slope * mx;
     double rest = 0;
@@ -73,64 +82,60 @@ static double local_slope(const motus_point *p, const motus_point *q)
 }
 
 /* A point whose run ended with an error that is small and not zero. */
-static bool counts(const motus_point *p)
-{
-    return p->error > 0 && p->error < FIT_CEILING;      /* false for NaN */
-}
+static bool counts(const motus_point *p) { return p->error > 0 && p->error < FIT_CEILING; /* false for NaN */ }
 
 /* The index where the plateau of round-off begins, or count. */
 static size_t plateau(const motus_point *points, size_t count, double duration, double noise)
 {
     for (size_t i = 0; i + 1 < count; i++) {
-        if (points[i + 1].error == 0)
-            return i + 1;
+        if (points[i + 1].error == 0) return i + 1;
         double steps = duration / points[i].step;
-        if (!counts(&points[i]) || !counts(&points[i + 1]) || points[i].error > fmax(FIT_PLATEAU, noise * steps * steps))
+        if (!counts(&points[i]) || !counts(&points[i + 1]) ||
+            points[i].error > fmax(FIT_PLATEAU, noise * steps * steps))
             continue;
-        if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT)
-            continue;
-        /* A flat stretch may come from a dip where terms cancel; if two points on it is no better, this is round-off. */
-        if (i + 2 == count || !counts(&points[i + 2]) || local_slope(&points[i], &points[i + 2]) < FIT_FLAT)
-            return i;
+        if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT) continue;
+        /* A flat stretch may come from a dip where terms cancel; if two points on it is no better, this is
+         * round-off. */
+        if (i + 2 == count || !counts(&points[i + 2]) || local_slope(&points[i], &points[i + 2]) < FIT_FLAT) return i;
     }
     return count;
 }
 
-/* At every step, coarse or fine, no more than rounding explains: each step rounds once or twice, a recursion of second order sums its
- * sums, and the truth has its own error. */
-static bool exact_everywhere(const motus_point *points, size_t count, double duration, double noise, double reference_error)
+/* At every step, coarse or fine, no more than rounding explains: each step rounds once or twice, a recursion of
+ * second order sums its sums, and the truth has its own error. */
+static bool exact_everywhere(const motus_point *points, size_t count, double duration, double noise,
+                             double reference_error)
 {
     size_t finite = 0;
     for (size_t i = 0; i < count; i++) {
-        if (isnan(points[i].error))
-            continue;
+        if (isnan(points[i].error)) continue;
         double steps = duration / points[i].step, sums = steps / EXACT_STEPS;
-        if (points[i].error > 4 * noise * (EXACT_STEPS + steps + sums * sums) + 4 * reference_error)
-            return false;
+        if (points[i].error > 4 * noise * (EXACT_STEPS + steps + sums * sums) + 4 * reference_error) return false;
         finite++;
     }
     return finite >= FIT_POINTS_MIN;
 }
 
 /* The points that count and stand clear of the round-off, which is found here, coarse to fine. */
-static size_t find_clear(motus_point *points, size_t count, double duration, double noise, fit_order_result *r, motus_point **clear)
+static size_t find_clear(motus_point *points, size_t count, double duration, double noise, fit_order_result *r,
+                         motus_point **clear)
 {
     size_t flat = plateau(points, count, duration, noise), n = 0;
     /* A flat stretch at the very end may still turn out to be a dip. */
     r->settled = flat + 2 < count;
     if (flat < count) {
         double level = 0;
-        for (size_t i = flat; i < count && i < flat + 3; i++)
-            level += isnan(points[i].error) ? 0 : points[i].error / 3;
+        for (size_t i = flat; i < count && i < flat + 3; i++) level += isnan(points[i].error) ? 0 : points[i].error / 3;
         r->floor = fmax(r->floor, level);
     }
     double longest = INFINITY;
     for (size_t i = 0; i < count && i <= flat && n < FIT_POINTS_MAX; i++) {
         double walk = r->settled ? 0 : noise * (1 + FIT_WALK * sqrt(duration / points[i].step));
         if (points[i].error >= FIT_CEILING || (n == 0 && isnan(points[i].error))) {
-            n = 0;                   /* whatever was small before this was so by accident */
+            n = 0; /* whatever was small before this was so by accident */
             longest = points[i].step / OCTAVE;
-        } else if (counts(&points[i]) && points[i].step <= longest && points[i].error >= FIT_CLEARANCE * fmax(r->floor, walk)) {
+        } else if (counts(&points[i]) && points[i].step <= longest &&
+                   points[i].error >= FIT_CLEARANCE * fmax(r->floor, walk)) {
             clear[n++] = &points[i];
         }
     }
@@ -139,9 +144,8 @@ static size_t find_clear(motus_point *points, size_t count, double duration, dou
 
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error)
 {
-    fit_order_result r = { .verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .unrest = INFINITY };
-    for (size_t i = 0; i < count; i++)
-        points[i].used = 0;
+    fit_order_result r = {.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .unrest = INFINITY};
+    for (size_t i = 0; i < count; i++) points[i].used = 0;
     r.floor = fmax(noise, reference_error);
     if (exact_everywhere(points, count, duration, noise, reference_error)) {
         r.verdict = FIT_EXACT;
@@ -151,18 +155,15 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
     motus_point *clear[FIT_POINTS_MAX];
     size_t n = find_clear(points, count, duration, noise, &r, clear);
     r.above = n;
-    if (n < FIT_POINTS_MIN)
-        return r;
+    if (n < FIT_POINTS_MIN) return r;
 
     size_t least = n - FIT_POINTS_MIN;
-    while (least > 0 && clear[least]->step < OCTAVE * clear[n - 1]->step)
-        least--;
+    while (least > 0 && clear[least]->step < OCTAVE * clear[n - 1]->step) least--;
     double middle = local_slope(clear[least], clear[n - 1]), steady = fmax(FIT_STEADY, FIT_STEADY_PART * fabs(middle));
     r.unrest = fabs(local_slope(clear[n - 2], clear[n - 1]) - local_slope(clear[n - 3], clear[n - 2]));
-    while (least > 0 && fabs(local_slope(clear[least - 1], clear[least]) - middle) <= steady)
-        least--;
+    while (least > 0 && fabs(local_slope(clear[least - 1], clear[least]) - middle) <= steady) least--;
 
-    double lx[FIT_POINTS_MAX] = { 0 }, ly[FIT_POINTS_MAX] = { 0 };
+    double lx[FIT_POINTS_MAX] = {0}, ly[FIT_POINTS_MAX] = {0};
     for (size_t i = least; i < n; i++) {
         lx[i - least] = log(clear[i]->step);
         ly[i - least] = log(clear[i]->error);
@@ -172,8 +173,7 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
         r.verdict = FIT_ROUGH;
         return r;
     }
-    for (size_t i = least; i < n; i++)
-        clear[i]->used = 1;
+    for (size_t i = least; i < n; i++) clear[i]->used = 1;
     r.verdict = FIT_SLOPE;
     r.observed = line.slope;
     r.standard_error = line.slope_error;
@@ -184,8 +184,6 @@ int fit_passes(double observed, double standard_error, int declared)
 {
     double margin = FIT_MARGIN;
     /* From order 6 on few points lie above round-off, and the fit itself says how well it knows its slope. */
-    if (declared >= 6)
-        margin = fmax(margin, 2 * standard_error);
+    if (declared >= 6) margin = fmax(margin, 2 * standard_error);
     return observed >= declared - margin;
 }
-

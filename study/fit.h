@@ -5,14 +5,16 @@
 #include "motus.h"
 
 /* y = intercept + slope x by least squares; slope_error is the slope's standard error (0 for two points). */
-typedef struct fit_result { double slope, intercept, slope_error; } fit_result;
+typedef struct fit_result {
+    double slope, intercept, slope_error;
+} fit_result;
 fit_result fit_line(const double *x, const double *y, size_t count);
 
 typedef enum fit_verdict {
-    FIT_SLOPE,                       /* observed and standard_error hold */
-    FIT_EXACT,                       /* round-off at every step */
-    FIT_FEW,                         /* fewer than FIT_POINTS_MIN points between instability and round-off */
-    FIT_ROUGH                        /* the errors follow no power of the step */
+    FIT_SLOPE, /* observed and standard_error hold */
+    FIT_EXACT, /* round-off at every step */
+    FIT_FEW,   /* fewer than FIT_POINTS_MIN points between instability and round-off */
+    FIT_ROUGH  /* the errors follow no power of the step */
 } fit_verdict;
 
 #define FIT_POINTS_MIN 4
@@ -22,12 +24,13 @@ typedef struct fit_order_result {
     double observed, standard_error; /* NaN unless FIT_SLOPE */
     size_t above;                    /* points between instability and round-off */
     double floor;                    /* the round-off found, in the errors' units */
-    double unrest;                   /* by how much the two finest local slopes in use differ: large far from the limit */
-    int settled;                     /* the plateau of round-off has been reached: finer steps teach nothing */
+    /* by how much the two finest local slopes in use differ: large far from the limit */
+    double unrest;
+    int settled; /* the plateau of round-off has been reached: finer steps teach nothing */
 } fit_order_result;
 
-/* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed; `used` is set.
- * noise: the rounding of one number, in the same units; reference_error: that of the truth. */
+/* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed;
+ * `used` is set. noise: the rounding of one number, in the same units; reference_error: that of the truth. */
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error);
 
 /* Whether an observed order meets the declared one. */

@@ -1,28 +1,26 @@
-/* See probe.h. One step of explicit Euler from (x, v) with step 1 ends at v + a: that is how an experiment that sees only the public
- * calls reads an acceleration.
+/* See probe.h. One step of explicit Euler from (x, v) with step 1 ends at v + a: that is how an experiment that sees
+ * only the public calls reads an acceleration.
  *
  * Invariant: a probe never changes the system, and what it cannot find out is NaN or false, not an error.
  */
 #include "probe.h"
 #include <math.h>
 
-#define RATE_ITERATIONS 32        /* even: the square of an oscillator's Jacobian is -ω² */
-#define RATE_FORGET 8             /* iterations until the fastest direction rules */
-#define RATE_OFFSET 1e-5          /* of the size of the motion: rounding and curvature both stay below 1e-4 */
-#define RATE_NUMBERS_MAX 20000    /* beyond that an iteration costs too much for what it tells: fewer of them */
-#define RATE_LEAST 1e-9
-#define PATTERNS 4
-#define PATTERN_OFFSET 0x1p-20
+#define RATE_ITERATIONS  32    /* even: the square of an oscillator's Jacobian is -ω² */
+#define RATE_FORGET      8     /* iterations until the fastest direction rules */
+#define RATE_OFFSET      1e-5  /* of the size of the motion: rounding and curvature both stay below 1e-4 */
+#define RATE_NUMBERS_MAX 20000 /* beyond that an iteration costs too much for what it tells: fewer of them */
+#define RATE_LEAST       1e-9
+#define PATTERNS         4
+#define PATTERN_OFFSET   0x1p-20
 
 bool probe_acceleration(study *s, double t, const double *y, double *a)
 {
     motus_run *run = NULL;
     motus_error ignored = motus_default_error();
     motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, y, &run, &ignored);
-    if (status == MOTUS_OK)
-        status = motus_run_step(run, 1, &ignored);
-    if (status == MOTUS_OK)
-        status = motus_run_state(run, NULL, a, &ignored);
+    if (status == MOTUS_OK) status = motus_run_step(run, 1, &ignored);
+    if (status == MOTUS_OK) status = motus_run_state(run, NULL, a, &ignored);
     motus_run_destroy(run);
     study_note(s, status);
     bool ok = status == MOTUS_OK;
@@ -41,34 +39,26 @@ static double scatter(size_t k)
 }
 
 /* out = J u, both in units of scale; false where it cannot be had. */
-static bool jacobian(study *s, double t, const double *y, const double *u, double *out, double *moved, double *plus, double *minus)
+static bool jacobian(study *s, double t, const double *y, const double *u, double *out, double *moved, double *plus,
+                     double *minus)
 {
-    for (size_t k = 0; k < s->numbers; k++)
-        moved[k] = y[k] + RATE_OFFSET * s->scale[k] * u[k];
-    if (!probe_acceleration(s, t, moved, plus))
-        return false;
-    for (size_t k = 0; k < s->numbers; k++)
-        moved[k] = y[k] - RATE_OFFSET * s->scale[k] * u[k];
-    if (!probe_acceleration(s, t, moved, minus))
-        return false;
-    for (size_t k = 0; k < s->nx; k++)
-        out[k] = u[s->nx + k] * s->scale[s->nx + k] / s->scale[k];
-    for (size_t k = 0; k < s->nv; k++)
-        out[s->nx + k] = (plus[k] - minus[k]) / (2 * RATE_OFFSET) / s->scale[s->nx + k];
+    for (size_t k = 0; k < s->numbers; k++) moved[k] = y[k] + RATE_OFFSET * s->scale[k] * u[k];
+    if (!probe_acceleration(s, t, moved, plus)) return false;
+    for (size_t k = 0; k < s->numbers; k++) moved[k] = y[k] - RATE_OFFSET * s->scale[k] * u[k];
+    if (!probe_acceleration(s, t, moved, minus)) return false;
+    for (size_t k = 0; k < s->nx; k++) out[k] = u[s->nx + k] * s->scale[s->nx + k] / s->scale[k];
+    for (size_t k = 0; k < s->nv; k++) out[s->nx + k] = (plus[k] - minus[k]) / (2 * RATE_OFFSET) / s->scale[s->nx + k];
     return true;
 }
 
 double probe_speed(study *s, double t, const double *y)
 {
     double *a = take(s->allocator, s->nv, sizeof(double)), most = NAN;
-    if (!a)
-        study_note(s, MOTUS_MEMORY);
+    if (!a) study_note(s, MOTUS_MEMORY);
     if (a && probe_acceleration(s, t, y, a)) {
         most = 0;
-        for (size_t k = 0; k < s->nx; k++)
-            most = fmax(most, fabs(y[s->nx + k]) / s->scale[k]);
-        for (size_t k = 0; k < s->nv; k++)
-            most = fmax(most, fabs(a[k]) / s->scale[s->nx + k]);
+        for (size_t k = 0; k < s->nx; k++) most = fmax(most, fabs(y[s->nx + k]) / s->scale[k]);
+        for (size_t k = 0; k < s->nv; k++) most = fmax(most, fabs(a[k]) / s->scale[s->nx + k]);
     }
     give(s->allocator, a);
     return most;
@@ -83,8 +73,7 @@ double probe_rate(study *s, double t, const double *y)
         return NAN;
     }
     double *u = room, *next = u + n, *moved = next + n, *plus = moved + n, *minus = plus + n;
-    for (size_t k = 0; k < n; k++)
-        u[k] = scatter(k);
+    for (size_t k = 0; k < n; k++) u[k] = scatter(k);
     int iterations = n > RATE_NUMBERS_MAX ? RATE_FORGET + 4 : RATE_ITERATIONS;
     double growth = 0, rate = 0;
     for (int i = 0; i < iterations; i++) {
@@ -93,9 +82,8 @@ double probe_rate(study *s, double t, const double *y)
             rate = NAN;
             break;
         }
-        for (size_t k = 0; k < n; k++)
-            size = fmax(size, fabs(next[k]));
-        if (!(size > 0)) {           /* a constant force: the linearised motion only coasts */
+        for (size_t k = 0; k < n; k++) size = fmax(size, fabs(next[k]));
+        if (!(size > 0)) { /* a constant force: the linearised motion only coasts */
             rate = 0;
             break;
         }
@@ -103,18 +91,17 @@ double probe_rate(study *s, double t, const double *y)
             growth += log(size);
             rate = exp(growth / (i + 1 - RATE_FORGET));
         }
-        for (size_t k = 0; k < n; k++)
-            u[k] = next[k] / size;
+        for (size_t k = 0; k < n; k++) u[k] = next[k] / size;
     }
     give(s->allocator, room);
     return rate < RATE_LEAST ? 0 : rate;
 }
 
-motus_status probe_columns(study *s, double t, const double *y, const size_t *columns, size_t column_count, double *scale)
+motus_status probe_columns(study *s, double t, const double *y, const size_t *columns, size_t column_count,
+                           double *scale)
 {
     double *room = take(s->allocator, s->numbers + 2 * column_count, sizeof(double));
-    if (!room)
-        return fail(s->err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
+    if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     double *moved = room, *before = moved + s->numbers, *after = before + column_count;
     for (int pattern = -1; pattern < PATTERNS; pattern++) {
         /* Each pattern flips its signs in a rhythm of its own, so that opposite contributions do not always cancel. */
@@ -126,16 +113,13 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
         motus_error ignored = motus_default_error();
         double *out = pattern < 0 ? before : after;
         motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, moved, &run, &ignored);
-        if (status == MOTUS_OK)
-            status = motus_run_values(run, columns, column_count, out, &ignored);
+        if (status == MOTUS_OK) status = motus_run_values(run, columns, column_count, out, &ignored);
         motus_run_destroy(run);
         study_note(s, status);
-        if (status != MOTUS_OK)
-            break;
+        if (status != MOTUS_OK) break;
         for (size_t c = 0; c < column_count && pattern >= 0; c++) {
             double change = fabs(after[c] - before[c]) / PATTERN_OFFSET;
-            if (isfinite(change))
-                scale[c] = fmax(scale[c], change);
+            if (isfinite(change)) scale[c] = fmax(scale[c], change);
         }
     }
     give(s->allocator, room);

@@ -1,5 +1,5 @@
-/* Questions to the equations themselves, asked through runs of one step: the acceleration, the fastest rate of the linearised
- * motion, and by how much a rounded state changes an invariant. */
+/* Questions to the equations themselves, asked through runs of one step: the acceleration, the fastest rate of the
+ * linearised motion, and by how much a rounded state changes an invariant. */
 #ifndef STUDY_PROBE_H
 #define STUDY_PROBE_H
 
@@ -7,13 +7,16 @@
 
 /* a (nv numbers) at (t, y). False where it cannot be had. */
 bool probe_acceleration(study *, double t, const double *y, double *a);
-/* The largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration: ω of the fastest oscillation, or the fastest
- * decay or growth. 0 where there is none to speak of, NaN where it cannot be had. Uses the study's scale. */
+/* The largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration: ω of the fastest oscillation,
+ * or the fastest decay or growth. 0 where there is none to speak of, NaN where it cannot be had. Uses the study's
+ * scale. */
 double probe_rate(study *, double t, const double *y);
-/* How fast the state changes at (t, y), in units of its size: half of ω for an oscillation at its fastest. NaN where it cannot be had. */
+/* How fast the state changes at (t, y), in units of its size: half of ω for an oscillation at its fastest. NaN where
+ * it cannot be had. */
 double probe_speed(study *, double t, const double *y);
-/* Raises scale[c] to at least the change of column c when every number of the state at (t, y) changes by its own size. What rounding
- * does to column c is some DBL_EPSILON of it. */
-motus_status probe_columns(study *, double t, const double *y, const size_t *columns, size_t column_count, double *scale);
+/* Raises scale[c] to at least the change of column c when every number of the state at (t, y) changes by its own
+ * size. What rounding does to column c is some DBL_EPSILON of it. */
+motus_status probe_columns(study *, double t, const double *y, const size_t *columns, size_t column_count,
+                           double *scale);
 
 #endif

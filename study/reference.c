@@ -1,34 +1,29 @@
 /* The truth as a handle: motus_reference.
  *
- * The truth is found once, as compare finds it, and its rows at the points of the grid are kept. At any other time it is the same method, with
- * steps no larger than the one that was found good, from the last kept state before that time (or from the last answer, if that is nearer).
- * Invariant: the error of an answer does not add up over answers: each is less than one interval of the grid away from a kept row.
+ * The truth is found once, as compare finds it, and its rows at the points of the grid are kept. At any other time it
+ * is the same method, with steps no larger than the one that was found good, from the last kept state before that
+ * time (or from the last answer, if that is nearer). Invariant: the error of an answer does not add up over answers:
+ * each is less than one interval of the grid away from a kept row.
  */
 #include "truth.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#define ROUNDING_OF_TIME (8 * DBL_EPSILON)     /* of its size: times that are equal but for their rounding */
+#define ROUNDING_OF_TIME (8 * DBL_EPSILON) /* of its size: times that are equal but for their rounding */
 
 struct motus_reference {
     study s;
     truth truth;
     study_grid grid;
-    double *y;                       /* the last answer, */
-    double t;                        /*   at this time; NaN: none yet */
-    bool holds;                      /* the system, whose numbers its answers rest on */
+    double *y;  /* the last answer, */
+    double t;   /*   at this time; NaN: none yet */
+    bool holds; /* the system, whose numbers its answers rest on */
 };
 
-static double direction_of(const study *s)
-{
-    return s->until > s->from ? 1 : -1;
-}
+static double direction_of(const study *s) { return s->until > s->from ? 1 : -1; }
 
-static bool same_time(double a, double b)
-{
-    return fabs(a - b) <= ROUNDING_OF_TIME * (fabs(a) + fabs(b));
-}
+static bool same_time(double a, double b) { return fabs(a - b) <= ROUNDING_OF_TIME * (fabs(a) + fabs(b)); }
 
 static double time_of_row(const motus_reference *r, size_t row)
 {
@@ -39,11 +34,9 @@ static double time_of_row(const motus_reference *r, size_t row)
 static size_t row_before(const motus_reference *r, double t)
 {
     double way = (t - r->s.from) * direction_of(&r->s);
-    if (same_time(t, r->s.until) || !(way > 0))
-        return way > 0 ? r->grid.points : 0;
+    if (same_time(t, r->s.until) || !(way > 0)) return way > 0 ? r->grid.points : 0;
     size_t row = (size_t)fmin(floor(way / r->grid.interval), (double)r->grid.intervals);
-    if (row < r->grid.intervals && same_time(time_of_row(r, row + 1), t))
-        row++;
+    if (row < r->grid.intervals && same_time(time_of_row(r, row + 1), t)) row++;
     return row;
 }
 
@@ -52,14 +45,11 @@ static motus_status go(motus_reference *r, double from, double t, motus_error *e
 {
     study *s = &r->s;
     double way = fabs(t - from), step = way;
-    if (!r->truth.exact)
-        step = way / fmax(1, ceil(way / r->truth.step * (1 - ROUNDING_OF_TIME)));
+    if (!r->truth.exact) step = way / fmax(1, ceil(way / r->truth.step * (1 - ROUNDING_OF_TIME)));
     motus_run *run = NULL;
     motus_status status = study_run(s, r->truth.method, step, from, t, r->y, &run, err);
-    if (status == MOTUS_OK)
-        status = motus_run_finish(run, err);
-    if (status == MOTUS_OK)
-        status = study_look(s, run, r->y, err);
+    if (status == MOTUS_OK) status = motus_run_finish(run, err);
+    if (status == MOTUS_OK) status = study_look(s, run, r->y, err);
     motus_run_destroy(run);
     return status;
 }
@@ -70,15 +60,15 @@ static motus_status answer(motus_reference *r, double t, motus_error *err)
     /* The exact motion needs no neighbour: it is taken from the start, in one step. */
     size_t row = r->truth.exact ? 0 : row_before(r, t);
     double from = time_of_row(r, row), direction = direction_of(s);
-    bool onward = !r->truth.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;     /* false for NaN */
+    /* false for NaN */
+    bool onward = !r->truth.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;
     if (onward)
         from = r->t;
     else
         memcpy(r->y, r->truth.rows + row * s->numbers, s->numbers * sizeof(double));
-    r->t = NAN;                      /* until it is there */
+    r->t = NAN; /* until it is there */
     motus_status status = same_time(from, t) ? MOTUS_OK : go(r, from, t, err);
-    if (status == MOTUS_OK)
-        r->t = t;
+    if (status == MOTUS_OK) r->t = t;
     return status;
 }
 
@@ -88,27 +78,24 @@ static bool within(const study *s, double t)
     return isfinite(t) && (t >= least || same_time(t, least)) && (t <= most || same_time(t, most));
 }
 
-motus_status motus_reference_at(motus_reference *r, const double *times, size_t count, double *x, double *v, motus_error *err)
+motus_status motus_reference_at(motus_reference *r, const double *times, size_t count, double *x, double *v,
+                                motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
-    if (!r || (count && !times))
-        return fail(err, MOTUS_ARGUMENT, "motus_reference_at needs a reference and times");
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || (count && !times)) return fail(err, MOTUS_ARGUMENT, "motus_reference_at needs a reference and times");
     study *s = &r->s;
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < count && status == MOTUS_OK; k++)
         if (!within(s, times[k])) {
-            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k], s->from,
-                          s->until);
+            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k],
+                          s->from, s->until);
             hint(err, "a reference knows the motion between its start and its end");
         }
     const modes host = modes_enter();
     for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
         status = answer(r, times[k], err);
-        if (status == MOTUS_OK && x)
-            memcpy(x + k * s->nx, r->y, s->nx * sizeof(double));
-        if (status == MOTUS_OK && v)
-            memcpy(v + k * s->nv, r->y + s->nx, s->nv * sizeof(double));
+        if (status == MOTUS_OK && x) memcpy(x + k * s->nx, r->y, s->nx * sizeof(double));
+        if (status == MOTUS_OK && v) memcpy(v + k * s->nv, r->y + s->nx, s->nv * sizeof(double));
     }
     modes_leave(host);
     return status;
@@ -120,16 +107,13 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     motus_study_def def;
     motus_settings settings = motus_default_settings();
     motus_status status = study_read(given, &def, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     motus_settings_of(system, &settings);
     double step = isnan(def.step) ? settings.step : def.step;
-    if ((status = study_open(s, system, &def, step, err)) != MOTUS_OK)
-        return status;
+    if ((status = study_open(s, system, &def, step, err)) != MOTUS_OK) return status;
     r->t = NAN;
     r->y = take(s->allocator, s->numbers, sizeof(double));
-    if (!r->y)
-        return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
+    if (!r->y) return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     r->grid = truth_grid(s, step);
     if ((status = truth_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->truth)) != MOTUS_OK)
         return status;
@@ -146,16 +130,15 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     return MOTUS_OK;
 }
 
-motus_status motus_reference_create(motus_system *system, const motus_study_def *given, motus_reference **reference, motus_error *err)
+motus_status motus_reference_create(motus_system *system, const motus_study_def *given, motus_reference **reference,
+                                    motus_error *err)
 {
-    if (!motus_error_sound(err))
-        return MOTUS_ARGUMENT;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!system || !reference)
         return fail(err, MOTUS_ARGUMENT, "motus_reference_create needs a system and a place for the reference");
     *reference = NULL;
     motus_reference *r = take(motus_system_allocator(system), 1, sizeof *r);
-    if (!r)
-        return fail(err, MOTUS_MEMORY, "out of memory for a reference");
+    if (!r) return fail(err, MOTUS_MEMORY, "out of memory for a reference");
     r->s.allocator = motus_system_allocator(system);
     const modes host = modes_enter();
     motus_status status = prepare(r, system, given, err);
@@ -169,23 +152,15 @@ motus_status motus_reference_create(motus_system *system, const motus_study_def 
     return status;
 }
 
-double motus_reference_error(const motus_reference *r)
-{
-    return r ? r->truth.error : NAN;
-}
+double motus_reference_error(const motus_reference *r) { return r ? r->truth.error : NAN; }
 
-const char *motus_reference_name(const motus_reference *r)
-{
-    return r ? r->truth.text : "";
-}
+const char *motus_reference_name(const motus_reference *r) { return r ? r->truth.text : ""; }
 
 void motus_reference_destroy(motus_reference *r)
 {
-    if (!r)
-        return;
+    if (!r) return;
     const motus_allocator *allocator = r->s.allocator;
-    if (r->holds)
-        motus_system_hold(r->s.system, false);
+    if (r->holds) motus_system_hold(r->s.system, false);
     truth_free(&r->s, &r->truth);
     give(allocator, r->y);
     study_close(&r->s);

@@ -1,5 +1,5 @@
-/* The remarks under a comparison. Each paragraph asks the measured numbers and the methods' rows whether its reason holds here; what
- * they do not bear out is not said. No name of a model and no name of a method decides anything.
+/* The remarks under a comparison. Each paragraph asks the measured numbers and the methods' rows whether its reason
+ * holds here; what they do not bear out is not said. No name of a model and no name of a method decides anything.
  *
  * Invariant: the text is whole sentences, one a line; a sentence that does not fit is left out.
  */
@@ -11,12 +11,15 @@
 #include <string.h>
 
 #define LINE_MAX_BYTES 900
-#define NAMES_SHOWN 6
-#define CLOSE 1e-6                   /* relative: a predicted and a measured amount are the same */
-#define FAR 100.0                    /* this many times larger is another kind of number */
-#define RETURNED 1e-7                /* of the motion's size: a way back that ends nearer than this did return */
+#define NAMES_SHOWN    6
+#define CLOSE          1e-6  /* relative: a predicted and a measured amount are the same */
+#define FAR            100.0 /* this many times larger is another kind of number */
+#define RETURNED       1e-7  /* of the motion's size: a way back that ends nearer than this did return */
 
-typedef struct sheet { char *text; size_t size, length; } sheet;
+typedef struct sheet {
+    char *text;
+    size_t size, length;
+} sheet;
 /* Says whether row k belongs to the group a sentence speaks of. */
 typedef bool member(const remarks_view *, size_t k, size_t invariant);
 
@@ -28,10 +31,8 @@ static void say(sheet *s, const char *format, ...)
     va_start(arguments, format);
     int n = vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    if (n < 0 || (size_t)n >= sizeof line || s->length + (size_t)n + 2 > s->size)
-        return;
-    if (s->length)
-        s->text[s->length++] = '\n';
+    if (n < 0 || (size_t)n >= sizeof line || s->length + (size_t)n + 2 > s->size) return;
+    if (s->length) s->text[s->length++] = '\n';
     memcpy(s->text + s->length, line, (size_t)n + 1);
     s->length += (size_t)n;
 }
@@ -39,27 +40,21 @@ static void say(sheet *s, const char *format, ...)
 static size_t names(const remarks_view *v, member *is, size_t invariant, char *out, size_t size)
 {
     size_t count = 0, shown = 0, length = 0;
-    for (size_t k = 0; k < v->count; k++)
-        count += is(v, k, invariant);
+    for (size_t k = 0; k < v->count; k++) count += is(v, k, invariant);
     size_t show = count <= NAMES_SHOWN + 1 ? count : NAMES_SHOWN;
     out[0] = 0;
     for (size_t k = 0; k < v->count && shown < show; k++) {
-        if (!is(v, k, invariant))
-            continue;
+        if (!is(v, k, invariant)) continue;
         const char *link = shown == 0 ? "" : shown + 1 == count ? " and " : ", ";
         int n = snprintf(out + length, size - length, "%s%.*s", link, 40, v->rows[k].method);
         length += n > 0 && (size_t)n < size - length ? (size_t)n : 0;
         shown++;
     }
-    if (count > show)
-        snprintf(out + length, size - length, " and %zu others", count - show);
+    if (count > show) snprintf(out + length, size - length, " and %zu others", count - show);
     return count;
 }
 
-static bool ran(const remarks_view *v, size_t k)
-{
-    return v->rows[k].status == MOTUS_OK;
-}
+static bool ran(const remarks_view *v, size_t k) { return v->rows[k].status == MOTUS_OK; }
 
 /* What `steps` steps may round a position or velocity by. */
 static double rounding(const remarks_view *v, size_t k)
@@ -72,8 +67,8 @@ static double rounding(const remarks_view *v, size_t k)
 static bool misses_by(const remarks_view *v, size_t k, double sign)
 {
     const remarks_fact *f = &v->facts[k];
-    return ran(v, k) && f->card->order == 1 && fabs(f->expected) > FAR * rounding(v, k)
-        && fabs(f->miss - sign * f->expected) <= CLOSE * fabs(f->expected) + rounding(v, k);
+    return ran(v, k) && f->card->order == 1 && fabs(f->expected) > FAR * rounding(v, k) &&
+           fabs(f->miss - sign * f->expected) <= CLOSE * fabs(f->expected) + rounding(v, k);
 }
 
 static bool lags(const remarks_view *v, size_t k, size_t unused)
@@ -91,56 +86,58 @@ static bool leads(const remarks_view *v, size_t k, size_t unused)
 static bool on_the_parabola(const remarks_view *v, size_t k, size_t unused)
 {
     (void)unused;
-    return ran(v, k) && v->facts[k].card->order >= 2 && v->rows[k].error_max_x <= rounding(v, k)
-        && v->rows[k].error_max_v <= rounding(v, k);
+    return ran(v, k) && v->facts[k].card->order >= 2 && v->rows[k].error_max_x <= rounding(v, k) &&
+           v->rows[k].error_max_v <= rounding(v, k);
 }
 
 static void constant_acceleration(const remarks_view *v, sheet *out)
 {
     char behind[LINE_MAX_BYTES / 2], ahead[LINE_MAX_BYTES / 2];
-    if (isnan(v->acceleration) || v->acceleration == 0 || !v->truth->known)
-        return;
+    if (isnan(v->acceleration) || v->acceleration == 0 || !v->truth->known) return;
     motus_column axis = motus_default_column();
     motus_column_at(v->s->system, 1 + v->axis, &axis);
     size_t n = names(v, lags, 0, behind, sizeof behind), m = names(v, leads, 0, ahead, sizeof ahead);
     size_t k = 0;
-    while (k < v->count && !lags(v, k, 0) && !leads(v, k, 0))
-        k++;
+    while (k < v->count && !lags(v, k, 0) && !leads(v, k, 0)) k++;
     double most = k < v->count ? fabs(v->facts[k].expected) : 0, length = fabs(v->s->until - v->s->from);
     double plain = 0.5 * fabs(v->acceleration) * (k < v->count ? v->rows[k].step : 0) * length;
     const char *formula = fabs(plain - most) <= 1e-3 * most ? "½ |a| h t" : "½ |a| Σ h²";
     if (n && m)
-        say(out, "The acceleration is constant (%.6g in %.60s): %s fall%s behind the exact motion, %s run%s ahead of it, by equal and "
-                 "opposite amounts, %s = %.6g at the end. The one moves each step with the velocity at its beginning, the other with the "
-                 "velocity at its end, and the truth lies midway.",
+        say(out,
+            "The acceleration is constant (%.6g in %.60s): %s fall%s behind the exact motion, %s run%s ahead of it, by "
+            "equal and "
+            "opposite amounts, %s = %.6g at the end. The one moves each step with the velocity at its beginning, the "
+            "other with the "
+            "velocity at its end, and the truth lies midway.",
             v->acceleration, axis.name, behind, n == 1 ? "s" : "", ahead, m == 1 ? "s" : "", formula, most);
     else if (n || m)
-        say(out, "The acceleration is constant (%.6g in %.60s): %s miss%s the exact motion by %s = %.6g at the end, since each step "
-                 "is made with the velocity at its %s.",
-            v->acceleration, axis.name, n ? behind : ahead, n + m == 1 ? "es" : "", formula, most, n ? "beginning" : "end");
+        say(out,
+            "The acceleration is constant (%.6g in %.60s): %s miss%s the exact motion by %s = %.6g at the end, since "
+            "each step "
+            "is made with the velocity at its %s.",
+            v->acceleration, axis.name, n ? behind : ahead, n + m == 1 ? "es" : "", formula, most,
+            n ? "beginning" : "end");
     n = names(v, on_the_parabola, 0, behind, sizeof behind);
     double largest = 0;
     for (k = 0; k < v->count; k++)
-        if (on_the_parabola(v, k, 0))
-            largest = fmax(largest, v->rows[k].error_max_x);
+        if (on_the_parabola(v, k, 0)) largest = fmax(largest, v->rows[k].error_max_x);
     if (n)
-        say(out, "Exact to round-off: %s (largest error %.2g). The motion is a parabola in t, and a method of second or higher order "
-                 "follows a polynomial of second degree without error, at any step.",
+        say(out,
+            "Exact to round-off: %s (largest error %.2g). The motion is a parabola in t, and a method of second or "
+            "higher order "
+            "follows a polynomial of second degree without error, at any step.",
             behind, largest);
 }
 
 /* Invariants ----------------------------------------------------------------------------------------------------- */
 
-static const motus_drift *drift(const remarks_view *v, size_t k, size_t i)
-{
-    return v->rows[k].invariants[i];
-}
+static const motus_drift *drift(const remarks_view *v, size_t k, size_t i) { return v->rows[k].invariants[i]; }
 
 static bool runs_away(const remarks_view *v, size_t k, size_t i)
 {
     const motus_drift *d = ran(v, k) ? drift(v, k, i) : NULL;
-    return d && d->trending && v->facts[k].card->stability_limit == 0 && v->rate > 0
-        && fabs(d->final - d->initial) > FAR * v->facts[k].roundoff[i] && fabs(d->final) > fabs(d->initial);
+    return d && d->trending && v->facts[k].card->stability_limit == 0 && v->rate > 0 &&
+           fabs(d->final - d->initial) > FAR * v->facts[k].roundoff[i] && fabs(d->final) > fabs(d->initial);
 }
 
 static bool drifts(const remarks_view *v, size_t k, size_t i)
@@ -165,8 +162,7 @@ static double largest_drift(const remarks_view *v, member *is, size_t i)
 {
     double most = 0;
     for (size_t k = 0; k < v->count; k++)
-        if (is(v, k, i))
-            most = fmax(most, drift(v, k, i)->max_drift);
+        if (is(v, k, i)) most = fmax(most, drift(v, k, i)->max_drift);
     return most;
 }
 
@@ -179,23 +175,25 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
         if (runs_away(v, k, i) && (worst == v->count || drift(v, k, i)->max_drift > drift(v, worst, i)->max_drift))
             worst = k;
     if (n)
-        say(out, "%.80s: with %s it grows without bound (%s%sfrom %.6g to %.6g here): no step is short enough for %s on an "
-                 "oscillation, the stability limit is 0, and each step enlarges it.",
-            name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial, drift(v, worst, i)->final,
-            n == 1 ? "it" : "them");
+        say(out,
+            "%.80s: with %s it grows without bound (%s%sfrom %.6g to %.6g here): no step is short enough for %s on an "
+            "oscillation, the stability limit is 0, and each step enlarges it.",
+            name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial,
+            drift(v, worst, i)->final, n == 1 ? "it" : "them");
     n = names(v, stays, i, list, sizeof list);
     /* A symplectic method follows a neighbouring energy only where there is an energy: no velocity terms. */
     if (n && !v->analysis.velocity_dependent)
-        say(out, "%.80s: with %s it swings, by at most %.3g, and shows no trend: a symplectic method conserves a neighbouring energy, "
-                 "so what it has lost comes back.",
+        say(out,
+            "%.80s: with %s it swings, by at most %.3g, and shows no trend: a symplectic method conserves a "
+            "neighbouring energy, "
+            "so what it has lost comes back.",
             name, list, largest_drift(v, stays, i));
     n = names(v, drifts, i, list, sizeof list);
     if (n)
-        say(out, "%.80s: with %s it has a trend that its oscillation does not explain; the largest change is %.3g.", name, list,
-            largest_drift(v, drifts, i));
+        say(out, "%.80s: with %s it has a trend that its oscillation does not explain; the largest change is %.3g.",
+            name, list, largest_drift(v, drifts, i));
     n = names(v, conserves, i, list, sizeof list);
-    if (n)
-        say(out, "%.80s: %s conserve%s it to round-off.", name, list, n == 1 ? "s" : "");
+    if (n) say(out, "%.80s: %s conserve%s it to round-off.", name, list, n == 1 ? "s" : "");
 }
 
 /* The way back --------------------------------------------------------------------------------------------------- */
@@ -222,8 +220,7 @@ static double worst_reversal(const remarks_view *v, member *is)
 {
     double most = 0;
     for (size_t k = 0; k < v->count; k++)
-        if (is(v, k, 0))
-            most = fmax(most, v->rows[k].reversal);
+        if (is(v, k, 0)) most = fmax(most, v->rows[k].reversal);
     return most;
 }
 
@@ -232,14 +229,18 @@ static void way_back(const remarks_view *v, sheet *out)
     char there[LINE_MAX_BYTES / 3], lost[LINE_MAX_BYTES / 3];
     size_t n = names(v, returns, 0, there, sizeof there), m = names(v, loses_the_way, 0, lost, sizeof lost);
     if (n && m)
-        say(out, "Run backward from the end, %s return%s to the start within %.2g of the motion's size, being reversible; %s %s not, and "
-                 "miss%s it by up to %.2g.",
+        say(out,
+            "Run backward from the end, %s return%s to the start within %.2g of the motion's size, being reversible; "
+            "%s %s not, and "
+            "miss%s it by up to %.2g.",
             there, n == 1 ? "s" : "", worst_reversal(v, returns), lost, m == 1 ? "is" : "are", m == 1 ? "es" : "",
             worst_reversal(v, loses_the_way));
     n = names(v, strays, 0, there, sizeof there);
     if (n)
-        say(out, "%s %s reversible, yet miss%s the start by %.2g of the motion's size: on the way there and back the motion itself "
-                 "enlarges every rounding.",
+        say(out,
+            "%s %s reversible, yet miss%s the start by %.2g of the motion's size: on the way there and back the motion "
+            "itself "
+            "enlarges every rounding.",
             there, n == 1 ? "is" : "are", n == 1 ? "es" : "", worst_reversal(v, strays));
 }
 
@@ -250,12 +251,13 @@ static void too_long(const remarks_view *v, sheet *out)
     for (size_t k = 0; k < v->count; k++) {
         const motus_compare_row *r = &v->rows[k];
         const motus_method *card = v->facts[k].card;
-        if (!card || !(card->stability_limit > 0) || !(r->step * v->rate > card->stability_limit))
-            continue;
+        if (!card || !(card->stability_limit > 0) || !(r->step * v->rate > card->stability_limit)) continue;
         bool lost = r->status == MOTUS_DIVERGED || !(r->error_max_x <= FAR * fmax(v->s->magnitude, DBL_MIN));
         if (lost)
-            say(out, "%s: the step %.6g is outside its stability limit: the fastest rate of the motion is about %.4g, times the step "
-                     "%.3g, and the method bears %.4g.",
+            say(out,
+                "%s: the step %.6g is outside its stability limit: the fastest rate of the motion is about %.4g, times "
+                "the step "
+                "%.3g, and the method bears %.4g.",
                 r->method, r->step, v->rate, r->step * v->rate, card->stability_limit);
     }
 }
@@ -270,23 +272,23 @@ static void reference(const remarks_view *v, sheet *out)
 {
     char list[LINE_MAX_BYTES / 2];
     if (!v->truth->known) {
-        say(out, "There is nothing to judge by, and errors are not shown: no exact motion is known, and no method of high order followed "
+        say(out, "There is nothing to judge by, and errors are not shown: no exact motion is known, and no method of "
+                 "high order followed "
                  "the motion to the end.");
         return;
     }
     size_t n = v->truth->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
     if (n)
-        say(out, "The reference is itself known to %.2g only: the error%s shown for %s may be the reference's.", v->truth->error,
-            n == 1 ? "" : "s", list);
+        say(out, "The reference is itself known to %.2g only: the error%s shown for %s may be the reference's.",
+            v->truth->error, n == 1 ? "" : "s", list);
 }
 
 void remarks_write(const remarks_view *v, char *text, size_t size)
 {
-    sheet out = { text, size, 0 };
+    sheet out = {text, size, 0};
     text[0] = 0;
     constant_acceleration(v, &out);
-    for (size_t i = 0; v->count && i < v->rows[0].invariant_count; i++)
-        invariant(v, i, &out);
+    for (size_t i = 0; v->count && i < v->rows[0].invariant_count; i++) invariant(v, i, &out);
     way_back(v, &out);
     too_long(v, &out);
     reference(v, &out);

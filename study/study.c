@@ -3,7 +3,7 @@
  * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
  */
 #ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L      /* clock_gettime */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #endif
 #include "study.h"
 #include <float.h>
@@ -11,11 +11,11 @@
 #include <string.h>
 #include <time.h>
 
-#define TELL_SECONDS 0.01         /* between two calls of the progress hook */
-#define EVALUATION_OVERHEAD 16.0     /* of an evaluation, in numbers */
-#define SOLVE_PASSES 4.0
-#define SOLVE_FLOPS 3e4              /* of elimination that take as long as an evaluation */
-#define STILL 1e-10               /* a group that moves less than this part of its size does not move */
+#define TELL_SECONDS        0.01 /* between two calls of the progress hook */
+#define EVALUATION_OVERHEAD 16.0 /* of an evaluation, in numbers */
+#define SOLVE_PASSES        4.0
+#define SOLVE_FLOPS         3e4   /* of elimination that take as long as an evaluation */
+#define STILL               1e-10 /* a group that moves less than this part of its size does not move */
 
 double study_seconds(void)
 {
@@ -27,33 +27,21 @@ double study_seconds(void)
 double study_work(const study *s, const motus_method *m, double steps, double evaluations)
 {
     double numbers = (double)s->numbers, unknowns = numbers * m->stages;
-    if (evaluations < 0)
-        evaluations = steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
+    if (evaluations < 0) evaluations = steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
     /* A solve needs a Jacobian, one evaluation a column, and its elimination. */
-    if (m->evaluations == 0)
-        evaluations += steps * (numbers + unknowns * unknowns * unknowns / SOLVE_FLOPS);
+    if (m->evaluations == 0) evaluations += steps * (numbers + unknowns * unknowns * unknowns / SOLVE_FLOPS);
     return evaluations * (numbers + EVALUATION_OVERHEAD);
 }
 
-double study_larger(double a, double b)
-{
-    return isnan(a) || isnan(b) ? NAN : a > b ? a : b;
-}
+double study_larger(double a, double b) { return isnan(a) || isnan(b) ? NAN : a > b ? a : b; }
 
-bool study_fatal(motus_status status)
-{
-    return status == MOTUS_CANCELLED || status == MOTUS_MEMORY;
-}
+bool study_fatal(motus_status status) { return status == MOTUS_CANCELLED || status == MOTUS_MEMORY; }
 
-void study_note(study *s, motus_status status)
-{
-    s->starved = s->starved || status == MOTUS_MEMORY;
-}
+void study_note(study *s, motus_status status) { s->starved = s->starved || status == MOTUS_MEMORY; }
 
 motus_status study_broken(const study *s)
 {
-    if (s->cancelled)
-        return MOTUS_CANCELLED;
+    if (s->cancelled) return MOTUS_CANCELLED;
     return s->starved ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
@@ -67,32 +55,25 @@ void study_part(study *s, double base, double span)
 
 static motus_status tick(study *s, double fraction)
 {
-    if (!s->progress || s->cancelled)
-        return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
+    if (!s->progress || s->cancelled) return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
     double now = study_seconds();
-    if (s->told >= 0 && now - s->told < TELL_SECONDS)
-        return MOTUS_OK;
+    if (s->told >= 0 && now - s->told < TELL_SECONDS) return MOTUS_OK;
     s->told = now;
     /* Some parts are gone over again, with a shorter step: progress waits there and never goes back. */
     s->reached = fmin(1, fmax(s->reached, s->base + s->span * fraction));
     s->cancelled = s->progress(s->context, s->reached) != 0;
-    if (!s->cancelled)
-        return MOTUS_OK;
+    if (!s->cancelled) return MOTUS_OK;
     return fail(s->err, MOTUS_CANCELLED, "%s", motus_status_text(MOTUS_CANCELLED));
 }
 
-static int hook(void *context, double fraction)
-{
-    return tick(context, fraction) != MOTUS_OK;
-}
+static int hook(void *context, double fraction) { return tick(context, fraction) != MOTUS_OK; }
 
 /* Opening -------------------------------------------------------------------------------------------------------- */
 
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err)
 {
     motus_status status = motus_struct_read(MOTUS_DEF_STUDY, given, def, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     if (!isnan(def->step) && !(def->step > 0 && def->step < INFINITY)) {
         fail(err, MOTUS_ARGUMENT, "the step of the study is %g", def->step);
         hint(err, "a step is a positive number");
@@ -118,15 +99,15 @@ static void find_groups(study *s)
     for (size_t k = 0; k < s->numbers; k++) {
         motus_column c = motus_default_column();
         size_t variable = variables;
-        if (motus_column_at(s->system, k + 1, &c) == MOTUS_OK && c.variable < variables)
-            variable = c.variable;
+        if (motus_column_at(s->system, k + 1, &c) == MOTUS_OK && c.variable < variables) variable = c.variable;
         s->group[k] = 2 * variable + (k >= s->nx);
     }
 }
 
 motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
 {
-    *s = (study){ .system = system, .err = err, .progress = def->progress, .context = def->context, .told = -1, .span = 1 };
+    *s = (study){
+        .system = system, .err = err, .progress = def->progress, .context = def->context, .told = -1, .span = 1};
     s->allocator = motus_system_allocator(system);
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);
@@ -153,11 +134,9 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     /* The start is wherever a run says it starts, so that a model's rules about it are not written twice. */
     motus_run *run = NULL;
     double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
-    if (!(trial > 0))
-        trial = 1;
+    if (!(trial > 0)) trial = 1;
     motus_status status = study_run(s, STUDY_PLAINEST, trial, NAN, s->until, NULL, &run, err);
-    if (status == MOTUS_OK)
-        status = study_look(s, run, s->start, err);
+    if (status == MOTUS_OK) status = study_look(s, run, s->start, err);
     if (status == MOTUS_OK) {
         s->from = motus_run_time(run);
         s->total = motus_run_steps_total(run);
@@ -169,15 +148,13 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         hint(err, "let the study end at another time than it starts");
         return MOTUS_ARGUMENT;
     }
-    if (status == MOTUS_OK)
-        status = tick(s, 0);
+    if (status == MOTUS_OK) status = tick(s, 0);
     return status;
 }
 
 void study_close(study *s)
 {
-    if (!s->allocator)
-        return;
+    if (!s->allocator) return;
     give(s->allocator, s->work);
     give(s->allocator, s->group);
     give(s->allocator, s->scale);
@@ -197,26 +174,21 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     size_t most = all ? motus_method_count() : def->method_count;
     *count = 0;
     *names = take(s->allocator, most, sizeof **names);
-    if (!*names)
-        return fail(s->err, MOTUS_MEMORY, "out of memory for the names of %zu methods", most);
+    if (!*names) return fail(s->err, MOTUS_MEMORY, "out of memory for the names of %zu methods", most);
     for (size_t k = 0; k < most; k++) {
         const motus_method *m = NULL;
         if (all) {
             m = motus_method_at(k);
             /* The exact motion is what the others are compared with. */
-            if (strcmp(m->family, "exact") != 0 && study_admits(s, m->name))
-                (*names)[(*count)++] = m->name;
+            if (strcmp(m->family, "exact") != 0 && study_admits(s, m->name)) (*names)[(*count)++] = m->name;
             continue;
         }
-        if (!def->methods[k])
-            return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
+        if (!def->methods[k]) return fail(s->err, MOTUS_ARGUMENT, "name %zu of the methods is NULL", k + 1);
         motus_status status = motus_method_find(def->methods[k], &m, s->err);
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
         (*names)[(*count)++] = def->methods[k];
     }
-    if (study_broken(s) != MOTUS_OK)
-        return study_broken(s);
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
     if (*count == 0) {
         fail(s->err, MOTUS_METHOD, "no method admits this model");
         hint(s->err, "see what the analysis says about each");
@@ -227,8 +199,8 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
 
 /* Runs ----------------------------------------------------------------------------------------------------------- */
 
-motus_status study_run(study *s, const char *method, double step, double start, double until, const double *y, motus_run **run,
-                       motus_error *err)
+motus_status study_run(study *s, const char *method, double step, double start, double until, const double *y,
+                       motus_run **run, motus_error *err)
 {
     motus_run_def def = motus_default_run();
     def.method = method;
@@ -251,9 +223,8 @@ study_grid study_grid_of(const study *s, double step, int64_t total, double last
     int64_t whole = total - (last_step > 0);
     int64_t most = (int64_t)(STUDY_NUMBERS_MAX / s->numbers);
     most = most > 2 * STUDY_SAMPLES ? 2 * STUDY_SAMPLES : most < 2 ? 2 : most;
-    for (*per = 1; whole / *per >= most;)
-        *per *= 2;
-    study_grid g = { .from = s->from, .until = s->until, .interval = step * (double)*per };
+    for (*per = 1; whole / *per >= most;) *per *= 2;
+    study_grid g = {.from = s->from, .until = s->until, .interval = step * (double)*per};
     g.intervals = (size_t)(whole / *per);
     g.points = g.intervals + (whole % *per != 0 || last_step > 0 || whole == 0);
     return g;
@@ -269,22 +240,18 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
 {
     motus_run *run = NULL;
     size_t done = 0;
-    *cost = (study_cost){ 0, 0, 0 };
+    *cost = (study_cost){0, 0, 0};
     motus_status status = tick(s, 0);
-    if (status == MOTUS_OK)
-        status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
+    if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     for (; status == MOTUS_OK && done < g->points; done++) {
         double began = study_seconds();
         /* The last point is reached by finishing, so that it is `until` to the bit. */
         status = done + 1 == g->points ? motus_run_finish(run, err) : motus_run_step(run, per, err);
         cost->seconds += study_seconds() - began;
-        if (status == MOTUS_OK)
-            status = study_look(s, run, out + done * s->numbers, err);
-        if (status != MOTUS_OK)
-            break;
+        if (status == MOTUS_OK) status = study_look(s, run, out + done * s->numbers, err);
+        if (status != MOTUS_OK) break;
     }
-    for (size_t k = done * s->numbers; k < g->points * s->numbers; k++)
-        out[k] = NAN;
+    for (size_t k = done * s->numbers; k < g->points * s->numbers; k++) out[k] = NAN;
     if (run) {
         cost->steps = motus_run_steps(run);
         cost->evaluations = motus_run_evaluations(run);
@@ -303,11 +270,10 @@ void study_scale(study *s, const double *rows, size_t count)
     for (size_t r = 0; r < count; r++)
         for (size_t k = 0; k < s->numbers; k++) {
             double y = rows[r * s->numbers + k];
-            most[k] = y > most[k] ? y : most[k];        /* false for NaN */
+            most[k] = y > most[k] ? y : most[k]; /* false for NaN */
             least[k] = y < least[k] ? y : least[k];
         }
-    for (size_t g = 0; g < s->groups; g++)
-        moves[g] = size[g] = 0;
+    for (size_t g = 0; g < s->groups; g++) moves[g] = size[g] = 0;
     for (size_t k = 0; k < s->numbers; k++) {
         size_t g = s->group[k];
         moves[g] = fmax(moves[g], most[k] - least[k]);
@@ -317,17 +283,15 @@ void study_scale(study *s, const double *rows, size_t count)
     s->magnitude = 0;
     for (size_t g = 0; g < s->groups; g++) {
         s->magnitude = fmax(s->magnitude, size[g]);
-        if (!(moves[g] > STILL * size[g]))
-            moves[g] = size[g] > 0 ? size[g] : 1;
+        if (!(moves[g] > STILL * size[g])) moves[g] = size[g] > 0 ? size[g] : 1;
         s->noise = fmax(s->noise, DBL_EPSILON * size[g] / moves[g]);
     }
-    for (size_t k = 0; k < s->numbers; k++)
-        s->scale[k] = moves[s->group[k]];
+    for (size_t k = 0; k < s->numbers; k++) s->scale[k] = moves[s->group[k]];
 }
 
 study_distance study_measure(const study *s, const double *p, const double *q)
 {
-    study_distance d = { 0, 0, 0 };
+    study_distance d = {0, 0, 0};
     for (size_t k = 0; k < s->numbers; k++) {
         double e = fabs(p[k] - q[k]);
         double *part = k < s->nx ? &d.x : &d.v;

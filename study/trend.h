@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 typedef struct trend_result {
-    double trend;                    /* slope of the line through the drift, times the length of the run */
+    double trend; /* slope of the line through the drift, times the length of the run */
     int trending;
 } trend_result;
 /* roundoff: the largest trend that rounding alone may explain. */

@@ -1,11 +1,12 @@
-/* The truth: the exact motion where it is known, else the most accurate of the methods of highest order, refined until halving its
- * step changes nothing but round-off.
+/* The truth: the exact motion where it is known, else the most accurate of the methods of highest order, refined
+ * until halving its step changes nothing but round-off.
  *
- * A reference of order p at steps h and h/2 differs by d; then the finer one is wrong by about d/(r-1), where r is the factor by which
- * d fell at the last halving (2^p in theory, less where the force is not smooth enough for the order). When d no longer falls, what is
- * left is round-off, and d itself is the estimate. Where a force jumps, two halvings may hit the jump alike and agree by accident; so the
- * chosen reference is run once more with steps of two thirds, and what that changes is the least that it is wrong by.
- * Invariant: a truth that is `known` has finite rows and an error estimate that was measured, not assumed.
+ * A reference of order p at steps h and h/2 differs by d; then the finer one is wrong by about d/(r-1), where r is
+ * the factor by which d fell at the last halving (2^p in theory, less where the force is not smooth enough for the
+ * order). When d no longer falls, what is left is round-off, and d itself is the estimate. Where a force jumps, two
+ * halvings may hit the jump alike and agree by accident; so the chosen reference is run once more with steps of two
+ * thirds, and what that changes is the least that it is wrong by. Invariant: a truth that is `known` has finite rows
+ * and an error estimate that was measured, not assumed.
  */
 #include "truth.h"
 #include <float.h>
@@ -13,27 +14,27 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TRUTH_CANDIDATES 3
-#define TRUTH_ORDERS_BELOW 2      /* candidates are at most this far below the highest admitted order */
-#define TRUTH_LEVELS 24           /* halvings of an interval */
-#define TRUTH_SMALL 1e-6          /* a difference that stops falling below this is round-off, above it a motion not yet resolved */
-#define TRUTH_FALL 1.5            /* the least fall per halving that counts as one */
-/* The bound on the work (study_work). About a fifth of a second of a small model; or, where the judged methods themselves work longer,
- * as much as TRUTH_PASSES evaluations for each of their steps. */
-#define TRUTH_WORK 3e7
+#define TRUTH_CANDIDATES   3
+#define TRUTH_ORDERS_BELOW 2  /* candidates are at most this far below the highest admitted order */
+#define TRUTH_LEVELS       24 /* halvings of an interval */
+/* a difference that stops falling below this is round-off, above it a motion not yet resolved */
+#define TRUTH_SMALL 1e-6
+#define TRUTH_FALL  1.5 /* the least fall per halving that counts as one */
+/* The bound on the work (study_work). About a fifth of a second of a small model; or, where the judged methods
+ * themselves work longer, as much as TRUTH_PASSES evaluations for each of their steps. */
+#define TRUTH_WORK   3e7
 #define TRUTH_PASSES 32
 
 typedef struct candidate {
     const motus_method *card;
     double step;
-    double x, v, scaled;             /* the estimated error; scaled is NaN where there is none */
+    double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
 } candidate;
 
 study_grid truth_grid(const study *s, double step)
 {
     int64_t per;
-    if (isnan(step))
-        return study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
+    if (isnan(step)) return study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
     return study_grid_of(s, step, s->total, s->last_step, &per);
 }
 
@@ -44,37 +45,32 @@ static size_t candidates(study *s, candidate *out)
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name))
-                continue;
+            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name)) continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
                 continue;
             }
-            if (m->order < highest - TRUTH_ORDERS_BELOW)
-                continue;
-            /* Kept in falling order; equal orders stay in the order of the catalogue, the longest splittings (smallest constants)
-             * before shorter ones. */
+            if (m->order < highest - TRUTH_ORDERS_BELOW) continue;
+            /* Kept in falling order; equal orders stay in the order of the catalogue, the longest splittings
+             * (smallest constants) before shorter ones. */
             size_t at = count;
-            while (at > 0 && (out[at - 1].card->order < m->order
-                              || (out[at - 1].card->order == m->order && out[at - 1].card->stages < m->stages)))
+            while (at > 0 && (out[at - 1].card->order < m->order ||
+                              (out[at - 1].card->order == m->order && out[at - 1].card->stages < m->stages)))
                 at--;
-            if (at >= TRUTH_CANDIDATES)
-                continue;
+            if (at >= TRUTH_CANDIDATES) continue;
             count = count < TRUTH_CANDIDATES ? count + 1 : count;
             memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
-            out[at] = (candidate){ .card = m, .scaled = NAN };
+            out[at] = (candidate){.card = m, .scaled = NAN};
         }
     return count;
 }
 
 static const char *exact_method(study *s)
 {
-    if (!motus_has_exact(s->system))
-        return NULL;
+    if (!motus_has_exact(s->system)) return NULL;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (strcmp(m->family, "exact") == 0 && study_admits(s, m->name))
-            return m->name;
+        if (strcmp(m->family, "exact") == 0 && study_admits(s, m->name)) return m->name;
     }
     return NULL;
 }
@@ -82,15 +78,14 @@ static const char *exact_method(study *s)
 static bool finite_rows(const study *s, const double *rows, size_t count)
 {
     for (size_t k = 0; k < count * s->numbers; k++)
-        if (!isfinite(rows[k]))
-            return false;
+        if (!isfinite(rows[k])) return false;
     return true;
 }
 
 /* The largest differences of two tables; NaN where one of them is not there. */
 static study_distance apart(const study *s, const double *p, const double *q, size_t rows)
 {
-    study_distance most = { 0, 0, 0 };
+    study_distance most = {0, 0, 0};
     for (size_t r = 0; r < rows; r++) {
         study_distance d = study_measure(s, p + r * s->numbers, q + r * s->numbers);
         most.x = study_larger(most.x, d.x);
@@ -108,31 +103,32 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Halves the step until nothing but round-off is left, or the error is below `enough`, or the work is spent. *now and *before are
- * tables with room for the points (without the start); at the end *now holds the best. */
-static motus_status refine(study *s, const study_grid *g, double budget, double enough, candidate *c, double **now, double **before)
+/* Halves the step until nothing but round-off is left, or the error is below `enough`, or the work is spent. *now and
+ * *before are tables with room for the points (without the start); at the end *now holds the best. */
+static motus_status refine(study *s, const study_grid *g, double budget, double enough, candidate *c, double **now,
+                           double **before)
 {
     double work = 0, cost = 0;
-    study_distance d = { NAN, NAN, NAN }, last = d;
-    bool have = false;               /* *before is a whole, finite table */
+    study_distance d = {NAN, NAN, NAN}, last = d;
+    bool have = false; /* *before is a whole, finite table */
     for (int level = 0; level < TRUTH_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
         int64_t per = (int64_t)1 << level;
         study_cost spent;
         motus_error ignored = motus_default_error();
         motus_status status = study_walk(s, c->card->name, g, per, *now, &spent, &ignored);
         if (study_fatal(status)) {
-            if (s->err && !s->cancelled)
-                motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
         /* A run that failed early was cheap, and says nothing about the price of the next. */
         double steps = (double)g->intervals * (double)per;
-        cost = fmax(study_work(s, c->card, (double)spent.steps, (double)spent.evaluations), study_work(s, c->card, steps, -1));
+        cost = fmax(study_work(s, c->card, (double)spent.steps, (double)spent.evaluations),
+                    study_work(s, c->card, steps, -1));
         work += cost;
         if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
             last = d;
-            d = have ? apart(s, *now, *before, g->points) : (study_distance){ NAN, NAN, NAN };
+            d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
             if (last.scaled < TRUTH_SMALL && !(fall > TRUTH_FALL)) {
                 estimate(c, last, 1, 2 * step);
@@ -152,22 +148,22 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             have = true;
         } else {
             have = false;
-            d = (study_distance){ NAN, NAN, NAN };
+            d = (study_distance){NAN, NAN, NAN};
         }
         double *swap = *now;
         *now = *before;
         *before = swap;
     }
-    double *swap = *now;             /* the newest was just put away */
+    double *swap = *now; /* the newest was just put away */
     *now = *before;
     *before = swap;
-    if (!have)
-        c->scaled = NAN;
+    if (!have) c->scaled = NAN;
     return MOTUS_OK;
 }
 
-/* No reference knows its values better than they can be written. And its coefficients are rounded: what they should sum up to is missed
- * by an ulp or so, the same at every step size, so halving the step does not show it; it adds up along the way a number goes. */
+/* No reference knows its values better than they can be written. And its coefficients are rounded: what they should
+ * sum up to is missed by an ulp or so, the same at every step size, so halving the step does not show it; it adds up
+ * along the way a number goes. */
 static void own_rounding(const study *s, const study_grid *g, truth *t)
 {
     for (size_t k = 0; k < s->numbers; k++) {
@@ -179,7 +175,8 @@ static void own_rounding(const study *s, const study_grid *g, truth *t)
     }
 }
 
-/* Steps of two thirds (a third, if there is only one in an interval) share no point within an interval with those they check. */
+/* Steps of two thirds (a third, if there is only one in an interval) share no point within an interval with those
+ * they check. */
 static motus_status check(study *s, const study_grid *g, const candidate *c, truth *t, double *room)
 {
     study_cost spent;
@@ -187,8 +184,7 @@ static motus_status check(study *s, const study_grid *g, const candidate *c, tru
     int64_t per = (int64_t)llround(g->interval / c->step);
     motus_status status = study_walk(s, c->card->name, g, per % 2 ? 3 * per : per / 2 * 3, room, &spent, &ignored);
     if (study_fatal(status)) {
-        if (s->err && !s->cancelled)
-            motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
         return status;
     }
     study_distance d = apart(s, room, t->rows + s->numbers, g->points);
@@ -211,8 +207,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
         study_part(s, base + span * (double)k / (double)count, span / (double)count);
         motus_status status = refine(s, g, budget / (double)count, enough, &list[k], &now, &before);
-        if (status != MOTUS_OK)
-            return status;
+        if (status != MOTUS_OK) return status;
         if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
             double *swap = kept;
             kept = now;
@@ -222,8 +217,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
         }
     }
     study_part(s, base, span);
-    if (study_broken(s) != MOTUS_OK)
-        return study_broken(s);
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
     if (!best) {
         snprintf(t->text, sizeof t->text, "none: no method followed the motion to the end");
         return MOTUS_OK;
@@ -243,7 +237,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
 
 motus_status truth_find(study *s, const study_grid *g, int64_t steps, double enough, truth *t)
 {
-    *t = (truth){ .error = NAN, .scaled = NAN };
+    *t = (truth){.error = NAN, .scaled = NAN};
     t->rows = take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
     if (!t->rows)
         return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
@@ -255,8 +249,7 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, double eno
         motus_error ignored = motus_default_error();
         motus_status status = study_walk(s, exact, g, 1, t->rows + s->numbers, &cost, &ignored);
         if (study_fatal(status)) {
-            if (s->err && !s->cancelled)
-                motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
         if (status == MOTUS_OK && finite_rows(s, t->rows, g->points + 1)) {
@@ -280,15 +273,12 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, double eno
 motus_status truth_on(study *s, const truth *t, const study_grid *g, double *rows)
 {
     int64_t per = 1;
-    while (!t->exact && per < (int64_t)1 << TRUTH_LEVELS && g->interval / (double)per > t->step * (1 + 1e-9))
-        per *= 2;
+    while (!t->exact && per < (int64_t)1 << TRUTH_LEVELS && g->interval / (double)per > t->step * (1 + 1e-9)) per *= 2;
     study_cost cost;
     motus_error ignored = motus_default_error();
     motus_status status = study_walk(s, t->method, g, per, rows, &cost, &ignored);
-    if (!study_fatal(status))
-        return MOTUS_OK;             /* the rows are NaN from the failure on */
-    if (s->err && !s->cancelled)
-        motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+    if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
+    if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
     return status;
 }
 

@@ -21,8 +21,9 @@ static void escape(json *j, uint32_t c)
     else if (c == '\n')
         put(j, "\\n");
     else
-        j->write(j->to, (char[]){'\\', 'u', digits[c >> 12 & 15], digits[c >> 8 & 15], digits[c >> 4 & 15],
-                                 digits[c & 15]}, 6);
+        j->write(j->to,
+                 (char[]){'\\', 'u', digits[c >> 12 & 15], digits[c >> 8 & 15], digits[c >> 4 & 15], digits[c & 15]},
+                 6);
 }
 
 static void quoted(json *j, const char *s, size_t length)
@@ -47,8 +48,7 @@ static void quoted(json *j, const char *s, size_t length)
 /* What stands before a value. */
 static void begin(json *j, const char *key)
 {
-    if (j->comma)
-        put(j, ", ");
+    if (j->comma) put(j, ", ");
     j->comma = true;
     if (key) {
         quoted(j, key, strlen(key));
@@ -100,8 +100,7 @@ void json_numbers(json *j, const char *key, const double *values, size_t count)
         return;
     }
     json_open(j, key, '[');
-    for (size_t i = 0; i < count; i++)
-        json_number(j, NULL, values[i]);
+    for (size_t i = 0; i < count; i++) json_number(j, NULL, values[i]);
     json_close(j, ']');
 }
 

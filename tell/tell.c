@@ -13,8 +13,7 @@ static void parts(json *j, const char *key, const char *text, char separator)
     json_open(j, key, '[');
     for (const char *s = text ? text : ""; *s;) {
         const size_t length = strcspn(s, separators);
-        if (length)
-            json_part(j, NULL, s, length);
+        if (length) json_part(j, NULL, s, length);
         s += length + (s[length] == separator);
     }
     json_close(j, ']');
@@ -40,7 +39,7 @@ static void method(json *j, const motus_method *m)
     json_string(j, "forces", tell_forces(m->forces));
     json_bool(j, "symplectic", m->symplectic);
     json_bool(j, "reversible", m->reversible);
-    json_number(j, "stability_limit", m->stability_limit);           /* null: none */
+    json_number(j, "stability_limit", m->stability_limit); /* null: none */
     json_string(j, "cite", m->cite);
     json_string(j, "formula", m->formula);
     json_string(j, "use", m->use);
@@ -51,8 +50,7 @@ void tell_methods(json *j, const motus_method *only)
 {
     json_open(j, "methods", '[');
     for (size_t k = 0; k < motus_method_count(); k++)
-        if (!only || motus_method_at(k) == only)
-            method(j, motus_method_at(k));
+        if (!only || motus_method_at(k) == only) method(j, motus_method_at(k));
     json_close(j, ']');
 }
 
@@ -149,8 +147,7 @@ static void compare_row(json *j, const motus_compare_row *r)
     json_number(j, "error_max_v", r->error_max_v);
     json_number(j, "error_final_v", r->error_final_v);
     json_open(j, "invariants", '{');
-    for (size_t k = 0; k < r->invariant_count; k++)
-        drift(j, r->invariants[k]);
+    for (size_t k = 0; k < r->invariant_count; k++) drift(j, r->invariants[k]);
     json_close(j, '}');
     json_number(j, "reversal", r->reversal);
     json_string(j, "note", r->note ? r->note : "");
@@ -162,8 +159,7 @@ void tell_comparison(json *j, const motus_comparison *c)
     json_string(j, "reference", c->reference);
     json_number(j, "reference_error", c->reference_error);
     json_open(j, "rows", '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        compare_row(j, c->rows[k]);
+    for (size_t k = 0; k < c->row_count; k++) compare_row(j, c->rows[k]);
     json_close(j, ']');
     parts(j, "remarks", c->remarks, '\n');
 }
@@ -198,8 +194,7 @@ void tell_convergence(json *j, const motus_convergence *c)
     json_number(j, "reference_error", c->reference_error);
     json_bool(j, "passed", c->passed);
     json_open(j, "rows", '[');
-    for (size_t k = 0; k < c->row_count; k++)
-        converge_row(j, c->rows[k]);
+    for (size_t k = 0; k < c->row_count; k++) converge_row(j, c->rows[k]);
     json_close(j, ']');
 }
 

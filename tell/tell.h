@@ -9,13 +9,13 @@
 #include "motus.h"
 #include "tell/json.h"
 
-void tell_methods(json *, const motus_method *only);                 /* the catalogue; NULL: all of it */
+void tell_methods(json *, const motus_method *only); /* the catalogue; NULL: all of it */
 void tell_variables(json *, const motus_system *);
 void tell_analysis(json *, const motus_system *);
-void tell_admissions(json *, const motus_system *);                  /* each method, and why not */
+void tell_admissions(json *, const motus_system *); /* each method, and why not */
 void tell_comparison(json *, const motus_comparison *);
 void tell_convergence(json *, const motus_convergence *);
-void tell_error(json *, const motus_error *, const char *message);   /* message: with the hint in it, or without */
+void tell_error(json *, const motus_error *, const char *message); /* message: with the hint in it, or without */
 
 /* "x, t": what a force may depend on. */
 const char *tell_forces(motus_forces);

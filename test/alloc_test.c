@@ -1,7 +1,9 @@
-/* Memory that runs out, at every allocation in turn: each call then succeeds or returns MOTUS_MEMORY, nothing is lost, and every handle can
- * still be destroyed. Two ways of running out: the k-th request alone is refused, or the k-th and all that follow.
+/* Memory that runs out, at every allocation in turn: each call then succeeds or returns MOTUS_MEMORY, nothing is
+ * lost, and every handle can still be destroyed. Two ways of running out: the k-th request alone is refused, or the
+ * k-th and all that follow.
  *
- * A success in spite of a refusal must be a whole one: the numbers are those of a run that had all the memory it wanted.
+ * A success in spite of a refusal must be a whole one: the numbers are those of a run that had all the memory it
+ * wanted.
  */
 #include "test/ensemble_given.h"
 
@@ -24,11 +26,10 @@ static void *lend(void *context, size_t bytes)
         return NULL;
     }
     unsigned char *block = malloc(bytes + 2 * FRAME);
-    if (!block)
-        return NULL;
+    if (!block) return NULL;
     memcpy(block, &bytes, sizeof bytes);
     memset(block + sizeof bytes, 0xC3, FRAME - sizeof bytes);
-    memset(block + FRAME, 0x5A, bytes);          /* what was there before: not zero */
+    memset(block + FRAME, 0x5A, bytes); /* what was there before: not zero */
     memset(block + FRAME + bytes, 0xC3, FRAME);
     b->live++;
     return block + FRAME;
@@ -37,15 +38,12 @@ static void *lend(void *context, size_t bytes)
 static void take_back(void *context, void *given)
 {
     bank *b = context;
-    if (!given)
-        return;
+    if (!given) return;
     unsigned char *block = (unsigned char *)given - FRAME;
     size_t bytes;
     memcpy(&bytes, block, sizeof bytes);
-    for (size_t i = sizeof bytes; i < FRAME; i++)
-        assert_int_equal(block[i], 0xC3);
-    for (size_t i = 0; i < FRAME; i++)
-        assert_int_equal(block[FRAME + bytes + i], 0xC3);
+    for (size_t i = sizeof bytes; i < FRAME; i++) assert_int_equal(block[i], 0xC3);
+    for (size_t i = 0; i < FRAME; i++) assert_int_equal(block[FRAME + bytes + i], 0xC3);
     b->live--;
     free(block);
 }
@@ -69,11 +67,13 @@ static const char rich[] =
     "speed = |r'|\nmean = sum(i = 1..N: x[i])/N\npush = x[1]''\nfar[i] = x[i]^2 + x[i-1]^2   for i = 1..N\n"
     "invariant e = |r'|^2/2 + g r.y\ninvariant f = sum(i = 1..N: x[i]'^2/2 + k[i] x[i]^2/2)\n"
     "method verlet\nstep 0.05\nuntil 0.205\n";
-static const char wide[] =
-    "N = 1200\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
-    "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: x[i]'^2)\nstep 0.05\nuntil 0.205\n";
+static const char wide[] = "N = 1200\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   "
+                           "for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
+                           "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: "
+                           "x[i]'^2)\nstep 0.05\nuntil 0.205\n";
 static const char *const texts[] = {
-    rich, wide,
+    rich,
+    wide,
     "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\nstep 0.05\nuntil 0.205\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\nstep 0.05\nuntil 0.205\n",
     "r'' = -2 r + (sin(t), 0)\nr(0) = (1, 2)\nr'(0) = (0, 0)\nspin = r.x r'.y - r.y r'.x\nstep 0.05\nuntil 0.205\n",
@@ -107,8 +107,9 @@ static int energy(void *context, double t, const double *x, const double *v, dou
     return 0;
 }
 
-static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a);
-static bool in_blocks;               /* the callback is one of blocks */
+static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v,
+                        double *a);
+static bool in_blocks; /* the callback is one of blocks */
 
 static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
 {
@@ -128,36 +129,36 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
     return motus_system_from_callback(&def, s, err);
 }
 
-/* The law ---------------------------------------------------------------------------------------------------------------- */
+/* The law ---------------------------------------------------------------------------------------------------------- */
 
 /* What is tried: on a system, with results as a hash of all numbers that came out. */
 typedef motus_status (*attempt)(motus_system *s, const char *method, uint64_t *result, motus_error *err);
 
 static uint64_t mix(uint64_t h, const void *bytes, size_t n)
 {
-    for (size_t i = 0; i < n; i++)
-        h = (h ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
+    for (size_t i = 0; i < n; i++) h = (h ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
     return h;
 }
 
 static void allowed(motus_status status, const motus_error *err, const char *what, const char *method, int64_t k)
 {
-    if (status == MOTUS_OK)
-        return;
+    if (status == MOTUS_OK) return;
     if (status != MOTUS_MEMORY)
-        fail_msg("%s, %s, request %lld refused: %s: %s", what, method, (long long)k, motus_status_word(status), err->message);
+        fail_msg("%s, %s, request %lld refused: %s: %s", what, method, (long long)k, motus_status_word(status),
+                 err->message);
     assert_int_equal(err->status, MOTUS_MEMORY);
     assert_true(strlen(err->message) > 3);
 }
 
-/* Every request of `try` refused in turn; the system is made anew each time, with all the memory it wants. Where there are very
- * many, as in studies, they are the same ones run after run, and the later ones are tried at growing distances. */
+/* Every request of `try` refused in turn; the system is made anew each time, with all the memory it wants. Where
+ * there are very many, as in studies, they are the same ones run after run, and the later ones are tried at growing
+ * distances. */
 static int64_t refuse_each(const char *text, const char *method, attempt try, const char *what)
 {
     uint64_t whole = 0;
     int64_t requests = 0;
-    for (int forever = 0; forever < 2; forever++)
-        for (int64_t k = 0;; k += 1 + k / 64) {          /* k = 0: nothing is refused, and the result is what it should be */
+    for (int forever = 0; forever < 2; forever++) /* k = 0: nothing is refused, and the result is what it should be */
+        for (int64_t k = 0;; k += 1 + k / 64) {
             bank b = {0};
             motus_system *s = NULL;
             motus_error err;
@@ -179,14 +180,14 @@ static int64_t refuse_each(const char *text, const char *method, attempt try, co
             arm(&b, 0, 0);
             motus_system_destroy(s);
             if (b.live)
-                fail_msg("%s, %s, request %lld refused: %lld blocks lost", what, method, (long long)k, (long long)b.live);
-            if (k && !refused)
-                break;
+                fail_msg("%s, %s, request %lld refused: %lld blocks lost", what, method, (long long)k,
+                         (long long)b.live);
+            if (k && !refused) break;
         }
     return requests;
 }
 
-/* Systems -------------------------------------------------------------------------------------------------------------------- */
+/* Systems ---------------------------------------------------------------------------------------------------------- */
 
 static void systems(void **state)
 {
@@ -205,11 +206,11 @@ static void systems(void **state)
                 if (status != MOTUS_OK)
                     assert_null(s);
                 else
-                    assert_int_equal(refused, 0);        /* a system needs all that it asks for */
+                    assert_int_equal(refused, 0); /* a system needs all that it asks for */
                 motus_system_destroy(s);
                 assert_int_equal(b.live, 0);
             }
-            assert_true(k > (i < TEXTS ? 2 : 1));        /* the hooks were asked at all */
+            assert_true(k > (i < TEXTS ? 2 : 1)); /* the hooks were asked at all */
         }
 }
 
@@ -217,9 +218,13 @@ static void systems(void **state)
 static void wrong_texts(void **state)
 {
     (void)state;
-    static const struct { const char *text; motus_status status; } cases[] = {
-        {"x'' = -y\nx(0) = 1\nx'(0) = 0", MOTUS_NAME}, {"x'' = (-x", MOTUS_SYNTAX}, {"x'' = (1, 2)\nx(0) = 1\nx'(0) = 0", MOTUS_SHAPE},
-        {"x'' = -x\nx(0) = 1\nx'(0) = 0\nexact x = sin(t)", 0}};
+    static const struct {
+        const char *text;
+        motus_status status;
+    } cases[] = {{"x'' = -y\nx(0) = 1\nx'(0) = 0", MOTUS_NAME},
+                 {"x'' = (-x", MOTUS_SYNTAX},
+                 {"x'' = (1, 2)\nx(0) = 1\nx'(0) = 0", MOTUS_SHAPE},
+                 {"x'' = -x\nx(0) = 1\nx'(0) = 0\nexact x = sin(t)", 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int64_t k = 1, refused = 1; refused; k++) {
             bank b = {0};
@@ -228,44 +233,41 @@ static void wrong_texts(void **state)
             arm(&b, k, 1);
             motus_status status = read_text(&b, cases[i].text, &s, &err);
             refused = b.refused;
-            if (status == MOTUS_OK || (status != MOTUS_MEMORY && cases[i].status && status != cases[i].status) || (!refused
-                && status == MOTUS_MEMORY))
+            if (status == MOTUS_OK || (status != MOTUS_MEMORY && cases[i].status && status != cases[i].status) ||
+                (!refused && status == MOTUS_MEMORY))
                 fail_msg("%s: %s, %s", cases[i].text, motus_status_word(status), err.message);
             assert_null(s);
             assert_int_equal(b.live, 0);
         }
 }
 
-/* Runs ------------------------------------------------------------------------------------------------------------------------ */
+/* Runs ------------------------------------------------------------------------------------------------------------- */
 
 /* All that a run can do: walk, look at every column, read between steps, save, go back, and end with a short step. */
 static motus_status travel(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
-    size_t count = motus_column_count(s), nx = motus_positions(s), nv = motus_velocities(s), *columns = malloc(count * sizeof *columns);
+    size_t count = motus_column_count(s), nx = motus_positions(s), nv = motus_velocities(s),
+           *columns = malloc(count * sizeof *columns);
     double *out = malloc(count * sizeof *out), *y = malloc((nx + nv) * sizeof *y), times[2] = {0.033, 0.05};
     char *kept = NULL;
     size_t length = 0, length_traced = 0;
     const char *text = NULL;
     uint64_t h = 1;
     assert_true(columns && out && y);
-    for (size_t k = 0; k < count; k++)
-        columns[k] = k;
+    for (size_t k = 0; k < count; k++) columns[k] = k;
     def.method = method;
     def.step = 0.025;
     def.until = strcmp(method, "verlet-literal") ? 0.205 : 0.2;
     motus_status status = motus_run_create(s, &def, &r, err);
-    if (status != MOTUS_OK)
-        assert_null(r);
-    if (status == MOTUS_OK)
-        status = motus_run_step(r, 1, err);
+    if (status != MOTUS_OK) assert_null(r);
+    if (status == MOTUS_OK) status = motus_run_step(r, 1, err);
     for (int i = 0; i < 2 && status == MOTUS_OK; i++) {
         status = motus_run_sample(r, &times[i], 1, columns, count, out, err);
         h = mix(h, out, status == MOTUS_OK ? count * sizeof *out : 0);
     }
-    if (status == MOTUS_OK)
-        status = motus_run_save(r, &text, &length, err);
+    if (status == MOTUS_OK) status = motus_run_save(r, &text, &length, err);
     if (status == MOTUS_OK) {
         h = mix(h, text, length);
         kept = malloc(length + 1);
@@ -279,18 +281,12 @@ static motus_status travel(motus_system *s, const char *method, uint64_t *result
             h = mix(h, e[k]->a, e[k]->a ? nv * sizeof(double) : 0);
         }
     }
-    if (status == MOTUS_OK)
-        status = motus_run_restore(r, kept, length, err);
-    if (status == MOTUS_OK)
-        status = motus_run_finish(r, err);
-    if (status == MOTUS_OK)
-        status = motus_run_values(r, columns, count, out, err);
-    if (status == MOTUS_OK)
-        h = mix(h, out, count * sizeof *out);
-    if (status == MOTUS_OK)
-        status = motus_run_state(r, y, y + nx, err);
-    if (status == MOTUS_OK)
-        h = mix(h, y, (nx + nv) * sizeof *y);
+    if (status == MOTUS_OK) status = motus_run_restore(r, kept, length, err);
+    if (status == MOTUS_OK) status = motus_run_finish(r, err);
+    if (status == MOTUS_OK) status = motus_run_values(r, columns, count, out, err);
+    if (status == MOTUS_OK) h = mix(h, out, count * sizeof *out);
+    if (status == MOTUS_OK) status = motus_run_state(r, y, y + nx, err);
+    if (status == MOTUS_OK) h = mix(h, y, (nx + nv) * sizeof *y);
     double *derivatives = malloc((nx + nv) * nv * sizeof *derivatives);
     assert_non_null(derivatives);
     if (status == MOTUS_OK && nv <= MOTUS_JACOBIAN_MAX) {
@@ -319,11 +315,10 @@ static void runs(void **state)
         int admitted = 0;
         for (size_t k = 0; k < motus_method_count(); k++) {
             const char *method = motus_method_at(k)->name;
-            if (motus_method_admits(s, method, NULL) != MOTUS_OK)
-                continue;
+            if (motus_method_admits(s, method, NULL) != MOTUS_OK) continue;
             /* Large models: a method of each family. */
-            if (i < LARGE && strcmp(method, "verlet") && strcmp(method, "rk4") && strcmp(method, "gauss6") && strcmp(method, "newmark") &&
-                strcmp(method, "exact"))
+            if (i < LARGE && strcmp(method, "verlet") && strcmp(method, "rk4") && strcmp(method, "gauss6") &&
+                strcmp(method, "newmark") && strcmp(method, "exact"))
                 continue;
             assert_true(refuse_each(text, method, travel, "run") >= 3);
             admitted++;
@@ -334,7 +329,8 @@ static void runs(void **state)
     }
 }
 
-/* Whether a method is admitted may depend on sampled derivatives, which want memory: none is no reason to refuse the method. */
+/* Whether a method is admitted may depend on sampled derivatives, which want memory: none is no reason to refuse the
+ * method. */
 static motus_status admit(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     *result = 1;
@@ -366,7 +362,7 @@ static motus_status settings(motus_system *s, const char *method, uint64_t *resu
 static void what_may_be_set(void **state)
 {
     (void)state;
-    assert_true(refuse_each(rich, "", settings, "parameters") >= 4);      /* one for each */
+    assert_true(refuse_each(rich, "", settings, "parameters") >= 4); /* one for each */
     refuse_each(wide, "", settings, "parameters");
 }
 
@@ -381,13 +377,11 @@ static motus_status set(motus_system *s, const char *method, uint64_t *result, m
         double before[3], now[3];
         assert_int_equal(motus_parameter_values(s, 2, before), MOTUS_OK);
         status = motus_system_set(s, "g", &g[n], 1, err);
-        if (status == MOTUS_OK)
-            status = motus_system_set(s, "k", k[n], 3, err);
+        if (status == MOTUS_OK) status = motus_system_set(s, "k", k[n], 3, err);
         assert_int_equal(motus_parameter_values(s, 2, now), MOTUS_OK);
         assert_memory_equal(now, status == MOTUS_OK ? k[n] : before, sizeof now);
     }
-    if (status == MOTUS_OK)
-        status = motus_system_clone(s, &clone, err);
+    if (status == MOTUS_OK) status = motus_system_clone(s, &clone, err);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < motus_parameter_count(s); i++) {
         double values[2][8];
@@ -413,7 +407,7 @@ static void admission(void **state)
     assert_true(refuse_each(texts[2], "boris", admit, "admission") > 0);
 }
 
-/* Words and studies -------------------------------------------------------------------------------------------------------------- */
+/* Words and studies ------------------------------------------------------------------------------------------------ */
 
 static motus_status explain(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
@@ -423,10 +417,8 @@ static motus_status explain(motus_system *s, const char *method, uint64_t *resul
     assert_non_null(words);
     /* A text has no status: it is whole, or empty. */
     *result = mix(1, words, strlen(words));
-    if (equation)
-        *result = mix(*result, equation, strlen(equation));
-    if (words[0] && equation)
-        return MOTUS_OK;
+    if (equation) *result = mix(*result, equation, strlen(equation));
+    if (words[0] && equation) return MOTUS_OK;
     *err = (motus_error){.status = MOTUS_MEMORY, .message = "no words"};
     return MOTUS_MEMORY;
 }
@@ -434,8 +426,7 @@ static motus_status explain(motus_system *s, const char *method, uint64_t *resul
 static void explanations(void **state)
 {
     (void)state;
-    for (int i = 0; i < TEXTS; i++)
-        refuse_each(texts[i], "", explain, "explain");
+    for (int i = 0; i < TEXTS; i++) refuse_each(texts[i], "", explain, "explain");
 }
 
 /* All of the model in print; the next statement can be had where one could not. */
@@ -449,8 +440,7 @@ static motus_status typeset(motus_system *s, const char *method, uint64_t *resul
         lost |= !text;
         *result = text ? mix(*result, text, strlen(text)) : *result;
     }
-    if (!lost)
-        return MOTUS_OK;
+    if (!lost) return MOTUS_OK;
     *err = (motus_error){.status = MOTUS_MEMORY, .message = "not typeset"};
     return MOTUS_MEMORY;
 }
@@ -458,8 +448,7 @@ static motus_status typeset(motus_system *s, const char *method, uint64_t *resul
 static void statements(void **state)
 {
     (void)state;
-    for (int i = 0; i < TEXTS; i++)
-        assert_true(refuse_each(texts[i], "", typeset, "typeset") > 8);
+    for (int i = 0; i < TEXTS; i++) assert_true(refuse_each(texts[i], "", typeset, "typeset") > 8);
 }
 
 static motus_status compare(motus_system *s, const char *methods, uint64_t *result, motus_error *err)
@@ -473,8 +462,7 @@ static motus_status compare(motus_system *s, const char *methods, uint64_t *resu
     def.step = 0.02;
     def.until = 0.2;
     motus_status status = motus_compare(s, &def, &c, err);
-    if (status != MOTUS_OK)
-        assert_null(c);
+    if (status != MOTUS_OK) assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++) {
         assert_int_equal(c->rows[i]->status, MOTUS_OK);
@@ -496,8 +484,7 @@ static motus_status converge(motus_system *s, const char *methods, uint64_t *res
     def.step = 0.05;
     def.until = 0.2;
     motus_status status = motus_converge(s, &def, &c, err);
-    if (status != MOTUS_OK)
-        assert_null(c);
+    if (status != MOTUS_OK) assert_null(c);
     *result = 1;
     for (size_t i = 0; status == MOTUS_OK && i < c->row_count; i++)
         *result = mix(*result, &c->rows[i]->observed, sizeof(double));
@@ -514,7 +501,7 @@ static void studies(void **state)
     assert_true(refuse_each(texts[3], "", converge, "converge") > 10);
 }
 
-/* Ensembles ------------------------------------------------------------------------------------------------------------------------- */
+/* Ensembles -------------------------------------------------------------------------------------------------------- */
 
 /* By the method "machine method": reading, computing twice, what is recorded of all. */
 static motus_status flock(motus_system *s, const char *how, uint64_t *result, motus_error *err)
@@ -525,7 +512,8 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     motus_column c = motus_default_column();
     const size_t columns = motus_column_count(s);
     motus_record *records = malloc(columns * sizeof *records);
-    double first[COUNT] = {1, 2, 3, INFINITY, 5}, second[COUNT] = {0.1, 0.2, 0.3, 0.4, 0.5}, stopped[COUNT], *room = malloc(columns * COUNT * sizeof *room);
+    double first[COUNT] = {1, 2, 3, INFINITY, 5}, second[COUNT] = {0.1, 0.2, 0.3, 0.4, 0.5}, stopped[COUNT],
+           *room = malloc(columns * COUNT * sizeof *room);
     double **at = malloc(columns * sizeof *at);
     const double *values[] = {first, second};
     const char *names[2], *method = strchr(how, ' ') + 1;
@@ -552,8 +540,7 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     def.machine = strstr(machine, "callback") ? NULL : machine;
     uint64_t h = 1;
     motus_status status = motus_ensemble_create(s, &def, &e, err);
-    if (status != MOTUS_OK)
-        assert_null(e);
+    if (status != MOTUS_OK) assert_null(e);
     for (int round = 0; round < 2 && status == MOTUS_OK; round++) {
         status = motus_ensemble_run(e, COUNT, values, at, stopped, err);
         for (size_t k = 0; status == MOTUS_OK && k < def.record_count * COUNT; k++)
@@ -567,7 +554,8 @@ static motus_status flock(motus_system *s, const char *how, uint64_t *result, mo
     return status;
 }
 
-static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v, double *a)
+static int side_by_side(void *context, size_t first, size_t count, double t, const double *x, const double *v,
+                        double *a)
 {
     (void)context;
     (void)first;
@@ -583,7 +571,8 @@ static void ensembles(void **state)
 {
     (void)state;
     static const char short_wide[] =
-        "N = 12\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
+        "N = 12\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]' + w (x[i+1] - x[i])^3   for i = 1..N\nx[0] = "
+        "sin(t)\nx[N+1] = 0\n"
         "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: x[i]'^2)\n";
     assert_true(refuse_each(short_wide, "interpreter rk4", flock, "ensemble") > 10);
     assert_true(refuse_each(rich, "interpreter gauss4", flock, "ensemble") > 10);
@@ -601,8 +590,7 @@ static void *from_pool(void *context, size_t bytes)
 {
     static _Alignas(64) unsigned char pool[1 << 20];
     size_t *used = context, at = (*used + 63) / 64 * 64;
-    if (bytes > sizeof pool - at)
-        return NULL;
+    if (bytes > sizeof pool - at) return NULL;
     *used = at + bytes;
     return pool + at;
 }

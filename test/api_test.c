@@ -1,4 +1,5 @@
-/* The public calls that need no run: definitions, systems from texts and callbacks, what they hold, the catalogue, and every status.
+/* The public calls that need no run: definitions, systems from texts and callbacks, what they hold, the catalogue,
+ * and every status.
  *
  * Runs are in run_test.c, restart states in restart_test.c, memory in alloc_test.c.
  */
@@ -7,7 +8,7 @@
 
 static const char spring[] = "k = 1\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 1\n";
 
-/* Words ------------------------------------------------------------------------------------------------------------- */
+/* Words ------------------------------------------------------------------------------------------------------------ */
 
 static void statuses_have_words(void **state)
 {
@@ -16,8 +17,7 @@ static void statuses_have_words(void **state)
         assert_true(strlen(motus_status_word(i)) > 1);
         assert_true(strlen(motus_status_text(i)) > 3);
         assert_true(i == 0 ? motus_status_exit(i) == 0 : motus_status_exit(i) == 1 || motus_status_exit(i) == 2);
-        for (int j = 0; j < i; j++)
-            assert_string_not_equal(motus_status_word(i), motus_status_word(j));
+        for (int j = 0; j < i; j++) assert_string_not_equal(motus_status_word(i), motus_status_word(j));
     }
     assert_string_equal(motus_status_word(MOTUS_DIVERGED), "diverged");
     assert_int_equal(motus_status_exit(MOTUS_SYNTAX), 2);
@@ -29,7 +29,7 @@ static void statuses_have_words(void **state)
     assert_string_equal(motus_version(), version);
 }
 
-/* Definitions -------------------------------------------------------------------------------------------------------- */
+/* Definitions ------------------------------------------------------------------------------------------------------ */
 
 static void defaults_are_what_the_manual_says(void **state)
 {
@@ -52,8 +52,8 @@ static void defaults_are_what_the_manual_says(void **state)
     assert_true(isnan(s.step) && isnan(s.until) && s.evaluations == 0 && !s.methods);
 }
 
-/* A caller built against an older header has room for less, one built against a newer one for more: nothing beyond is touched, and
- * what the library does not know is zero. */
+/* A caller built against an older header has room for less, one built against a newer one for more: nothing beyond is
+ * touched, and what the library does not know is zero. */
 static void defaults_fill_what_there_is(void **state)
 {
     (void)state;
@@ -65,10 +65,8 @@ static void defaults_fill_what_there_is(void **state)
             uint32_t said;
             memcpy(&said, room, sizeof said);
             assert_int_equal(said, size);
-            for (size_t i = size; i < sizeof room; i++)
-                assert_int_equal(room[i], 0xA5);
-            if (size > sizeof(motus_error))
-                assert_int_equal(room[size - 1], 0);
+            for (size_t i = size; i < sizeof room; i++) assert_int_equal(room[i], 0xA5);
+            if (size > sizeof(motus_error)) assert_int_equal(room[size - 1], 0);
         }
 }
 
@@ -79,11 +77,10 @@ static void defaults_of_an_unknown_kind_are_zero(void **state)
     unsigned char room[40];
     memset(room, 0xA5, sizeof room);
     motus_default((motus_def_kind)1000, room, 32);
-    for (size_t i = 0; i < sizeof room; i++)
-        assert_int_equal(room[i], i < 32 ? 0 : 0xA5);
+    for (size_t i = 0; i < sizeof room; i++) assert_int_equal(room[i], i < 32 ? 0 : 0xA5);
 }
 
-/* Sizes ------------------------------------------------------------------------------------------------------------- */
+/* Sizes ------------------------------------------------------------------------------------------------------------ */
 
 static int pull(void *context, double t, const double *x, const double *v, double *a)
 {
@@ -99,7 +96,10 @@ static void sizes_of_versions_fit(void **state)
 {
     (void)state;
     static const uint32_t history[] = {16, 24, 40};
-    static const struct { uint32_t size; int beyond; defaults_fit fit;
+    static const struct {
+        uint32_t size;
+        int beyond;
+        defaults_fit fit;
     } cases[] = {{0, 0, SIZE_MISSING},    {3, 0, SIZE_UNKNOWN},       {15, 0, SIZE_UNKNOWN},
                  {16, 0, SIZE_FITS},      {17, 0, SIZE_UNKNOWN},      {24, 0, SIZE_FITS},
                  {32, 0, SIZE_UNKNOWN},   {40, 0, SIZE_FITS},         {40, 1, SIZE_FITS},
@@ -171,7 +171,11 @@ static void definitions_of_every_size(void **state)
     call.positions = 1, call.x = x, call.v = v, call.acceleration = pull;
     study.methods = methods, study.method_count = 1;
     ensemble.records = &record, ensemble.record_count = 1, ensemble.machine = "interpreter";
-    const struct { motus_def_kind kind; const void *def; uint32_t size; const char *maker;
+    const struct {
+        motus_def_kind kind;
+        const void *def;
+        uint32_t size;
+        const char *maker;
     } all[] = {{MOTUS_DEF_TEXT, &text, sizeof text, "motus_default_text()"},
                {MOTUS_DEF_CALLBACK, &call, sizeof call, "motus_default_callback()"},
                {MOTUS_DEF_RUN, &run, sizeof run, "motus_default_run()"},
@@ -179,7 +183,8 @@ static void definitions_of_every_size(void **state)
                {MOTUS_DEF_ENSEMBLE, &ensemble, sizeof ensemble, "motus_default_ensemble()"}};
     motus_system *s = given_text(spring);
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        const uint32_t now = all[k].size, sizes[] = {0, 1, 4, 8, now / 2, now - 8, now - 1, now, now + 1, now + 64, 1u << 20};
+        const uint32_t now = all[k].size,
+                       sizes[] = {0, 1, 4, 8, now / 2, now - 8, now - 1, now, now + 1, now + 64, 1u << 20};
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
             for (int asks = 0; asks < 2; asks++) {
                 _Alignas(16) unsigned char room[sizeof(enlarged)] = {0};
@@ -283,19 +288,22 @@ static void errors_of_every_size(void **state)
     char *saved = strdup(kept);
     const uint32_t sizes[] = {
         0, 12, sizeof(motus_error) - 1, 0xA5A5A5A5, sizeof(motus_error) + 16, sizeof(motus_error) + 8};
-    struct { motus_error error; unsigned char beyond[16]; } u;
+    struct {
+        motus_error error;
+        unsigned char beyond[16];
+    } u;
     motus_error *err = &u.error;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         const bool sound = i == 5;
-#define REFUSES(call)                                                                                                  \
-    do {                                                                                                               \
-        memset(&u, 0, sizeof u);                                                                                       \
-        u.error.size = sizes[i];                                                                                       \
-        u.beyond[15] = 1;                                                                                              \
-        const bool refused =                                                                                           \
-            (call) == MOTUS_ARGUMENT && err->status == MOTUS_ARGUMENT && strstr(err->hint, "motus_default_error()");   \
-        if (refused == sound || u.error.size != sizes[i])                                                              \
-            fail_msg("%s, an error of %u bytes: %s (%s)", #call, sizes[i], err->message, err->hint);                   \
+#define REFUSES(call)                                                                                                \
+    do {                                                                                                             \
+        memset(&u, 0, sizeof u);                                                                                     \
+        u.error.size = sizes[i];                                                                                     \
+        u.beyond[15] = 1;                                                                                            \
+        const bool refused =                                                                                         \
+            (call) == MOTUS_ARGUMENT && err->status == MOTUS_ARGUMENT && strstr(err->hint, "motus_default_error()"); \
+        if (refused == sound || u.error.size != sizes[i])                                                            \
+            fail_msg("%s, an error of %u bytes: %s (%s)", #call, sizes[i], err->message, err->hint);                 \
     } while (0)
         REFUSES(motus_system_from_text(&text, &system, err));
         motus_system_destroy(system);
@@ -344,7 +352,7 @@ static void errors_of_every_size(void **state)
     motus_system_destroy(s);
 }
 
-/* Errors ------------------------------------------------------------------------------------------------------------- */
+/* Errors ----------------------------------------------------------------------------------------------------------- */
 
 static motus_status read_text(const char *text, motus_error *err)
 {
@@ -354,8 +362,7 @@ static motus_status read_text(const char *text, motus_error *err)
     def.text = text;
     def.file = "given.motus";
     motus_status status = motus_system_from_text(&def, &s, err);
-    if (status != MOTUS_OK)
-        assert_null(s);
+    if (status != MOTUS_OK) assert_null(s);
     motus_system_destroy(s);
     return status;
 }
@@ -363,25 +370,31 @@ static motus_status read_text(const char *text, motus_error *err)
 static void every_status_of_a_text_is_reached(void **state)
 {
     (void)state;
-    static const struct { motus_status status; const char *text; int line; } cases[] = {
+    static const struct {
+        motus_status status;
+        const char *text;
+        int line;
+    } cases[] = {
         {MOTUS_SYNTAX, "x'' = -x +\nx(0) = 1\nx'(0) = 0", 2},
         {MOTUS_SYNTAX, "x'' = (-x", 1},
         {MOTUS_NAME, "x'' = -y\nx(0) = 1\nx'(0) = 0", 1},
         {MOTUS_NAME, "x'' = -x\nx(0) = 1", 1},
         {MOTUS_SHAPE, "x'' = (1, 2)\nx(0) = 1\nx'(0) = 0", 1},
-        {MOTUS_LIMIT, "x[i]'' = -x[i] for i = 1..1000000000\nx[i](0) = 1 for i = 1..1000000000\nx[i]'(0) = 0 for i = 1..1000000000", 0},
+        {MOTUS_LIMIT,
+         "x[i]'' = -x[i] for i = 1..1000000000\nx[i](0) = 1 for i = 1..1000000000\nx[i]'(0) = 0 for i = 1..1000000000",
+         0},
         {MOTUS_UNAVAILABLE, "x'' = -x\nx(0) = 1\nx'(0) = 0\nwhen x = 0: record", 4},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motus_error err;
         motus_status status = read_text(cases[i].text, &err);
         if (status != cases[i].status)
-            fail_msg("%s: %s instead of %s: %s", cases[i].text, motus_status_word(status), motus_status_word(cases[i].status), err.message);
+            fail_msg("%s: %s instead of %s: %s", cases[i].text, motus_status_word(status),
+                     motus_status_word(cases[i].status), err.message);
         assert_int_equal(err.status, status);
         assert_true(strlen(err.message) > 5 && !strchr(err.message, '\n'));
         assert_true(err.line > 0 && err.column > 0);
-        if (cases[i].line)
-            assert_int_equal(err.line, cases[i].line);
+        if (cases[i].line) assert_int_equal(err.line, cases[i].line);
         assert_string_equal(err.file, "given.motus");
         assert_non_null(strchr(err.caret, '^'));
         assert_true(strlen(err.source) > 0 && isnan(err.time) && !err.variable[0]);
@@ -451,7 +464,7 @@ static void text_with_a_length_and_settings(void **state)
     def.set = set;
     def.set_count = 3;
     must(motus_system_from_text(&def, &s, &err), &err, "text");
-    memset(text, '?', sizeof text);          /* the text was copied */
+    memset(text, '?', sizeof text); /* the text was copied */
     motus_run *r = given_run(s, NULL, NAN, NAN);
     assert_true(value(s, r, "x") == 3 && value(s, r, "x'") == 4);
     motus_run_destroy(r);
@@ -466,19 +479,18 @@ static void text_with_a_length_and_settings(void **state)
     assert_int_not_equal(motus_system_from_text(&def, &s, &err), MOTUS_OK);
 }
 
-/* What a system holds -------------------------------------------------------------------------------------------------- */
+/* What a system holds ---------------------------------------------------------------------------------------------- */
 
-static const char rich[] =
-    "N = 4\nk = 2\nm = [1, 2, 3, 4]\n"
-    "x[i]'' = k (x[i+1] - 2 x[i] + x[i-1])/m[i]   for i = 1..N\n"
-    "x[0] = 0\nx[N+1] = 0.1 sin(t)\n"
-    "x[i](0) = 0.1 i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\n"
-    "r'' = -r - 0.1 r'\nr(0) = (1, 0)\nr'(0) = (0, 1)\n"
-    "w'' = -w\nw(0) = (1, 2, 3, 4, 5)\nw'(0) = (0, 0, 0, 0, 0)\n"
-    "s' = |r'|^2 - s\ns(0) = 0.5\n"
-    "speed = |r'|\nstretch = x[2] - x[1]\n"
-    "invariant w2 = (w[1]^2 + w'[1]^2, w[2]^2 + w'[2]^2)\n"
-    "method rk4\nstep 0.01\nuntil 1\nevery 0.1\n";
+static const char rich[] = "N = 4\nk = 2\nm = [1, 2, 3, 4]\n"
+                           "x[i]'' = k (x[i+1] - 2 x[i] + x[i-1])/m[i]   for i = 1..N\n"
+                           "x[0] = 0\nx[N+1] = 0.1 sin(t)\n"
+                           "x[i](0) = 0.1 i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\n"
+                           "r'' = -r - 0.1 r'\nr(0) = (1, 0)\nr'(0) = (0, 1)\n"
+                           "w'' = -w\nw(0) = (1, 2, 3, 4, 5)\nw'(0) = (0, 0, 0, 0, 0)\n"
+                           "s' = |r'|^2 - s\ns(0) = 0.5\n"
+                           "speed = |r'|\nstretch = x[2] - x[1]\n"
+                           "invariant w2 = (w[1]^2 + w'[1]^2, w[2]^2 + w'[2]^2)\n"
+                           "method rk4\nstep 0.01\nuntil 1\nevery 0.1\n";
 
 static void variables(void **state)
 {
@@ -490,7 +502,8 @@ static void variables(void **state)
     motus_variable v = motus_default_variable();
     assert_int_equal(motus_variable_at(s, 0, &v), MOTUS_OK);
     assert_string_equal(v.name, "x");
-    assert_true(v.order == 2 && v.components == 0 && v.dimensions == 1 && v.first[0] == 1 && v.last[0] == 4 && v.count == 4);
+    assert_true(v.order == 2 && v.components == 0 && v.dimensions == 1 && v.first[0] == 1 && v.last[0] == 4 &&
+                v.count == 4);
     assert_int_equal(motus_variable_at(s, 2, &v), MOTUS_OK);
     assert_true(!strcmp(v.name, "w") && v.components == 5 && v.dimensions == 0 && v.count == 5);
     assert_int_equal(motus_variable_at(s, 3, &v), MOTUS_OK);
@@ -511,10 +524,10 @@ static void variables(void **state)
 static void columns_are_found_by_their_own_names(void **state)
 {
     (void)state;
-    static const char *const expected[] = {
-        "t", "x[1]", "x[2]", "x[3]", "x[4]", "r.x", "r.y", "w[1]", "w[2]", "w[3]", "w[4]", "w[5]",
-        "x[1]'", "x[2]'", "x[3]'", "x[4]'", "r'.x", "r'.y", "w'[1]", "w'[2]", "w'[3]", "w'[4]", "w'[5]",
-        "s", "speed", "stretch", NULL, NULL};
+    static const char *const expected[] = {"t",     "x[1]",  "x[2]", "x[3]",  "x[4]",    "r.x",   "r.y",
+                                           "w[1]",  "w[2]",  "w[3]", "w[4]",  "w[5]",    "x[1]'", "x[2]'",
+                                           "x[3]'", "x[4]'", "r'.x", "r'.y",  "w'[1]",   "w'[2]", "w'[3]",
+                                           "w'[4]", "w'[5]", "s",    "speed", "stretch", NULL,    NULL};
     motus_system *s = given_text(rich);
     assert_int_equal(motus_column_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_column_count(s); k++) {
@@ -522,8 +535,7 @@ static void columns_are_found_by_their_own_names(void **state)
         size_t first = 99, count = 99;
         motus_error err = motus_default_error();
         assert_int_equal(motus_column_at(s, k, &c), MOTUS_OK);
-        if (expected[k])
-            assert_string_equal(c.name, expected[k]);
+        if (expected[k]) assert_string_equal(c.name, expected[k]);
         must(motus_column_find(s, c.name, &first, &count, &err), &err, c.name);
         assert_int_equal(first, k);
         assert_int_equal(count, 1);
@@ -541,8 +553,11 @@ static void columns_of_whole_variables(void **state)
 {
     (void)state;
     motus_system *s = given_text(rich);
-    static const struct { const char *name; size_t first, count; } cases[] = {
-        {"x", 1, 4}, {"x'", 12, 4}, {"r", 5, 2}, {"r'", 16, 2}, {"w", 7, 5}, {"w'", 18, 5}, {"x[3]", 3, 1}, {"w[5]", 11, 1}, {"w2", 26, 2}};
+    static const struct {
+        const char *name;
+        size_t first, count;
+    } cases[] = {{"x", 1, 4},   {"x'", 12, 4},  {"r", 5, 2},     {"r'", 16, 2}, {"w", 7, 5},
+                 {"w'", 18, 5}, {"x[3]", 3, 1}, {"w[5]", 11, 1}, {"w2", 26, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t first = 0, count = 0;
         motus_error err = motus_default_error();
@@ -550,17 +565,17 @@ static void columns_of_whole_variables(void **state)
         assert_int_equal(first, cases[i].first);
         assert_int_equal(count, cases[i].count);
     }
-    static const char *const none[] = {"", "q", "x[0]", "x[5]", "x[", "x[1", "x[1]]", "x''", "x.x", "r.z", "r.", "r.q", "w[6]",
-        "w[0]", "exact x", "t'",
-                                       "speed'", "speed.x", "s'", "x[99999999999999999999]", "x[1][1]", "t[1]", "stretc", "r[1]'.x"};
+    static const char *const none[] = {
+        "",        "q",    "x[0]",   "x[5]",   "x[",      "x[1", "x[1]]",  "x''",     "x.x", "r.z",
+        "r.",      "r.q",  "w[6]",   "w[0]",   "exact x", "t'",  "speed'", "speed.x", "s'",  "x[99999999999999999999]",
+        "x[1][1]", "t[1]", "stretc", "r[1]'.x"};
     for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
         size_t first = 0, count = 0;
         motus_error err = motus_default_error();
         if (motus_column_find(s, none[i], &first, &count, &err) != MOTUS_NAME)
             fail_msg("a column %s was found: %zu, %zu", none[i], first, count);
         assert_true(err.message[0] != 0);
-        if (!strcmp(none[i], "stretc"))
-            assert_non_null(strstr(err.hint, "stretch"));
+        if (!strcmp(none[i], "stretc")) assert_non_null(strstr(err.hint, "stretch"));
     }
     char *loud = malloc(100000);
     assert_non_null(loud);
@@ -632,8 +647,7 @@ static void columns_by_cell_and_component(void **state)
         c.is_velocity = cases[i].is_velocity;
         memcpy(c.cell, cases[i].cell, sizeof cases[i].cell);
         const motus_status status = motus_column_of(s, &c, &k, &err);
-        if (status != (cases[i].name ? MOTUS_OK : MOTUS_NAME))
-            fail_msg("case %zu: %s", i, err.message);
+        if (status != (cases[i].name ? MOTUS_OK : MOTUS_NAME)) fail_msg("case %zu: %s", i, err.message);
         if (status != MOTUS_OK) {
             assert_true(k == 77 && strlen(err.message) > 10);
             continue;
@@ -664,16 +678,13 @@ static void values_of_columns(void **state)
     motus_error err = motus_default_error();
     size_t all = motus_column_count(s), columns[64];
     double out[64], x[11], v[12];
-    for (size_t k = 0; k < all; k++)
-        columns[k] = all - 1 - k;            /* in any order */
+    for (size_t k = 0; k < all; k++) columns[k] = all - 1 - k; /* in any order */
     take_steps(r, 7);
     must(motus_run_values(r, columns, all, out, &err), &err, "values");
     must(motus_run_state(r, x, v, &err), &err, "state");
     assert_true(out[all - 1] == motus_run_time(r));
-    for (size_t k = 0; k < 11; k++)
-        assert_true(out[all - 2 - k] == x[k]);
-    for (size_t k = 0; k < 12; k++)
-        assert_true(out[all - 13 - k] == v[k]);
+    for (size_t k = 0; k < 11; k++) assert_true(out[all - 2 - k] == x[k]);
+    for (size_t k = 0; k < 12; k++) assert_true(out[all - 13 - k] == v[k]);
     near(value(s, r, "speed"), hypot(v[4], v[5]), 4 * ROUNDING, "speed");
     assert_true(value(s, r, "stretch") == x[1] - x[0]);
     columns[0] = all;
@@ -686,7 +697,8 @@ static void values_of_columns(void **state)
 static void exact_columns(void **state)
 {
     (void)state;
-    motus_system *s = given_text("x'' = -4 x\nx(0) = 1\nx'(0) = 0\nexact x = cos(2 t)\nmethod verlet\nstep 0.1\nuntil 1\n");
+    motus_system *s =
+        given_text("x'' = -4 x\nx(0) = 1\nx'(0) = 0\nexact x = cos(2 t)\nmethod verlet\nstep 0.1\nuntil 1\n");
     assert_true(motus_has_exact(s));
     motus_run *r = given_run(s, NULL, NAN, NAN);
     finish(r);
@@ -735,7 +747,7 @@ static void settings_and_analysis(void **state)
     motus_system_destroy(s);
 }
 
-/* The catalogue --------------------------------------------------------------------------------------------------------- */
+/* The catalogue ---------------------------------------------------------------------------------------------------- */
 
 static void methods_are_found(void **state)
 {
@@ -763,7 +775,8 @@ static void methods_are_found(void **state)
     assert_string_equal(m->name, "rk4");
     must(motus_method_find("newmark(1/6, 1/2)", &m, &err), &err, "newmark");
     assert_int_equal(m->order, 2);
-    static const char *const wrong[] = {"", "verlot", "newmark(1/6", "newmark(a, b)", "newmark(1/0, 1)", "rk4(2)", "newmark(1/6, 1/2) x"};
+    static const char *const wrong[] = {
+        "", "verlot", "newmark(1/6", "newmark(a, b)", "newmark(1/0, 1)", "rk4(2)", "newmark(1/6, 1/2) x"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         assert_int_equal(motus_method_find(wrong[i], &m, &err), MOTUS_METHOD);
         assert_null(m);

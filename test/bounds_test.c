@@ -1,7 +1,8 @@
-/* A model is untrusted input: whatever the bytes, one clear answer, in bounded time and memory; and memory that gives out anywhere is an
- * error, never a crash or a leak.
+/* A model is untrusted input: whatever the bytes, one clear answer, in bounded time and memory; and memory that gives
+ * out anywhere is an error, never a crash or a leak.
  *
- * Invariant: every block that the library takes is counted through the allocation hooks, and after destroy none is left.
+ * Invariant: every block that the library takes is counted through the allocation hooks, and after destroy none is
+ * left.
  */
 #include "test/given.h"
 
@@ -12,9 +13,9 @@
 
 typedef struct ledger {
     size_t blocks, bytes, peak;
-    long calls, fail_at;             /* fail_at: the call that gets nothing, 0: none */
-    bool fail_after;                 /* and all after it */
-    size_t limit;                    /* bytes; 0: none */
+    long calls, fail_at; /* fail_at: the call that gets nothing, 0: none */
+    bool fail_after;     /* and all after it */
+    size_t limit;        /* bytes; 0: none */
 } ledger;
 
 enum { HEADER = 32 };
@@ -23,13 +24,10 @@ static void *take_counted(void *context, size_t bytes)
 {
     ledger *l = context;
     l->calls++;
-    if (l->fail_at && (l->fail_after ? l->calls >= l->fail_at : l->calls == l->fail_at))
-        return NULL;
-    if (l->limit && l->bytes + bytes > l->limit)
-        return NULL;
+    if (l->fail_at && (l->fail_after ? l->calls >= l->fail_at : l->calls == l->fail_at)) return NULL;
+    if (l->limit && l->bytes + bytes > l->limit) return NULL;
     char *p = bytes < SIZE_MAX - HEADER ? malloc(bytes + HEADER) : NULL;
-    if (!p)
-        return NULL;
+    if (!p) return NULL;
     memcpy(p, &bytes, sizeof bytes);
     l->blocks++;
     l->bytes += bytes;
@@ -41,8 +39,7 @@ static void release_counted(void *context, void *block)
 {
     ledger *l = context;
     size_t bytes;
-    if (!block)
-        return;
+    if (!block) return;
     memcpy(&bytes, (char *)block - HEADER, sizeof bytes);
     l->blocks--;
     l->bytes -= bytes;
@@ -64,14 +61,17 @@ static double now(void)
 #endif
 #endif
 #ifdef SANITIZED
-enum { SLOWER = 20, FEWER = 10 };    /* the sanitizers need time, and their question is answered by less */
+enum { SLOWER = 20, FEWER = 10 }; /* the sanitizers need time, and their question is answered by less */
 #else
 enum { SLOWER = 1, FEWER = 1 };
 #endif
 
 /* ---- texts that are built ---- */
 
-typedef struct text { char *bytes; size_t length, room; } text;
+typedef struct text {
+    char *bytes;
+    size_t length, room;
+} text;
 
 static text make(size_t room)
 {
@@ -114,20 +114,18 @@ static void answer(text t, const char *what, motus_status expected, const char *
         (void)motus_explain(s);
         (void)motus_equation_text(s, 0);
         status = motus_run_create(s, &run, &r, &err);
-        if (status == MOTUS_OK)
-            status = motus_run_step(r, 3, &err);
+        if (status == MOTUS_OK) status = motus_run_step(r, 3, &err);
         motus_run_destroy(r);
     }
     double took = now() - start;
     motus_system_destroy(s);
     free(t.bytes);
-    print_message("%s: %s, %.2f s, %zu MB%s%s\n", what, motus_status_word(status), took, l.peak >> 20, status ? ": " : "", status ? err.message : "");
+    print_message("%s: %s, %.2f s, %zu MB%s%s\n", what, motus_status_word(status), took, l.peak >> 20,
+                  status ? ": " : "", status ? err.message : "");
     if (status != expected || (status != MOTUS_OK && !strstr(err.message, named)))
         fail_msg("%s: %s: %s", what, motus_status_word(status), err.message);
-    if (took > seconds * SLOWER)
-        fail_msg("%s takes %.1f s, not %.1f", what, took, seconds);
-    if (l.peak > megabytes << 20)
-        fail_msg("%s takes %zu MB, not %zu", what, l.peak >> 20, megabytes);
+    if (took > seconds * SLOWER) fail_msg("%s takes %.1f s, not %.1f", what, took, seconds);
+    if (l.peak > megabytes << 20) fail_msg("%s takes %zu MB, not %zu", what, l.peak >> 20, megabytes);
     assert_int_equal(l.blocks, 0);
 }
 
@@ -143,9 +141,10 @@ static void random_bytes(void **unused)
         text t = make(10 << 20);
         static const char alphabet[] = "xyt'()[]|+-*/^=., \n0123456789:#<>ifsum";
         for (; t.length < t.room; t.length++)
-            t.bytes[t.length] = kind == 0 ? (char)chance() : kind == 1 ? alphabet[chance() % (sizeof alphabet - 1)] : (char)(0x20 + chance() % 0x5F);
-        if (kind > 0)
-            memcpy(t.bytes, "x = ", 4);
+            t.bytes[t.length] = kind == 0   ? (char)chance()
+                                : kind == 1 ? alphabet[chance() % (sizeof alphabet - 1)]
+                                            : (char)(0x20 + chance() % 0x5F);
+        if (kind > 0) memcpy(t.bytes, "x = ", 4);
         answer(t, "10 MB of chance", MOTUS_SYNTAX, "", 2, 200);
     }
 }
@@ -175,44 +174,38 @@ static void long_expressions(void **unused)
     (void)unused;
     text t = make((10 << 20) + 200);
     say(&t, "x'' = -x");
-    while (t.length < 10 << 20)
-        say(&t, " + x");
+    while (t.length < 10 << 20) say(&t, " + x");
     say(&t, "%s", start);
     answer(t, "10 MB of + x", MOTUS_LIMIT, "large", 20, 2500);
 
     t = make(1 << 20);
     say(&t, "x'' = -x");
-    for (int i = 0; i < 100000; i++)
-        say(&t, " + %d", i % 10);
+    for (int i = 0; i < 100000; i++) say(&t, " + %d", i % 10);
     say(&t, "%s", start);
     answer(t, "100 000 additions", MOTUS_OK, "", 5, 500);
 
     t = make(2 << 20);
     say(&t, "x'' = -x");
-    for (int i = 0; i < 100000; i++)
-        say(&t, " + x x'");
+    for (int i = 0; i < 100000; i++) say(&t, " + x x'");
     say(&t, "%s", start);
     answer(t, "100 000 products", MOTUS_OK, "", 5, 500);
 
     t = make(2 << 20);
     say(&t, "x'' = -x");
-    for (int i = 0; i < 100000; i++)
-        say(&t, " - sin(x + %d)", i);
+    for (int i = 0; i < 100000; i++) say(&t, " - sin(x + %d)", i);
     say(&t, "%s", start);
     answer(t, "100 000 functions", MOTUS_OK, "", 10, 800);
 
     t = make(2 << 20);
     say(&t, "x'' = -x 1");
     t.length -= 2;
-    for (int i = 0; i < 100000; i++)
-        say(&t, "*x/2");
+    for (int i = 0; i < 100000; i++) say(&t, "*x/2");
     say(&t, "%s", start);
     answer(t, "200 000 factors", MOTUS_OK, "", 5, 500);
 
     t = make(2 << 20);
     say(&t, "x'' = if(x > 0");
-    for (int i = 0; i < 50000; i++)
-        say(&t, " and x > -%d", i);
+    for (int i = 0; i < 50000; i++) say(&t, " and x > -%d", i);
     say(&t, ", -x, 0)%s", start);
     answer(t, "50 000 conditions", MOTUS_OK, "", 5, 500);
 }
@@ -223,20 +216,18 @@ static void many_sums(void **unused)
     (void)unused;
     text t = make((10 << 20) + 200);
     say(&t, "N = 5\nx'' = -x%s", start);
-    for (int i = 0; t.length < 10 << 20; i++)
-        say(&t, "q%d = sum(i = 1..N, i != 2: i x + sum(j = 1..i: j))\n", i);
+    for (int i = 0; t.length < 10 << 20; i++) say(&t, "q%d = sum(i = 1..N, i != 2: i x + sum(j = 1..i: j))\n", i);
     answer(t, "10 MB of sums", MOTUS_LIMIT, "", 30, 2500);
 }
 
-static void nested(const char *what, int depth, const char *open, const char *inside, const char *close, motus_status expected, const char *named)
+static void nested(const char *what, int depth, const char *open, const char *inside, const char *close,
+                   motus_status expected, const char *named)
 {
     text t = make((size_t)depth * (strlen(open) + strlen(close)) + 4096);
     say(&t, "x'' = -");
-    for (int i = 0; i < depth; i++)
-        say(&t, "%s", open);
+    for (int i = 0; i < depth; i++) say(&t, "%s", open);
     say(&t, "%s", inside);
-    for (int i = 0; i < depth; i++)
-        say(&t, "%s", close);
+    for (int i = 0; i < depth; i++) say(&t, "%s", close);
     say(&t, "%s", start);
     answer(t, what, expected, named, 2, 200);
 }
@@ -260,8 +251,7 @@ static void nesting(void **unused)
     nested("200 powers", 200, "1.01^", "x", "", MOTUS_OK, "");
     text t = make(100000);
     say(&t, "x'' = if(");
-    for (int i = 0; i < 10000; i++)
-        say(&t, "not ");
+    for (int i = 0; i < 10000; i++) say(&t, "not ");
     say(&t, "x > 0, 1, 2)%s", start);
     answer(t, "10 000 times not", MOTUS_LIMIT, "nested", 2, 100);
 }
@@ -271,48 +261,43 @@ static void chains(void **unused)
     (void)unused;
     text t = make(1 << 20);
     say(&t, "q0 = x\n");
-    for (int i = 1; i <= 60; i++)
-        say(&t, "q%d = q%d + q%d\n", i, i - 1, i - 1);
+    for (int i = 1; i <= 60; i++) say(&t, "q%d = q%d + q%d\n", i, i - 1, i - 1);
     say(&t, "x'' = -q60%s", start);
     answer(t, "2^60 uses of x", MOTUS_OK, "", 1, 100);
 
     t = make(1 << 20);
     say(&t, "q0[i] = x for i = 1..3\n");
-    for (int i = 1; i <= 60; i++)
-        say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
+    for (int i = 1; i <= 60; i++) say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
     say(&t, "x'' = -q60[1]%s", start);
     answer(t, "2^60 uses in families", MOTUS_LIMIT, "", 10, 2500);
 
     t = make(1 << 20);
     say(&t, "q0[i] = x for i = 1..3\n");
-    for (int i = 1; FEWER == 1 && i <= 31; i++)
-        say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
+    for (int i = 1; FEWER == 1 && i <= 31; i++) say(&t, "q%d[i] = q%d[i] + q%d[i] for i = 1..3\n", i, i - 1, i - 1);
     say(&t, "x'' = -q%d[1]%s", FEWER == 1 ? 31 : 0, start);
     answer(t, "2^31 uses in families", FEWER == 1 ? MOTUS_LIMIT : MOTUS_OK, "often", 10, 2500);
 
     t = make(1 << 20);
-    for (int i = 0; i < 300; i++)
-        say(&t, "p%d = p%d + 1\n", i, i + 1);
+    for (int i = 0; i < 300; i++) say(&t, "p%d = p%d + 1\n", i, i + 1);
     say(&t, "p300 = 1\nx'' = -p0 x%s", start);
     answer(t, "300 parameters in a chain", MOTUS_OK, "", 1, 200);
 
     for (int quantity = 0; quantity < 2; quantity++) {
         t = make(4 << 20);
-        for (int i = 0; i < 100000; i++)
-            say(&t, "p%d = p%d + 1\n", i, i + 1);
+        for (int i = 0; i < 100000; i++) say(&t, "p%d = p%d + 1\n", i, i + 1);
         say(&t, "p100000 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
         answer(t, "100 000 definitions in a chain", MOTUS_LIMIT, "deep", 2, 300);
 
-        t = make(4 << 20);           /* the order in which they are met makes no difference */
+        t = make(4 << 20); /* the order in which they are met makes no difference */
         say(&t, "p0 = %s\n", quantity ? "x" : "1");
-        for (int i = 1; i <= 300; i++)
-            say(&t, "p%d = p%d + 1\n", i, i - 1);
+        for (int i = 1; i <= 300; i++) say(&t, "p%d = p%d + 1\n", i, i - 1);
         say(&t, "x'' = -p300 x%s", start);
         answer(t, "300 definitions forward", MOTUS_OK, "", 1, 200);
     }
 }
 
-/* Chains of definitions, each of them nested deeply: both bounds are kept, and together they would exhaust the stack. */
+/* Chains of definitions, each of them nested deeply: both bounds are kept, and together they would exhaust the
+ * stack. */
 static void deep_chains(void **unused)
 {
     (void)unused;
@@ -321,26 +306,22 @@ static void deep_chains(void **unused)
             text t = make(4 << 20);
             for (int i = 0; i < 390; i++) {
                 say(&t, "p%d = ", i);
-                for (int k = 0; k < 240; k++)
-                    say(&t, "%s", sines ? "sin(" : "(1 + ");
+                for (int k = 0; k < 240; k++) say(&t, "%s", sines ? "sin(" : "(1 + ");
                 say(&t, "p%d", i + 1);
-                for (int k = 0; k < 240; k++)
-                    say(&t, ")");
+                for (int k = 0; k < 240; k++) say(&t, ")");
                 say(&t, "\n");
             }
             say(&t, "p390 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
             answer(t, "a chain of deep definitions", MOTUS_LIMIT, "deep", 5, 1000);
         }
-    for (int sines = 0; sines < 2; sines++) {        /* parameters that are known when they are used: nothing is deep */
+    for (int sines = 0; sines < 2; sines++) { /* parameters that are known when they are used: nothing is deep */
         text t = make(4 << 20);
         say(&t, "p0 = 1\n");
         for (int i = 1; i < 390; i++) {
             say(&t, "p%d = ", i);
-            for (int k = 0; k < 240; k++)
-                say(&t, "%s", sines ? "sin(" : "(1 + ");
+            for (int k = 0; k < 240; k++) say(&t, "%s", sines ? "sin(" : "(1 + ");
             say(&t, "p%d", i - 1);
-            for (int k = 0; k < 240; k++)
-                say(&t, ")");
+            for (int k = 0; k < 240; k++) say(&t, ")");
             say(&t, "\n");
         }
         say(&t, "x'' = -p389 x%s", start);
@@ -350,11 +331,9 @@ static void deep_chains(void **unused)
     say(&t, "x'' = -x%s", start);
     for (int i = 0; i < 390; i++) {
         say(&t, "y%d'' = 0\ny%d'(0) = 0\ny%d(0) = ", i, i, i);
-        for (int k = 0; k < 240; k++)
-            say(&t, "(1 + ");
+        for (int k = 0; k < 240; k++) say(&t, "(1 + ");
         say(&t, i < 389 ? "y%d(0)" : "%d", i + 1);
-        for (int k = 0; k < 240; k++)
-            say(&t, ")");
+        for (int k = 0; k < 240; k++) say(&t, ")");
         say(&t, "\n");
     }
     answer(t, "a chain of deep initial values", MOTUS_LIMIT, "deep", 5, 1000);
@@ -365,42 +344,35 @@ static void many_names(void **unused)
     (void)unused;
     text t = make(8 << 20);
     say(&t, "x'' = -p99999 x%s", start);
-    for (int i = 0; i < 100000; i++)
-        say(&t, "p%d = %d\n", i, i);
+    for (int i = 0; i < 100000; i++) say(&t, "p%d = %d\n", i, i);
     answer(t, "100 000 parameters", MOTUS_OK, "", 3, 500);
 
     t = make(8 << 20);
     say(&t, "x'' = -p99999 x%s", start);
-    for (int i = 0; i < 100000; i++)
-        say(&t, "p%d = 2*%d + sqrt(%d)\n", i, i, i);
+    for (int i = 0; i < 100000; i++) say(&t, "p%d = 2*%d + sqrt(%d)\n", i, i, i);
     answer(t, "100 000 computed parameters", MOTUS_OK, "", 3, 500);
 
     t = make(8 << 20);
     say(&t, "x'' = -x%sa = 2\np0 = a\n", start);
-    for (int i = 1; i < 20000; i++)
-        say(&t, "p%d = a + p%d\n", i, i - 1);
+    for (int i = 1; i < 20000; i++) say(&t, "p%d = a + p%d\n", i, i - 1);
     answer(t, "20 000 parameters of parameters", MOTUS_OK, "", 5, 1000);
 
     t = make(8 << 20);
     say(&t, "x'' = -x%s", start);
-    for (int i = 0; i < 20000; i++)
-        say(&t, "q%d = x + %d\n", i, i);
+    for (int i = 0; i < 20000; i++) say(&t, "q%d = x + %d\n", i, i);
     answer(t, "20 000 quantities", MOTUS_OK, "", 3, 1000);
 
     t = make(16 << 20);
-    for (int i = 1; i <= 7000; i++)
-        say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
+    for (int i = 1; i <= 7000; i++) say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
     answer(t, "7 000 states", MOTUS_OK, "", 5, 1000);
 
     t = make(16 << 20);
-    for (int i = 1; i <= 30000; i++)
-        say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
+    for (int i = 1; i <= 30000; i++) say(&t, "x%d'' = -x%d\nx%d(0) = %d\nx%d'(0) = 0\n", i, i, i, i, i);
     answer(t, "30 000 states", MOTUS_LIMIT, "", 5, 1000);
 
     t = make(16 << 20);
     say(&t, "m = [");
-    for (int i = 1; i < 1000000; i++)
-        say(&t, "%d,", i);
+    for (int i = 1; i < 1000000; i++) say(&t, "%d,", i);
     say(&t, "1]\nx'' = -m[1000000] x%s", start);
     answer(t, "a list of a million", MOTUS_OK, "", 5, 1500);
 }
@@ -409,24 +381,21 @@ static void many_lines(void **unused)
 {
     (void)unused;
     text t = make(16 << 20);
-    for (int i = 1; i <= 33000/FEWER; i++)
-        say(&t, "u[%d]'' = -u[%d]\nu[%d](0) = %d\nu[%d]'(0) = 0\n", i, i, i, i, i);
+    for (int i = 1; i <= 33000 / FEWER; i++) say(&t, "u[%d]'' = -u[%d]\nu[%d](0) = %d\nu[%d]'(0) = 0\n", i, i, i, i, i);
     answer(t, "100 000 lines of one family", MOTUS_OK, "", 10, 1500);
 
     t = make(16 << 20);
     say(&t, "k = 2\n");
-    for (int i = 1; i <= 20000/FEWER; i++)
+    for (int i = 1; i <= 20000 / FEWER; i++)
         say(&t, "u[%d]'' = -u[%d]\nu[%d](0) = k + %d\nu[%d]'(0) = k u[%d](0)\n", i, i, i, i, i, i);
     answer(t, "60 000 lines with parameters", MOTUS_OK, "", 10, 2000);
 
     t = make(16 << 20);
-    for (int i = 0; i < 1100000; i++)
-        say(&t, "p=1\n");
+    for (int i = 0; i < 1100000; i++) say(&t, "p=1\n");
     answer(t, "1 100 000 statements", MOTUS_LIMIT, "statements", 3, 1000);
 
     t = make(16 << 20);
-    for (int i = 0; i < 100000; i++)
-        say(&t, "step 1\n");
+    for (int i = 0; i < 100000; i++) say(&t, "step 1\n");
     answer(t, "100 000 settings", MOTUS_SYNTAX, "equation", 3, 300);
 }
 
@@ -435,12 +404,15 @@ static void large_family(void **unused)
 {
     (void)unused;
     text t = make(4096);
-    say(&t, "N = 1000000\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.7 ((x[i+1] - x[i])^3 - (x[i] - x[i-1])^3) for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
-            "x[i](0) = sin(pi i/(N+1)) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\ninvariant energy = sum(i = 1..N: x[i]'^2/2)\n");
+    say(&t, "N = 1000000\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.7 ((x[i+1] - x[i])^3 - (x[i] - x[i-1])^3) for i = "
+            "1..N\nx[0] = 0\nx[N+1] = 0\n"
+            "x[i](0) = sin(pi i/(N+1)) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\ninvariant energy = sum(i = 1..N: "
+            "x[i]'^2/2)\n");
     answer(t, "a chain of a million", MOTUS_OK, "", 2, 300);
 
     t = make(4096);
-    say(&t, "N = 1000\nu[i,j]'' = u[mod(i, N)+1, j] - u[i,j] + u[i,mod(j, N)+1] for i = 1..N, j = 1..N\nu[i,j](0) = i + j for i = 1..N, j = 1..N\n"
+    say(&t, "N = 1000\nu[i,j]'' = u[mod(i, N)+1, j] - u[i,j] + u[i,mod(j, N)+1] for i = 1..N, j = 1..N\nu[i,j](0) = i "
+            "+ j for i = 1..N, j = 1..N\n"
             "u[i,j]'(0) = 0 for i = 1..N, j = 1..N\n");
     answer(t, "a lattice of a million", MOTUS_OK, "", 2, 300);
 
@@ -458,8 +430,7 @@ static void large_family(void **unused)
     answer(t, "a constant of 1e12 terms", MOTUS_LIMIT, "terms", 0.1, 10);
     t = make(65536);
     say(&t, "x'' = -x%s", start);
-    for (int i = 0; i < 1000; i++)
-        say(&t, "q%d = sum(i = 1..10000000: i)\n", i);
+    for (int i = 0; i < 1000; i++) say(&t, "q%d = sum(i = 1..10000000: i)\n", i);
     answer(t, "constants of 1e10 terms together", MOTUS_LIMIT, "terms", 1, 50);
 }
 
@@ -469,8 +440,10 @@ static const char rich[] =
     "G = 1\nN = 3\nm = [1, 2, 3]\nw[i] = 2 i for i = 1..N\nplaces = [(1, 0), (0, 1), (-1, 0)]\n"
     "r[i]'' = sum(j = 1..N, j != i: G m[j] (r[j] - r[i])/|r[j] - r[i]|^3) - 0.1 r[i]' + (0, sin(t)) for i = 1..N\n"
     "r[i](0) = places[i] for i = 1..N\nr[i]'(0) = (0, w[i]/10) for i = 1..N\n"
-    "u[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = sin(t)\nu[N+1] = 0\nu[i](0) = i for i = 1..N\nu[2](0) = 5\nu[i]'(0) = u[i](0) for i = 1..N\n"
-    "s' = if(s > 0, -s, 1)\ns(0) = 1\nfar = |r[1] - r[2]|\ninvariant P = sum(i = 1..N: m[i] r[i]')\nacc = u[2]''\nstep 0.01\nuntil 0.05\n";
+    "u[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = sin(t)\nu[N+1] = 0\nu[i](0) = i for i = 1..N\nu[2](0) = "
+    "5\nu[i]'(0) = u[i](0) for i = 1..N\n"
+    "s' = if(s > 0, -s, 1)\ns(0) = 1\nfar = |r[1] - r[2]|\ninvariant P = sum(i = 1..N: m[i] r[i]')\nacc = u[2]''\nstep "
+    "0.01\nuntil 0.05\n";
 static const char *const methods[] = {"rk4", "verlet", "gauss6", "implicit-midpoint", "newmark", "midpoint"};
 
 /* The whole life of a system, with the memory of `l`. */
@@ -488,27 +461,23 @@ static motus_status life(ledger *l, const char *method, motus_error *err)
     run.method = method;
     run.machine = "interpreter";
     motus_status status = motus_system_from_text(&def, &s, err);
-    if (status != MOTUS_OK)
-        assert_null(s);
+    if (status != MOTUS_OK) assert_null(s);
     if (status == MOTUS_OK) {
         (void)motus_explain(s);
         (void)motus_equation_text(s, 0);
         status = motus_run_create(s, &run, &r, err);
     }
-    if (status == MOTUS_OK)
-        status = motus_run_finish(r, err);
+    if (status == MOTUS_OK) status = motus_run_finish(r, err);
     for (size_t k = 0; status == MOTUS_OK && k < motus_column_count(s); k++) {
         double value;
         status = motus_run_values(r, &k, 1, &value, err);
-        if (status == MOTUS_OK)
-            assert_true(isfinite(value));
+        if (status == MOTUS_OK) assert_true(isfinite(value));
     }
     if (status == MOTUS_OK) {
         const char *saved;
         size_t length;
         status = motus_run_save(r, &saved, &length, err);
-        if (status == MOTUS_OK)
-            status = motus_run_restore(r, saved, length, err);
+        if (status == MOTUS_OK) status = motus_run_restore(r, saved, length, err);
     }
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -519,8 +488,7 @@ static void every_allocation_may_fail(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-        if (FEWER > 1 && i != 2)
-            continue;
+        if (FEWER > 1 && i != 2) continue;
         ledger whole = {0};
         motus_error err = motus_default_error();
         must(life(&whole, methods[i], &err), &err, methods[i]);
@@ -533,11 +501,11 @@ static void every_allocation_may_fail(void **unused)
                 motus_status status = life(&l, methods[i], &err);
                 /* what only prints (motus_explain, motus_equation_text) returns NULL, and the rest goes on */
                 if (status != MOTUS_MEMORY && status != MOTUS_OK)
-                    fail_msg("%s: allocation %ld of %ld failed, and the answer is %s: %s", methods[i], k, whole.calls, motus_status_word(status), err.message);
+                    fail_msg("%s: allocation %ld of %ld failed, and the answer is %s: %s", methods[i], k, whole.calls,
+                             motus_status_word(status), err.message);
                 if (status == MOTUS_MEMORY && (err.status != MOTUS_MEMORY || !err.message[0]))
                     fail_msg("%s: allocation %ld failed without a message", methods[i], k);
-                if (l.blocks)
-                    fail_msg("%s: allocation %ld failed, and %zu blocks leaked", methods[i], k, l.blocks);
+                if (l.blocks) fail_msg("%s: allocation %ld failed, and %zu blocks leaked", methods[i], k, l.blocks);
             }
         print_message("%s: %ld allocations, each failing\n", methods[i], whole.calls);
     }
@@ -546,12 +514,12 @@ static void every_allocation_may_fail(void **unused)
 /* An argument names the tests to run, * for any letters. */
 int main(int count, char **arguments)
 {
-    if (count > 1)
-        cmocka_set_test_filter(arguments[1]);
+    if (count > 1) cmocka_set_test_filter(arguments[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_bytes), cmocka_unit_test(long_remark), cmocka_unit_test(too_long), cmocka_unit_test(long_expressions), cmocka_unit_test(many_sums),
-        cmocka_unit_test(nesting), cmocka_unit_test(chains), cmocka_unit_test(deep_chains), cmocka_unit_test(many_names), cmocka_unit_test(many_lines), cmocka_unit_test(large_family),
-        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(random_bytes),     cmocka_unit_test(long_remark),  cmocka_unit_test(too_long),
+        cmocka_unit_test(long_expressions), cmocka_unit_test(many_sums),    cmocka_unit_test(nesting),
+        cmocka_unit_test(chains),           cmocka_unit_test(deep_chains),  cmocka_unit_test(many_names),
+        cmocka_unit_test(many_lines),       cmocka_unit_test(large_family), cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

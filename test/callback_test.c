@@ -1,7 +1,8 @@
-/* Systems from C: the same motion as from a text, with and without a derivative, with companions, an exact motion, an invariant.
+/* Systems from C: the same motion as from a text, with and without a derivative, with companions, an exact motion, an
+ * invariant.
  *
- * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product that is
- * added at once is a fused multiply-add), the bits are the same, for every explicit method.
+ * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product
+ * that is added at once is a fused multiply-add), the bits are the same, for every explicit method.
  */
 #include "test/given.h"
 
@@ -11,7 +12,7 @@
 typedef struct oscillator {
     double F, k, c;
     int64_t calls, derivatives, fail_at, failures;
-    int answer;                      /* of a call that fails */
+    int answer; /* of a call that fails */
 } oscillator;
 
 static motus_system *system_of(const motus_callback_def *def)
@@ -35,7 +36,8 @@ static int driven(void *context, double t, const double *x, const double *v, dou
     return 0;
 }
 
-static int driven_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+static int driven_derivative(void *context, double t, const double *x, const double *v, const double *dx,
+                             const double *dv, double *da)
 {
     oscillator *o = context;
     (void)t;
@@ -78,8 +80,7 @@ static void text_and_callback_give_the_same_bits(void **state)
     int compared = 0;
     for (size_t i = 0; i < motus_method_count(); i++) {
         const char *method = motus_method_at(i)->name;
-        if (motus_method_admits(c, method, NULL) != MOTUS_OK || implicit(method))
-            continue;
+        if (motus_method_admits(c, method, NULL) != MOTUS_OK || implicit(method)) continue;
         motus_run *p = given_run(s, method, 0.01, 10), *q = given_run(c, method, 0.01, 10);
         finish(p);
         finish(q);
@@ -102,7 +103,8 @@ static void text_and_callback_give_the_same_bits(void **state)
     motus_system_destroy(s);
 }
 
-/* Evaluations are what the callback was called for: as many as the card says, and one for the start where a method needs it. */
+/* Evaluations are what the callback was called for: as many as the card says, and one for the start where a method
+ * needs it. */
 static void calls_are_counted(void **state)
 {
     (void)state;
@@ -119,7 +121,8 @@ static void calls_are_counted(void **state)
             if (m->evaluations) {
                 int64_t more = o.calls - (int64_t)m->evaluations * STEPS;
                 if (more < 0 || more > 1)
-                    fail_msg("%s: %lld calls in %d steps, %d a step declared", m->name, (long long)o.calls, STEPS, m->evaluations);
+                    fail_msg("%s: %lld calls in %d steps, %d a step declared", m->name, (long long)o.calls, STEPS,
+                             m->evaluations);
             }
             motus_run_destroy(r);
         }
@@ -127,13 +130,14 @@ static void calls_are_counted(void **state)
     }
 }
 
-/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each number of a
- * step is solved to some units in its last place, and the motion keeps what it is given: 1000 steps, each of them off by a few
- * units. */
+/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each
+ * number of a step is solved to some units in its last place, and the motion keeps what it is given: 1000 steps, each
+ * of them off by a few units. */
 static void difference_quotients_stand_in_for_a_derivative(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"newmark", "newmark(1/6, 1/2)", "implicit-midpoint", "gauss4", "gauss6", "gauss8"};
+    static const char *const methods[] = {"newmark", "newmark(1/6, 1/2)", "implicit-midpoint", "gauss4", "gauss6",
+                                          "gauss8"};
     const double bound = 1000 * 8 * ROUNDING;
     motus_system *s = given_text(driven_text);
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -142,7 +146,7 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         a.derivative = driven_derivative;
         motus_system *p = system_of(&a), *q = system_of(&b);
         motus_run *given = given_run(s, methods[i], 0.01, 10), *derived = given_run(p, methods[i], 0.01, 10),
-            *quotient = given_run(q, methods[i], 0.01, 10);
+                  *quotient = given_run(q, methods[i], 0.01, 10);
         finish(given);
         finish(derived);
         finish(quotient);
@@ -161,7 +165,8 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
     motus_system_destroy(s);
 }
 
-/* Two masses with quadratic drag, coupled in positions and velocities, and heat as a companion: s' = the power that the drag takes. */
+/* Two masses with quadratic drag, coupled in positions and velocities, and heat as a companion: s' = the power that
+ * the drag takes. */
 static int dragged(void *context, double t, const double *x, const double *v, double *a)
 {
     oscillator *o = context;
@@ -174,7 +179,8 @@ static int dragged(void *context, double t, const double *x, const double *v, do
     return 0;
 }
 
-static int dragged_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+static int dragged_derivative(void *context, double t, const double *x, const double *v, const double *dx,
+                              const double *dv, double *da)
 {
     oscillator *o = context;
     (void)t;
@@ -218,22 +224,24 @@ static const char dragged_text[] =
 static void nonlinear_velocity_terms_and_companions(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"verlet", "verlet-literal", "newmark", "gauss4", "gauss6", "rk4", "implicit-midpoint"};
+    static const char *const methods[] = {"verlet", "verlet-literal",   "newmark", "gauss4", "gauss6",
+                                          "rk4",    "implicit-midpoint"};
     motus_system *s = given_text(dragged_text);
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         oscillator with, without;
         motus_callback_def a = dragged_def(&with), b = dragged_def(&without);
         a.derivative = dragged_derivative;
         motus_system *p = system_of(&a), *q = system_of(&b);
-        motus_run *given = given_run(s, methods[i], 0.01, 5), *derived = given_run(p, methods[i], 0.01, 5), *quotient = given_run(q,
-            methods[i], 0.01, 5);
+        motus_run *given = given_run(s, methods[i], 0.01, 5), *derived = given_run(p, methods[i], 0.01, 5),
+                  *quotient = given_run(q, methods[i], 0.01, 5);
         finish(given);
         finish(derived);
         finish(quotient);
-        const int64_t calls = without.calls;             /* before anybody looks, which is not counted */
+        const int64_t calls = without.calls; /* before anybody looks, which is not counted */
         static const char *const names[][2] = {{"x", "x[1]"},   {"y", "x[2]"}, {"x'", "x[1]'"},
                                                {"y'", "x[2]'"}, {"s", "s"},    {"e", "invariant"}};
-        /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end of each. */
+        /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end
+         * of each. */
         const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
         for (size_t k = 0; k < 6; k++) {
             near(value(p, derived, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
@@ -261,7 +269,8 @@ static int braked(void *context, double t, const double *x, const double *v, dou
     return 0;
 }
 
-static int braked_derivative(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+static int braked_derivative(void *context, double t, const double *x, const double *v, const double *dx,
+                             const double *dv, double *da)
 {
     const oscillator *o = context;
     (void)t;
@@ -301,14 +310,15 @@ static void linear_velocity_terms_take_one_step(void **state)
     motus_system_destroy(s);
 }
 
-/* Failures and the rest of the definition ------------------------------------------------------------------------------------ */
+/* Failures and the rest of the definition -------------------------------------------------------------------------- */
 
 /* Below 0 the callback gave up, above 0 only this place could not be evaluated: the run is at its last good step. */
 static void a_failing_callback_stops_the_run_and_not_more(void **state)
 {
     (void)state;
     int answers[] = {-7, 3}, turn = 0;
-    static const char *const methods[] = {"verlet", "velocity-verlet", "rk4", "gauss4", "kahan-li8", "newmark", "beeman", "leapfrog"};
+    static const char *const methods[] = {"verlet",    "velocity-verlet", "rk4",    "gauss4",
+                                          "kahan-li8", "newmark",         "beeman", "leapfrog"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         for (int64_t when = 1; when < 400; when = when * 2 + 5) {
             oscillator o, steady;
@@ -327,8 +337,8 @@ static void a_failing_callback_stops_the_run_and_not_more(void **state)
             assert_int_equal(strstr(err.message, "cannot be evaluated") != NULL, o.answer > 0);
             assert_false(motus_run_done(r));
             int64_t at = motus_run_steps(r);
-            assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01
-                && err.time <= motus_run_time(r) + 0.01);
+            assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01 &&
+                        err.time <= motus_run_time(r) + 0.01);
             /* The failure over, it goes on to the bits of a run that knew none. */
             finish(r);
             finish(whole);
@@ -343,8 +353,7 @@ static void a_failing_callback_stops_the_run_and_not_more(void **state)
 static int circle(void *context, double t, double *x, double *v)
 {
     oscillator *o = context;
-    if (o->fail_at < 0)
-        return 1;
+    if (o->fail_at < 0) return 1;
     x[0] = cos(t);
     v[0] = -sin(t);
     return 0;
@@ -401,7 +410,7 @@ static void exact_and_invariant_callbacks(void **state)
     o.fail_at = -1;
     k = column(s, "exact x");
     assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
-    assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK);    /* already seen */
+    assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK); /* already seen */
     assert_true(isfinite(value(s, r, "x")));
     /* The words for a system that has no text. */
     assert_true(strlen(motus_explain(s)) > 10);
@@ -414,17 +423,19 @@ static void exact_and_invariant_callbacks(void **state)
     motus_system_destroy(s);
 }
 
-/* Names, quantities, invariants --------------------------------------------------------------------------------------------- */
+/* Names, quantities, invariants ------------------------------------------------------------------------------------ */
 
 /* A ring of three masses and the work done on the first, with names or without. */
-typedef struct ring { int64_t looks; int fail; } ring;
+typedef struct ring {
+    int64_t looks;
+    int fail;
+} ring;
 
 static int ring_force(void *context, double t, const double *x, const double *v, double *a)
 {
     (void)context;
     (void)t;
-    for (int k = 0; k < 3; k++)
-        a[k] = x[(k + 1) % 3] - 2 * x[k] + x[(k + 2) % 3];
+    for (int k = 0; k < 3; k++) a[k] = x[(k + 1) % 3] - 2 * x[k] + x[(k + 2) % 3];
     a[3] = a[0] * v[0];
     a[4] = v[1];
     return 0;
@@ -447,8 +458,7 @@ static int ring_invariant(void *context, double t, const double *x, const double
     r->looks++;
     values[0] = v[0] + v[1] + v[2];
     values[1] = 0;
-    for (int k = 0; k < 3; k++)
-        values[1] += v[k] * v[k] / 2 + (x[k] - x[(k + 1) % 3]) * (x[k] - x[(k + 1) % 3]) / 2;
+    for (int k = 0; k < 3; k++) values[1] += v[k] * v[k] / 2 + (x[k] - x[(k + 1) % 3]) * (x[k] - x[(k + 1) % 3]) / 2;
     return 0;
 }
 
@@ -494,10 +504,8 @@ static void numbers_have_names(void **state)
                                         "work", "heat", "sum", "clock", "momentum", "energy"};
     char copies[9][16];
     const char *names[5], *quantities[2], *invariants[2];
-    for (int k = 0; k < 9; k++)
-        snprintf(copies[k], sizeof copies[k], "%s", named[k < 3 ? k + 1 : k + 4]);
-    for (int k = 0; k < 5; k++)
-        names[k] = copies[k];
+    for (int k = 0; k < 9; k++) snprintf(copies[k], sizeof copies[k], "%s", named[k < 3 ? k + 1 : k + 4]);
+    for (int k = 0; k < 5; k++) names[k] = copies[k];
     for (int k = 0; k < 2; k++) {
         quantities[k] = copies[5 + k];
         invariants[k] = copies[7 + k];
@@ -524,7 +532,7 @@ static void numbers_have_names(void **state)
     def.quantity_names = quantities;
     def.invariant_names = invariants;
     s = system_of(&def);
-    memset(copies, '?', sizeof copies);          /* they were copied */
+    memset(copies, '?', sizeof copies); /* they were copied */
     memset(names, 0, sizeof names);
     are_columns(s, named, 13);
     assert_int_equal(motus_variable_count(s), 5);
@@ -562,7 +570,7 @@ static void quantities_and_invariants(void **state)
     must(motus_run_state(run, x, v, &err), &err, "state");
     r.looks = 0;
     must(motus_run_values(run, columns, 6, out, &err), &err, "values");
-    assert_int_equal(r.looks, 3);                /* invariants, quantities, and invariants again */
+    assert_int_equal(r.looks, 3); /* invariants, quantities, and invariants again */
     assert_true(out[0] == out[5] && out[1] == v[0] + v[1] + v[2] && out[2] == motus_run_time(run) &&
                 out[3] == x[0] + x[1] && out[4] == x[1]);
     near(out[1], -0.5, 100 * 8 * ROUNDING, "the momentum");
@@ -594,8 +602,9 @@ static void names_that_are_refused(void **state)
     (void)state;
     static const char *const good[] = {"a", "b", "c", "d", "e"}, *const rest[] = {"f", "g"},
                              *const twice[] = {"f", "f"}, *const taken[] = {"f", "c"};
-    static const char *const bad[] = {"", "1a", "a b", "x[1]", "t", "a'", "\xff", "a\n", " a", "exact a", NULL,
-                                      "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklm"};
+    static const char *const bad[] = {
+        "",     "1a",  "a b", "x[1]",    "t",  "a'",
+        "\xff", "a\n", " a",  "exact a", NULL, "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyzabcdefghijklm"};
     ring r;
     motus_callback_def def = ring_def(&r);
     motus_error err = motus_default_error();
@@ -621,7 +630,7 @@ static void names_that_are_refused(void **state)
     def.invariant_names = NULL;
     def.quantities = SIZE_MAX;
     assert_int_equal(motus_system_from_callback(&def, &s, &err), MOTUS_LIMIT);
-    def.quantity = NULL;                         /* nobody to ask: none */
+    def.quantity = NULL; /* nobody to ask: none */
     must(motus_system_from_callback(&def, &s, &err), &err, "no quantities");
     assert_int_equal(motus_quantity_count(s), 0);
     motus_system_destroy(s);
@@ -714,8 +723,7 @@ static void definitions_that_are_refused(void **state)
     good.v = v;
     good.acceleration = pull;
     motus_callback_def defs[8];
-    for (int i = 0; i < 8; i++)
-        defs[i] = good;
+    for (int i = 0; i < 8; i++) defs[i] = good;
     defs[0].acceleration = NULL;
     defs[1].positions = 0;
     defs[2].x = NULL;

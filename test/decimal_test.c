@@ -39,8 +39,7 @@ static void same(double value)
     assert_string_equal(fast, plain);
     assert_int_equal(length, wanted);
     assert_int_equal(length, strlen(fast));
-    if (!isnan(value))
-        assert_true(strtod(fast, NULL) == value);
+    if (!isnan(value)) assert_true(strtod(fast, NULL) == value);
 }
 
 static void around(double value)
@@ -53,20 +52,19 @@ static void around(double value)
     }
 }
 
-/* Every binary and decimal power with its neighbours: each entry of the tables, each change of length, both sides of every boundary. */
+/* Every binary and decimal power with its neighbours: each entry of the tables, each change of length, both sides of
+ * every boundary. */
 static void test_powers(void **context)
 {
     (void)context;
-    for (int e = -1074; e < 1024; e++)
-        around(ldexp(1, e));
+    for (int e = -1074; e < 1024; e++) around(ldexp(1, e));
     for (int p = -323; p <= 308; p++) {
         char text[16];
         snprintf(text, sizeof text, "1e%d", p);
         around(strtod(text, NULL));
         for (int k = 2; k < 10; k++) {
             text[0] = (char)('0' + k);
-            if (strtod(text, NULL) < INFINITY)
-                around(strtod(text, NULL));
+            if (strtod(text, NULL) < INFINITY) around(strtod(text, NULL));
         }
     }
 }
@@ -74,26 +72,49 @@ static void test_powers(void **context)
 static void test_random_bits(void **context)
 {
     (void)context;
-    for (int i = 0; i < 400000; i++)
-        same(of_bits(next()));
-    for (int i = 0; i < 20000; i++)
-        same(of_bits(next() >> (12 + next() % 52)));            /* below the normal numbers */
+    for (int i = 0; i < 400000; i++) same(of_bits(next()));
+    for (int i = 0; i < 20000; i++) same(of_bits(next() >> (12 + next() % 52))); /* below the normal numbers */
 }
 
 /* What people write and computations leave. */
 static void test_usual(void **context)
 {
     (void)context;
-    static const double some[] = {0.0, -0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 1.0 / 3, 0.0001, 0.00001, 123456.789, 999999999999999.0, 1e15, 1e16, 1e17, 1e22,
-                                  1e23, 9007199254740993.0, 0.5, 2.5, 4503599627370496.5, 1125899906842624.125, 562949953421312.0625,
-                                  99999999999999.995, 9.9999999999999995e22, 0x1p-1074, 0x1.fffffffffffffp1023, INFINITY, -INFINITY, NAN};
-    for (size_t i = 0; i < sizeof some / sizeof *some; i++)
-        same(some[i]);
+    static const double some[] = {0.0,
+                                  -0.0,
+                                  0.1,
+                                  0.2,
+                                  0.3,
+                                  0.1 + 0.2,
+                                  1.0 / 3,
+                                  0.0001,
+                                  0.00001,
+                                  123456.789,
+                                  999999999999999.0,
+                                  1e15,
+                                  1e16,
+                                  1e17,
+                                  1e22,
+                                  1e23,
+                                  9007199254740993.0,
+                                  0.5,
+                                  2.5,
+                                  4503599627370496.5,
+                                  1125899906842624.125,
+                                  562949953421312.0625,
+                                  99999999999999.995,
+                                  9.9999999999999995e22,
+                                  0x1p-1074,
+                                  0x1.fffffffffffffp1023,
+                                  INFINITY,
+                                  -INFINITY,
+                                  NAN};
+    for (size_t i = 0; i < sizeof some / sizeof *some; i++) same(some[i]);
     for (int i = 0; i < 200000; i++) {
         same(uniform());
         same(2e3 * uniform() - 1e3);
-        same(floor(1e4 * uniform()) / 100);                      /* few digits */
-        same(floor(uniform() * 1e6) / 64);                       /* ties */
+        same(floor(1e4 * uniform()) / 100); /* few digits */
+        same(floor(uniform() * 1e6) / 64);  /* ties */
         same(floor(uniform() * 0x1p53) / 0x1p20);
         same(floor(0x1p60 * uniform()));
     }
@@ -117,8 +138,7 @@ static void read_as(const char *text, size_t length)
 {
     double value, wanted = strtod(text, NULL);
     assert_int_equal(decimal_read(text, SIZE_MAX, &value), length);
-    if (memcmp(&value, &wanted, sizeof value))
-        fail_msg("%.60s reads as %a, not %a", text, value, wanted);
+    if (memcmp(&value, &wanted, sizeof value)) fail_msg("%.60s reads as %a, not %a", text, value, wanted);
 }
 
 static void test_reading(void **context)
@@ -127,14 +147,10 @@ static void test_reading(void **context)
     char text[1400];
     for (int i = 0; i < 100000; i++) {
         int digits = (int)(next() % 25), whole = (int)(next() % 25), n = 0;
-        for (int k = 0; k < whole; k++)
-            text[n++] = (char)('0' + next() % 10);
-        if (digits > 0)
-            text[n++] = '.';
-        for (int k = 0; k < digits; k++)
-            text[n++] = (char)('0' + (next() % 3 ? next() % 10 : 0));
-        if (whole + digits == 0)
-            text[n++] = '7';
+        for (int k = 0; k < whole; k++) text[n++] = (char)('0' + next() % 10);
+        if (digits > 0) text[n++] = '.';
+        for (int k = 0; k < digits; k++) text[n++] = (char)('0' + (next() % 3 ? next() % 10 : 0));
+        if (whole + digits == 0) text[n++] = '7';
         if (next() % 2) {
             const char *sign = next() % 2 ? "" : next() % 2 ? "+" : "-";
             n += snprintf(text + n, 16, "%c%s%d", next() % 2 ? 'e' : 'E', sign, (int)(next() % 340));
@@ -146,13 +162,11 @@ static void test_reading(void **context)
     for (int i = 0; i < 2000; i++) {
         uint64_t bits = next() % 0x7FE0000000000000u;
         double low = of_bits(bits), high = of_bits(bits + 1);
-        if (low < 1e-290 || low > 1e290)
-            continue;
+        if (low < 1e-290 || low > 1e290) continue;
         int n = snprintf(text, sizeof text, "%.0Lf", ((long double)low + (long double)high) / 2);
         if (low < 0x1p60) {
             n = snprintf(text, sizeof text, "%.1100Lf", ((long double)low + (long double)high) / 2);
-            while (text[n - 1] == '0')
-                n--;
+            while (text[n - 1] == '0') n--;
         }
         for (int k = 0; k < (low < 0x1p60 ? 3 : 1); k++) {
             static const char *const behind[] = {"", "0000000000000000000000001", "0"};
@@ -165,12 +179,35 @@ static void test_reading(void **context)
 static void test_reading_edges(void **context)
 {
     (void)context;
-    static const struct { const char *text; size_t length; double value; } edges[] = {
-        {"0", 1, 0}, {".5", 2, 0.5}, {"5.", 2, 5}, {"00012.50", 8, 12.5}, {"1e400", 5, INFINITY}, {"1e-400", 6, 0},
-        {"0e999999999999999999", 20, 0}, {"1e99999999999999999999999999", 28, INFINITY},
-        {"1e-99999999999999999999999999", 29, 0}, {"4.9e-324", 8, 0x1p-1074}, {"2.4e-324", 8, 0},
-        {"1.7976931348623159e308", 22, INFINITY}, {"2.5e3.5", 5, 2500}, {"1.2.3", 3, 1.2}, {"0x10", 1, 0}, {"1,5", 1, 1},
-        {"", 0, 0}, {".", 0, 0}, {"-1", 0, 0}, {"+1", 0, 0}, {" 1", 0, 0}, {"e5", 0, 0}, {"inf", 0, 0}, {"nan", 0, 0},
+    static const struct {
+        const char *text;
+        size_t length;
+        double value;
+    } edges[] = {
+        {"0", 1, 0},
+        {".5", 2, 0.5},
+        {"5.", 2, 5},
+        {"00012.50", 8, 12.5},
+        {"1e400", 5, INFINITY},
+        {"1e-400", 6, 0},
+        {"0e999999999999999999", 20, 0},
+        {"1e99999999999999999999999999", 28, INFINITY},
+        {"1e-99999999999999999999999999", 29, 0},
+        {"4.9e-324", 8, 0x1p-1074},
+        {"2.4e-324", 8, 0},
+        {"1.7976931348623159e308", 22, INFINITY},
+        {"2.5e3.5", 5, 2500},
+        {"1.2.3", 3, 1.2},
+        {"0x10", 1, 0},
+        {"1,5", 1, 1},
+        {"", 0, 0},
+        {".", 0, 0},
+        {"-1", 0, 0},
+        {"+1", 0, 0},
+        {" 1", 0, 0},
+        {"e5", 0, 0},
+        {"inf", 0, 0},
+        {"nan", 0, 0},
     };
     for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
         double value = 0;
@@ -230,8 +267,7 @@ static double seconds(size_t (*print)(double, char *), int count)
     size_t length = 0;
     state = 1;
     clock_gettime(CLOCK_MONOTONIC, &a);
-    for (int i = 0; i < count; i++)
-        length += print(uniform() * 1e-3, out);
+    for (int i = 0; i < count; i++) length += print(uniform() * 1e-3, out);
     clock_gettime(CLOCK_MONOTONIC, &b);
     assert_true(length > 0);
     return (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
@@ -253,9 +289,9 @@ static void test_fast(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_powers), cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
-        cmocka_unit_test(test_integers), cmocka_unit_test(test_reading), cmocka_unit_test(test_reading_edges),
-        cmocka_unit_test(test_whole), cmocka_unit_test(test_fast),
+        cmocka_unit_test(test_powers),   cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
+        cmocka_unit_test(test_integers), cmocka_unit_test(test_reading),     cmocka_unit_test(test_reading_edges),
+        cmocka_unit_test(test_whole),    cmocka_unit_test(test_fast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,10 +15,16 @@
 static void test_known_answers(void **context)
 {
     (void)context;
-    static const struct { uint32_t counter[4], key[2], words[4]; } known[] = {
+    static const struct {
+        uint32_t counter[4], key[2], words[4];
+    } known[] = {
         {{0, 0, 0, 0}, {0, 0}, {0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}},
-        {{0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}, {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}},
-        {{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}, {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}},
+        {{0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff},
+         {0xffffffff, 0xffffffff},
+         {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}},
+        {{0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344},
+         {0xa4093822, 0x299f31d0},
+         {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}},
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         uint32_t words[4];
@@ -27,14 +33,16 @@ static void test_known_answers(void **context)
     }
 }
 
-/* A uniform number is the first 53 bits of its words, whose place is fixed: files made today can be finished by another release. */
+/* A uniform number is the first 53 bits of its words, whose place is fixed: files made today can be finished by
+ * another release. */
 static void test_layout(void **context)
 {
     (void)context;
     uint32_t counter[4] = {7, 1, 3, 0}, key[2] = {5, 2}, words[4];
     draw_philox(counter, key, words);
     uint64_t word = (uint64_t)words[1] << 32 | words[0];
-    assert_true(draw_uniform((uint64_t)2 << 32 | 5, 3, (uint64_t)1 << 32 | 7) == (double)(word >> 11) / 9007199254740992.0);
+    assert_true(draw_uniform((uint64_t)2 << 32 | 5, 3, (uint64_t)1 << 32 | 7) ==
+                (double)(word >> 11) / 9007199254740992.0);
 }
 
 static int order(const void *a, const void *b)
@@ -45,14 +53,14 @@ static int order(const void *a, const void *b)
 
 enum { N = 200000 };
 
-/* Kolmogorov's distance times √N exceeds 1.95 with probability 2 exp(-2·1.95²) = 0.001; seeds are fixed, so the answer is too. */
+/* Kolmogorov's distance times √N exceeds 1.95 with probability 2 exp(-2·1.95²) = 0.001; seeds are fixed, so the
+ * answer is too. */
 static void judge(double (*draw)(uint64_t, uint32_t, uint64_t), double (*below)(double))
 {
     static double values[N];
     for (uint64_t seed = 0; seed < 3; seed++) {
         double most = 0;
-        for (int i = 0; i < N; i++)
-            values[i] = draw(seed, 1, (uint64_t)i);
+        for (int i = 0; i < N; i++) values[i] = draw(seed, 1, (uint64_t)i);
         qsort(values, N, sizeof *values, order);
         for (int i = 0; i < N; i++) {
             double p = below(values[i]);
@@ -108,8 +116,8 @@ static void test_independent(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_answers), cmocka_unit_test(test_layout), cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_normal), cmocka_unit_test(test_independent),
+        cmocka_unit_test(test_known_answers), cmocka_unit_test(test_layout),      cmocka_unit_test(test_uniform),
+        cmocka_unit_test(test_normal),        cmocka_unit_test(test_independent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Ensembles of a C callback: by blocks, one trajectory at a time, on several threads; the bits are those of a run. And models whose
- * trajectories go one at a time, on several threads.
+/* Ensembles of a C callback: by blocks, one trajectory at a time, on several threads; the bits are those of a run.
+ * And models whose trajectories go one at a time, on several threads.
  */
 #include "test/ensemble_given.h"
 
@@ -11,7 +11,7 @@
 typedef struct world {
     const double *stiffness;
     atomic_int calls, widest;
-    int fail_at, answer;             /* the trajectory whose acceleration fails, and what it returns then; -1: none */
+    int fail_at, answer; /* the trajectory whose acceleration fails, and what it returns then; -1: none */
 } world;
 
 static void pull(double k, double t, double x0, double x1, double s, double v0, double *a0, double *a1, double *ds)
@@ -25,12 +25,11 @@ static int blockwise(void *context, size_t first, size_t count, double t, const 
 {
     world *w = context;
     atomic_fetch_add(&w->calls, 1);
-    if ((int)count > atomic_load(&w->widest))
-        atomic_store(&w->widest, (int)count);
+    if ((int)count > atomic_load(&w->widest)) atomic_store(&w->widest, (int)count);
     for (size_t j = 0; j < count; j++) {
-        pull(w->stiffness ? w->stiffness[first + j] : 1, t, x[j], x[count + j], v[2 * count + j], v[j], &a[j], &a[count + j], &a[2 * count + j]);
-        if ((int)(first + j) == w->fail_at)
-            return w->answer;
+        pull(w->stiffness ? w->stiffness[first + j] : 1, t, x[j], x[count + j], v[2 * count + j], v[j], &a[j],
+             &a[count + j], &a[2 * count + j]);
+        if ((int)(first + j) == w->fail_at) return w->answer;
     }
     return 0;
 }
@@ -77,12 +76,12 @@ static void spread(double values[NAMES][COUNT], const double *list[NAMES])
 {
     for (int k = 0; k < NAMES; k++) {
         list[k] = values[k];
-        for (int i = 0; i < COUNT; i++)
-            values[k][i] = 0.001 * ((i * (7 + k) + 3 * k) % 601) - 0.3;
+        for (int i = 0; i < COUNT; i++) values[k][i] = 0.001 * ((i * (7 + k) + 3 * k) % 601) - 0.3;
     }
 }
 
-static motus_ensemble_def define(const motus_record *records, size_t count, const char *method, double until, int threads)
+static motus_ensemble_def define(const motus_record *records, size_t count, const char *method, double until,
+                                 int threads)
 {
     motus_ensemble_def def = motus_default_ensemble();
     def.vary = names;
@@ -120,11 +119,11 @@ static void blocks_are_trajectories(void **state)
     int methods = 0;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const char *method = motus_method_at(k)->name;
-        if (motus_method_admits(s, method, NULL) != MOTUS_OK)
-            continue;
+        if (motus_method_admits(s, method, NULL) != MOTUS_OK) continue;
         methods++;
         for (int f = 0; f < 2; f++) {
-            const double until = f && strcmp(method, "verlet-literal") ? 0.744 : 0.25;         /* the second ends with a shorter step */
+            /* the second ends with a shorter step */
+            const double until = f && strcmp(method, "verlet-literal") ? 0.744 : 0.25;
             motus_ensemble_def def = define(records, count, method, until, 1 + 2 * f);
             motus_ensemble *blocks = given_ensemble(s, &def, method);
             def.threads = 0;
@@ -143,7 +142,7 @@ static void blocks_are_trajectories(void **state)
             run.until = until;
             run.x = x;
             run.v = y;
-            must(motus_run_create(s, &run, &r, &err), &err, method);     /* of a system that has a block alone */
+            must(motus_run_create(s, &run, &r, &err), &err, method); /* of a system that has a block alone */
             finish(r);
             assert_true(same_number(value(s, r, "x[2]"), a.at[4][7]) && same_number(value(s, r, "s"), a.at[10][7]));
             motus_run_destroy(r);
@@ -167,8 +166,7 @@ static void trajectories_have_their_own_numbers(void **state)
     const double *list[NAMES];
     const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MEAN, 6}};
     spread(values, list);
-    for (int i = 0; i < COUNT; i++)
-        stiffness[i] = 1 + 0.01 * i;
+    for (int i = 0; i < COUNT; i++) stiffness[i] = 1 + 0.01 * i;
     static const char *const methods[] = {"rk4", "gauss4"};
     for (int k = 0; k < 2; k++) {
         const size_t some = k ? 20 : COUNT;
@@ -246,7 +244,8 @@ static void some_are_lost_and_some_fail(void **state)
 static void threads_of_models(void **state)
 {
     (void)state;
-    static const char text[] = "k = 1\nb = 0.1 k\nx'' = -k sin(x) - b x'^3\nx(0) = b\nx'(0) = 0\nq = k x^2\nstep 0.05\nuntil 3\n";
+    static const char text[] =
+        "k = 1\nb = 0.1 k\nx'' = -k sin(x) - b x'^3\nx(0) = b\nx'(0) = 0\nq = k x^2\nstep 0.05\nuntil 3\n";
     static const char *const vary[] = {"k", "x'(0)"};
     enum { SOME = 50 };
     double k[SOME], v[SOME];
@@ -256,7 +255,8 @@ static void threads_of_models(void **state)
         v[i] = i == 31 ? INFINITY : 0.1 * ((i * 11) % SOME);
     }
     motus_system *s = given_text(text);
-    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MAX, column(s, "q")}, {MOTUS_REDUCE_TIME_OF_MIN, 2}};
+    const motus_record records[] = {
+        {MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MAX, column(s, "q")}, {MOTUS_REDUCE_TIME_OF_MIN, 2}};
     static const char *const machines[] = {"interpreter", "compiled"};
     for (int m = 0; m < 2; m++) {
         outcome first = {0};
@@ -276,7 +276,8 @@ static void threads_of_models(void **state)
                 }
                 for (size_t r = 0; r < 3; r++)
                     for (size_t i = 0; i < o.count; i++)
-                        assert_true(same_number(o.at[r][i], first.at[r][i]) && same_number(o.stopped[i], first.stopped[i]));
+                        assert_true(same_number(o.at[r][i], first.at[r][i]) &&
+                                    same_number(o.stopped[i], first.stopped[i]));
                 forget(&o);
             }
             motus_ensemble_destroy(e);
@@ -291,8 +292,7 @@ static void threads_of_models(void **state)
 static int watch_quietly(void *context, double fraction)
 {
     watcher *w = context;
-    if (!(fraction >= w->last && fraction <= 1))
-        w->calls = 1 << 20;
+    if (!(fraction >= w->last && fraction <= 1)) w->calls = 1 << 20;
     w->last = fraction;
     return ++w->calls == w->cancel_at;
 }
@@ -327,19 +327,22 @@ static int driven(void *context, size_t first, size_t count, double t, const dou
 {
     const double *amplitude = (const double *)context + first, c = cos(t);
     (void)v;
-    for (size_t j = 0; j < count; j++)
-        a[j] = -x[j] + x[j] * x[j] * x[j] + amplitude[j] * c;
+    for (size_t j = 0; j < count; j++) a[j] = -x[j] + x[j] * x[j] * x[j] + amplitude[j] * c;
     return 0;
 }
 
-static int driven_alone(void *context, double t, const double *x, const double *v, double *a) { return driven(context, 0, 1, t, x, v, a); }
+static int driven_alone(void *context, double t, const double *x, const double *v, double *a)
+{
+    return driven(context, 0, 1, t, x, v, a);
+}
 
 static void blocks_are_fast(void **state)
 {
     (void)state;
     const char *wanted = getenv("MOTUS_BLOCK_COUNT");
     const size_t count = wanted ? (size_t)atol(wanted) : 2048;
-    double *amplitude = calloc(count, sizeof *amplitude), *x = calloc(2 * count, sizeof *x), zero = 0, best[2] = {INFINITY, INFINITY};
+    double *amplitude = calloc(count, sizeof *amplitude), *x = calloc(2 * count, sizeof *x), zero = 0,
+           best[2] = {INFINITY, INFINITY};
     assert_true(amplitude && x);
     static const char *const vary[] = {"x(0)"};
     const motus_record record = {MOTUS_REDUCE_FINAL, 1};
@@ -370,8 +373,8 @@ static void blocks_are_fast(void **state)
         motus_ensemble_destroy(e);
         motus_system_destroy(s);
     }
-    print_message("%zu trajectories, 1000 steps: one by one %.2f ns a step, in blocks %.2f ns, %.1f times as fast\n", count,
-        1e6 * best[0] / (double)count, 1e6 * best[1] / (double)count, best[0] / best[1]);
+    print_message("%zu trajectories, 1000 steps: one by one %.2f ns a step, in blocks %.2f ns, %.1f times as fast\n",
+                  count, 1e6 * best[0] / (double)count, 1e6 * best[1] / (double)count, best[0] / best[1]);
 #ifndef SANITIZED
     assert_true(best[1] < best[0] / 3);
 #endif
@@ -382,9 +385,12 @@ static void blocks_are_fast(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_trajectories), cmocka_unit_test(trajectories_have_their_own_numbers), cmocka_unit_test(some_are_lost_and_some_fail),
-        cmocka_unit_test(threads_of_models), cmocka_unit_test(watched), cmocka_unit_test(blocks_are_fast)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_trajectories),
+                                       cmocka_unit_test(trajectories_have_their_own_numbers),
+                                       cmocka_unit_test(some_are_lost_and_some_fail),
+                                       cmocka_unit_test(threads_of_models),
+                                       cmocka_unit_test(watched),
+                                       cmocka_unit_test(blocks_are_fast)};
     int failed = cmocka_run_group_tests_name("blocks and threads", tests, NULL, NULL);
     close_cache();
     return failed;

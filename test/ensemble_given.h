@@ -1,4 +1,5 @@
-/* What tests of ensembles begin with: one made from a few words, its results in memory, and a comparison of two of them byte by byte. */
+/* What tests of ensembles begin with: one made from a few words, its results in memory, and a comparison of two of
+ * them byte by byte. */
 #ifndef TEST_ENSEMBLE_GIVEN_H
 #define TEST_ENSEMBLE_GIVEN_H
 
@@ -24,10 +25,12 @@ typedef struct outcome {
 
 UNUSED static outcome room_for(size_t count, size_t records)
 {
-    outcome o = {.count = count, .records = records, .numbers = calloc(count * records + 1, sizeof(double)), .stopped = calloc(count + 1, sizeof(double))};
+    outcome o = {.count = count,
+                 .records = records,
+                 .numbers = calloc(count * records + 1, sizeof(double)),
+                 .stopped = calloc(count + 1, sizeof(double))};
     assert_true(o.numbers && o.stopped && records <= RECORDS_MAX);
-    for (size_t r = 0; r < records; r++)
-        o.at[r] = o.numbers + r * count;
+    for (size_t r = 0; r < records; r++) o.at[r] = o.numbers + r * count;
     return o;
 }
 
@@ -45,10 +48,12 @@ UNUSED static void same_outcome(const outcome *a, const outcome *b, const char *
     assert_true(a->count == b->count && a->records == b->records);
     for (size_t k = 0; k < a->count; k++) {
         if (!same_number(a->stopped[k], b->stopped[k]))
-            fail_msg("%s: trajectory %zu of %zu stopped at %a and at %a", what, k, a->count, a->stopped[k], b->stopped[k]);
+            fail_msg("%s: trajectory %zu of %zu stopped at %a and at %a", what, k, a->count, a->stopped[k],
+                     b->stopped[k]);
         for (size_t r = 0; r < a->records; r++)
             if (!same_number(a->at[r][k], b->at[r][k]))
-                fail_msg("%s: trajectory %zu of %zu, record %zu: %a and %a", what, k, a->count, r, a->at[r][k], b->at[r][k]);
+                fail_msg("%s: trajectory %zu of %zu, record %zu: %a and %a", what, k, a->count, r, a->at[r][k],
+                         b->at[r][k]);
     }
 }
 

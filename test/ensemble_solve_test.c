@@ -11,8 +11,8 @@ enum { COUNT = 37 };
 
 typedef struct question {
     const char *text, *method, *vary;
-    double from, by;                 /* of what varies */
-    int stops;                       /* at least so many trajectories stop, at least at so many times, and not all */
+    double from, by; /* of what varies */
+    int stops;       /* at least so many trajectories stop, at least at so many times, and not all */
     int times;
 } question;
 
@@ -21,15 +21,15 @@ static void ask(const question *q, double steps, int64_t every, int lanes)
 {
     char what[300];
     motus_system *s = given_text(q->text);
-    const motus_record records[] = {{MOTUS_REDUCE_FINAL, column(s, "x")},
-                                    {MOTUS_REDUCE_FINAL, column(s, "x'")},
-                                    {MOTUS_REDUCE_MAX, column(s, "x")},
-                                    {every % 2 ? MOTUS_REDUCE_TIME_OF_MAX : MOTUS_REDUCE_MIN, column(s, every > 2 ? "x" : "x'")}};
+    const motus_record records[] = {
+        {MOTUS_REDUCE_FINAL, column(s, "x")},
+        {MOTUS_REDUCE_FINAL, column(s, "x'")},
+        {MOTUS_REDUCE_MAX, column(s, "x")},
+        {every % 2 ? MOTUS_REDUCE_TIME_OF_MAX : MOTUS_REDUCE_MIN, column(s, every > 2 ? "x" : "x'")}};
     enum { RECORDS = sizeof records / sizeof *records };
     double values[COUNT];
     const double *list[] = {values};
-    for (int i = 0; i < COUNT; i++)
-        values[i] = q->from + q->by * (i * 5 % COUNT);
+    for (int i = 0; i < COUNT; i++) values[i] = q->from + q->by * (i * 5 % COUNT);
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     motus_ensemble_def def = motus_default_ensemble();
@@ -48,16 +48,14 @@ static void ask(const question *q, double steps, int64_t every, int lanes)
     motus_ensemble *fast = given_ensemble(s, &def, q->method);
     snprintf(what, sizeof what, "%s, %g steps, every %lld, %d lanes: %s", q->method, steps, (long long)every, lanes,
              q->text);
-    if (motus_ensemble_note(fast)[0])
-        fail_msg("%s: %s", what, motus_ensemble_note(fast));
+    if (motus_ensemble_note(fast)[0]) fail_msg("%s: %s", what, motus_ensemble_note(fast));
     outcome a = go(alone, COUNT, RECORDS, list, what), b = go(fast, COUNT, RECORDS, list, what);
     same_outcome(&a, &b, what);
     int stops = 0, times = 0;
     for (int i = 0; i < COUNT; i++) {
         bool met = isnan(a.stopped[i]);
         stops += !met;
-        for (int k = 0; k < i; k++)
-            met |= a.stopped[k] == a.stopped[i];
+        for (int k = 0; k < i; k++) met |= a.stopped[k] == a.stopped[i];
         times += !met;
     }
     if (steps > 20 && (stops < q->stops || times < q->times || stops == COUNT))
@@ -75,13 +73,13 @@ static void ask_all(const question *list, size_t count)
         double steps;
         int64_t every;
     } shapes[] = {{60, 1}, {41.4, 3}, {600, 7}, {1, 1}, {40, 2}, {33, 1000}, {0.5, 1}};
-    static const int lanes[] = {1, 2, 4, 8, 16};         /* a compiler run each: two for every question */
+    static const int lanes[] = {1, 2, 4, 8, 16}; /* a compiler run each: two for every question */
     for (size_t k = 0; k < count; k++)
         for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
             if (!strstr(list[k].method, "literal") || floor(shapes[i].steps) == shapes[i].steps)
                 ask(&list[k], shapes[i].steps, shapes[i].every, i % 3 ? 0 : lanes[k % 5]);
 }
-#define ASK(list) ask_all(list, sizeof (list) / sizeof *(list))
+#define ASK(list) ask_all(list, sizeof(list) / sizeof *(list))
 
 /* Forces that are not linear in v: Newton's method at every kick, with other numbers of iterations in every lane. */
 static void friction_that_is_not_linear(void **state)

@@ -1,5 +1,5 @@
-/* Ensembles in which something goes wrong: a trajectory that leaves the finite numbers and its neighbours, requests that cannot be met, a
- * watcher who has seen enough; and a system that several ensembles and runs share.
+/* Ensembles in which something goes wrong: a trajectory that leaves the finite numbers and its neighbours, requests
+ * that cannot be met, a watcher who has seen enough; and a system that several ensembles and runs share.
  */
 #include "test/ensemble_given.h"
 
@@ -8,10 +8,12 @@
 enum { FEW = 5 };
 
 /* A definition of one record of each kind of the first position, with one name that varies. */
-static motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MIN, 1}, {MOTUS_REDUCE_MAX, 1}, {MOTUS_REDUCE_MEAN, 1}, {MOTUS_REDUCE_TIME_OF_MAX, 1}, {MOTUS_REDUCE_FINAL, 0}};
+static motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MIN, 1},         {MOTUS_REDUCE_MAX, 1},
+                                 {MOTUS_REDUCE_MEAN, 1},  {MOTUS_REDUCE_TIME_OF_MAX, 1}, {MOTUS_REDUCE_FINAL, 0}};
 enum { RECORDS = sizeof records / sizeof *records };
 
-static motus_ensemble_def define(const char *const *names, size_t count, const char *method, double step, double until, const char *machine)
+static motus_ensemble_def define(const char *const *names, size_t count, const char *method, double step, double until,
+                                 const char *machine)
 {
     motus_ensemble_def def = motus_default_ensemble();
     def.vary = names;
@@ -25,10 +27,12 @@ static motus_ensemble_def define(const char *const *names, size_t count, const c
     return def;
 }
 
-/* Trajectories that stop ---------------------------------------------------------------------------------------------------------- */
+/* Trajectories that stop ------------------------------------------------------------------------------------------- */
 
-/* When a run with this value stops: NaN where it comes to its end, minus infinity where the model cannot even be read. */
-static double when_a_run_stops(const char *text, const char *name, double x, const char *method, double step, double until, int64_t every)
+/* When a run with this value stops: NaN where it comes to its end, minus infinity where the model cannot even be
+ * read. */
+static double when_a_run_stops(const char *text, const char *name, double x, const char *method, double step,
+                               double until, int64_t every)
 {
     char set[80];
     const char *list[] = {set};
@@ -39,8 +43,7 @@ static double when_a_run_stops(const char *text, const char *name, double x, con
     def.text = text;
     def.set = list;
     def.set_count = 1;
-    if (!isfinite(x) || motus_system_from_text(&def, &s, &err) != MOTUS_OK)
-        return -INFINITY;
+    if (!isfinite(x) || motus_system_from_text(&def, &s, &err) != MOTUS_OK) return -INFINITY;
     motus_run *r = given_run(s, method, step, until);
     double y, stopped = NAN;
     motus_status status = MOTUS_OK;
@@ -48,10 +51,8 @@ static double when_a_run_stops(const char *text, const char *name, double x, con
     while (status == MOTUS_OK) {
         if (motus_run_done(r) || (every && motus_run_steps(r) % every == 0))
             status = motus_run_values(r, &k, 1, &y, &err);
-        if (motus_run_done(r))
-            break;
-        if (status == MOTUS_OK)
-            status = motus_run_step(r, 1, &err);
+        if (motus_run_done(r)) break;
+        if (status == MOTUS_OK) status = motus_run_step(r, 1, &err);
     }
     if (status != MOTUS_OK) {
         assert_true(status == MOTUS_DIVERGED || status == MOTUS_SOLVE);
@@ -62,14 +63,16 @@ static double when_a_run_stops(const char *text, const char *name, double x, con
     return stopped;
 }
 
-/* The same ensemble on both machines; every trajectory stops when a run would, and those that do not stop are what they are without the others. */
-static void stops_alike(const char *text, const char *name, const double x[FEW], const char *method, double step, double until, int64_t every, int stops)
+/* The same ensemble on both machines; every trajectory stops when a run would, and those that do not stop are what
+ * they are without the others. */
+static void stops_alike(const char *text, const char *name, const double x[FEW], const char *method, double step,
+                        double until, int64_t every, int stops)
 {
     motus_system *s = given_text(text);
     const double *values[] = {x};
     int stopped = 0;
     outcome o[2];
-    for (int last = 0; last < 2; last++) {           /* the ends alone, and looks on the way */
+    for (int last = 0; last < 2; last++) { /* the ends alone, and looks on the way */
         for (int m = 0; m < 2; m++) {
             motus_ensemble_def def = define(&name, 1, method, step, until, m ? "compiled" : "interpreter");
             def.every = every;
@@ -80,8 +83,7 @@ static void stops_alike(const char *text, const char *name, const double x[FEW],
             for (size_t i = 0; i < FEW; i++) {
                 double alone[RECORDS], one = x[i], when, *at[RECORDS];
                 const double *list[] = {&one};
-                for (size_t r = 0; r < RECORDS; r++)
-                    at[r] = &alone[r];
+                for (size_t r = 0; r < RECORDS; r++) at[r] = &alone[r];
                 motus_error err = motus_default_error();
                 must(motus_ensemble_run(e, 1, list, at, &when, &err), &err, "alone");
                 assert_true(same_number(when, o[m].stopped[i]));
@@ -112,24 +114,25 @@ static void some_leave_the_finite_numbers(void **state)
     (void)state;
     static const char drive[] = "F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0\nx'(0) = 0\n";
     static const double x[FEW] = {0.1, 50, -0.5, 1.5, 1e200};
-    static const char *const methods[] = {"verlet", "velocity-verlet", "leapfrog", "rk4", "kahan-li8", "beeman", "verlet-literal", "gauss4"};
+    static const char *const methods[] = {"verlet",    "velocity-verlet", "leapfrog",       "rk4",
+                                          "kahan-li8", "beeman",          "verlet-literal", "gauss4"};
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
 #ifdef SANITIZED
-        if (k % 3)
-            continue;
+        if (k % 3) continue;
 #endif
         stops_alike(drive, "x(0)", x, methods[k], 0.01, 20, 3, 3);
-        if (strcmp(methods[k], "verlet-literal"))
-            stops_alike(drive, "x(0)", x, methods[k], 0.3, 0.5, 1, 1);
+        if (strcmp(methods[k], "verlet-literal")) stops_alike(drive, "x(0)", x, methods[k], 0.3, 0.5, 1, 1);
     }
 }
 
 static void a_domain_is_left(void **state)
 {
     (void)state;
-    static const char root[] = "c = 1\nx'' = -c sqrt(x)\nx(0) = 4\nx'(0) = 0\n", pole[] = "c = 1\nx'' = 1/(x - c)\nx(0) = 1\nx'(0) = 0\n",
+    static const char root[] = "c = 1\nx'' = -c sqrt(x)\nx(0) = 4\nx'(0) = 0\n",
+                      pole[] = "c = 1\nx'' = 1/(x - c)\nx(0) = 1\nx'(0) = 0\n",
                       start[] = "c = 1\nx'' = -x\nx(0) = 1/c\nx'(0) = sqrt(c)\n";
-    static const double c[FEW] = {1, 0.001, 2, 100, 0.002}, places[FEW] = {1, 3, 1, -2, 0}, signs[FEW] = {1, 0, -1, 4, 2}, wild[FEW] = {1, INFINITY, 2, NAN, 3};
+    static const double c[FEW] = {1, 0.001, 2, 100, 0.002}, places[FEW] = {1, 3, 1, -2, 0},
+                        signs[FEW] = {1, 0, -1, 4, 2}, wild[FEW] = {1, INFINITY, 2, NAN, 3};
     static const char *const methods[] = {"verlet", "rk4", "velocity-verlet"};
     for (size_t k = 0; k < 3; k++) {
         stops_alike(root, "c", c, methods[k], 0.01, 10, 1, 3);
@@ -161,8 +164,7 @@ static void the_lost_cost_nothing(void **state)
     def.record_count = 1;
     for (int round = 0; round < 20; round++) {
         motus_ensemble *e = given_ensemble(s, &def, "lost");
-        for (int i = 0; i < COUNT; i++)
-            x[i] = (round % 2) && i % 4 == 0 ? 100 : 0.01 * i;
+        for (int i = 0; i < COUNT; i++) x[i] = (round % 2) && i % 4 == 0 ? 100 : 0.01 * i;
         outcome o = go(e, COUNT, 1, values, "lost");
         assert_true(isnan(o.stopped[0]) == !(round % 2));
         seconds[round % 2] = fmin(seconds[round % 2], motus_ensemble_seconds(e));
@@ -172,11 +174,11 @@ static void the_lost_cost_nothing(void **state)
     motus_system_destroy(s);
     print_message("with a lost lane in every block: %.2f times as long\n", seconds[1] / seconds[0]);
 #ifndef SANITIZED
-    assert_true(seconds[1] < 4 * seconds[0]);            /* step by step it is more than 20 */
+    assert_true(seconds[1] < 4 * seconds[0]); /* step by step it is more than 20 */
 #endif
 }
 
-/* Requests that cannot be met ------------------------------------------------------------------------------------------------------- */
+/* Requests that cannot be met -------------------------------------------------------------------------------------- */
 
 static const char model_text[] =
     "N = 3\nh = 0.01\nT = 2\nL = 1 + 1\ng = (0, -9.81)\nm = [1, 2]\nkay = 2\nfrom_here = 0\n"
@@ -190,8 +192,9 @@ static void refused(motus_system *s, const motus_ensemble_def *def, motus_status
     motus_ensemble *e = (motus_ensemble *)&err;
     motus_status status = motus_ensemble_create(s, def, &e, &err);
     if (status != expected || (!strstr(err.message, part) && !strstr(err.hint, part)))
-        fail_msg("%s: %s, %s (%s), and %s with \"%s\" was due", def->vary_count && def->vary && def->vary[0] ? def->vary[0] : "", motus_status_word(status),
-            err.message, err.hint, motus_status_word(expected), part);
+        fail_msg("%s: %s, %s (%s), and %s with \"%s\" was due",
+                 def->vary_count && def->vary && def->vary[0] ? def->vary[0] : "", motus_status_word(status),
+                 err.message, err.hint, motus_status_word(expected), part);
     assert_null(e);
     assert_int_equal(err.status, expected);
     assert_int_equal(motus_ensemble_create(s, def, &e, NULL), expected);
@@ -200,15 +203,41 @@ static void refused(motus_system *s, const motus_ensemble_def *def, motus_status
 static void names(void **state)
 {
     (void)state;
-    static const struct { const char *name; motus_status status; const char *part; } cases[] = {
-        {"key", MOTUS_NAME, "kay"}, {"F", MOTUS_NAME, "neither a parameter"}, {"", MOTUS_NAME, "neither"}, {"speed", MOTUS_NAME, "computed along the way"},
-        {"g", MOTUS_SHAPE, "g.x"}, {"m", MOTUS_SHAPE, "m[1]"}, {"m[3]", MOTUS_SHAPE, "m[1]"}, {"m[0]", MOTUS_NAME, "neither"}, {"m[1", MOTUS_NAME, "neither"},
-        {"m[1]x", MOTUS_NAME, "neither"}, {"g.z", MOTUS_SHAPE, "component"}, {"g.w", MOTUS_NAME, "neither"}, {"kay.x", MOTUS_SHAPE, "no components"},
-        {"kay'", MOTUS_NAME, "neither"}, {"r(0)", MOTUS_SHAPE, "r.x(0)"}, {"u(0)", MOTUS_SHAPE, "u[1](0)"}, {"u[4](0)", MOTUS_NAME, "neither"},
-        {"z", MOTUS_NAME, "z(0)"}, {"z(1)", MOTUS_NAME, "the start is 0"}, {"z(nan)", MOTUS_NAME, "neither"}, {"z()", MOTUS_NAME, "neither"},
-        {"z(0x0)", MOTUS_NAME, "neither"}, {"z(0", MOTUS_NAME, "neither"}, {"z''(0)", MOTUS_NAME, "neither"}, {"speed(0)", MOTUS_NAME, "neither"},
-        {"t(0)", MOTUS_NAME, "neither"}, {"N", MOTUS_ARGUMENT, "size"}, {"L", MOTUS_ARGUMENT, "size"}, {"h", MOTUS_ARGUMENT, "step"},
-        {"T", MOTUS_ARGUMENT, "the end"}, {"from_here", MOTUS_ARGUMENT, "the start"}};
+    static const struct {
+        const char *name;
+        motus_status status;
+        const char *part;
+    } cases[] = {{"key", MOTUS_NAME, "kay"},
+                 {"F", MOTUS_NAME, "neither a parameter"},
+                 {"", MOTUS_NAME, "neither"},
+                 {"speed", MOTUS_NAME, "computed along the way"},
+                 {"g", MOTUS_SHAPE, "g.x"},
+                 {"m", MOTUS_SHAPE, "m[1]"},
+                 {"m[3]", MOTUS_SHAPE, "m[1]"},
+                 {"m[0]", MOTUS_NAME, "neither"},
+                 {"m[1", MOTUS_NAME, "neither"},
+                 {"m[1]x", MOTUS_NAME, "neither"},
+                 {"g.z", MOTUS_SHAPE, "component"},
+                 {"g.w", MOTUS_NAME, "neither"},
+                 {"kay.x", MOTUS_SHAPE, "no components"},
+                 {"kay'", MOTUS_NAME, "neither"},
+                 {"r(0)", MOTUS_SHAPE, "r.x(0)"},
+                 {"u(0)", MOTUS_SHAPE, "u[1](0)"},
+                 {"u[4](0)", MOTUS_NAME, "neither"},
+                 {"z", MOTUS_NAME, "z(0)"},
+                 {"z(1)", MOTUS_NAME, "the start is 0"},
+                 {"z(nan)", MOTUS_NAME, "neither"},
+                 {"z()", MOTUS_NAME, "neither"},
+                 {"z(0x0)", MOTUS_NAME, "neither"},
+                 {"z(0", MOTUS_NAME, "neither"},
+                 {"z''(0)", MOTUS_NAME, "neither"},
+                 {"speed(0)", MOTUS_NAME, "neither"},
+                 {"t(0)", MOTUS_NAME, "neither"},
+                 {"N", MOTUS_ARGUMENT, "size"},
+                 {"L", MOTUS_ARGUMENT, "size"},
+                 {"h", MOTUS_ARGUMENT, "step"},
+                 {"T", MOTUS_ARGUMENT, "the end"},
+                 {"from_here", MOTUS_ARGUMENT, "the start"}};
     motus_system *s = given_text(model_text);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         for (int m = 0; m < 2; m++) {
@@ -222,7 +251,8 @@ static void names(void **state)
     motus_ensemble_def def = define(list, 1, "verlet", NAN, NAN, NULL);
     refused(s, &def, MOTUS_NAME, "neither");
     /* A step and an end of the caller's own. */
-    static const char *const of_time[] = {"h", "T"}, *const twice[] = {"kay", "g.y", "kay"}, *const same_place[] = {"u[2](0)", "u[2](0.0)"}, *const none[] = {NULL};
+    static const char *const of_time[] = {"h", "T"}, *const twice[] = {"kay", "g.y", "kay"},
+                             *const same_place[] = {"u[2](0)", "u[2](0.0)"}, *const none[] = {NULL};
     def = define(of_time, 2, "verlet", 0.01, 1, "interpreter");
     motus_ensemble_destroy(given_ensemble(s, &def, "own step and end"));
     def.step = NAN;
@@ -246,10 +276,10 @@ static void definitions(void **state)
     const motus_ensemble_def good = define(vary, 1, "verlet", NAN, 0.05, "interpreter");
     motus_record bad[] = {{MOTUS_REDUCE_FINAL, 1000}, {(motus_reduction)77, 1}};
     motus_ensemble_def def;
-#define BAD(change, status, part) \
-    do {                          \
-        def = good;               \
-        change;                   \
+#define BAD(change, status, part)       \
+    do {                                \
+        def = good;                     \
+        change;                         \
         refused(s, &def, status, part); \
     } while (0)
     BAD(def.lanes = 3, MOTUS_ARGUMENT, "power of two");
@@ -279,24 +309,24 @@ static void definitions(void **state)
     e = given_ensemble(s, &good, "good");
     double x[2] = {1, 2}, room[RECORDS][2], *at[RECORDS], *some[RECORDS] = {NULL};
     const double *values[] = {x}, *nothing[] = {NULL};
-    for (size_t r = 0; r < RECORDS; r++)
-        at[r] = room[r];
+    for (size_t r = 0; r < RECORDS; r++) at[r] = room[r];
     assert_int_equal(motus_ensemble_run(NULL, 2, values, at, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_run(e, 2, NULL, at, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_run(e, 2, nothing, at, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_run(e, 2, values, NULL, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_run(e, 2, values, some, NULL, NULL), MOTUS_ARGUMENT);
     assert_int_equal(motus_ensemble_run(e, 0, values, at, NULL, NULL), MOTUS_OK);
-    assert_int_equal(motus_ensemble_run(e, 2, values, at, NULL, NULL), MOTUS_OK);      /* `stopped` may be NULL */
+    assert_int_equal(motus_ensemble_run(e, 2, values, at, NULL, NULL), MOTUS_OK); /* `stopped` may be NULL */
     assert_true(isfinite(room[0][1]));
     motus_ensemble_destroy(e);
     motus_ensemble_destroy(NULL);
-    assert_true(motus_ensemble_steps(NULL) == 0 && motus_ensemble_lanes(NULL) == 1 && motus_ensemble_threads(NULL) == 1);
+    assert_true(motus_ensemble_steps(NULL) == 0 && motus_ensemble_lanes(NULL) == 1 &&
+                motus_ensemble_threads(NULL) == 1);
     assert_string_equal(motus_ensemble_note(NULL), "");
     motus_system_destroy(s);
 }
 
-/* Sharing a system ------------------------------------------------------------------------------------------------------------------ */
+/* Sharing a system ------------------------------------------------------------------------------------------------- */
 
 static char *everything_about(motus_system *s)
 {
@@ -316,10 +346,11 @@ static char *everything_about(motus_system *s)
 static void a_system_is_left_as_it_was(void **state)
 {
     (void)state;
-    static const char text[] =
-        "A = 1\nk = 2\nu[i]'' = k (u[i+1] - 2 u[i] + u[i-1]) for i = 1..4\nu[0] = A\nu[5] = k sin(t)\nu[i](0) = A i for i = 1..4\nu[i]'(0) = 0 for i = 1..4\n"
-        "x'' = -k x\nx(0) = A\nx'(0) = k\nq = k x + u[0]\n";
-    static const char *const vary[] = {"A", "k"}, *const machines[] = {"interpreter", "compiled"}, *const methods[] = {"gauss4", "leapfrog"};
+    static const char text[] = "A = 1\nk = 2\nu[i]'' = k (u[i+1] - 2 u[i] + u[i-1]) for i = 1..4\nu[0] = A\nu[5] = k "
+                               "sin(t)\nu[i](0) = A i for i = 1..4\nu[i]'(0) = 0 for i = 1..4\n"
+                               "x'' = -k x\nx(0) = A\nx'(0) = k\nq = k x + u[0]\n";
+    static const char *const vary[] = {"A", "k"}, *const machines[] = {"interpreter", "compiled"},
+                             *const methods[] = {"gauss4", "leapfrog"};
     const double a[3] = {2, 3, -4}, k[3] = {1, 5, -1}, *const values[] = {a, k};
     for (int m = 0; m < 2; m++)
         for (int n = 0; n < 2; n++) {
@@ -375,8 +406,7 @@ static void nothing_varies(void **state)
         outcome o = go(e, 3, RECORDS, NULL, "nothing varies");
         motus_run *r = given_run(s, "leapfrog", NAN, 0.055);
         finish(r);
-        for (size_t i = 0; i < 3; i++)
-            assert_true(same_number(o.at[0][i], value(s, r, "r.x")));
+        for (size_t i = 0; i < 3; i++) assert_true(same_number(o.at[0][i], value(s, r, "r.x")));
         motus_run_destroy(r);
         forget(&o);
         motus_ensemble_destroy(e);
@@ -388,7 +418,8 @@ static void nothing_varies(void **state)
 static void a_method_that_no_longer_fits(void **state)
 {
     (void)state;
-    motus_system *s = given_text("k = 0\nx'' = y' - k x'\ny'' = -x' - k y'\nx(0) = 1\ny(0) = 0\nx'(0) = 0\ny'(0) = 1\nstep 0.01\nuntil 0.1\n");
+    motus_system *s = given_text(
+        "k = 0\nx'' = y' - k x'\ny'' = -x' - k y'\nx(0) = 1\ny(0) = 0\nx'(0) = 0\ny'(0) = 1\nstep 0.01\nuntil 0.1\n");
     static const char *const vary[] = {"k"};
     const double k[2] = {0, 0.5}, *values[] = {k};
     double results[2], *places[] = {results};
@@ -419,13 +450,16 @@ static void watched_and_cancelled(void **state)
     enum { COUNT = 300 };
     double x[COUNT], result[COUNT], *at[] = {result};
     const double *values[] = {x};
-    for (int i = 0; i < COUNT; i++)
-        x[i] = 0.01 * i;
-    for (int m = 0; m < 3; m++) {                        /* many short ones; a single long one; lanes */
+    for (int i = 0; i < COUNT; i++) x[i] = 0.01 * i;
+    for (int m = 0; m < 3; m++) { /* many short ones; a single long one; lanes */
         motus_system *s = given_text("x'' = -sin(x)\nx(0) = 0\nx'(0) = 0\n");
         const size_t count = m == 1 ? 1 : COUNT;
         watcher w = {0, 3, 0};
-        motus_ensemble_def def = define(vary, 1, "kahan-li8", 0.001, m == 0 ? 1 : m == 1 ? 400 : 200, m < 2 ? "interpreter" : "compiled");
+        motus_ensemble_def def = define(vary, 1, "kahan-li8", 0.001,
+                                        m == 0   ? 1
+                                        : m == 1 ? 400
+                                                 : 200,
+                                        m < 2 ? "interpreter" : "compiled");
         def.record_count = 1;
         def.progress = watch;
         def.context = &w;
@@ -468,11 +502,17 @@ static void without_a_compiler(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(some_leave_the_finite_numbers), cmocka_unit_test(a_domain_is_left), cmocka_unit_test(no_solution),
-        cmocka_unit_test(the_lost_cost_nothing), cmocka_unit_test(names), cmocka_unit_test(definitions),
-        cmocka_unit_test(a_system_is_left_as_it_was), cmocka_unit_test(nothing_varies), cmocka_unit_test(a_method_that_no_longer_fits), cmocka_unit_test(watched_and_cancelled),
-        cmocka_unit_test(without_a_compiler)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(some_leave_the_finite_numbers),
+                                       cmocka_unit_test(a_domain_is_left),
+                                       cmocka_unit_test(no_solution),
+                                       cmocka_unit_test(the_lost_cost_nothing),
+                                       cmocka_unit_test(names),
+                                       cmocka_unit_test(definitions),
+                                       cmocka_unit_test(a_system_is_left_as_it_was),
+                                       cmocka_unit_test(nothing_varies),
+                                       cmocka_unit_test(a_method_that_no_longer_fits),
+                                       cmocka_unit_test(watched_and_cancelled),
+                                       cmocka_unit_test(without_a_compiler)};
     int failed = cmocka_run_group_tests_name("ensembles that meet trouble", tests, NULL, NULL);
     close_cache();
     return failed;

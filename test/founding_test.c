@@ -1,22 +1,23 @@
 /* Both founding documents, from their model files: the projectile of the page, the two recurrences of the notebook.
  *
- * Numbers of the notebook are those of its own loop in double precision; beside them stand the values of the same recurrences in
- * exact arithmetic (200 bits, h = 1/1000), 22 digits, and the solutions of the equations themselves.
+ * Numbers of the notebook are those of its own loop in double precision; beside them stand the values of the same
+ * recurrences in exact arithmetic (200 bits, h = 1/1000), 22 digits, and the solutions of the equations themselves.
  */
 #include "test/given.h"
 
-/* The page ----------------------------------------------------------------------------------------------------------- */
+/* The page --------------------------------------------------------------------------------------------------------- */
 
 enum { PAGE_STEPS = 60 };
 static const double PAGE_H = 0.05, PAGE_G = 9.81, PAGE_T = 3, PAGE_Y = -30.645, PAGE_X = 3;
 
-/* What rounding can do in n steps: each of them rounds y (below 31) and v (below 25) a last time, and what is lost in v acts for
- * the rest of the way; stages and products with h round quantities of the size h v once more; the literals 9.81, 4.5 and 0.05
- * are rounded too. */
+/* What rounding can do in n steps: each of them rounds y (below 31) and v (below 25) a last time, and what is lost in
+ * v acts for the rest of the way; stages and products with h round quantities of the size h v once more; the literals
+ * 9.81, 4.5 and 0.05 are rounded too. */
 static double page_rounding(void)
 {
     const double n = PAGE_STEPS, y = 31, v = 25;
-    return ROUNDING * (n * y + PAGE_H * v * (n * (n + 1) / 2 + 2 * n) + 2 * (PAGE_T * v + PAGE_G * PAGE_T * PAGE_T / 2));
+    return ROUNDING *
+           (n * y + PAGE_H * v * (n * (n + 1) / 2 + 2 * n) + 2 * (PAGE_T * v + PAGE_G * PAGE_T * PAGE_T / 2));
 }
 
 static void page(const char *method, double above)
@@ -35,31 +36,32 @@ static void page(const char *method, double above)
     motus_system_destroy(s);
 }
 
-/* y_n = y(t_n) ± (1/2) g h t_n: explicit Euler drifts with the velocity of before the kick, symplectic Euler with that of after. */
+/* y_n = y(t_n) ± (1/2) g h t_n: explicit Euler drifts with the velocity of before the kick, symplectic Euler with
+ * that of after. */
 static void eulers_miss_by_equal_and_opposite_amounts(void **state)
 {
     (void)state;
-    const double miss = PAGE_G * PAGE_H * PAGE_T / 2;        /* 0.73575 */
+    const double miss = PAGE_G * PAGE_H * PAGE_T / 2; /* 0.73575 */
     near(miss, 0.73575, 1e-15, "half g h t");
     page("explicit-euler", miss);
     page("symplectic-euler", -miss);
-    page(NULL, -miss);               /* the model's own method */
+    page(NULL, -miss); /* the model's own method */
 }
 
 static void order_two_is_exact_on_the_parabola(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"midpoint", "rk2", "verlet", "velocity-verlet", "leapfrog", "heun", "exact", "implicit-midpoint"};
-    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-        page(methods[i], 0);
+    static const char *const methods[] = {"midpoint", "rk2",  "verlet", "velocity-verlet",
+                                          "leapfrog", "heun", "exact",  "implicit-midpoint"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) page(methods[i], 0);
 }
 
-/* The notebook -------------------------------------------------------------------------------------------------------- */
+/* The notebook ----------------------------------------------------------------------------------------------------- */
 
 typedef struct entry {
     int64_t n;
-    double loop, other;              /* the notebook's loop, and the same with its terms in another order */
-    double recursion;                /* the recursion in exact arithmetic */
+    double loop, other; /* the notebook's loop, and the same with its terms in another order */
+    double recursion;   /* the recursion in exact arithmetic */
 } entry;
 
 static const entry driven[] = {
@@ -91,15 +93,15 @@ static void recurrence(const char *model, const char *method, const entry *table
         snprintf(what, sizeof what, "%s: x at step %lld", motus_run_method(r), (long long)table[i].n);
         take_steps(r, table[i].n - motus_run_steps(r));
         near(value(s, r, "x"), literal ? table[i].loop : table[i].recursion, bound, what);
-        if (literal)
-            near(value(s, r, "x"), table[i].other, bound, what);
+        if (literal) near(value(s, r, "x"), table[i].other, bound, what);
     }
     assert_true(motus_run_done(r));
     motus_run_destroy(r);
     motus_system_destroy(s);
 }
 
-/* 1e-13 and 1e-12 are what the summed form is held to; the plain recurrence loses some 1e-12 on the way (see `lost`). */
+/* 1e-13 and 1e-12 are what the summed form is held to; the plain recurrence loses some 1e-12 on the way (see
+ * `lost`). */
 static void verlet_is_the_recursion_in_exact_arithmetic(void **state)
 {
     (void)state;
@@ -107,12 +109,12 @@ static void verlet_is_the_recursion_in_exact_arithmetic(void **state)
     recurrence("damped-cubic.motus", NULL, damped, 0, 1e-12);
 }
 
-/* Two orders of the same terms differ by what the plain form loses to rounding: nothing closer than that can be asked of a third. */
+/* Two orders of the same terms differ by what the plain form loses to rounding: nothing closer than that can be asked
+ * of a third. */
 static double lost(const entry *table)
 {
     double most = 0;
-    for (int i = 0; i < ENTRIES; i++)
-        most = fmax(most, fabs(table[i].loop - table[i].other));
+    for (int i = 0; i < ENTRIES; i++) most = fmax(most, fabs(table[i].loop - table[i].other));
     return most;
 }
 
@@ -140,7 +142,8 @@ static double end_of(const char *model, double step)
     return x;
 }
 
-/* At half the step the recursion has its own value, and a quarter of the distance to the solution: 4.00 to the digits shown. */
+/* At half the step the recursion has its own value, and a quarter of the distance to the solution: 4.00 to the digits
+ * shown. */
 static void half_the_step_is_a_quarter_of_the_error(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* Any bytes as a model: read, explained, printed, looked at, run for a few steps with methods of every family. Bytes after a line "--set"
- * are settings, one a line.
+/* Any bytes as a model: read, explained, printed, looked at, run for a few steps with methods of every family. Bytes
+ * after a line "--set" are settings, one a line.
  *
- * Invariant: whatever comes, every call returns; an error has a message that a terminal can show; nothing is left of the memory.
- * Under libFuzzer the sanitizers judge; with -DREPLAY it is a plain program that replays the files named as arguments.
+ * Invariant: whatever comes, every call returns; an error has a message that a terminal can show; nothing is left of
+ * the memory. Under libFuzzer the sanitizers judge; with -DREPLAY it is a plain program that replays the files named
+ * as arguments.
  */
 #include "motus.h"
 #include "test/mathml.h"
@@ -15,25 +16,25 @@
 
 enum { HEADER = 32, NUMBERS = 1000, SETTINGS = 4, TYPESET_MAX = 1 << 17 };
 
-#define CHECK(truth)                                                        \
-    do {                                                                    \
-        if (!(truth)) {                                                     \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth);     \
-            abort();                                                        \
-        }                                                                   \
+#define CHECK(truth)                                                    \
+    do {                                                                \
+        if (!(truth)) {                                                 \
+            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth); \
+            abort();                                                    \
+        }                                                               \
     } while (0)
 
 /* Memory as a small machine has it: a model that asks for more is told so. */
-typedef struct ledger { size_t bytes, blocks; } ledger;
+typedef struct ledger {
+    size_t bytes, blocks;
+} ledger;
 
 static void *take_counted(void *context, size_t bytes)
 {
     ledger *l = context;
-    if (bytes > ((size_t)256 << 20) - l->bytes)
-        return NULL;
+    if (bytes > ((size_t)256 << 20) - l->bytes) return NULL;
     char *p = malloc(bytes + HEADER);
-    if (!p)
-        return NULL;
+    if (!p) return NULL;
     memcpy(p, &bytes, sizeof bytes);
     l->bytes += bytes;
     l->blocks++;
@@ -44,8 +45,7 @@ static void release_counted(void *context, void *block)
 {
     ledger *l = context;
     size_t bytes;
-    if (!block)
-        return;
+    if (!block) return;
     memcpy(&bytes, (char *)block - HEADER, sizeof bytes);
     l->bytes -= bytes;
     l->blocks--;
@@ -62,8 +62,7 @@ static void check_text(const char *text, size_t room)
         CHECK(*p >= 0x20 && *p != 0x7F);
         int more = *p < 0x80 ? 0 : *p >> 5 == 6 ? 1 : *p >> 4 == 14 ? 2 : *p >> 3 == 30 ? 3 : -1;
         CHECK(more >= 0);
-        for (p++; more > 0; more--, p++)
-            CHECK((*p & 0xC0) == 0x80);
+        for (p++; more > 0; more--, p++) CHECK((*p & 0xC0) == 0x80);
     }
 }
 
@@ -74,9 +73,9 @@ static void check_error(const motus_error *err, motus_status status)
     check_text(err->hint, sizeof err->hint);
     check_text(err->caret, sizeof err->caret);
     check_text(err->variable, sizeof err->variable);
-    CHECK(strnlen(err->source, sizeof err->source) < sizeof err->source);        /* the model's own bytes, which need not be UTF-8 */
-    for (const char *p = err->source; *p; p++)
-        CHECK((unsigned char)*p >= 0x20 && *p != 0x7F);
+    /* the model's own bytes, which need not be UTF-8 */
+    CHECK(strnlen(err->source, sizeof err->source) < sizeof err->source);
+    for (const char *p = err->source; *p; p++) CHECK((unsigned char)*p >= 0x20 && *p != 0x7F);
     CHECK((err->line > 0) == (err->column > 0));
 }
 
@@ -86,13 +85,12 @@ static void check_statements(motus_system *s)
     for (size_t k = 0; k < motus_statement_count(s) && k < NUMBERS; k++) {
         motus_statement statement = motus_default_statement();
         const char *text = motus_statement_mathml(s, k), *wrong;
-        CHECK(motus_statement_at(s, k, &statement) == MOTUS_OK && statement.name && (statement.line > 0 || statement.is_set));
-        if (!text)
-            continue;                /* no memory */
+        CHECK(motus_statement_at(s, k, &statement) == MOTUS_OK && statement.name &&
+              (statement.line > 0 || statement.is_set));
+        if (!text) continue; /* no memory */
         CHECK(strlen(text) < TYPESET_MAX);
         wrong = mathml_read(text, NULL, 0, NULL);
-        if (wrong)
-            fprintf(stderr, "%s: %s\n", wrong, text);
+        if (wrong) fprintf(stderr, "%s: %s\n", wrong, text);
         CHECK(!wrong);
     }
 }
@@ -110,8 +108,7 @@ static void look(motus_system *s, motus_run *r)
             CHECK(count >= 1 && first <= k && k < first + count);
         if (r) {
             motus_status status = motus_run_values(r, &k, 1, &value, &err);
-            if (status != MOTUS_OK)
-                check_error(&err, status);
+            if (status != MOTUS_OK) check_error(&err, status);
         }
     }
 }
@@ -128,16 +125,12 @@ static void run(motus_system *s, const char *method)
     def.machine = "interpreter";
     def.until = settings.from + 1;
     motus_status status = motus_run_create(s, &def, &r, &err);
-    if (status == MOTUS_OK)
-        status = motus_run_step(r, 3, &err);
+    if (status == MOTUS_OK) status = motus_run_step(r, 3, &err);
     const motus_trace_entry *const *entries;
     size_t count = 0;
-    if (status == MOTUS_OK)
-        status = motus_run_trace(r, &entries, &count, &err);
-    if (status != MOTUS_OK)
-        check_error(&err, status);
-    if (r)
-        look(s, r);
+    if (status == MOTUS_OK) status = motus_run_trace(r, &entries, &count, &err);
+    if (status != MOTUS_OK) check_error(&err, status);
+    if (r) look(s, r);
     motus_run_destroy(r);
 }
 
@@ -147,8 +140,7 @@ static int cheap(const uint8_t *bytes, size_t length)
     int digits = 0, sums = 0;
     for (size_t i = 0; i < length; i++) {
         digits = bytes[i] >= '0' && bytes[i] <= '9' ? digits + 1 : 0;
-        if (digits > 3 || (digits > 0 && i + 1 < length && (bytes[i + 1] | 0x20) == 'e'))
-            return 0;
+        if (digits > 3 || (digits > 0 && i + 1 < length && (bytes[i + 1] | 0x20) == 'e')) return 0;
         sums += i + 2 < length && bytes[i] == '.' && bytes[i + 1] == '.';
     }
     return sums < 8;
@@ -163,8 +155,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t length)
     motus_system *s = NULL;
     const char *set[SETTINGS];
     char *text = malloc(length + 1);
-    if (!text)
-        return 0;
+    if (!text) return 0;
     memcpy(text, bytes, length);
     text[length] = 0;
     def.text = text;
@@ -174,7 +165,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t length)
     if (tail) {
         def.length = (size_t)(tail - text);
         def.set = set;
-        for (char *line = strtok(tail + strlen("\n--set\n"), "\n"); line && def.set_count < SETTINGS; line = strtok(NULL, "\n"))
+        for (char *line = strtok(tail + strlen("\n--set\n"), "\n"); line && def.set_count < SETTINGS;
+             line = strtok(NULL, "\n"))
             set[def.set_count++] = line;
     }
     motus_status status = motus_system_from_text(&def, &s, &err);
@@ -187,15 +179,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t length)
             check_text(motus_equation_text(s, k), SIZE_MAX / 2);
         look(s, NULL);
         const char *emitted = motus_compiled_text(s, "rk4", &err);
-        for (const char *p = emitted; p && *p; p++)
-            CHECK(*p == '\n' || ((unsigned char)*p >= 0x20 && *p != 0x7F));
+        for (const char *p = emitted; p && *p; p++) CHECK(*p == '\n' || ((unsigned char)*p >= 0x20 && *p != 0x7F));
         if (cheap(bytes, length)) {
-            const char *explained = motus_explain(s);        /* evaluates the force at some places */
-            if (explained)
-                CHECK(strlen(explained) > 0);
-            static const char *const methods[] = {"rk4", "verlet", "velocity-verlet", "gauss4", "newmark", "boris", "exact", "yoshida4"};
-            for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-                run(s, methods[i]);
+            const char *explained = motus_explain(s); /* evaluates the force at some places */
+            if (explained) CHECK(strlen(explained) > 0);
+            static const char *const methods[] = {"rk4",     "verlet", "velocity-verlet", "gauss4",
+                                                  "newmark", "boris",  "exact",           "yoshida4"};
+            for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) run(s, methods[i]);
         }
     }
     motus_system_destroy(s);

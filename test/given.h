@@ -17,13 +17,12 @@
 #include <string.h>
 #include <cmocka.h>
 
-#define UNUSED __attribute__((unused))
-#define ROUNDING 0x1p-53              /* of one operation, relative */
+#define UNUSED   __attribute__((unused))
+#define ROUNDING 0x1p-53 /* of one operation, relative */
 
 UNUSED static void must(motus_status status, const motus_error *err, const char *what)
 {
-    if (status != MOTUS_OK)
-        fail_msg("%s: %s: %s (%s)", what, motus_status_word(status), err->message, err->hint);
+    if (status != MOTUS_OK) fail_msg("%s: %s: %s (%s)", what, motus_status_word(status), err->message, err->hint);
 }
 
 /* With `count` settings of parameters or initial values. */
@@ -42,7 +41,10 @@ UNUSED static motus_system *given_text_with(const char *text, const char *const 
 UNUSED static motus_system *given_text(const char *text) { return given_text_with(text, NULL, 0, text); }
 
 /* A progress hook that sees to it that fractions grow, and cancels at a call. */
-typedef struct watcher { int calls, cancel_at; double last; } watcher;
+typedef struct watcher {
+    int calls, cancel_at;
+    double last;
+} watcher;
 
 UNUSED static int watch(void *context, double fraction)
 {
@@ -56,8 +58,7 @@ UNUSED static int watch(void *context, double fraction)
 UNUSED static char *given_file(const char *path)
 {
     FILE *f = fopen(path, "rb");
-    if (!f)
-        fail_msg("cannot open %s", path);
+    if (!f) fail_msg("cannot open %s", path);
     size_t room = 1 << 20, n = 0;
     char *text = malloc(room);
     assert_non_null(text);
@@ -135,8 +136,7 @@ UNUSED static double *whole_state(const motus_system *s, motus_run *r, size_t *c
     assert_non_null(y);
     motus_error err = motus_default_error();
     must(motus_run_state(r, y, y + nx, &err), &err, "state");
-    if (count)
-        *count = nx + nv;
+    if (count) *count = nx + nv;
     return y;
 }
 
@@ -155,7 +155,8 @@ UNUSED static void same_state(const motus_system *s, motus_run *a, motus_run *b,
 UNUSED static void near(double got, double expected, double bound, const char *what)
 {
     if (!(fabs(got - expected) <= bound))
-        fail_msg("%s is %.17g, expected %.17g: off by %.3g, allowed %.3g", what, got, expected, fabs(got - expected), bound);
+        fail_msg("%s is %.17g, expected %.17g: off by %.3g, allowed %.3g", what, got, expected, fabs(got - expected),
+                 bound);
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* A cache of its own for the objects that a test compiles: kept from one test of a program to the next, gone with it. */
+/* A cache of its own for the objects that a test compiles: kept from one test of a program to the next, gone with
+ * it. */
 #ifndef TEST_GIVEN_CACHE_H
 #define TEST_GIVEN_CACHE_H
 
@@ -15,8 +16,7 @@ static char given_cache[] = "/tmp/motus-cache-XXXXXX";
 
 static inline void open_cache(void)
 {
-    if (!mkdtemp(given_cache))
-        exit(1);
+    if (!mkdtemp(given_cache)) exit(1);
     setenv("XDG_CACHE_HOME", given_cache, 1);
     unsetenv("SUDO_UID");
 }
@@ -30,11 +30,9 @@ static inline void close_cache(void)
     for (struct dirent *e; d && (e = readdir(d));) {
         char file[1200];
         snprintf(file, sizeof file, "%s/%s", path, e->d_name);
-        if (e->d_name[0] != '.')
-            unlink(file);
+        if (e->d_name[0] != '.') unlink(file);
     }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
     rmdir(path);
     rmdir(given_cache);
 }

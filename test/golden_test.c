@@ -1,6 +1,6 @@
-/* Golden results: the bits of the state after 50 steps, for every model in models/ and every method that admits it, as
- * test/golden.txt has them. A change of any operation of the language's normal form, of a method's text or of a row shows here;
- * so does a machine that computes other bits.
+/* Golden results: the bits of the state after 50 steps, for every model in models/ and every method that admits it,
+ * as test/golden.txt has them. A change of any operation of the language's normal form, of a method's text or of a
+ * row shows here; so does a machine that computes other bits.
  *
  * `golden_test --write` writes the file anew.
  */
@@ -10,10 +10,9 @@
 
 enum { STEPS = 50, NAME = 64, MODELS_MAX = 100, LINES_MAX = 4000 };
 
-static uint64_t mix(uint64_t h, const void *bytes, size_t n)         /* FNV-1a */
+static uint64_t mix(uint64_t h, const void *bytes, size_t n) /* FNV-1a */
 {
-    for (size_t i = 0; i < n; i++)
-        h = (h ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
+    for (size_t i = 0; i < n; i++) h = (h ^ ((const unsigned char *)bytes)[i]) * 1099511628211u;
     return h;
 }
 static const uint64_t START = 14695981039346656037u;
@@ -34,12 +33,14 @@ static void find_models(void)
         if (n > 6 && n < NAME && !strcmp(e->d_name + n - 6, ".motus") && model_count < MODELS_MAX)
             memcpy(models[model_count++], e->d_name, n + 1);
     }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
     qsort(models, model_count, NAME, by_name);
 }
 
-typedef struct line { char model[NAME], method[NAME]; uint64_t hash; } line;
+typedef struct line {
+    char model[NAME], method[NAME];
+    uint64_t hash;
+} line;
 
 /* One line: the hash of x and v after the steps, or of the way in which they failed. */
 static line compute(motus_system *s, const char *model, const char *method)
@@ -75,7 +76,7 @@ static size_t compute_model(const char *model, line *out)
     return n;
 }
 
-/* The file --------------------------------------------------------------------------------------------------------------- */
+/* The file --------------------------------------------------------------------------------------------------------- */
 
 static line recorded[LINES_MAX];
 static size_t recorded_count;
@@ -90,11 +91,9 @@ static void read_golden(void)
     for (char *p = text; *p; p += strcspn(p, "\n"), p += *p == '\n') {
         line *l = &recorded[recorded_count];
         unsigned long long hash;
-        if (*p == '#' || *p == '\n')
-            continue;
+        if (*p == '#' || *p == '\n') continue;
         assert_true(recorded_count < LINES_MAX);
-        if (sscanf(p, "%63s %63s %llx", l->model, l->method, &hash) != 3)
-            fail_msg("golden.txt: %.60s", p);
+        if (sscanf(p, "%63s %63s %llx", l->model, l->method, &hash) != 3) fail_msg("golden.txt: %.60s", p);
         l->hash = hash;
         recorded_count++;
     }
@@ -107,10 +106,11 @@ static int write_golden(void)
     line l[NAME];
     golden_path(path, sizeof path);
     FILE *f = fopen(path, "w");
-    if (!f)
-        return 1;
-    fprintf(f, "# The state after %d steps: model, method, hash (FNV-1a of the bytes of x and v, little-endian).\n"
-               "# Written by golden_test --write; see golden_test.c.\n", STEPS);
+    if (!f) return 1;
+    fprintf(f,
+            "# The state after %d steps: model, method, hash (FNV-1a of the bytes of x and v, little-endian).\n"
+            "# Written by golden_test --write; see golden_test.c.\n",
+            STEPS);
     for (size_t i = 0; i < model_count; i++) {
         size_t n = compute_model(models[i], l);
         for (size_t k = 0; k < n; k++)
@@ -122,12 +122,11 @@ static int write_golden(void)
 static const line *find(const char *model, const char *method)
 {
     for (size_t i = 0; i < recorded_count; i++)
-        if (!strcmp(recorded[i].model, model) && !strcmp(recorded[i].method, method))
-            return &recorded[i];
+        if (!strcmp(recorded[i].model, model) && !strcmp(recorded[i].method, method)) return &recorded[i];
     return NULL;
 }
 
-/* Tests --------------------------------------------------------------------------------------------------------------------- */
+/* Tests ------------------------------------------------------------------------------------------------------------ */
 
 static void a_model(void **state)
 {
@@ -135,20 +134,18 @@ static void a_model(void **state)
     line l[NAME];
     size_t n = compute_model(model, l), lines = 0, wrong = 0;
     assert_true(n > 8);
-    for (size_t i = 0; i < recorded_count; i++)
-        lines += !strcmp(recorded[i].model, model);
+    for (size_t i = 0; i < recorded_count; i++) lines += !strcmp(recorded[i].model, model);
     if (lines != n)
-        fail_msg("%s has %zu lines in golden.txt and %zu methods; golden_test --write writes them anew", model, lines, n);
+        fail_msg("%s has %zu lines in golden.txt and %zu methods; golden_test --write writes them anew", model, lines,
+                 n);
     for (size_t k = 0; k < n; k++) {
         const line *r = find(model, l[k].method);
-        if (!r)
-            fail_msg("%s by %s is not in golden.txt; golden_test --write writes it anew", model, l[k].method);
+        if (!r) fail_msg("%s by %s is not in golden.txt; golden_test --write writes it anew", model, l[k].method);
         if (r->hash != l[k].hash && wrong++ < 5)
             print_error("%s by %s: %016llx, recorded %016llx\n", model, l[k].method, (unsigned long long)l[k].hash,
-                (unsigned long long)r->hash);
+                        (unsigned long long)r->hash);
     }
-    if (wrong)
-        fail_msg("%zu of %zu results have other bits", wrong, n);
+    if (wrong) fail_msg("%zu of %zu results have other bits", wrong, n);
 }
 
 /* Nothing on record that is no longer computed. */
@@ -157,10 +154,8 @@ static void the_record_is_whole(void **state)
     (void)state;
     for (size_t i = 0; i < recorded_count; i++) {
         int known = 0;
-        for (size_t k = 0; k < model_count; k++)
-            known |= !strcmp(models[k], recorded[i].model);
-        if (!known)
-            fail_msg("%s is on record and not in models/", recorded[i].model);
+        for (size_t k = 0; k < model_count; k++) known |= !strcmp(models[k], recorded[i].model);
+        if (!known) fail_msg("%s is on record and not in models/", recorded[i].model);
         assert_ptr_equal(find(recorded[i].model, recorded[i].method), &recorded[i]);
     }
     assert_true(recorded_count > 100);
@@ -170,8 +165,7 @@ int main(int argc, char **argv)
 {
     static struct CMUnitTest tests[MODELS_MAX + 1];
     find_models();
-    if (argc > 1 && !strcmp(argv[1], "--write"))
-        return write_golden();
+    if (argc > 1 && !strcmp(argv[1], "--write")) return write_golden();
     read_golden();
     for (size_t i = 0; i < model_count; i++)
         tests[i] = (struct CMUnitTest){.name = models[i], .test_func = a_model, .initial_state = models[i]};

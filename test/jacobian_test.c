@@ -1,5 +1,5 @@
-/* motus_run_jacobian against derivatives taken by hand: models, which know theirs exactly; callbacks with a derivative and without; families, whose
- * numbers lie otherwise inside than they are seen.
+/* motus_run_jacobian against derivatives taken by hand: models, which know theirs exactly; callbacks with a
+ * derivative and without; families, whose numbers lie otherwise inside than they are seen.
  */
 #include "test/given.h"
 
@@ -74,23 +74,29 @@ static void models_by_hand(void **state)
     motus_system_destroy(s);
 }
 
-/* Vectors in a family, an equation without a cell in between, a driven boundary, and a companion: rows and columns are those of motus_run_state. */
+/* Vectors in a family, an equation without a cell in between, a driven boundary, and a companion: rows and columns
+ * are those of motus_run_state. */
 static void a_family_by_hand(void **state)
 {
     (void)state;
-    motus_system *s = given_text("r[i]'' = (2 r[i+1].x + 3 r[i-1].y, r[i].x r[i].y s - r[i]'.x)   for i = 1..2\nr[0] = (t, 7)\nr[3] = (0, 0)\n"
-                                 "s' = -s^2 + r[2].y\n"
-                                 "r[i](0) = (i, 10 i)   for i = 1..2\nr[i]'(0) = (0, 0)   for i = 1..2\ns(0) = 4\n");
+    motus_system *s = given_text(
+        "r[i]'' = (2 r[i+1].x + 3 r[i-1].y, r[i].x r[i].y s - r[i]'.x)   for i = 1..2\nr[0] = (t, 7)\nr[3] = (0, 0)\n"
+        "s' = -s^2 + r[2].y\n"
+        "r[i](0) = (i, 10 i)   for i = 1..2\nr[i]'(0) = (0, 0)   for i = 1..2\ns(0) = 4\n");
     motus_run *r = run_of(s, 3);
     double x[4], v[5], dx[20], dv[25];
     state_of(r, x, v);
     derive(r, dx, dv);
     /* positions r[1].x, r[1].y, r[2].x, r[2].y; v: their velocities, s */
-    const double want_x[5][4] = {{0, 0, 2, 0}, {x[1] * v[4], x[0] * v[4], 0, 0}, {0, 3, 0, 0}, {0, 0, x[3] * v[4], x[2] * v[4]}, {0, 0, 0, 1}};
-    const double want_v[5][5] = {{0}, {-1, 0, 0, 0, x[0] * x[1]}, {0}, {0, 0, -1, 0, x[2] * x[3]}, {0, 0, 0, 0, -2 * v[4]}};
+    const double want_x[5][4] = {
+        {0, 0, 2, 0}, {x[1] * v[4], x[0] * v[4], 0, 0}, {0, 3, 0, 0}, {0, 0, x[3] * v[4], x[2] * v[4]}, {0, 0, 0, 1}};
+    const double want_v[5][5] = {
+        {0}, {-1, 0, 0, 0, x[0] * x[1]}, {0}, {0, 0, -1, 0, x[2] * x[3]}, {0, 0, 0, 0, -2 * v[4]}};
     for (int i = 0; i < 5; i++) {
-        for (int j = 0; j < 4; j++) near(dx[4 * i + j], want_x[i][j], 4 * DBL_EPSILON * fabs(want_x[i][j]), "family, x");
-        for (int j = 0; j < 5; j++) near(dv[5 * i + j], want_v[i][j], 4 * DBL_EPSILON * fabs(want_v[i][j]), "family, v");
+        for (int j = 0; j < 4; j++)
+            near(dx[4 * i + j], want_x[i][j], 4 * DBL_EPSILON * fabs(want_x[i][j]), "family, x");
+        for (int j = 0; j < 5; j++)
+            near(dv[5 * i + j], want_v[i][j], 4 * DBL_EPSILON * fabs(want_v[i][j]), "family, v");
     }
     motus_run_destroy(r);
     motus_system_destroy(s);
@@ -107,7 +113,8 @@ static int pull(void *context, double t, const double *x, const double *v, doubl
     return 0;
 }
 
-static int slope(void *context, double t, const double *x, const double *v, const double *dx, const double *dv, double *da)
+static int slope(void *context, double t, const double *x, const double *v, const double *dx, const double *dv,
+                 double *da)
 {
     int *calls = context;
     (void)t, (void)v;
@@ -136,7 +143,8 @@ static motus_system *callback_of(int with_slope, int linear, int *calls)
     return s;
 }
 
-/* With a derivative: to rounding. Without: half of the digits; by v, of which the force is said to be linear, nearly all. */
+/* With a derivative: to rounding. Without: half of the digits; by v, of which the force is said to be linear, nearly
+ * all. */
 static void callbacks_by_hand(void **state)
 {
     (void)state;
@@ -145,8 +153,10 @@ static void callbacks_by_hand(void **state)
         motus_run *r = run_of(s, 0);
         double dx[6], dv[9];
         derive(r, dx, dv);
-        const double want_x[] = {-cos(0.7) * 1.5, -sin(0.7), 3 * 0.49, 0, 0, 1}, want_v[] = {0, -0.3, 0, -2, 0, 1, 0, 0, -1};
-        /* a difference quotient with a shift of √ε: ε/√ε from rounding, √ε times half the second derivative (4.2 at most) from truncation */
+        const double want_x[] = {-cos(0.7) * 1.5, -sin(0.7), 3 * 0.49, 0, 0, 1},
+                     want_v[] = {0, -0.3, 0, -2, 0, 1, 0, 0, -1};
+        /* a difference quotient with a shift of √ε: ε/√ε from rounding, √ε times half the second derivative (4.2 at
+         * most) from truncation */
         const double quotient = 16 * sqrt(DBL_EPSILON);
         for (int k = 0; k < 6; k++) near(dx[k], want_x[k], kind ? quotient : 4 * DBL_EPSILON, "callback, x");
         for (int k = 0; k < 9; k++) near(dv[k], want_v[k], kind == 1 ? quotient : 16 * DBL_EPSILON, "callback, v");
@@ -185,7 +195,9 @@ static void wrong_requests(void **state)
         char text[200], set[20];
         snprintf(set, sizeof set, "N=%d", MOTUS_JACOBIAN_MAX + extra);
         const char *sets[] = {set};
-        snprintf(text, sizeof text, "N = 3\nx[i]'' = x[i+1] - 2 x[i] + x[i-1]   for i = 1..N\nx[0] = 0\nx[N+1] = 0\nx[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\n");
+        snprintf(text, sizeof text,
+                 "N = 3\nx[i]'' = x[i+1] - 2 x[i] + x[i-1]   for i = 1..N\nx[0] = 0\nx[N+1] = 0\nx[i](0) = i   for i = "
+                 "1..N\nx[i]'(0) = 0   for i = 1..N\n");
         motus_system *s = given_text_with(text, sets, 1, "chain");
         motus_run *r = run_of(s, 0);
         if (extra) {
@@ -194,7 +206,8 @@ static void wrong_requests(void **state)
         } else {
             derive(r, much, NULL);
             for (int i = 0; i < MOTUS_JACOBIAN_MAX; i++)
-                for (int j = 0; j < MOTUS_JACOBIAN_MAX; j++) assert_true(much[i * MOTUS_JACOBIAN_MAX + j] == (i == j ? -2 : abs(i - j) == 1 ? 1 : 0));
+                for (int j = 0; j < MOTUS_JACOBIAN_MAX; j++)
+                    assert_true(much[i * MOTUS_JACOBIAN_MAX + j] == (i == j ? -2 : abs(i - j) == 1 ? 1 : 0));
         }
         motus_run_destroy(r);
         motus_system_destroy(s);
@@ -216,8 +229,9 @@ static void wrong_requests(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_by_hand), cmocka_unit_test(a_family_by_hand), cmocka_unit_test(callbacks_by_hand),
-        cmocka_unit_test(looking_changes_nothing), cmocka_unit_test(wrong_requests),
+        cmocka_unit_test(models_by_hand),    cmocka_unit_test(a_family_by_hand),
+        cmocka_unit_test(callbacks_by_hand), cmocka_unit_test(looking_changes_nothing),
+        cmocka_unit_test(wrong_requests),
     };
     return cmocka_run_group_tests_name("jacobian", tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* The rules of the language, by number: expressions and their values, lines that --set replaces, and what is refused.
  *
- * Values are compared to the bit: the expressions are chosen so that every operation in them is exact, or the same as C's.
- * What a whole file must say is in test/right; what must be refused, with line, column and message, in test/wrong.
+ * Values are compared to the bit: the expressions are chosen so that every operation in them is exact, or the same as
+ * C's. What a whole file must say is in test/right; what must be refused, with line, column and message, in
+ * test/wrong.
  */
 #include "test/given.h"
 
@@ -11,17 +12,22 @@
 /* ---- one expression, looked at where the motion starts ---- */
 
 /* x = 2, x' = 3, r = (1, 2, 3), r' = (4, 5, 6), s = 7, u[1…4] = 10 … 40, u[0] = u[5] = -1; u[i]' = i; t = 0 */
-static const char given[] =
-    "x'' = -x + 0 t\nx(0) = 2\nx'(0) = 3\n"
-    "r'' = -r\nr(0) = (1, 2, 3)\nr'(0) = (4, 5, 6)\n"
-    "s' = x\ns(0) = 7\n"
-    "N = 4\nu[i]'' = u[i+1] - u[i-1] for i = 1..N\nu[0] = -1\nu[N+1] = -1\nu[i](0) = 10 i for i = 1..N\nu[i]'(0) = i for i = 1..N\n"
-    "a = 5\nb = 3\nbeta = 10\ngamma = 4\ne = 2\nxy = 100\ny = 8\ng = (0, -10)\nm = [3, 4, 5]\nplaces = [(1, 2), (3, 4)]\n"
-    "A[i,j] = 10 i + j for i = 1..2, j = 1..3\n";
+static const char given[] = "x'' = -x + 0 t\nx(0) = 2\nx'(0) = 3\n"
+                            "r'' = -r\nr(0) = (1, 2, 3)\nr'(0) = (4, 5, 6)\n"
+                            "s' = x\ns(0) = 7\n"
+                            "N = 4\nu[i]'' = u[i+1] - u[i-1] for i = 1..N\nu[0] = -1\nu[N+1] = -1\nu[i](0) = 10 i for "
+                            "i = 1..N\nu[i]'(0) = i for i = 1..N\n"
+                            "a = 5\nb = 3\nbeta = 10\ngamma = 4\ne = 2\nxy = 100\ny = 8\ng = (0, -10)\nm = [3, 4, "
+                            "5]\nplaces = [(1, 2), (3, 4)]\n"
+                            "A[i,j] = 10 i + j for i = 1..2, j = 1..3\n";
 
-typedef struct example { const char *expression; double value; } example;
+typedef struct example {
+    const char *expression;
+    double value;
+} example;
 
-static motus_status read_text(const char *text, const char *const *set, size_t count, motus_system **s, motus_error *err)
+static motus_status read_text(const char *text, const char *const *set, size_t count, motus_system **s,
+                              motus_error *err)
 {
     motus_text_def def = motus_default_text();
     def.text = text;
@@ -41,7 +47,8 @@ static double at_start(const char *text, const char *const *set, size_t count, c
     double value = NAN;
     def.step = 0.1;
     def.method = "rk4";
-    if (read_text(text, set, count, &s, &err) == MOTUS_OK && motus_column_find(s, column, &first, &n, &err) == MOTUS_OK) {
+    if (read_text(text, set, count, &s, &err) == MOTUS_OK &&
+        motus_column_find(s, column, &first, &n, &err) == MOTUS_OK) {
         motus_settings settings = motus_default_settings();
         motus_settings_of(s, &settings);
         def.until = settings.from + 1;
@@ -51,7 +58,8 @@ static double at_start(const char *text, const char *const *set, size_t count, c
             (void)motus_run_values(r, &first, 1, &value, &err);
     }
     if (err.message[0])
-        print_error("%d:%d: %s (%s)\n    %s\n    %s\n", err.line, err.column, err.message, err.hint, err.source, err.caret);
+        print_error("%d:%d: %s (%s)\n    %s\n    %s\n", err.line, err.column, err.message, err.hint, err.source,
+                    err.caret);
     motus_run_destroy(r);
     motus_system_destroy(s);
     return value;
@@ -59,7 +67,8 @@ static double at_start(const char *text, const char *const *set, size_t count, c
 
 static bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* ulps: how many units in the last place the value may be off; our elementary functions are within 1, and so are C's. */
+/* ulps: how many units in the last place the value may be off; our elementary functions are within 1, and so are
+ * C's. */
 static void examples(const example *e, size_t count, int ulps)
 {
     int faults = 0;
@@ -75,25 +84,30 @@ static void examples(const example *e, size_t count, int ulps)
     }
     assert_int_equal(faults, 0);
 }
-#define EXAMPLES(...)                                              \
-    do {                                                           \
-        const example e[] = {__VA_ARGS__};                         \
-        examples(e, sizeof e / sizeof *e, 0);                      \
+#define EXAMPLES(...)                         \
+    do {                                      \
+        const example e[] = {__VA_ARGS__};    \
+        examples(e, sizeof e / sizeof *e, 0); \
     } while (0)
-#define EXAMPLES_NEAR(...)                                         \
-    do {                                                           \
-        const example e[] = {__VA_ARGS__};                         \
-        examples(e, sizeof e / sizeof *e, 2);                      \
+#define EXAMPLES_NEAR(...)                    \
+    do {                                      \
+        const example e[] = {__VA_ARGS__};    \
+        examples(e, sizeof e / sizeof *e, 2); \
     } while (0)
 
-/* Refused: the status, and what the message or the hint must name. The column is counted from the beginning of the expression. */
-typedef struct refusal { const char *expression; motus_status status; int column; const char *named; } refusal;
+/* Refused: the status, and what the message or the hint must name. The column is counted from the beginning of the
+ * expression. */
+typedef struct refusal {
+    const char *expression;
+    motus_status status;
+    int column;
+    const char *named;
+} refusal;
 
 static int line_of_expression(void)
 {
     int line = 1;
-    for (const char *p = given; *p; p++)
-        line += *p == '\n';
+    for (const char *p = given; *p; p++) line += *p == '\n';
     return line;
 }
 
@@ -108,8 +122,9 @@ static void refusals(const refusal *e, size_t count)
         motus_status status = read_text(text, NULL, 0, &s, &err);
         if (status != e[i].status || err.line != line_of_expression() || err.column != 9 + e[i].column ||
             (!strstr(err.message, e[i].named) && !strstr(err.hint, e[i].named))) {
-            print_error("%s: %s %d:%d %s (%s)\n    and not %s, column %d, naming %s\n", e[i].expression, motus_status_word(status), err.line,
-                        err.column - 9, err.message, err.hint, motus_status_word(e[i].status), e[i].column, e[i].named);
+            print_error("%s: %s %d:%d %s (%s)\n    and not %s, column %d, naming %s\n", e[i].expression,
+                        motus_status_word(status), err.line, err.column - 9, err.message, err.hint,
+                        motus_status_word(e[i].status), e[i].column, e[i].named);
             faults++;
         }
         assert_true(status != MOTUS_OK ? s == NULL : s != NULL);
@@ -117,126 +132,165 @@ static void refusals(const refusal *e, size_t count)
     }
     assert_int_equal(faults, 0);
 }
-#define REFUSALS(...)                                              \
-    do {                                                           \
-        const refusal e[] = {__VA_ARGS__};                         \
-        refusals(e, sizeof e / sizeof *e);                         \
+#define REFUSALS(...)                      \
+    do {                                   \
+        const refusal e[] = {__VA_ARGS__}; \
+        refusals(e, sizeof e / sizeof *e); \
     } while (0)
 
 static void rule_1_names_and_numbers(void **unused)
 {
     (void)unused;
-    EXAMPLES({"xy", 100}, {"x y", 16}, {"beta gamma e", 80}, {"2e3", 2000}, {"2e", 4}, {"2 e", 4}, {"2.5", 2.5}, {"0.5e-1", 0.5e-1}, {"1E2", 100},
-             {"3x", 6}, {"2e1x", 40}, {"2pi", 2 * 3.14159265358979323846}, {"1e+2", 100}, {"0.1", 0.1}, {"179769313486231570e291", 1.7976931348623157e308},
-             {"4.9e-324", 4.9e-324}, {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7});
-    REFUSALS({"1.", MOTUS_SYNTAX, 1, "1.0"}, {".5", MOTUS_SYNTAX, 1, "0.5"}, {"x.5", MOTUS_SYNTAX, 2, "0.5"}, {"1.5.2", MOTUS_SYNTAX, 1, "one decimal"},
-             {"yx", MOTUS_NAME, 1, "write y x"}, {"wx", MOTUS_NAME, 1, "not defined"});
+    EXAMPLES({"xy", 100}, {"x y", 16}, {"beta gamma e", 80}, {"2e3", 2000}, {"2e", 4}, {"2 e", 4}, {"2.5", 2.5},
+             {"0.5e-1", 0.5e-1}, {"1E2", 100}, {"3x", 6}, {"2e1x", 40}, {"2pi", 2 * 3.14159265358979323846},
+             {"1e+2", 100}, {"0.1", 0.1}, {"179769313486231570e291", 1.7976931348623157e308}, {"4.9e-324", 4.9e-324},
+             {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7});
+    REFUSALS({"1.", MOTUS_SYNTAX, 1, "1.0"}, {".5", MOTUS_SYNTAX, 1, "0.5"}, {"x.5", MOTUS_SYNTAX, 2, "0.5"},
+             {"1.5.2", MOTUS_SYNTAX, 1, "one decimal"}, {"yx", MOTUS_NAME, 1, "write y x"},
+             {"wx", MOTUS_NAME, 1, "not defined"});
 }
 
 static void rule_2_precedence(void **unused)
 {
     (void)unused;
-    EXAMPLES({"-x^2", -4}, {"-a x' + x", -13}, {"2^3^2", 512}, {"2^-1", 0.5}, {"x^+2", 4}, {"2^-x^2", 0.0625}, {"12/x/b", 2}, {"12/x*b", 18},
-             {"a - b - x", 0}, {"a - (b - x)", 4}, {"2x^2", 8}, {"2x^2y", 64}, {"a b^2", 45}, {"2 x y", 32}, {"(2)(3)", 6}, {"2(3)", 6}, {"x'^2", 9},
-             {"x' x", 6}, {"r.x^2 + r.z", 4}, {"r'.y^2", 25}, {"2r.y", 4}, {"r[3]^2", 9}, {"u[2]^2", 400}, {"u[2]'^2", 4}, {"2u[3]'", 6}, {"u[1]' u[2]", 20},
-             {"2*-3", -6}, {"6/-3", -2}, {"a*b + x*y", 31}, {"+a", 5}, {"-(-a)", 5}, {"if(1 + 1 == 2, 1, 0)", 1}, {"if(not 1 > 2 and 2 > 1, 1, 0)", 1},
-             {"if(1 > 2 and 1 > 2 or 2 > 1, 1, 0)", 1}, {"if(2 > 1 or 1 > 2 and 1 > 2, 1, 0)", 1}, {"if(not (1 > 2 or 2 > 1), 1, 0)", 0}, {"-2^2", -4});
+    EXAMPLES({"-x^2", -4}, {"-a x' + x", -13}, {"2^3^2", 512}, {"2^-1", 0.5}, {"x^+2", 4}, {"2^-x^2", 0.0625},
+             {"12/x/b", 2}, {"12/x*b", 18}, {"a - b - x", 0}, {"a - (b - x)", 4}, {"2x^2", 8}, {"2x^2y", 64},
+             {"a b^2", 45}, {"2 x y", 32}, {"(2)(3)", 6}, {"2(3)", 6}, {"x'^2", 9}, {"x' x", 6}, {"r.x^2 + r.z", 4},
+             {"r'.y^2", 25}, {"2r.y", 4}, {"r[3]^2", 9}, {"u[2]^2", 400}, {"u[2]'^2", 4}, {"2u[3]'", 6},
+             {"u[1]' u[2]", 20}, {"2*-3", -6}, {"6/-3", -2}, {"a*b + x*y", 31}, {"+a", 5}, {"-(-a)", 5},
+             {"if(1 + 1 == 2, 1, 0)", 1}, {"if(not 1 > 2 and 2 > 1, 1, 0)", 1},
+             {"if(1 > 2 and 1 > 2 or 2 > 1, 1, 0)", 1}, {"if(2 > 1 or 1 > 2 and 1 > 2, 1, 0)", 1},
+             {"if(not (1 > 2 or 2 > 1), 1, 0)", 0}, {"-2^2", -4});
 }
 
 static void rule_2_juxtaposition(void **unused)
 {
     (void)unused;
-    EXAMPLES({"2 x", 4}, {"2 sin(0) x", 0}, {"x |x'|", 6}, {"2|x|", 4}, {"(a)(b)x", 30}, {"a (b)", 15}, {"x' y", 24}, {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12});
-    REFUSALS({"x 2", MOTUS_SYNTAX, 1, "2 x"}, {"2 3^2", MOTUS_SYNTAX, 1, "2*3"}, {"(r 2).x", MOTUS_SYNTAX, 2, "2 r"}, {"2 3", MOTUS_SYNTAX, 1, "2*3"}, {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
-             {"sin(x) 2", MOTUS_SYNTAX, 1, "2 sin(x)"}, {"|x| 2", MOTUS_SYNTAX, 1, "2 |x|"}, {"a b 2", MOTUS_SYNTAX, 3, "2 b"}, {"a - -b", MOTUS_SYNTAX, 5, "bracket"},
+    EXAMPLES({"2 x", 4}, {"2 sin(0) x", 0}, {"x |x'|", 6}, {"2|x|", 4}, {"(a)(b)x", 30}, {"a (b)", 15}, {"x' y", 24},
+             {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12});
+    REFUSALS({"x 2", MOTUS_SYNTAX, 1, "2 x"}, {"2 3^2", MOTUS_SYNTAX, 1, "2*3"}, {"(r 2).x", MOTUS_SYNTAX, 2, "2 r"},
+             {"2 3", MOTUS_SYNTAX, 1, "2*3"}, {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
+             {"sin(x) 2", MOTUS_SYNTAX, 1, "2 sin(x)"}, {"|x| 2", MOTUS_SYNTAX, 1, "2 |x|"},
+             {"a b 2", MOTUS_SYNTAX, 3, "2 b"}, {"a - -b", MOTUS_SYNTAX, 5, "bracket"},
              {"1 < x < 3", MOTUS_SYNTAX, 7, "and"}, {"x**2", MOTUS_SYNTAX, 2, "^"});
 }
 
 static void rule_3_division(void **unused)
 {
     (void)unused;
-    EXAMPLES({"a x^2/2", 10}, {"(1/2) x", 1}, {"1/(2 x)", 0.25}, {"1/2*x", 1}, {"1/x + y", 8.5}, {"1/2 - x", -1.5}, {"a b/b", 5}, {"12/x/b", 2}, {"1/x^2", 0.25},
-             {"1/sin(x)", 1 / sin(2)}, {"a/(x) + 0", 2.5}, {"1/|x|", 0.5}, {"1/2*x y", 8});
-    REFUSALS({"1/2 x", MOTUS_SYNTAX, 3, "write (1/2) x or 1/(2 x)"}, {"a/b (x)", MOTUS_SYNTAX, 3, "(a/b) (x) or a/(b (x))"}, {"a/b(x)", MOTUS_SYNTAX, 3, "b*(x)"},
-             {"a/2 |x|", MOTUS_SYNTAX, 3, "(a/2) |x|"}, {"a/x sin(y)", MOTUS_SYNTAX, 3, "(a/x) sin(y)"}, {"1/x 2", MOTUS_SYNTAX, 3, "2 x"},
-             {"a*b/2 x", MOTUS_SYNTAX, 5, "(a*b/2) x"}, {"1/2(x)", MOTUS_SYNTAX, 3, "(1/2) (x)"});
+    EXAMPLES({"a x^2/2", 10}, {"(1/2) x", 1}, {"1/(2 x)", 0.25}, {"1/2*x", 1}, {"1/x + y", 8.5}, {"1/2 - x", -1.5},
+             {"a b/b", 5}, {"12/x/b", 2}, {"1/x^2", 0.25}, {"1/sin(x)", 1 / sin(2)}, {"a/(x) + 0", 2.5}, {"1/|x|", 0.5},
+             {"1/2*x y", 8});
+    REFUSALS({"1/2 x", MOTUS_SYNTAX, 3, "write (1/2) x or 1/(2 x)"},
+             {"a/b (x)", MOTUS_SYNTAX, 3, "(a/b) (x) or a/(b (x))"}, {"a/b(x)", MOTUS_SYNTAX, 3, "b*(x)"},
+             {"a/2 |x|", MOTUS_SYNTAX, 3, "(a/2) |x|"}, {"a/x sin(y)", MOTUS_SYNTAX, 3, "(a/x) sin(y)"},
+             {"1/x 2", MOTUS_SYNTAX, 3, "2 x"}, {"a*b/2 x", MOTUS_SYNTAX, 5, "(a*b/2) x"},
+             {"1/2(x)", MOTUS_SYNTAX, 3, "(1/2) (x)"});
 }
 
 static void rule_4_brackets_behind_names(void **unused)
 {
     (void)unused;
-    EXAMPLES({"abs (-3)", 3}, {"sqrt(16)", 4}, {"x(0)", 2}, {"x'(0)", 3}, {"r'(0).y", 5}, {"u[2](0)", 20}, {"u[2]'(0) y", 16}, {"x(0)^2", 4}, {"2x(0) y", 32},
-             {"x(1 - 1)", 2}, {"a (b)", 15}, {"a (2 abs(-1))", 10}, {"x (x + 1)", 6}, {"x*(3)", 6}, {"beta (x)", 20}, {"pi (2)", 2 * 3.14159265358979323846},
-             {"t (2)", 0}, {"s(0)", 7}, {"x'(0) t + 1", 1}, {"2(a)", 10}, {"r(0).z y", 24}, {"dot(r(0), r'(0))", 32});
+    EXAMPLES({"abs (-3)", 3}, {"sqrt(16)", 4}, {"x(0)", 2}, {"x'(0)", 3}, {"r'(0).y", 5}, {"u[2](0)", 20},
+             {"u[2]'(0) y", 16}, {"x(0)^2", 4}, {"2x(0) y", 32}, {"x(1 - 1)", 2}, {"a (b)", 15}, {"a (2 abs(-1))", 10},
+             {"x (x + 1)", 6}, {"x*(3)", 6}, {"beta (x)", 20}, {"pi (2)", 2 * 3.14159265358979323846}, {"t (2)", 0},
+             {"s(0)", 7}, {"x'(0) t + 1", 1}, {"2(a)", 10}, {"r(0).z y", 24}, {"dot(r(0), r'(0))", 32});
 }
 
 static void rule_4_refused(void **unused)
 {
     (void)unused;
-    REFUSALS({"beta(x)", MOTUS_SYNTAX, 1, "write beta*(x) or beta (x)"}, {"f(t)", MOTUS_NAME, 1, "f"}, {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"x (0)", MOTUS_SYNTAX, 1, "x(0)"},
-             {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"}, {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"}, {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"}, {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"}, {"x(t)", MOTUS_SHAPE, 1, "x*("},
-             {"x(1)", MOTUS_SHAPE, 1, "start is 0"}, {"x''(0)", MOTUS_SHAPE, 1, "equation"}, {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"},
-             {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"}, {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"}, {"m(1)", MOTUS_SYNTAX, 1, "not a function"}, {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
+    REFUSALS({"beta(x)", MOTUS_SYNTAX, 1, "write beta*(x) or beta (x)"}, {"f(t)", MOTUS_NAME, 1, "f"},
+             {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"x (0)", MOTUS_SYNTAX, 1, "x(0)"},
+             {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"}, {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"},
+             {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"}, {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"},
+             {"x(t)", MOTUS_SHAPE, 1, "x*("}, {"x(1)", MOTUS_SHAPE, 1, "start is 0"},
+             {"x''(0)", MOTUS_SHAPE, 1, "equation"}, {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"},
+             {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"}, {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"},
+             {"m(1)", MOTUS_SYNTAX, 1, "not a function"}, {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
 }
 
 static void rule_5_functions(void **unused)
 {
     (void)unused;
-    EXAMPLES_NEAR({"sin(x)", sin(2)}, {"cos(x)", cos(2)}, {"tan(x)", tan(2)}, {"asin(x/4)", asin(0.5)}, {"acos(x/4)", acos(0.5)}, {"atan(x)", atan(2)},
-             {"atan2(-x, -b)", atan2(-2, -3)}, {"sinh(x)", sinh(2)}, {"cosh(x)", cosh(2)}, {"tanh(x)", tanh(2)}, {"exp(x)", exp(2)}, {"log(x)", log(2)}, {"sqrt(x)", sqrt(2)},
-             {"cbrt(27)", 3}, {"hypot(3, 4)", 5});
-    EXAMPLES({"abs(-x)", 2}, {"min(x, a, -1)", -1}, {"max(x, a, -1)", 5}, {"floor(-2.5)", -3}, {"mod(7, 3)", 1}, {"mod(-1, 3)", 2},
-             {"sign(-3)", -1}, {"sign(0)", 0}, {"x^a", 32}, {"2^x", 4});
-    EXAMPLES_NEAR({"erf(0.5)", erf(0.5)}, {"sin(x)^2", sin(2) * sin(2)}, {"x^0.5", pow(2, 0.5)}, {"sin (x)", sin(2)}, {"atan2(1, 0)", atan2(1, 0)});
-    REFUSALS({"sin x", MOTUS_SYNTAX, 1, "sin(x)"}, {"sin 2", MOTUS_SYNTAX, 1, "sin(2)"}, {"sin^2(x)", MOTUS_SYNTAX, 1, "sin(x)^2"}, {"sin", MOTUS_SYNTAX, 1, "sin("},
-             {"2 cos x", MOTUS_SYNTAX, 3, "cos(x)"}, {"sin + 1", MOTUS_SYNTAX, 1, "sin("}, {"atan2(x)", MOTUS_SYNTAX, 1, "2 arguments"}, {"sin(x, y)", MOTUS_SYNTAX, 1, "1 argument"},
-             {"min(x)", MOTUS_SYNTAX, 1, "at least 2"}, {"sin|x|", MOTUS_SYNTAX, 1, "sin("}, {"sqrt x", MOTUS_SYNTAX, 1, "sqrt(x)"});
+    EXAMPLES_NEAR({"sin(x)", sin(2)}, {"cos(x)", cos(2)}, {"tan(x)", tan(2)}, {"asin(x/4)", asin(0.5)},
+                  {"acos(x/4)", acos(0.5)}, {"atan(x)", atan(2)}, {"atan2(-x, -b)", atan2(-2, -3)},
+                  {"sinh(x)", sinh(2)}, {"cosh(x)", cosh(2)}, {"tanh(x)", tanh(2)}, {"exp(x)", exp(2)},
+                  {"log(x)", log(2)}, {"sqrt(x)", sqrt(2)}, {"cbrt(27)", 3}, {"hypot(3, 4)", 5});
+    EXAMPLES({"abs(-x)", 2}, {"min(x, a, -1)", -1}, {"max(x, a, -1)", 5}, {"floor(-2.5)", -3}, {"mod(7, 3)", 1},
+             {"mod(-1, 3)", 2}, {"sign(-3)", -1}, {"sign(0)", 0}, {"x^a", 32}, {"2^x", 4});
+    EXAMPLES_NEAR({"erf(0.5)", erf(0.5)}, {"sin(x)^2", sin(2) * sin(2)}, {"x^0.5", pow(2, 0.5)}, {"sin (x)", sin(2)},
+                  {"atan2(1, 0)", atan2(1, 0)});
+    REFUSALS({"sin x", MOTUS_SYNTAX, 1, "sin(x)"}, {"sin 2", MOTUS_SYNTAX, 1, "sin(2)"},
+             {"sin^2(x)", MOTUS_SYNTAX, 1, "sin(x)^2"}, {"sin", MOTUS_SYNTAX, 1, "sin("},
+             {"2 cos x", MOTUS_SYNTAX, 3, "cos(x)"}, {"sin + 1", MOTUS_SYNTAX, 1, "sin("},
+             {"atan2(x)", MOTUS_SYNTAX, 1, "2 arguments"}, {"sin(x, y)", MOTUS_SYNTAX, 1, "1 argument"},
+             {"min(x)", MOTUS_SYNTAX, 1, "at least 2"}, {"sin|x|", MOTUS_SYNTAX, 1, "sin("},
+             {"sqrt x", MOTUS_SYNTAX, 1, "sqrt(x)"});
 }
 
 static void rule_6_primes(void **unused)
 {
     (void)unused;
-    EXAMPLES({"x'", 3}, {"x''", -2}, {"r'.x", 4}, {"r''.z", -3}, {"u[3]'", 3}, {"u[2]''", 20}, {"s'", 2}, {"s", 7}, {"x′", 3}, {"x’", 3}, {"x″", -2}, {"x′′", -2}, {"−x", -2}, {"2 − x", 0},
-             {"x'x", 6}, {"2x'", 6});
-    REFUSALS({"(x y)'", MOTUS_SYNTAX, 6, "name"}, {"x^2'", MOTUS_SYNTAX, 4, "name"}, {"x'''", MOTUS_SYNTAX, 2, "x''"}, {"x‴", MOTUS_SYNTAX, 2, "x''"}, {"a'", MOTUS_NAME, 1, "parameter"},
-             {"r.x'", MOTUS_SYNTAX, 4, "r'.x"}, {"r[1]'", MOTUS_SHAPE, 1, "r'[…]"}, {"x '", MOTUS_SYNTAX, 3, "directly"}, {"x(0)'", MOTUS_SYNTAX, 5, "x'(0)"}, {"s''", MOTUS_SHAPE, 1, "first order"}, {"u[0]''", MOTUS_NAME, 1, "no equation"}, {"sum(i = 0..2: u[i]'')", MOTUS_NAME, 15, "u[0]''"},
-             {"t'", MOTUS_SHAPE, 1, "primes"}, {"m[1]'", MOTUS_NAME, 1, "primes"}, {"sin'(x)", MOTUS_SYNTAX, 4, "primes"}, {"|x|'", MOTUS_SYNTAX, 4, ""});
+    EXAMPLES({"x'", 3}, {"x''", -2}, {"r'.x", 4}, {"r''.z", -3}, {"u[3]'", 3}, {"u[2]''", 20}, {"s'", 2}, {"s", 7},
+             {"x′", 3}, {"x’", 3}, {"x″", -2}, {"x′′", -2}, {"−x", -2}, {"2 − x", 0}, {"x'x", 6}, {"2x'", 6});
+    REFUSALS({"(x y)'", MOTUS_SYNTAX, 6, "name"}, {"x^2'", MOTUS_SYNTAX, 4, "name"}, {"x'''", MOTUS_SYNTAX, 2, "x''"},
+             {"x‴", MOTUS_SYNTAX, 2, "x''"}, {"a'", MOTUS_NAME, 1, "parameter"}, {"r.x'", MOTUS_SYNTAX, 4, "r'.x"},
+             {"r[1]'", MOTUS_SHAPE, 1, "r'[…]"}, {"x '", MOTUS_SYNTAX, 3, "directly"},
+             {"x(0)'", MOTUS_SYNTAX, 5, "x'(0)"}, {"s''", MOTUS_SHAPE, 1, "first order"},
+             {"u[0]''", MOTUS_NAME, 1, "no equation"}, {"sum(i = 0..2: u[i]'')", MOTUS_NAME, 15, "u[0]''"},
+             {"t'", MOTUS_SHAPE, 1, "primes"}, {"m[1]'", MOTUS_NAME, 1, "primes"},
+             {"sin'(x)", MOTUS_SYNTAX, 4, "primes"}, {"|x|'", MOTUS_SYNTAX, 4, ""});
 }
 
 static void rule_7_bars(void **unused)
 {
     (void)unused;
-    EXAMPLES({"a |r'|^2/2", 192.5}, {"x' |x'|", 9}, {"|-x| b |-y|", 48}, {"|x - |y||", 6}, {"||x| - a|", 3}, {"|x||y|", 16}, {"|(|x| - |y|)|", 6}, {"|x| + |y|", 10}, {"-|x|", -2}, {"2|x|/|y|", 0.5},
-             {"|r|^2", 14}, {"|r|^4", 196}, {"|r|", sqrt(14)}, {"|r|^3", 14 * sqrt(14)}, {"|r - r'|^2", 27}, {"|(3, 4)|", 5}, {"sin(|x|)", sin(2)}, {"|x|^2", 4}, {"if(|x| > 1, |y|, 0)", 8},
-             {"|u[1] - u[2]|", 10}, {"(|x|)", 2}, {"|m[|-1|]|", 3}, {"|-3|", 3}, {"|x|^-1", 0.5}, {"x |y| b", 48}, {"|(x |-y|)|", 16}, {"|max(x |y|, 1) - 20|", 4});
-    REFUSALS({"|x", MOTUS_SYNTAX, 1, "abs("}, {"a |", MOTUS_SYNTAX, 4, ""}, {"(|x)", MOTUS_SYNTAX, 2, "closed"}, {"||", MOTUS_SYNTAX, 3, ""});
+    EXAMPLES({"a |r'|^2/2", 192.5}, {"x' |x'|", 9}, {"|-x| b |-y|", 48}, {"|x - |y||", 6}, {"||x| - a|", 3},
+             {"|x||y|", 16}, {"|(|x| - |y|)|", 6}, {"|x| + |y|", 10}, {"-|x|", -2}, {"2|x|/|y|", 0.5}, {"|r|^2", 14},
+             {"|r|^4", 196}, {"|r|", sqrt(14)}, {"|r|^3", 14 * sqrt(14)}, {"|r - r'|^2", 27}, {"|(3, 4)|", 5},
+             {"sin(|x|)", sin(2)}, {"|x|^2", 4}, {"if(|x| > 1, |y|, 0)", 8}, {"|u[1] - u[2]|", 10}, {"(|x|)", 2},
+             {"|m[|-1|]|", 3}, {"|-3|", 3}, {"|x|^-1", 0.5}, {"x |y| b", 48}, {"|(x |-y|)|", 16},
+             {"|max(x |y|, 1) - 20|", 4});
+    REFUSALS({"|x", MOTUS_SYNTAX, 1, "abs("}, {"a |", MOTUS_SYNTAX, 4, ""}, {"(|x)", MOTUS_SYNTAX, 2, "closed"},
+             {"||", MOTUS_SYNTAX, 3, ""});
 }
 
 static void rule_8_lines(void **unused)
 {
     (void)unused;
-    EXAMPLES({"(1 +\n 2\n + 3)", 6}, {"1 +\n 2", 3}, {"1 -   # a remark\n\n 2", -1}, {"\n 4", 4}, {"max(1,\n 7)", 7}, {"2 *\n3", 6}, {"12 /\n3", 4}, {"2^\n3", 8},
-             {"m[\n2\n]", 4}, {"if(1 <\n 2 and\n 3 > 2, 1, 0)", 1}, {"sum(\ni = 1..3,\n i != 2:\n i)", 4}, {"if(not\n1 > 2, 1, 0)", 1}, {"-\n3", -3});
+    EXAMPLES({"(1 +\n 2\n + 3)", 6}, {"1 +\n 2", 3}, {"1 -   # a remark\n\n 2", -1}, {"\n 4", 4}, {"max(1,\n 7)", 7},
+             {"2 *\n3", 6}, {"12 /\n3", 4}, {"2^\n3", 8}, {"m[\n2\n]", 4}, {"if(1 <\n 2 and\n 3 > 2, 1, 0)", 1},
+             {"sum(\ni = 1..3,\n i != 2:\n i)", 4}, {"if(not\n1 > 2, 1, 0)", 1}, {"-\n3", -3});
     assert_true(at_start("x'' =\n -x\nx(0) = 3\r\n\tx'(0) = 0# no blank\n\n\n#end", NULL, 0, "x") == 3);
 }
 
 static void rule_9_shapes(void **unused)
 {
     (void)unused;
-    EXAMPLES({"(2 r).y", 4}, {"(r/2).z", 1.5}, {"(r - r').x", -3}, {"(-r).x", -1}, {"dot(r, r')", 32}, {"cross(r, r').x", -3}, {"cross(r, r').y", 6}, {"cross(r, r').z", -3},
-             {"cross((1, 2), (3, 4))", -2}, {"(x r).z", 6}, {"(if(x > 0, r, r')).y", 2}, {"(r x).z", 6}, {"sum(i = 1..2: i r).z", 9}, {"(1, 2, 3, 4, 5)[5]", 5}, {"g.y", -10}, {"g[2]", -10},
-             {"dot(g, (1, 2))", -20}, {"(2 places[2]).y", 8}, {"(a g/b).y", -50.0 * (1.0 / 3)});
-    REFUSALS({"r r'", MOTUS_SHAPE, 1, "dot(r, r'), cross(r, r')"}, {"r*r", MOTUS_SHAPE, 1, "|v|^2"}, {"r^2", MOTUS_SHAPE, 1, "|r|^2"}, {"1/r", MOTUS_SHAPE, 1, "|r|"}, {"r + 1", MOTUS_SHAPE, 1, "|r|"},
-             {"1 - r", MOTUS_SHAPE, 1, "|r|"}, {"r + (1, 2)", MOTUS_SHAPE, 1, "length 2"}, {"sin(r)", MOTUS_SHAPE, 5, "|r|"}, {"dot(r, g)", MOTUS_SHAPE, 1, "equal length"}, {"dot(x, x)", MOTUS_SHAPE, 1, "vectors"},
-             {"cross(w4, w4)", MOTUS_NAME, 7, "w4"}, {"x.x", MOTUS_SHAPE, 1, "no components"}, {"r[4]", MOTUS_SHAPE, 3, "1 to 3"}, {"r[0]", MOTUS_SHAPE, 3, "1 to 3"}, {"g.z", MOTUS_SHAPE, 3, "1 to 2"},
-             {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"}, {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"}, {"min(r, r)", MOTUS_SHAPE, 5, "vector"},
-             {"r < r'", MOTUS_SHAPE, 1, "comparison"}, {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"});
+    EXAMPLES({"(2 r).y", 4}, {"(r/2).z", 1.5}, {"(r - r').x", -3}, {"(-r).x", -1}, {"dot(r, r')", 32},
+             {"cross(r, r').x", -3}, {"cross(r, r').y", 6}, {"cross(r, r').z", -3}, {"cross((1, 2), (3, 4))", -2},
+             {"(x r).z", 6}, {"(if(x > 0, r, r')).y", 2}, {"(r x).z", 6}, {"sum(i = 1..2: i r).z", 9},
+             {"(1, 2, 3, 4, 5)[5]", 5}, {"g.y", -10}, {"g[2]", -10}, {"dot(g, (1, 2))", -20}, {"(2 places[2]).y", 8},
+             {"(a g/b).y", -50.0 * (1.0 / 3)});
+    REFUSALS({"r r'", MOTUS_SHAPE, 1, "dot(r, r'), cross(r, r')"}, {"r*r", MOTUS_SHAPE, 1, "|v|^2"},
+             {"r^2", MOTUS_SHAPE, 1, "|r|^2"}, {"1/r", MOTUS_SHAPE, 1, "|r|"}, {"r + 1", MOTUS_SHAPE, 1, "|r|"},
+             {"1 - r", MOTUS_SHAPE, 1, "|r|"}, {"r + (1, 2)", MOTUS_SHAPE, 1, "length 2"},
+             {"sin(r)", MOTUS_SHAPE, 5, "|r|"}, {"dot(r, g)", MOTUS_SHAPE, 1, "equal length"},
+             {"dot(x, x)", MOTUS_SHAPE, 1, "vectors"}, {"cross(w4, w4)", MOTUS_NAME, 7, "w4"},
+             {"x.x", MOTUS_SHAPE, 1, "no components"}, {"r[4]", MOTUS_SHAPE, 3, "1 to 3"},
+             {"r[0]", MOTUS_SHAPE, 3, "1 to 3"}, {"g.z", MOTUS_SHAPE, 3, "1 to 2"},
+             {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"},
+             {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"},
+             {"min(r, r)", MOTUS_SHAPE, 5, "vector"}, {"r < r'", MOTUS_SHAPE, 1, "comparison"},
+             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"});
 }
 
 static void rule_10_parameters_and_quantities(void **unused)
 {
     (void)unused;
-    const char *text = "p = 2 q\nq = 3\nmoves = p x\nalso = moves + 1\ntimed = t\nx'' = -p x\nx(0) = p + q\nx'(0) = 0\nlist = [q, 2 q]\n"
+    const char *text = "p = 2 q\nq = 3\nmoves = p x\nalso = moves + 1\ntimed = t\nx'' = -p x\nx(0) = p + q\nx'(0) = "
+                       "0\nlist = [q, 2 q]\n"
                        "w = (q, p)\nf = list[2] + w.y + 0 t\nr'' = -r\nr(0) = w\nr'(0) = (0, 0)\n";
     assert_true(at_start(text, NULL, 0, "moves") == 54);
     assert_true(at_start(text, NULL, 0, "also") == 55);
@@ -245,20 +299,44 @@ static void rule_10_parameters_and_quantities(void **unused)
     assert_int_equal(motus_quantity_count(s), 4);
     size_t first, count;
     motus_error err = motus_default_error();
-    assert_int_equal(motus_column_find(s, "p", &first, &count, &err), MOTUS_NAME);      /* a parameter does not move: no column */
+    /* a parameter does not move: no column */
+    assert_int_equal(motus_column_find(s, "p", &first, &count, &err), MOTUS_NAME);
     motus_system_destroy(s);
 }
 
-typedef struct setting { const char *set, *column; double value; } setting;
+typedef struct setting {
+    const char *set, *column;
+    double value;
+} setting;
 
 static void rule_10_set(void **unused)
 {
     (void)unused;
-    const char *text = "p = 2 q\nq = 3\nx'' = -p x\nx(0) = p + q\nx'(0) = 0\nlist = [q, 2 q]\nw = (q, p)\nf = list[2] + w.y + 0 t\nh = list[1] + 0 t\n"
-                       "r'' = -r\nr(0) = w\nr'(0) = (0, 0)\nu[i]'' = 0 for i = 1..3\nu[i](0) = i for i = 1..3\nu[i]'(0) = 0 for i = 1..3\nu[3](0) = 33\nu[1](0) = u[3](0)\nN = 1\n";
+    const char *text = "p = 2 q\nq = 3\nx'' = -p x\nx(0) = p + q\nx'(0) = 0\nlist = [q, 2 q]\nw = (q, p)\nf = list[2] "
+                       "+ w.y + 0 t\nh = list[1] + 0 t\n"
+                       "r'' = -r\nr(0) = w\nr'(0) = (0, 0)\nu[i]'' = 0 for i = 1..3\nu[i](0) = i for i = "
+                       "1..3\nu[i]'(0) = 0 for i = 1..3\nu[3](0) = 33\nu[1](0) = u[3](0)\nN = 1\n";
     static const setting one[] = {
-        {"q=4", "x", 12}, {"p=7", "x", 10}, {"p = q^2", "x", 12}, {"x(0)=p", "x", 6}, {"x'(0)=-1", "x'", -1}, {"list=[7, 8]", "h", 7}, {"list=[1, 5]", "f", 11}, {"w=(1, 2)", "r.y", 2}, {"r(0)=(8, 9)", "r.y", 9},
-        {"u[i](0) = 10 i for i = 1..3", "u[2]", 20}, {"u[2](0) = 77", "u[2]", 77}, {"u[2](0) = 77", "u[3]", 33}, {"u[3](0) = 77", "u[3]", 77}, {"u[3](0) = 77", "u[1]", 77}, {"u[i](0) = 10 i for i = 1..3", "u[3]", 30}, {"u[i](0) = 10 i for i = 2..3", "u[1]", 30}, {"u[i](0) = 10 i for i = 1..2", "u[3]", 33}, {"r'(0)=(1, 2)", "r'.x", 1}, {"  q = 5 ", "x", 15}, {"q=1e-3", "r.x", 1e-3},
+        {"q=4", "x", 12},
+        {"p=7", "x", 10},
+        {"p = q^2", "x", 12},
+        {"x(0)=p", "x", 6},
+        {"x'(0)=-1", "x'", -1},
+        {"list=[7, 8]", "h", 7},
+        {"list=[1, 5]", "f", 11},
+        {"w=(1, 2)", "r.y", 2},
+        {"r(0)=(8, 9)", "r.y", 9},
+        {"u[i](0) = 10 i for i = 1..3", "u[2]", 20},
+        {"u[2](0) = 77", "u[2]", 77},
+        {"u[2](0) = 77", "u[3]", 33},
+        {"u[3](0) = 77", "u[3]", 77},
+        {"u[3](0) = 77", "u[1]", 77},
+        {"u[i](0) = 10 i for i = 1..3", "u[3]", 30},
+        {"u[i](0) = 10 i for i = 2..3", "u[1]", 30},
+        {"u[i](0) = 10 i for i = 1..2", "u[3]", 33},
+        {"r'(0)=(1, 2)", "r'.x", 1},
+        {"  q = 5 ", "x", 15},
+        {"q=1e-3", "r.x", 1e-3},
     };
     for (size_t i = 0; i < sizeof one / sizeof *one; i++) {
         double got = at_start(text, &one[i].set, 1, one[i].column);
@@ -274,11 +352,33 @@ static void rule_10_set_refused(void **unused)
     (void)unused;
     const char *text = "p = 2\nmoves = p x\nx'' = -p x\nx(0) = 1\nx'(0) = 0\ninvariant E = x\nmethod rk4\nm = [1, 2]\n"
                        "u[i]'' = u[i-1] for i = 1..2\nu[0] = 1\nu[i](0) = 0 for i = 1..2\nu[i]'(0) = 0 for i = 1..2\n";
-    static const struct { const char *set; motus_status status; const char *named; } wrong[] = {
-        {"moves=3", MOTUS_ARGUMENT, "quantity"}, {"E=3", MOTUS_NAME, "E"}, {"pp=3", MOTUS_NAME, "did you mean p?"}, {"p", MOTUS_SYNTAX, "="}, {"p=", MOTUS_SYNTAX, "value"}, {"", MOTUS_SYNTAX, "F=0.2"},
-        {"p=(1, 2)", MOTUS_SHAPE, "vector"}, {"x''=-x", MOTUS_ARGUMENT, "parameters and initial values"}, {"method rk4", MOTUS_ARGUMENT, "option"},
-        {"p=1\nq=2", MOTUS_SYNTAX, "one definition"}, {"p=1 2", MOTUS_SYNTAX, "1*2"}, {"x=3", MOTUS_ARGUMENT, "x(0)"}, {"u[0]=3", MOTUS_ARGUMENT, "u[…](0)"}, {"m[2]=3", MOTUS_ARGUMENT, "[1, 2, …]"}, {"x[1](0)=3", MOTUS_SHAPE, "family"}, {"u(0)=3", MOTUS_SHAPE, "u[i]"}, {"y(0)=1", MOTUS_NAME, "y"}, {"x(1)=1", MOTUS_ARGUMENT, "start"}, {"p=p", MOTUS_NAME, "circle"},
-        {"p=1/0", MOTUS_ARGUMENT, "finite"}, {"x''(0)=1", MOTUS_SYNTAX, "equation"}, {"step=0.1", MOTUS_SYNTAX, "step"},
+    static const struct {
+        const char *set;
+        motus_status status;
+        const char *named;
+    } wrong[] = {
+        {"moves=3", MOTUS_ARGUMENT, "quantity"},
+        {"E=3", MOTUS_NAME, "E"},
+        {"pp=3", MOTUS_NAME, "did you mean p?"},
+        {"p", MOTUS_SYNTAX, "="},
+        {"p=", MOTUS_SYNTAX, "value"},
+        {"", MOTUS_SYNTAX, "F=0.2"},
+        {"p=(1, 2)", MOTUS_SHAPE, "vector"},
+        {"x''=-x", MOTUS_ARGUMENT, "parameters and initial values"},
+        {"method rk4", MOTUS_ARGUMENT, "option"},
+        {"p=1\nq=2", MOTUS_SYNTAX, "one definition"},
+        {"p=1 2", MOTUS_SYNTAX, "1*2"},
+        {"x=3", MOTUS_ARGUMENT, "x(0)"},
+        {"u[0]=3", MOTUS_ARGUMENT, "u[…](0)"},
+        {"m[2]=3", MOTUS_ARGUMENT, "[1, 2, …]"},
+        {"x[1](0)=3", MOTUS_SHAPE, "family"},
+        {"u(0)=3", MOTUS_SHAPE, "u[i]"},
+        {"y(0)=1", MOTUS_NAME, "y"},
+        {"x(1)=1", MOTUS_ARGUMENT, "start"},
+        {"p=p", MOTUS_NAME, "circle"},
+        {"p=1/0", MOTUS_ARGUMENT, "finite"},
+        {"x''(0)=1", MOTUS_SYNTAX, "equation"},
+        {"step=0.1", MOTUS_SYNTAX, "step"},
     };
     int faults = 0;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -297,47 +397,71 @@ static void rule_10_set_refused(void **unused)
 static void rule_11_indices(void **unused)
 {
     (void)unused;
-    EXAMPLES({"u[N]", 40}, {"u[N+1]", -1}, {"u[0]", -1}, {"u[1 + 2 - 1]", 20}, {"sum(i = 1..N: u[i])", 100}, {"sum(i = 1..N: u[i+1])", 89}, {"sum(i = 1..N: u[mod(i, N)+1])", 100},
-             {"sum(i = 1..1: u[mod(i - 2, N) + 1])", 40}, {"sum(i = 3..3: u[mod(2 + i, N)+1])", 20}, {"A[2,3]", 23}, {"sum(i = 1..2, j = 1..3: A[i,j])", 102}, {"sum(i = 1..2: A[i,i+1])", 35},
-             {"m[2]", 4}, {"places[2].y", 4}, {"places[2][1]", 3}, {"sum(i = 1..3: m[i] u[i])", 260}, {"r[2]", 2}, {"r'[2]", 5}, {"(r)[3]", 3}, {"u[2*2 - 3]", 10}, {"u[b]", 30}, {"u[a - b]", 20},
-             {"sum(i = -1..0: u[1 - (-i) + 1 - 1])", -1 + 10}, {"A[1,1]", 11});
-    REFUSALS({"u[6]", MOTUS_NAME, 1, "u[6]"}, {"u[-1]", MOTUS_NAME, 1, "u[-1]"}, {"sum(i = 1..N+2: u[i])", MOTUS_NAME, 17, "u[6]"}, {"sum(i = 1..2: u[2i])", MOTUS_SHAPE, 17, "i + c"},
-             {"sum(i = 1..2: u[N - i])", MOTUS_SHAPE, 21, "i + c"}, {"sum(i = 1..2: u[mod(i, N)])", MOTUS_SHAPE, 17, "+ 1"}, {"u[1.5]", MOTUS_SHAPE, 3, "whole"}, {"u[x]", MOTUS_SHAPE, 3, "state"},
-             {"u", MOTUS_SHAPE, 1, "u[i]"}, {"m", MOTUS_SHAPE, 1, "m[1]"}, {"m[4]", MOTUS_NAME, 3, "1 to 3"}, {"m[0]", MOTUS_NAME, 3, "1 to 3"}, {"u[1,2]", MOTUS_SHAPE, 1, "1 index"}, {"A[1]", MOTUS_SHAPE, 1, "2 indices"},
-             {"a[1]", MOTUS_SHAPE, 1, "one number"}, {"2 [1, 2]", MOTUS_SYNTAX, 3, ""}, {"u [1]", MOTUS_SYNTAX, 3, "directly"}, {"u[1][2]", MOTUS_SHAPE, 1, "no components"}, {"u[]", MOTUS_SYNTAX, 3, ""});
+    EXAMPLES({"u[N]", 40}, {"u[N+1]", -1}, {"u[0]", -1}, {"u[1 + 2 - 1]", 20}, {"sum(i = 1..N: u[i])", 100},
+             {"sum(i = 1..N: u[i+1])", 89}, {"sum(i = 1..N: u[mod(i, N)+1])", 100},
+             {"sum(i = 1..1: u[mod(i - 2, N) + 1])", 40}, {"sum(i = 3..3: u[mod(2 + i, N)+1])", 20}, {"A[2,3]", 23},
+             {"sum(i = 1..2, j = 1..3: A[i,j])", 102}, {"sum(i = 1..2: A[i,i+1])", 35}, {"m[2]", 4}, {"places[2].y", 4},
+             {"places[2][1]", 3}, {"sum(i = 1..3: m[i] u[i])", 260}, {"r[2]", 2}, {"r'[2]", 5}, {"(r)[3]", 3},
+             {"u[2*2 - 3]", 10}, {"u[b]", 30}, {"u[a - b]", 20}, {"sum(i = -1..0: u[1 - (-i) + 1 - 1])", -1 + 10},
+             {"A[1,1]", 11});
+    REFUSALS({"u[6]", MOTUS_NAME, 1, "u[6]"}, {"u[-1]", MOTUS_NAME, 1, "u[-1]"},
+             {"sum(i = 1..N+2: u[i])", MOTUS_NAME, 17, "u[6]"}, {"sum(i = 1..2: u[2i])", MOTUS_SHAPE, 17, "i + c"},
+             {"sum(i = 1..2: u[N - i])", MOTUS_SHAPE, 21, "i + c"},
+             {"sum(i = 1..2: u[mod(i, N)])", MOTUS_SHAPE, 17, "+ 1"}, {"u[1.5]", MOTUS_SHAPE, 3, "whole"},
+             {"u[x]", MOTUS_SHAPE, 3, "state"}, {"u", MOTUS_SHAPE, 1, "u[i]"}, {"m", MOTUS_SHAPE, 1, "m[1]"},
+             {"m[4]", MOTUS_NAME, 3, "1 to 3"}, {"m[0]", MOTUS_NAME, 3, "1 to 3"},
+             {"u[1,2]", MOTUS_SHAPE, 1, "1 index"}, {"A[1]", MOTUS_SHAPE, 1, "2 indices"},
+             {"a[1]", MOTUS_SHAPE, 1, "one number"}, {"2 [1, 2]", MOTUS_SYNTAX, 3, ""},
+             {"u [1]", MOTUS_SYNTAX, 3, "directly"}, {"u[1][2]", MOTUS_SHAPE, 1, "no components"},
+             {"u[]", MOTUS_SYNTAX, 3, ""});
 }
 
 static void rule_12_sums(void **unused)
 {
     (void)unused;
-    EXAMPLES({"sum(j = 1..0: 1/0)", 0}, {"sum(j = 5..3: j)", 0}, {"sum(j = 1..4, j != 2: 1/(j - 2))", -1 + 1 + 0.5}, {"sum(j = 1..N, j > 1, j < 4: j)", 5}, {"sum(i = 1..3, j = i+1..3: 10 i + j)", 12 + 13 + 23},
-             {"sum(i = 1..2: i sum(j = 1..i: j))", 1 + 2 * 3}, {"2 sum(j = 1..3: j)^2", 72}, {"sum(j = 1..1: 7)", 7}, {"sum(j = 1..100: j)", 5050}, {"sum(j = 1..17: j)", 153}, {"sum(j = -2..2: j^2)", 10},
-             {"sum(j = 1..3, j == 2 or j == 3: j)", 5}, {"sum(i = 1..3, i > 3: 1)", 0}, {"(sum(i = 1..2: places[i])).y", 6}, {"sum(i = 1..3: x)", 6}, {"sum(i = 1..2, j = 1..2, k = 1..2: i j k)", 27});
-    REFUSALS({"sum(x)", MOTUS_SYNTAX, 5, "index"}, {"sum(i = 1..3)", MOTUS_SYNTAX, 13, ":"}, {"sum(i = 1: i)", MOTUS_SYNTAX, 10, ".."}, {"sum(i = 1..3, i: i)", MOTUS_SHAPE, 15, "condition"},
-             {"sum(i = 1..3: i > 1)", MOTUS_SHAPE, 15, "condition"}, {"sum(a = 1..3: a)", MOTUS_NAME, 5, "a"}, {"sum(i = 1..2: sum(i = 1..2: i))", MOTUS_SHAPE, 19, "twice"}, {"sum(i = 1..x: i)", MOTUS_SHAPE, 12, "state"},
-             {"sum(i = 1..2, 1 < 2, j = 1..2: i)", MOTUS_SYNTAX, 22, "before the conditions"}, {"i", MOTUS_NAME, 1, "not defined"}, {"sum i", MOTUS_SYNTAX, 1, "sum"}, {"sum(i = 1..1e9, j = 1..1e9: 1)", MOTUS_LIMIT, 1, "terms"});
+    EXAMPLES({"sum(j = 1..0: 1/0)", 0}, {"sum(j = 5..3: j)", 0}, {"sum(j = 1..4, j != 2: 1/(j - 2))", -1 + 1 + 0.5},
+             {"sum(j = 1..N, j > 1, j < 4: j)", 5}, {"sum(i = 1..3, j = i+1..3: 10 i + j)", 12 + 13 + 23},
+             {"sum(i = 1..2: i sum(j = 1..i: j))", 1 + 2 * 3}, {"2 sum(j = 1..3: j)^2", 72}, {"sum(j = 1..1: 7)", 7},
+             {"sum(j = 1..100: j)", 5050}, {"sum(j = 1..17: j)", 153}, {"sum(j = -2..2: j^2)", 10},
+             {"sum(j = 1..3, j == 2 or j == 3: j)", 5}, {"sum(i = 1..3, i > 3: 1)", 0},
+             {"(sum(i = 1..2: places[i])).y", 6}, {"sum(i = 1..3: x)", 6},
+             {"sum(i = 1..2, j = 1..2, k = 1..2: i j k)", 27});
+    REFUSALS({"sum(x)", MOTUS_SYNTAX, 5, "index"}, {"sum(i = 1..3)", MOTUS_SYNTAX, 13, ":"},
+             {"sum(i = 1: i)", MOTUS_SYNTAX, 10, ".."}, {"sum(i = 1..3, i: i)", MOTUS_SHAPE, 15, "condition"},
+             {"sum(i = 1..3: i > 1)", MOTUS_SHAPE, 15, "condition"}, {"sum(a = 1..3: a)", MOTUS_NAME, 5, "a"},
+             {"sum(i = 1..2: sum(i = 1..2: i))", MOTUS_SHAPE, 19, "twice"},
+             {"sum(i = 1..x: i)", MOTUS_SHAPE, 12, "state"},
+             {"sum(i = 1..2, 1 < 2, j = 1..2: i)", MOTUS_SYNTAX, 22, "before the conditions"},
+             {"i", MOTUS_NAME, 1, "not defined"}, {"sum i", MOTUS_SYNTAX, 1, "sum"},
+             {"sum(i = 1..1e9, j = 1..1e9: 1)", MOTUS_LIMIT, 1, "terms"});
 }
 
 /* A masked term is selected away, never multiplied by zero: the NaN of 0/0 does not leak. */
 static void rule_12_masks_select(void **unused)
 {
     (void)unused;
-    EXAMPLES({"sum(j = 1..3, j != 2: (x - 2)/(j - 2) + 1)", 2}, {"sum(i = 1..4, j = 1..4, i != j: u[i]/(u[i] - u[j]))", 6});
+    EXAMPLES({"sum(j = 1..3, j != 2: (x - 2)/(j - 2) + 1)", 2},
+             {"sum(i = 1..4, j = 1..4, i != j: u[i]/(u[i] - u[j]))", 6});
 }
 
 static void rule_14_conditions(void **unused)
 {
     (void)unused;
-    EXAMPLES({"if(x > 0, 1, 0)", 1}, {"if(x < 0, 1/0, 4)", 4}, {"if(x > 0, 4, sqrt(-x))", 4}, {"if(x >= 2, 1, 0)", 1}, {"if(x <= 1, 1, 0)", 0}, {"if(x == 2, 1, 0)", 1}, {"if(x != 2, 1, 0)", 0}, {"if(x ≠ 2, 1, 0)", 0},
+    EXAMPLES({"if(x > 0, 1, 0)", 1}, {"if(x < 0, 1/0, 4)", 4}, {"if(x > 0, 4, sqrt(-x))", 4}, {"if(x >= 2, 1, 0)", 1},
+             {"if(x <= 1, 1, 0)", 0}, {"if(x == 2, 1, 0)", 1}, {"if(x != 2, 1, 0)", 0}, {"if(x ≠ 2, 1, 0)", 0},
              {"if(x ≤ 2, 1, 0)", 1}, {"if(x ≥ 3, 1, 0)", 0}, {"x''", -2}, {"x'' + x", 0}, {"s' + u[1]''", 2 + 21});
-    REFUSALS({"if(x, 1, 0)", MOTUS_SHAPE, 4, "x > 0"}, {"if(x > 0, 1)", MOTUS_SYNTAX, 1, "3 arguments"}, {"if(x = 0, 1, 0)", MOTUS_SYNTAX, 6, "=="}, {"x and y", MOTUS_SHAPE, 1, "x > 0"}, {"not x", MOTUS_SHAPE, 5, "x > 0"});
+    REFUSALS({"if(x, 1, 0)", MOTUS_SHAPE, 4, "x > 0"}, {"if(x > 0, 1)", MOTUS_SYNTAX, 1, "3 arguments"},
+             {"if(x = 0, 1, 0)", MOTUS_SYNTAX, 6, "=="}, {"x and y", MOTUS_SHAPE, 1, "x > 0"},
+             {"not x", MOTUS_SHAPE, 5, "x > 0"});
 }
 
-/* In derivatives too: Newton's method on this force meets the derivative of the branch not taken, which is NaN at x = 0. */
+/* In derivatives too: Newton's method on this force meets the derivative of the branch not taken, which is NaN at x =
+ * 0. */
 static void rule_14_no_leak_in_derivatives(void **unused)
 {
     (void)unused;
-    motus_system *s = given_text("x'' = if(x > 1, sqrt(x - 1) x', -x') - x\nx(0) = 0\nx'(0) = 0.5\nstep 0.1\nuntil 1\nmethod implicit-midpoint");
+    motus_system *s = given_text(
+        "x'' = if(x > 1, sqrt(x - 1) x', -x') - x\nx(0) = 0\nx'(0) = 0.5\nstep 0.1\nuntil 1\nmethod implicit-midpoint");
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
@@ -350,26 +474,38 @@ static void rule_14_no_leak_in_derivatives(void **unused)
     motus_system_destroy(s);
 }
 
-/* The chain of multiplications, fused multiply-adds, one quotient per vector, left-to-right and interleaved sums: to the bit. */
+/* The chain of multiplications, fused multiply-adds, one quotient per vector, left-to-right and interleaved sums: to
+ * the bit. */
 static void rule_15_normal_form(void **unused)
 {
     (void)unused;
     const double d = 0.1, q = 0.7;
     double parts[8] = {0};
-    for (int j = 1; j <= 20; j++)
-        parts[(j - 1) % 8] += 1.0 / j;
+    for (int j = 1; j <= 20; j++) parts[(j - 1) % 8] += 1.0 / j;
     char text[1024];
-    static const char declared[] = "d = 0.1\nq = 0.7\nx'' = 0\nx(0) = 0.1\nx'(0) = 0.7\nr'' = 0 r\nr(0) = (0.1, 0.7)\nr'(0) = (0, 0)\n";
+    static const char declared[] =
+        "d = 0.1\nq = 0.7\nx'' = 0\nx(0) = 0.1\nx'(0) = 0.7\nr'' = 0 r\nr(0) = (0.1, 0.7)\nr'(0) = (0, 0)\n";
     const example e[] = {
-        {"x^3", (d * d) * d}, {"x^4", (d * d) * (d * d)}, {"x^5", ((d * d) * (d * d)) * d}, {"x^-2", 1 / (d * d)}, {"x^0", 1}, {"x x' + x", fma(d, q, d)}, {"x x' - x", fma(d, q, -d)}, {"x - x x'", fma(-d, q, d)},
-        {"(r/3).x", d * (1.0 / 3)}, {"x/3", d / 3}, {"x + 0", d}, {"x - x", 0}, {"sum(j = 1..5: 1/j)", 0 + 1.0 / 1 + 1.0 / 2 + 1.0 / 3 + 1.0 / 4 + 1.0 / 5},
-        {"sum(j = 1..20: 1/j)", ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))},
+        {"x^3", (d * d) * d},
+        {"x^4", (d * d) * (d * d)},
+        {"x^5", ((d * d) * (d * d)) * d},
+        {"x^-2", 1 / (d * d)},
+        {"x^0", 1},
+        {"x x' + x", fma(d, q, d)},
+        {"x x' - x", fma(d, q, -d)},
+        {"x - x x'", fma(-d, q, d)},
+        {"(r/3).x", d * (1.0 / 3)},
+        {"x/3", d / 3},
+        {"x + 0", d},
+        {"x - x", 0},
+        {"sum(j = 1..5: 1/j)", 0 + 1.0 / 1 + 1.0 / 2 + 1.0 / 3 + 1.0 / 4 + 1.0 / 5},
+        {"sum(j = 1..20: 1/j)",
+         ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))},
     };
     for (size_t i = 0; i < sizeof e / sizeof *e; i++) {
         snprintf(text, sizeof text, "%slook = if(t < 5, %s, 0)\n", declared, e[i].expression);
         double got = at_start(text, NULL, 0, "look");
-        if (got != e[i].value)
-            fail_msg("%s is %a, not %a", e[i].expression, got, e[i].value);
+        if (got != e[i].value) fail_msg("%s is %a, not %a", e[i].expression, got, e[i].value);
     }
 }
 
@@ -391,9 +527,16 @@ static void rule_15_parameters_do_not_rewrite(void **unused)
 static void analysis_reads_the_equations(void **unused)
 {
     (void)unused;
-    static const struct { const char *force; int velocity, linear, time, affine, constant, smooth; } known[] = {
-        {"-x", 0, 1, 0, 1, 0, 1}, {"-x^3 - x'", 1, 1, 0, 0, 0, 1}, {"-x'^2", 1, 0, 0, 0, 0, 1}, {"-x + cos(t)", 0, 1, 1, 1, 0, 1}, {"-9.81", 0, 1, 0, 1, 1, 1}, {"-x' |x'|", 1, 0, 0, 0, 0, 0},
-        {"-x t - x'", 1, 1, 1, 1, 0, 1}, {"if(x > 0, -x, 0)", 0, 1, 0, 0, 0, 0}, {"-k q x", 0, 1, 1, 1, 0, 1}, {"-floor(x)", 0, 1, 0, 0, 0, 0}, {"-x x'", 1, 1, 0, 0, 0, 1},
+    static const struct {
+        const char *force;
+        int velocity, linear, time, affine, constant, smooth;
+    } known[] = {
+        {"-x", 0, 1, 0, 1, 0, 1},        {"-x^3 - x'", 1, 1, 0, 0, 0, 1},
+        {"-x'^2", 1, 0, 0, 0, 0, 1},     {"-x + cos(t)", 0, 1, 1, 1, 0, 1},
+        {"-9.81", 0, 1, 0, 1, 1, 1},     {"-x' |x'|", 1, 0, 0, 0, 0, 0},
+        {"-x t - x'", 1, 1, 1, 1, 0, 1}, {"if(x > 0, -x, 0)", 0, 1, 0, 0, 0, 0},
+        {"-k q x", 0, 1, 1, 1, 0, 1},    {"-floor(x)", 0, 1, 0, 0, 0, 0},
+        {"-x x'", 1, 1, 0, 0, 0, 1},
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         char text[512];
@@ -401,9 +544,11 @@ static void analysis_reads_the_equations(void **unused)
         motus_system *s = given_text(text);
         motus_analysis a = motus_default_analysis();
         motus_analysis_of(s, &a);
-        if (!!a.velocity_dependent != known[i].velocity || (known[i].velocity && !!a.linear_in_velocity != known[i].linear) || !!a.time_dependent != known[i].time ||
+        if (!!a.velocity_dependent != known[i].velocity ||
+            (known[i].velocity && !!a.linear_in_velocity != known[i].linear) || !!a.time_dependent != known[i].time ||
             !!a.affine != known[i].affine || !!a.constant != known[i].constant || !!a.smooth != known[i].smooth)
-            fail_msg("%s: velocity %d, linear %d, time %d, affine %d, constant %d, smooth %d", known[i].force, a.velocity_dependent, a.linear_in_velocity, a.time_dependent, a.affine, a.constant, a.smooth);
+            fail_msg("%s: velocity %d, linear %d, time %d, affine %d, constant %d, smooth %d", known[i].force,
+                     a.velocity_dependent, a.linear_in_velocity, a.time_dependent, a.affine, a.constant, a.smooth);
         assert_non_null(motus_explain(s));
         motus_system_destroy(s);
     }
@@ -420,11 +565,15 @@ static void settings_are_read(void **unused)
     assert_true(isnan(m.step) && isnan(m.until) && isnan(m.every_time) && m.every_steps == 0 && m.from == 2);
     motus_system_destroy(s);
     char text[512];
-    snprintf(text, sizeof text, "h = 0.5\nstep h^2\nuntil 2 pi + h\nevery 3 h   # for later\nmethod   newmark(1/6, 1/2)  # with arguments\nfrom 4 h\n%s", still);
+    snprintf(text, sizeof text,
+             "h = 0.5\nstep h^2\nuntil 2 pi + h\nevery 3 h   # for later\nmethod   newmark(1/6, 1/2)  # with "
+             "arguments\nfrom 4 h\n%s",
+             still);
     s = given_text(text);
     motus_settings_of(s, &m);
     assert_string_equal(m.method, "newmark(1/6, 1/2)");
-    assert_true(m.step == 0.25 && m.until == 2 * 3.14159265358979323846 + 0.5 && m.every_time == 1.5 && m.every_steps == 0 && m.from == 2);
+    assert_true(m.step == 0.25 && m.until == 2 * 3.14159265358979323846 + 0.5 && m.every_time == 1.5 &&
+                m.every_steps == 0 && m.from == 2);
     motus_system_destroy(s);
     snprintf(text, sizeof text, "%sn = 5\nevery 2 n steps\n", still);
     s = given_text(text);
@@ -433,18 +582,17 @@ static void settings_are_read(void **unused)
     motus_system_destroy(s);
 }
 
-/* However long the line and whatever its letters, the caret stands under the character, and the column counts characters. */
+/* However long the line and whatever its letters, the caret stands under the character, and the column counts
+ * characters. */
 static void carets_stand_under_the_fault(void **unused)
 {
     (void)unused;
     for (int before = 0; before < 400; before += 7)
         for (int after = 0; after < 300; after += 60) {
             char text[4096] = "x'' = x";
-            for (int i = 0; i < before; i++)
-                strcat(text, i % 3 ? " + θ" : " - x");
+            for (int i = 0; i < before; i++) strcat(text, i % 3 ? " + θ" : " - x");
             strcat(text, " $");
-            for (int i = 0; i < after; i++)
-                strcat(text, "é");
+            for (int i = 0; i < after; i++) strcat(text, "é");
             motus_system *s = NULL;
             motus_error err = motus_default_error();
             assert_int_equal(read_text(text, NULL, 0, &s, &err), MOTUS_SYNTAX);
@@ -454,8 +602,7 @@ static void carets_stand_under_the_fault(void **unused)
             assert_int_equal(strspn(err.caret, " "), place);
             const char *p = err.source;
             while (place > 0 && *p)
-                for (place--, p++; ((unsigned char)*p & 0xC0) == 0x80;)
-                    p++;
+                for (place--, p++; ((unsigned char)*p & 0xC0) == 0x80;) p++;
             assert_int_equal(*p, '$');
         }
 }
@@ -478,11 +625,31 @@ static void empty_texts(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rule_1_names_and_numbers), cmocka_unit_test(rule_2_precedence), cmocka_unit_test(rule_2_juxtaposition), cmocka_unit_test(rule_3_division),
-        cmocka_unit_test(rule_4_brackets_behind_names), cmocka_unit_test(rule_4_refused), cmocka_unit_test(rule_5_functions), cmocka_unit_test(rule_6_primes), cmocka_unit_test(rule_7_bars),
-        cmocka_unit_test(rule_8_lines), cmocka_unit_test(rule_9_shapes), cmocka_unit_test(rule_10_parameters_and_quantities), cmocka_unit_test(rule_10_set), cmocka_unit_test(rule_10_set_refused),
-        cmocka_unit_test(rule_11_indices), cmocka_unit_test(rule_12_sums), cmocka_unit_test(rule_12_masks_select), cmocka_unit_test(rule_14_conditions), cmocka_unit_test(rule_14_no_leak_in_derivatives),
-        cmocka_unit_test(rule_15_normal_form), cmocka_unit_test(rule_15_parameters_do_not_rewrite), cmocka_unit_test(analysis_reads_the_equations), cmocka_unit_test(settings_are_read), cmocka_unit_test(carets_stand_under_the_fault), cmocka_unit_test(empty_texts),
+        cmocka_unit_test(rule_1_names_and_numbers),
+        cmocka_unit_test(rule_2_precedence),
+        cmocka_unit_test(rule_2_juxtaposition),
+        cmocka_unit_test(rule_3_division),
+        cmocka_unit_test(rule_4_brackets_behind_names),
+        cmocka_unit_test(rule_4_refused),
+        cmocka_unit_test(rule_5_functions),
+        cmocka_unit_test(rule_6_primes),
+        cmocka_unit_test(rule_7_bars),
+        cmocka_unit_test(rule_8_lines),
+        cmocka_unit_test(rule_9_shapes),
+        cmocka_unit_test(rule_10_parameters_and_quantities),
+        cmocka_unit_test(rule_10_set),
+        cmocka_unit_test(rule_10_set_refused),
+        cmocka_unit_test(rule_11_indices),
+        cmocka_unit_test(rule_12_sums),
+        cmocka_unit_test(rule_12_masks_select),
+        cmocka_unit_test(rule_14_conditions),
+        cmocka_unit_test(rule_14_no_leak_in_derivatives),
+        cmocka_unit_test(rule_15_normal_form),
+        cmocka_unit_test(rule_15_parameters_do_not_rewrite),
+        cmocka_unit_test(analysis_reads_the_equations),
+        cmocka_unit_test(settings_are_read),
+        cmocka_unit_test(carets_stand_under_the_fault),
+        cmocka_unit_test(empty_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Large systems: tiles, threads and sums in lanes give the bits of the interpreter, however the way is cut into calls; and a motion that leaves the
- * finite numbers is reported with the same step, time and variable.
+/* Large systems: tiles, threads and sums in lanes give the bits of the interpreter, however the way is cut into
+ * calls; and a motion that leaves the finite numbers is reported with the same step, time and variable.
  *
  * Sizes lie below and above where tiling begins, and are no multiples of a tile; steps are no multiple of a sweep's.
  */
@@ -27,33 +27,40 @@ static const char chain[] =
 static const char ends[] =
     "N = 10\nr[i]'' = 0.9 (r[i+1] - 2 r[i] + r[i-1]) - 0.2 r[i] |r[i]|^2 + w[i]*(0, 1) for i = 2..N-1\n"
     "r[1]'' = 0.9 (r[2] - r[1])\nr[N]'' = 0.9 (r[N-1] - r[N])\nw[i]'' = -w[i] + r[i+1].x - r[i-2].y for i = 3..N-1\n"
-    "w[0] = 0.1\nw[1] = 0.1\nw[2] = 0.2\nw[N] = 0\nr[i](0) = (sin(i), cos(2 i)) for i = 1..N\nr[i]'(0) = (0.1, 0) for i = 1..N\n"
+    "w[0] = 0.1\nw[1] = 0.1\nw[2] = 0.2\nw[N] = 0\nr[i](0) = (sin(i), cos(2 i)) for i = 1..N\nr[i]'(0) = (0.1, 0) for "
+    "i = 1..N\n"
     "w[i](0) = cos(i)/3 for i = 3..N-1\nw[i]'(0) = 0 for i = 3..N-1\nstep 0.1\nuntil 1\n";
 /* A lattice: rows are the tiles; a force that depends on time. */
 static const char lattice[] =
-    "N = 10\nM = 30\nu[i,j]'' = u[i+1,j] + u[i-1,j] + u[i,j+1] + u[i,j-1] - 4 u[i,j] - 0.3 u[i,j]^3 + 0.1 cos(t) for i = 1..N, j = 1..M\n"
+    "N = 10\nM = 30\nu[i,j]'' = u[i+1,j] + u[i-1,j] + u[i,j+1] + u[i,j-1] - 4 u[i,j] - 0.3 u[i,j]^3 + 0.1 cos(t) for i "
+    "= 1..N, j = 1..M\n"
     "u[0,j] = 0 for j = 1..M\nu[N+1,j] = 0 for j = 1..M\nu[i,0] = 0 for i = 1..N\nu[i,M+1] = 0 for i = 1..N\n"
     "u[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..M\nu[i,j]'(0) = 0 for i = 1..N, j = 1..M\nstep 0.1\nuntil 1\n";
 /* Companions, and a force of the velocity. */
 static const char damped[] =
     "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.05 x[i]' + 0.1 s[i] for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
-    "s[i]' = -s[i] + x[i] + 0.1 (s[i+1] - s[i]) for i = 1..N\ns[N+1] = 0.5\nx[i](0) = sin(i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
+    "s[i]' = -s[i] + x[i] + 0.1 (s[i+1] - s[i]) for i = 1..N\ns[N+1] = 0.5\nx[i](0) = sin(i) for i = 1..N\nx[i]'(0) = "
+    "0 for i = 1..N\n"
     "s[i](0) = cos(i) for i = 1..N\nstep 0.1\nuntil 1\n";
 /* What cannot be tiled: a driven end, and a ring. */
-static const char driven[] =
-    "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\nx[i](0) = cos(i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
-    "p[i]'' = p[mod(i, N)+1] - 2 p[i] + p[mod(i-2, N)+1] for i = 1..N\np[i](0) = sin(i) for i = 1..N\np[i]'(0) = 0 for i = 1..N\nstep 0.1\nuntil 1\n";
+static const char driven[] = "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 1..N\nx[0] = sin(t)\nx[N+1] = "
+                             "0\nx[i](0) = cos(i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
+                             "p[i]'' = p[mod(i, N)+1] - 2 p[i] + p[mod(i-2, N)+1] for i = 1..N\np[i](0) = sin(i) for i "
+                             "= 1..N\np[i]'(0) = 0 for i = 1..N\nstep 0.1\nuntil 1\n";
 /* Every pair, itself left out; sums of conditions that time and place decide. */
-static const char pairs[] =
-    "N = 10\nr[i]'' = sum(j = 1..N, j != i: (r[j] - r[i])/(N |r[j] - r[i]|^3)) + sum(j = 3..N, r[j].x > r[i].y: 0.01 r[j]) for i = 1..N\n"
-    "r[i](0) = (cos(i), sin(2 i), sin(3 i + 0.4)) for i = 1..N\nr[i]'(0) = (0, 0, 0) for i = 1..N\nstep 0.01\nuntil 1\n";
+static const char pairs[] = "N = 10\nr[i]'' = sum(j = 1..N, j != i: (r[j] - r[i])/(N |r[j] - r[i]|^3)) + sum(j = 3..N, "
+                            "r[j].x > r[i].y: 0.01 r[j]) for i = 1..N\n"
+                            "r[i](0) = (cos(i), sin(2 i), sin(3 i + 0.4)) for i = 1..N\nr[i]'(0) = (0, 0, 0) for i = "
+                            "1..N\nstep 0.01\nuntil 1\n";
 
 /* Numbers that do not lie side by side: the lattice across, and sums along columns; a function of every cell. */
-static const char across[] =
-    "N = 10\nu[i,j]'' = 0.3 (u[j,i] - u[i,j]) - 0.1 sin(u[i,j]) + sum(k = 1..N, k != j: 0.01 u[k,j] u[i,k]) + 0.1 u[mod(i, N)+1, mod(j+2, N)+1] "
-    "for i = 1..N, j = 1..N\nu[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..N\nu[i,j]'(0) = 0 for i = 1..N, j = 1..N\n"
-    "w[i]'' = u[i,i] - 2 w[i] + w[mod(i+1, N)+1] exp(-w[i]^2) - u[3,i] for i = 1..N\nw[i](0) = sin(3 i) for i = 1..N\nw[i]'(0) = 0.1 i for i = 1..N\n"
-    "step 0.1\nuntil 1\n";
+static const char across[] = "N = 10\nu[i,j]'' = 0.3 (u[j,i] - u[i,j]) - 0.1 sin(u[i,j]) + sum(k = 1..N, k != j: 0.01 "
+                             "u[k,j] u[i,k]) + 0.1 u[mod(i, N)+1, mod(j+2, N)+1] "
+                             "for i = 1..N, j = 1..N\nu[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..N\nu[i,j]'(0) = "
+                             "0 for i = 1..N, j = 1..N\n"
+                             "w[i]'' = u[i,i] - 2 w[i] + w[mod(i+1, N)+1] exp(-w[i]^2) - u[3,i] for i = 1..N\nw[i](0) "
+                             "= sin(3 i) for i = 1..N\nw[i]'(0) = 0.1 i for i = 1..N\n"
+                             "step 0.1\nuntil 1\n";
 
 static motus_system *open_text(const char *text, int n)
 {
@@ -66,12 +73,16 @@ static motus_system *open_text(const char *text, int n)
     def.text = text;
     def.set = list;
     def.set_count = 1;
-    if (motus_system_from_text(&def, &s, &err))
-        fail_msg("%s", err.message);
+    if (motus_system_from_text(&def, &s, &err)) fail_msg("%s", err.message);
     return s;
 }
 
-typedef struct end { double *state; int64_t evaluations, steps; motus_status status; motus_error error; } end;
+typedef struct end {
+    double *state;
+    int64_t evaluations, steps;
+    motus_status status;
+    motus_error error;
+} end;
 
 /* steps in one go, or (cut) in calls of 1, 2, 3, … with looks between. */
 static end go(motus_system *s, const char *machine, int threads, const char *method, int steps, bool cut)
@@ -88,15 +99,12 @@ static end go(motus_system *s, const char *machine, int threads, const char *met
     const size_t nx = motus_positions(s), nv = motus_velocities(s);
     end e = {.state = calloc(nx + nv, sizeof(double)), .error = motus_default_error()};
     assert_non_null(e.state);
-    if (motus_run_create(s, &def, &r, &e.error))
-        fail_msg("%s by %s: %s", machine, method, e.error.message);
+    if (motus_run_create(s, &def, &r, &e.error)) fail_msg("%s by %s: %s", machine, method, e.error.message);
     for (int n = 1; cut && !e.status && !motus_run_done(r); n++) {
         e.status = motus_run_step(r, n, &e.error);
-        if (!e.status && n % 3 == 0)
-            e.status = motus_run_state(r, e.state, e.state + nx, &e.error);
+        if (!e.status && n % 3 == 0) e.status = motus_run_state(r, e.state, e.state + nx, &e.error);
     }
-    if (!e.status)
-        e.status = motus_run_finish(r, &e.error);
+    if (!e.status) e.status = motus_run_finish(r, &e.error);
     motus_status looked = motus_run_state(r, e.state, e.state + nx, NULL);
     assert_true(looked == MOTUS_OK || e.status != MOTUS_OK);
     e.evaluations = motus_run_evaluations(r);
@@ -114,7 +122,8 @@ static void same(const char *text, int n, const char *method, int steps)
         const int threads = 1 + 2 * (way / 2);
         end b = go(s, "compiled", threads, method, steps, way % 2);
         if (a.status != b.status || memcmp(a.state, b.state, bytes))
-            fail_msg("N = %d by %s, %d steps, %d threads, %s: the bits differ\n%.200s", n, method, steps, threads, way % 2 ? "cut" : "in one go", text);
+            fail_msg("N = %d by %s, %d steps, %d threads, %s: the bits differ\n%.200s", n, method, steps, threads,
+                     way % 2 ? "cut" : "in one go", text);
         assert_int_equal(a.evaluations, b.evaluations);
         assert_int_equal(a.steps, b.steps);
         assert_string_equal(a.error.message, b.error.message);
@@ -129,8 +138,7 @@ static void same(const char *text, int n, const char *method, int steps)
 static void rows(const char *text, const char *const methods[], const int sizes[], int steps)
 {
     for (; *methods; methods++)
-        for (const int *n = sizes; *n; n++)
-            same(text, *n, *methods, steps);
+        for (const int *n = sizes; *n; n++) same(text, *n, *methods, steps);
 }
 #define LIST(type, ...) ((type const[]){__VA_ARGS__, 0})
 typedef const char *text_of;
@@ -138,7 +146,9 @@ typedef const char *text_of;
 static void chains(void **state)
 {
     (void)state;
-    rows(chain, LIST(text_of, "velocity-verlet", "verlet", "kahan-li6", "rk4", "beeman", "position-verlet", "verlet-literal"), LIST(int, 10, 1000, 20011), 101);
+    rows(chain,
+         LIST(text_of, "velocity-verlet", "verlet", "kahan-li6", "rk4", "beeman", "position-verlet", "verlet-literal"),
+         LIST(int, 10, 1000, 20011), 101);
     same(chain, 100000, "velocity-verlet", 67);
 }
 
@@ -183,9 +193,9 @@ static void every_pair(void **state)
 static void divergence(void **state)
 {
     (void)state;
-    static const char text[] =
-        "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - (1 + 40 exp(-((i - N/3)/20)^2)) x[i]^3 for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
-        "x[i](0) = sin(37 i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nstep 0.6\nuntil 60\n";
+    static const char text[] = "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - (1 + 40 exp(-((i - N/3)/20)^2)) x[i]^3 for "
+                               "i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
+                               "x[i](0) = sin(37 i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nstep 0.6\nuntil 60\n";
     motus_system *s = open_text(text, 20011);
     end a = go(s, "interpreter", 1, "velocity-verlet", 100, false);
     assert_int_equal(a.status, MOTUS_DIVERGED);
@@ -211,14 +221,13 @@ static void threads_asked_for(void **state)
 
 int main(void)
 {
-    if (!mkdtemp(cache))
-        return 1;
+    if (!mkdtemp(cache)) return 1;
     setenv("XDG_CACHE_HOME", cache, 1);
     unsetenv("SUDO_UID");
-    const struct CMUnitTest tests[] = {cmocka_unit_test(chains),     cmocka_unit_test(families),   cmocka_unit_test(lattices),
-                                       cmocka_unit_test(companions), cmocka_unit_test(untiled),    cmocka_unit_test(every_pair),
-                                       cmocka_unit_test(scattered),
-                                       cmocka_unit_test(divergence), cmocka_unit_test(threads_asked_for)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(chains),     cmocka_unit_test(families),   cmocka_unit_test(lattices),
+        cmocka_unit_test(companions), cmocka_unit_test(untiled),    cmocka_unit_test(every_pair),
+        cmocka_unit_test(scattered),  cmocka_unit_test(divergence), cmocka_unit_test(threads_asked_for)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     motus_cache_clear();
     char path[64];

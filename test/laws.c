@@ -1,4 +1,5 @@
-/* The laws over every row of the catalogue: theorems, with bounds that are computed. Prints one line each and "N passed, N failed".
+/* The laws over every row of the catalogue: theorems, with bounds that are computed. Prints one line each and "N
+ * passed, N failed".
  *
  *     laws              all of them
  *     laws --quiet      failures only
@@ -15,8 +16,10 @@ static bool quiet;
 
 void judge(bool ok, const char *subject, const char *law, const char *format, ...)
 {
-    if (ok) passed++;
-    else failed++;
+    if (ok)
+        passed++;
+    else
+        failed++;
     if (ok && quiet) return;
     printf("%-4s %-24s %-30s ", ok ? "ok" : "FAIL", subject, law);
     va_list arguments;
@@ -31,7 +34,7 @@ quad quad_abs(quad x) { return x < 0 ? -x : x; }
 double quad_log2(quad x)
 {
     int shift = 0;
-    for (; x < Q(1e-100); shift++) x *= Q(0x1p+64);      /* beyond what a double holds */
+    for (; x < Q(1e-100); shift++) x *= Q(0x1p+64); /* beyond what a double holds */
     return log2((double)x) - 64.0 * shift;
 }
 

@@ -1,6 +1,8 @@
-/* What the laws share: numbers of 33 digits, the test problems, runs of any row over them, and the judge who prints and counts.
+/* What the laws share: numbers of 33 digits, the test problems, runs of any row over them, and the judge who prints
+ * and counts.
  *
- * Invariant: a law states what it measured and the bound, which follows from the theory or from the digits of the row's coefficients.
+ * Invariant: a law states what it measured and the bound, which follows from the theory or from the digits of the
+ * row's coefficients.
  */
 #ifndef TEST_LAWS_H
 #define TEST_LAWS_H
@@ -18,11 +20,12 @@ __extension__ typedef __float128 quad;
 #endif
 #define QUAD_EPSILON Q(0x1p-112)
 
-/* A method is its place in the catalogue. quad_… use its row in 33 digits; who wants to see inside the row includes core/rows.h and
- * looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside and outside of laws_quad.c and laws_coefficients.c.) */
+/* A method is its place in the catalogue. quad_… use its row in 33 digits; who wants to see inside the row includes
+ * core/rows.h and looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside
+ * and outside of laws_quad.c and laws_coefficients.c.) */
 typedef size_t method;
 
-enum { DIMENSIONS = 4, SPLITTING_MAX = 40 };      /* SPLITTING_MAX: stages of a splitting row */
+enum { DIMENSIONS = 4, SPLITTING_MAX = 40 }; /* SPLITTING_MAX: stages of a splitting row */
 
 /* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, so that no library function limits the digits. */
 typedef struct quad_problem {
@@ -40,11 +43,17 @@ extern const quad_problem quad_problems[PROBLEMS];
 traits quad_traits(const quad_problem *);
 bool quad_admits(method, const quad_problem *);
 
-typedef struct quad_state { quad x[DIMENSIONS], v[DIMENSIONS]; } quad_state;
-typedef struct quad_count { int64_t evaluations, iterations; int bad; } quad_count;
+typedef struct quad_state {
+    quad x[DIMENSIONS], v[DIMENSIONS];
+} quad_state;
+typedef struct quad_count {
+    int64_t evaluations, iterations;
+    int bad;
+} quad_count;
 
 /* `steps` steps from *state at t0; the synchronised state comes back in *state. */
-quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps, quad_state *state);
+quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
+                    quad_state *state);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion itself, by an extrapolated midpoint rule that shares nothing with step/. */
@@ -56,10 +65,11 @@ int quad_splitting_of(method, quad *kick, quad *drift);
 quad quad_looseness(method);
 
 quad quad_abs(quad);
-double quad_log2(quad);                        /* of a positive number */
+double quad_log2(quad); /* of a positive number */
 
 /* The judge: prints "ok" or "FAIL", the subject, the law and what was seen. */
-void judge(bool ok, const char *subject, const char *law, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void judge(bool ok, const char *subject, const char *law, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 void laws_of_order(void);
 void laws_of_structure(void);

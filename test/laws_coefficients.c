@@ -10,8 +10,8 @@
 #include "test/laws_proof.h"
 
 typedef quad coef;
-#define methods_table plain_table
-#define methods_count plain_count
+#define methods_table          plain_table
+#define methods_count          plain_count
 #define methods_newmark_damped plain_newmark_damped
 #include "core/methods.c"
 #undef methods_table
@@ -20,15 +20,16 @@ typedef quad coef;
 #undef K
 
 /* sizeof "0.5" is 4: a digit, the point, one decimal, the end; a sign and a second digit make it longer. */
-#define DECIMALS(size, x) ((int)(size) - 3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
+#define DECIMALS(size, x)    ((int)(size)-3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
 #define TENTH(d, bit, power) (((d) & (bit)) ? power : Q(1.0))
-#define TEN_TO_MINUS(d) (TENTH(d, 1, Q(1e-1)) * TENTH(d, 2, Q(1e-2)) * TENTH(d, 4, Q(1e-4)) * TENTH(d, 8, Q(1e-8)) * \
-                         TENTH(d, 16, Q(1e-16)) * TENTH(d, 32, Q(1e-32)))
-#define EXACT_LITERAL(x) ((x) * 1048576 == (quad)(long long)((x) * 1048576))
-#define HALF_UNIT(size, x) (EXACT_LITERAL(x) ? Q(0.0) : Q(0.5) * TEN_TO_MINUS(DECIMALS(size, x)))
-#define K(x) (Q(x) + HALF_UNIT(sizeof #x, Q(x)))
-#define methods_table moved_table
-#define methods_count moved_count
+#define TEN_TO_MINUS(d)                                                                          \
+    (TENTH(d, 1, Q(1e-1)) * TENTH(d, 2, Q(1e-2)) * TENTH(d, 4, Q(1e-4)) * TENTH(d, 8, Q(1e-8)) * \
+     TENTH(d, 16, Q(1e-16)) * TENTH(d, 32, Q(1e-32)))
+#define EXACT_LITERAL(x)       ((x)*1048576 == (quad)(long long)((x)*1048576))
+#define HALF_UNIT(size, x)     (EXACT_LITERAL(x) ? Q(0.0) : Q(0.5) * TEN_TO_MINUS(DECIMALS(size, x)))
+#define K(x)                   (Q(x) + HALF_UNIT(sizeof #x, Q(x)))
+#define methods_table          moved_table
+#define methods_count          moved_count
 #define methods_newmark_damped moved_newmark_damped
 #include "core/methods.c"
 #undef methods_table
@@ -47,7 +48,9 @@ static int stored(const row *m, quad *out)
         for (int i = 0; i < s; i++) out[n++] = m->tableau.c[i];
         for (int i = 0; i < s; i++)
             for (int j = 0; j < s; j++)
-                out[n++] = m->family == IMPLICIT ? m->tableau.a[i * s + j] : j < i ? m->tableau.a[i * (i - 1) / 2 + j] : 0;
+                out[n++] = m->family == IMPLICIT ? m->tableau.a[i * s + j]
+                           : j < i               ? m->tableau.a[i * (i - 1) / 2 + j]
+                                                 : 0;
         for (int i = 0; i < s; i++) out[n++] = m->tableau.b[i];
     }
     return n;
@@ -147,8 +150,10 @@ void coefficients_scheme(method k, const quad *value, scheme *out)
 {
     const row *m = &plain_table[k];
     *out = (scheme){0};
-    if (m->family == SPLITTING) splitting_scheme(m, value, out);
-    else tableau_scheme(m->tableau.stages, value, out);
+    if (m->family == SPLITTING)
+        splitting_scheme(m, value, out);
+    else
+        tableau_scheme(m->tableau.stages, value, out);
 }
 
 /* Kicks that depend on v need all of Nyström's trees; those that do not, the special ones; tableaux are made for s' =

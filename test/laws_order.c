@@ -1,7 +1,8 @@
 /* LAWS OF ORDER: the slope of the error that is observed for every row; the proof is in laws_proof.c.
  *
- * Invariant: slopes are taken in 33 digits, over steps where the error is above what the row's own digits allow; the margin is the
- * change of the slope from one halving to the next, which is how far an asymptotic series still is from its limit.
+ * Invariant: slopes are taken in 33 digits, over steps where the error is above what the row's own digits allow; the
+ * margin is the change of the slope from one halving to the next, which is how far an asymptotic series still is from
+ * its limit.
  */
 #include "core/rows.h"
 #include "test/laws_proof.h"
@@ -25,16 +26,17 @@ static void palindrome(method m)
     int first = 0, last = length - 1;
     while (sequence[first] == 0) first++;
     while (sequence[last] == 0) last--;
-    if ((last - first) % 2) skew = 1;                     /* the mirror of a kick would be a drift */
+    if ((last - first) % 2) skew = 1; /* the mirror of a kick would be a drift */
     for (; first < last; first++, last--) skew = fmax((double)skew, (double)quad_abs(sequence[first] - sequence[last]));
-    judge(card->reversible ? skew < Q(1e-30) : skew > Q(0.01), card->name, card->reversible ? "palindrome" : "no palindrome",
-          "asymmetry %.1e", (double)skew);
+    judge(card->reversible ? skew < Q(1e-30) : skew > Q(0.01), card->name,
+          card->reversible ? "palindrome" : "no palindrome", "asymmetry %.1e", (double)skew);
 }
 
 static void slope(method m, const double *argument, const char *name, int order, const quad_problem *p)
 {
     enum { POINTS_MAX = 14 };
-    /* Where the coefficients' digits begin to show: their half units, a hundred steps long, each with some twenty coefficients. */
+    /* Where the coefficients' digits begin to show: their half units, a hundred steps long, each with some twenty
+     * coefficients. */
     const quad span = Q(1.25), floor = Q(1e-22) + 2000 * coefficients_unit(m);
     quad_state truth = {0}, start = {0};
     for (size_t k = 0; k < p->nx; k++) truth.x[k] = p->x[k];
@@ -70,12 +72,15 @@ void laws_of_order(void)
         palindrome(m);
         static const int problems[] = {HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET};
         for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
-            if (quad_admits(m, &quad_problems[problems[i]])) slope(m, NULL, card->name, card->order, &quad_problems[problems[i]]);
+            if (quad_admits(m, &quad_problems[problems[i]]))
+                slope(m, NULL, card->name, card->order, &quad_problems[problems[i]]);
     }
     /* Newmark's arguments: order 2 for every beta with gamma = 1/2, and 1 for any other gamma. */
     static const double betas[][2] = {{0, 0.5}, {1.0 / 12, 0.5}, {1.0 / 6, 0.5}, {0.3025, 0.6}};
-    static const char *const names[] = {"newmark(0, 1/2)", "newmark(1/12, 1/2)", "newmark(1/6, 1/2)", "newmark(0.3025, 0.6)"};
+    static const char *const names[] = {"newmark(0, 1/2)", "newmark(1/12, 1/2)", "newmark(1/6, 1/2)",
+                                        "newmark(0.3025, 0.6)"};
     for (method m = 0; m < row_count(); m++)
         for (int i = 0; row_card(m)->name[0] == 'n' && i < 4; i++)
-            for (int p = DAMPED; p <= TANGLED; p++) slope(m, betas[i], names[i], betas[i][1] == 0.5 ? 2 : 1, &quad_problems[p]);
+            for (int p = DAMPED; p <= TANGLED; p++)
+                slope(m, betas[i], names[i], betas[i][1] == 0.5 ? 2 : 1, &quad_problems[p]);
 }

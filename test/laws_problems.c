@@ -1,7 +1,7 @@
 /* The problems that the laws are tried on, and their true motion.
  *
- * Each hides no term of the theory: more than one degree of freedom, nonlinear coupling, explicit time, velocity terms that are not
- * diagonal. One-dimensional, autonomous or linear problems would let wrong coefficients pass.
+ * Each hides no term of the theory: more than one degree of freedom, nonlinear coupling, explicit time, velocity
+ * terms that are not diagonal. One-dimensional, autonomous or linear problems would let wrong coefficients pass.
  */
 #include "test/laws.h"
 
@@ -9,11 +9,28 @@
 
 typedef const quad *in;
 
-static void free_fall(quad t, in x, in v, quad *a) { (void)t, (void)x, (void)v; a[0] = 0; a[1] = Q(-9.81); }
-static void free_fall_jvp(quad t, in x, in v, in dx, in dv, quad *da) { (void)t, (void)x, (void)v, (void)dx, (void)dv; da[0] = da[1] = 0; }
+static void free_fall(quad t, in x, in v, quad *a)
+{
+    (void)t, (void)x, (void)v;
+    a[0] = 0;
+    a[1] = Q(-9.81);
+}
+static void free_fall_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    (void)t, (void)x, (void)v, (void)dx, (void)dv;
+    da[0] = da[1] = 0;
+}
 
-static void oscillator(quad t, in x, in v, quad *a) { (void)t, (void)v; a[0] = -x[0]; }
-static void oscillator_jvp(quad t, in x, in v, in dx, in dv, quad *da) { (void)t, (void)x, (void)v, (void)dv; da[0] = -dx[0]; }
+static void oscillator(quad t, in x, in v, quad *a)
+{
+    (void)t, (void)v;
+    a[0] = -x[0];
+}
+static void oscillator_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    (void)t, (void)x, (void)v, (void)dv;
+    da[0] = -dx[0];
+}
 
 /* The gradient of a cubic potential. */
 static void henon_heiles(quad t, in x, in v, quad *a)
@@ -80,7 +97,8 @@ static void tangled_jvp(quad t, in x, in v, in dx, in dv, quad *da)
 {
     driven_jvp(t, x, v, dx, dv, da);
     da[0] += -Q(0.3) * (dv[0] * (1 + v[1] * v[1]) + 2 * v[0] * v[1] * dv[1]) + Q(0.2) * (dv[2] * v[0] + v[2] * dv[0]);
-    da[1] += -Q(0.3) * v[1] * v[1] * dv[1] + Q(0.3) * (dx[0] * v[0] * v[1] + x[0] * dv[0] * v[1] + x[0] * v[0] * dv[1]) + dv[2];
+    da[1] += -Q(0.3) * v[1] * v[1] * dv[1] +
+             Q(0.3) * (dx[0] * v[0] * v[1] + x[0] * dv[0] * v[1] + x[0] * v[0] * dv[1]) + dv[2];
     da[2] = dv[0] * v[1] + v[0] * dv[1] - Q(0.5) * dv[2] + t * dx[0];
 }
 
@@ -112,12 +130,15 @@ static void magnet_jvp(quad t, in x, in v, in dx, in dv, quad *da)
 
 #define HH_START .x = {Q(0.12), Q(-0.25)}, .v = {Q(0.42), Q(0.1), Q(0.3)}
 const quad_problem quad_problems[PROBLEMS] = {
-    [FREE_FALL] = {"free fall", 2, 2, .gradient = true, .x = {0}, .v = {1, Q(4.5)}, .accel = free_fall, .jvp = free_fall_jvp},
-    [OSCILLATOR] = {"oscillator", 1, 1, .gradient = true, .x = {1}, .v = {0}, .accel = oscillator, .jvp = oscillator_jvp},
+    [FREE_FALL] = {"free fall", 2, 2, .gradient = true, .x = {0}, .v = {1, Q(4.5)}, .accel = free_fall,
+                   .jvp = free_fall_jvp},
+    [OSCILLATOR] = {"oscillator", 1, 1, .gradient = true, .x = {1}, .v = {0}, .accel = oscillator,
+                    .jvp = oscillator_jvp},
     [HENON_HEILES] = {"henon-heiles", 2, 2, .gradient = true, HH_START, .accel = henon_heiles, .jvp = henon_heiles_jvp},
     [DRIVEN] = {"driven", 2, 2, .time = true, .gradient = false, HH_START, .accel = driven, .jvp = driven_jvp},
     [RIDER] = {"rider", 2, 3, .time = true, HH_START, .accel = rider, .jvp = rider_jvp},
-    [DAMPED] = {"damped", 2, 2, .velocity = true, .linear = true, .time = true, HH_START, .accel = damped, .jvp = damped_jvp},
+    [DAMPED] = {"damped", 2, 2, .velocity = true, .linear = true, .time = true, HH_START, .accel = damped,
+                .jvp = damped_jvp},
     [TANGLED] = {"tangled", 2, 3, .velocity = true, .time = true, HH_START, .accel = tangled, .jvp = tangled_jvp},
     [MAGNET] = {"magnet", 3, 3, .velocity = true, .linear = true, .time = true, .gyroscopic = true,
                 .x = {Q(0.3), Q(-0.2), Q(0.1)}, .v = {Q(0.5), Q(0.4), Q(-0.3)}, .accel = magnet, .jvp = magnet_jvp},
@@ -163,7 +184,7 @@ void quad_truth(const quad_problem *p, quad t0, quad t1, quad_state *state)
         quad_state table[COLUMNS];
         for (int j = 0; j < COLUMNS; j++) {
             gragg(p, t0 + piece * h, h, 2 * (j + 1), state, &table[j]);
-            for (int i = j - 1; i >= 0; i--) {                /* Aitken and Neville, in (1/n)² */
+            for (int i = j - 1; i >= 0; i--) { /* Aitken and Neville, in (1/n)² */
                 const quad ratio = (quad)((j + 1) * (j + 1)) / ((i + 1) * (i + 1));
                 for (size_t k = 0; k < DIMENSIONS; k++) {
                     table[i].x[k] = table[i + 1].x[k] + (table[i + 1].x[k] - table[i].x[k]) / (ratio - 1);

@@ -10,7 +10,13 @@
 
 /* A method to be judged: the tableau of a row that spells its coefficients, or one whose numbers are exact but for
  * rounding. */
-typedef struct subject { const char *name; trees_kind kind; const scheme *scheme; method row; bool spelled; } subject;
+typedef struct subject {
+    const char *name;
+    trees_kind kind;
+    const scheme *scheme;
+    method row;
+    bool spelled;
+} subject;
 
 /* bound[k]: by how much condition k may miss. Returns the number of conditions. */
 static int measure(const subject *s, int order, condition *now, quad *bound)
@@ -108,7 +114,10 @@ static void sharp(const subject *s, int order)
 /* The trees are as many as the literature counts [HNW93, II.2, II.14]: none is missing, none is there twice. */
 static void census(void)
 {
-    static const struct { const char *name; int count[TREES_ORDER_MAX]; } known[TREES_KINDS] = {
+    static const struct {
+        const char *name;
+        int count[TREES_ORDER_MAX];
+    } known[TREES_KINDS] = {
         [TREES_ROOTED] = {"rooted", {1, 1, 2, 4, 9, 20, 48, 115, 286}},
         [TREES_SPECIAL] = {"special Nyström", {1, 1, 2, 3, 6, 10, 20, 36, 72, 137, 275}},
         [TREES_NYSTROM] = {"Nyström", {1, 2, 6, 18, 60, 204}},

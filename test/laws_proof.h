@@ -22,17 +22,23 @@ typedef enum trees_kind { TREES_ROOTED, TREES_SPECIAL, TREES_NYSTROM, TREES_KIND
 
 /* The numbers of a row, and by how much each may miss what its author meant: half a unit in its last printed place, 0
  * where it is meant exactly. The count is 0 for rows without coefficients: the two-step methods, newmark, exact. */
-typedef struct coefficients { int count; quad value[COEFFICIENTS_MAX], unit[COEFFICIENTS_MAX]; } coefficients;
+typedef struct coefficients {
+    int count;
+    quad value[COEFFICIENTS_MAX], unit[COEFFICIENTS_MAX];
+} coefficients;
 coefficients coefficients_of(method);
-quad coefficients_unit(method);                                   /* the largest of these units */
+quad coefficients_unit(method); /* the largest of these units */
 /* The tableau that the row would make of other values in place of its own. */
 void coefficients_scheme(method, const quad *value, scheme *);
 trees_kind coefficients_trees(method);
 
 enum { TREES_ORDER_MAX = 11, TREES_CONDITIONS_MAX = 1024 };
 /* Condition k holds where left = right; it belongs to the order `order`. */
-typedef struct condition { int order; quad left, right; } condition;
-int trees_count(trees_kind, int order);                           /* of exactly this order; 0: not generated */
+typedef struct condition {
+    int order;
+    quad left, right;
+} condition;
+int trees_count(trees_kind, int order); /* of exactly this order; 0: not generated */
 int trees_conditions(trees_kind, const scheme *, int order, condition *);
 /* How many roundings, each of half QUAD_EPSILON, one condition of this order may have suffered, its coefficients' own
  * among them. */

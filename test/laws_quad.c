@@ -1,13 +1,15 @@
-/* The rows and the texts of step/ once more, with real = a number of 113 bits: nothing of the mathematics is written here again.
+/* The rows and the texts of step/ once more, with real = a number of 113 bits: nothing of the mathematics is written
+ * here again.
  *
- * Invariant: this file supplies what an includer of step/ must supply (a dense linear solver among it) and no step formula.
+ * Invariant: this file supplies what an includer of step/ must supply (a dense linear solver among it) and no step
+ * formula.
  */
 #include "test/laws.h"
 
 #define K(x) Q(x)
 typedef quad coef;
-#define methods_table quad_methods_table
-#define methods_count quad_methods_count
+#define methods_table          quad_methods_table
+#define methods_count          quad_methods_count
 #define methods_newmark_damped quad_methods_newmark_damped
 #include "core/methods.c"
 
@@ -15,17 +17,17 @@ typedef quad coef;
 #include <string.h>
 
 #define clock quad_clock
-#define real quad
+#define real  quad
 typedef quad clock;
 typedef int64_t whole;
 #define FMA(a, b, c) ((a) * (b) + (c))
-#define ABS(x) ((x) < 0 ? -(x) : (x))
-#define FINITE(x) ((x) - (x) == 0)
-#define EPSILON QUAD_EPSILON
+#define ABS(x)       ((x) < 0 ? -(x) : (x))
+#define FINITE(x)    ((x) - (x) == 0)
+#define EPSILON      QUAD_EPSILON
 #define SQRT_EPSILON Q(0x1p-56)
-#define EACH(k) for (size_t k = 0; k < w->nx; k++)
-#define EACHV(k) for (size_t k = 0; k < w->nv; k++)
-#define TRACE(w, i) ((void)(w), (void)(i))
+#define EACH(k)      for (size_t k = 0; k < w->nx; k++)
+#define EACHV(k)     for (size_t k = 0; k < w->nv; k++)
+#define TRACE(w, i)  ((void)(w), (void)(i))
 #define ROWS
 #include "step/work.h"
 
@@ -61,7 +63,8 @@ static int solve_factor(work *w, truth *where, int s, const quad *ax, const quad
         for (int r = 0; r < nv; r++) {
             d->jv[r][c] = jv[r];
             for (int i = 0; i < s; i++)
-                for (int j = 0; j < s; j++) d->matrix[i * nv + r][j * nv + c] -= ax[i * s + j] * jx[r] + av[i * s + j] * jv[r];
+                for (int j = 0; j < s; j++)
+                    d->matrix[i * nv + r][j * nv + c] -= ax[i * s + j] * jx[r] + av[i * s + j] * jv[r];
         }
     }
     return STEP_OK;
@@ -104,15 +107,25 @@ static void solve_apply(work *w, quad c, const quad *y, quad *out)
     }
 }
 
-static int exact_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; return STEP_CALLBACK; }
+static int exact_at(work *w, quad t, quad *x, quad *v)
+{
+    (void)w, (void)t, (void)x, (void)v;
+    return STEP_CALLBACK;
+}
 static void refresh_at(work *w, quad t, quad *x, quad *v) { (void)w, (void)t, (void)x, (void)v; }
 
 #include "core/texts.h"
 
 traits quad_traits(const quad_problem *p)
 {
-    return (traits){.velocity = p->velocity, .linear_v = p->linear, .time = p->time, .gyroscopic = p->gyroscopic,
-                    .gradient = p->gradient, .smooth = true, .companions = p->nv > p->nx, .constant = p->nx == 0};
+    return (traits){.velocity = p->velocity,
+                    .linear_v = p->linear,
+                    .time = p->time,
+                    .gyroscopic = p->gyroscopic,
+                    .gradient = p->gradient,
+                    .smooth = true,
+                    .companions = p->nv > p->nx,
+                    .constant = p->nx == 0};
 }
 
 /* As the catalogue decides it for the row of the same name. */
@@ -120,15 +133,23 @@ bool quad_admits(method k, const quad_problem *p)
 {
     chosen c;
     const traits t = quad_traits(p);
-    return methods_table[k].family != EXACT && !row_choose(methods_table[k].card.name, &c, NULL, NULL) && !row_admits(&c, &t, NULL);
+    return methods_table[k].family != EXACT && !row_choose(methods_table[k].card.name, &c, NULL, NULL) &&
+           !row_admits(&c, &t, NULL);
 }
 
 enum { ARRAYS_MAX = 20, CONSTANTS_MAX = 256 };
-static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0, quad h)
+static void begin(work *w, dense *d, quad *memory, const row *m, const double *argument, const quad_problem *p, quad t0,
+                  quad h)
 {
     static const double trapezoid[2] = {0.25, 0.5};
-    *w = (work){.row = m, .nx = p->nx, .nv = p->nv, .stride = DIMENSIONS, .t0 = t0, .library = d,
-                .velocity = p->velocity, .linear = p->linear};
+    *w = (work){.row = m,
+                .nx = p->nx,
+                .nv = p->nv,
+                .stride = DIMENSIONS,
+                .t0 = t0,
+                .library = d,
+                .velocity = p->velocity,
+                .linear = p->linear};
     d->problem = p;
     work_plan(w, argument ? argument : trapezoid, NULL);
     if (work_plan_size(w) > CONSTANTS_MAX) abort();
@@ -138,7 +159,8 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
     work_place(w, memory);
 }
 
-quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps, quad_state *state)
+quad_count quad_run(method k, const double *argument, const quad_problem *p, quad t0, quad h, int64_t steps,
+                    quad_state *state)
 {
     work w;
     dense d;

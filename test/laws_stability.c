@@ -1,5 +1,5 @@
-/* LAWS OF LONG RUNS: the stability limit on the oscillator, found without the card's help, is the one on the card; the energy of symplectic rows
- * has no trend, that of the others has.
+/* LAWS OF LONG RUNS: the stability limit on the oscillator, found without the card's help, is the one on the card;
+ * the energy of symplectic rows has no trend, that of the others has.
  */
 #include "core/rows.h"
 #include "core/stepper.h"
@@ -8,9 +8,12 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A motion is bounded when neither of these is positive [Jury's criterion]: det M - 1 and |trace M| - 1 - det M, M being one step's matrix
- * over (x, v) on x'' = -x. Beeman's state holds more than x and v, but two successive positions determine the next: M is over these. */
-typedef struct growth { quad spiral, saddle; } growth;
+/* A motion is bounded when neither of these is positive [Jury's criterion]: det M - 1 and |trace M| - 1 - det M, M
+ * being one step's matrix over (x, v) on x'' = -x. Beeman's state holds more than x and v, but two successive
+ * positions determine the next: M is over these. */
+typedef struct growth {
+    quad spiral, saddle;
+} growth;
 static growth growth_at(method m, quad z)
 {
     const bool pairs = methods_table[m].family == BEEMAN;
@@ -43,14 +46,16 @@ static quad crossing(method m, quad a, quad b)
 {
     while (b - a > Q(1e-20) * b) {
         const quad middle = (a + b) / 2;
-        if (worse(growth_at(m, middle)) > visible) b = middle;
-        else a = middle;
+        if (worse(growth_at(m, middle)) > visible)
+            b = middle;
+        else
+            a = middle;
     }
     return a;
 }
 
-/* A window of unbounded motion may be narrower than the distance of two samples: where the middle one of three is a maximum, the top is
- * looked for by thirds. Returns the top, or 0 if the motion is bounded there too. */
+/* A window of unbounded motion may be narrower than the distance of two samples: where the middle one of three is a
+ * maximum, the top is looked for by thirds. Returns the top, or 0 if the motion is bounded there too. */
 static quad window(method m, int saddle, quad a, quad b)
 {
     for (int i = 0; i < 160 && b - a > Q(1e-17) * b; i++) {
@@ -58,27 +63,31 @@ static quad window(method m, int saddle, quad a, quad b)
         const growth at_p = growth_at(m, p), at_q = growth_at(m, q);
         if (worse(at_p) > visible) return p;
         if (worse(at_q) > visible) return q;
-        if (either(at_p, saddle) < either(at_q, saddle)) a = p;
-        else b = q;
+        if (either(at_p, saddle) < either(at_q, saddle))
+            a = p;
+        else
+            b = q;
     }
     return 0;
 }
 
-/* The first step from 0 on where the oscillator leaves its bounds, whatever the card says. An explicit method of s evaluations has its limit at
- * 2 s at most, since the trace is a polynomial of degree s in z² that starts like 2 - z² (Chebyshev); implicit ones are tried up to 1e5. */
+/* The first step from 0 on where the oscillator leaves its bounds, whatever the card says. An explicit method of s
+ * evaluations has its limit at 2 s at most, since the trace is a polynomial of degree s in z² that starts like 2 - z²
+ * (Chebyshev); implicit ones are tried up to 1e5. */
 static quad limit_of(method m)
 {
     const bool implicit = methods_table[m].family == IMPLICIT;
     const quad first = Q(0x1p-10), last = implicit ? Q(1e5) : 2 * row_card(m)->stages + 1;
     quad z[3] = {0};
     growth g[3] = {{0}};
-    if (worse(growth_at(m, first)) > visible) return 0;      /* no limit is so small: this is growth at every step */
+    if (worse(growth_at(m, first)) > visible) return 0; /* no limit is so small: this is growth at every step */
     for (quad at = first; at < last; at = implicit ? at * Q(1.01) : at + Q(0x1p-5)) {
         z[0] = z[1], z[1] = z[2], z[2] = at;
         g[0] = g[1], g[1] = g[2], g[2] = growth_at(m, at);
         if (worse(g[2]) > visible) return crossing(m, z[1], z[2]);
         for (int saddle = 0; saddle < 2 && z[0] > 0; saddle++) {
-            const quad f = either(g[1], saddle);              /* a symplectic row has det M = 1: what varies is rounding */
+            /* a symplectic row has det M = 1: what varies is rounding */
+            const quad f = either(g[1], saddle);
             const bool top = f >= either(g[0], saddle) && f >= either(g[2], saddle) && quad_abs(f) > visible;
             const quad peak = top ? window(m, saddle, z[0], z[2]) : 0;
             if (peak > 0) return crossing(m, z[0], peak);
@@ -125,11 +134,14 @@ static void energy(method m)
     const motus_method *card = row_card(m);
     const problem p = {.nx = 2, .nv = 2, .accel = force, .jvp = slope, .traits = {.gradient = true, .smooth = true}};
     const double start_x[2] = {0.1, -0.2}, start_v[2] = {0.25, 0.1}, first = energy_of(start_x, start_v);
-    const double h = isinf(card->stability_limit) ? 0.4 : card->stability_limit == 0 ? 0.02 : card->stability_limit / 10;
+    const double h = isinf(card->stability_limit) ? 0.4
+                     : card->stability_limit == 0 ? 0.02
+                                                  : card->stability_limit / 10;
     const int samples = (int)(60 * 2 * M_PI / h);
     chosen c;
     stepper *s = NULL;
-    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&(machine){.problem = &p}, &c, 0, h, start_x, start_v, NULL, &s, NULL)) {
+    if (row_choose(card->name, &c, NULL, NULL) ||
+        stepper_create(&(machine){.problem = &p}, &c, 0, h, start_x, start_v, NULL, &s, NULL)) {
         judge(false, card->name, "energy", "no stepper");
         return;
     }
@@ -161,7 +173,8 @@ static void energy(method m)
     const double walk = 4 * DBL_EPSILON * sqrt((double)samples * WINDOWS);
     const bool keeps = card->symplectic, clear = lost || fabs(trend) > 4 * error + walk;
     judge(keeps ? !lost && !clear : clear, card->name, keeps ? "energy without trend" : "energy with trend",
-          "%s trend %.1e ± %.1e, largest error %.1e, rounding %.1e", lost ? "(left the finite numbers)" : "", trend, error, most, walk);
+          "%s trend %.1e ± %.1e, largest error %.1e, rounding %.1e", lost ? "(left the finite numbers)" : "", trend,
+          error, most, walk);
     stepper_destroy(s);
 }
 
@@ -178,8 +191,9 @@ static int no_slope(void *ctx, double t, double *x, double *v, const double *dx,
     return 0;
 }
 
-/* Many small steps of free fall, in double. With error words the speed is off by the rounding of the coefficients at most, epsilon for
- * each stage; a plain sum loses half a unit in the last place again and again, all in the same direction. */
+/* Many small steps of free fall, in double. With error words the speed is off by the rounding of the coefficients at
+ * most, epsilon for each stage; a plain sum loses half a unit in the last place again and again, all in the same
+ * direction. */
 static void compensation(method m)
 {
     const motus_method *card = row_card(m);
@@ -188,19 +202,24 @@ static void compensation(method m)
     double x = 0, v = 0;
     chosen c;
     stepper *s = NULL;
-    if (row_choose(card->name, &c, NULL, NULL) || stepper_create(&(machine){.problem = &p}, &c, 0, h, &zero, &zero, NULL, &s, NULL)) return;
-    const bool ran = !stepper_advance(s, (stepper_limit){200000, NAN}, NULL, NULL) && !stepper_sync(s, &x, &v, NULL, NULL);
+    if (row_choose(card->name, &c, NULL, NULL) ||
+        stepper_create(&(machine){.problem = &p}, &c, 0, h, &zero, &zero, NULL, &s, NULL))
+        return;
+    const bool ran =
+        !stepper_advance(s, (stepper_limit){200000, NAN}, NULL, NULL) && !stepper_sync(s, &x, &v, NULL, NULL);
     stepper_destroy(s);
     const double miss = fabs(v + speed) / speed, bound = (card->stages + 2) * DBL_EPSILON;
     const bool words = methods_table[m].compensated;
-    judge(ran && (words ? miss <= bound : miss > bound), card->name, words ? "compensated" : "not compensated", "speed off by %.1e of itself, bound %.1e", miss, bound);
+    judge(ran && (words ? miss <= bound : miss > bound), card->name, words ? "compensated" : "not compensated",
+          "speed off by %.1e of itself, bound %.1e", miss, bound);
 }
 
 void laws_of_stability(void)
 {
     for (method m = 0; m < row_count(); m++) {
         const motus_method *card = row_card(m);
-        if (methods_table[m].family == EXACT || methods_table[m].gyroscopic) continue;      /* boris needs a velocity term; without one it is leapfrog */
+        /* boris needs a velocity term; without one it is leapfrog */
+        if (methods_table[m].family == EXACT || methods_table[m].gyroscopic) continue;
         limit(m);
         if (card->order >= 6 || card->order == 4) compensation(m);
         /* Newmark and Beeman are conjugate to symplectic maps: no claim, and no trend to be seen either. */

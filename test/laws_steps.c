@@ -17,8 +17,14 @@ static const quad step = Q(0.25), start = Q(0.5);
  * tell implicit evaluations, which are repeated, apart: the last one counts, and what is asked elsewhere, to begin an
  * iteration, must not matter. */
 enum { MARKS_MAX = SCHEME_STAGES_MAX + 2 };
-typedef struct record { quad c, x, v; } record;
-static struct { int mark, calls, expected; const quad *time; record seen[SCHEME_STAGES_MAX]; } probe;
+typedef struct record {
+    quad c, x, v;
+} record;
+static struct {
+    int mark, calls, expected;
+    const quad *time;
+    record seen[SCHEME_STAGES_MAX];
+} probe;
 
 static void marked(quad t, const quad *x, const quad *v, quad *a)
 {
@@ -71,13 +77,19 @@ static quad tableau_of(method m, const double *argument, const scheme *as, schem
         const int j = mark - 2;
         for (int i = 0; i < as->stages; i++) {
             const record *r = &probe.seen[i];
-            if (mark == 0) out->c[i] = r->c, widen(&off, r->x - 1), widen(&off, r->v);
-            else if (mark == 1) widen(&off, r->x - out->c[i] * step), widen(&off, r->v - 1);
-            else out->a[i][j] = r->x / (step * step), out->av[i][j] = r->v / step;
+            if (mark == 0)
+                out->c[i] = r->c, widen(&off, r->x - 1), widen(&off, r->v);
+            else if (mark == 1)
+                widen(&off, r->x - out->c[i] * step), widen(&off, r->v - 1);
+            else
+                out->a[i][j] = r->x / (step * step), out->av[i][j] = r->v / step;
         }
-        if (mark == 0) widen(&off, end.x[0] - 1), widen(&off, end.v[0]);
-        else if (mark == 1) out->end = end.x[0] / step, widen(&off, end.v[0] - 1);
-        else out->b[j] = end.x[0] / (step * step), out->bv[j] = end.v[0] / step;
+        if (mark == 0)
+            widen(&off, end.x[0] - 1), widen(&off, end.v[0]);
+        else if (mark == 1)
+            out->end = end.x[0] / step, widen(&off, end.v[0] - 1);
+        else
+            out->b[j] = end.x[0] / (step * step), out->bv[j] = end.v[0] / step;
     }
     return off;
 }
@@ -117,8 +129,13 @@ static void as_tableau(method m)
 }
 
 /* Velocity Verlet's map, the force taken at the new velocity too: x₁ = x + h v + h²/2 k, v₁ = v + h/2 (k + k₁). */
-static const scheme verlet_map = {.stages = 2, .end = 1, .c = {0, 1}, .a = {{0, 0}, {Q(0.5), 0}}, .b = {Q(0.5), 0},
-                                  .av = {{0, 0}, {Q(0.5), Q(0.5)}}, .bv = {Q(0.5), Q(0.5)}};
+static const scheme verlet_map = {.stages = 2,
+                                  .end = 1,
+                                  .c = {0, 1},
+                                  .a = {{0, 0}, {Q(0.5), 0}},
+                                  .b = {Q(0.5), 0},
+                                  .av = {{0, 0}, {Q(0.5), Q(0.5)}},
+                                  .bv = {Q(0.5), Q(0.5)}};
 
 /* Every step of a two-step method, the first included, is that map between x[n] and w[n] = (x[n+1] - x[n-1])/2h.
  * Verlet's velocity is w, and the force takes it; Beeman's is w - h/6 (k[n] - k[n-1]), which differs from w by O(h²)
@@ -156,9 +173,16 @@ static void as_recurrence(method m)
  * gamma. */
 static void of_newmark(method m)
 {
-    static const struct { double argument[2]; const char *name; } known[] = {
-        {{0.25, 0.5}, "newmark"}, {{0, 0.5}, "newmark(0, 1/2)"}, {{1.0 / 12, 0.5}, "newmark(1/12, 1/2)"},
-        {{1.0 / 6, 0.5}, "newmark(1/6, 1/2)"}, {{1, 0.5}, "newmark(1, 1/2)"}, {{0.25, 0.25}, "newmark(1/4, 1/4)"},
+    static const struct {
+        double argument[2];
+        const char *name;
+    } known[] = {
+        {{0.25, 0.5}, "newmark"},
+        {{0, 0.5}, "newmark(0, 1/2)"},
+        {{1.0 / 12, 0.5}, "newmark(1/12, 1/2)"},
+        {{1.0 / 6, 0.5}, "newmark(1/6, 1/2)"},
+        {{1, 0.5}, "newmark(1, 1/2)"},
+        {{0.25, 0.25}, "newmark(1/4, 1/4)"},
         {{0.3025, 0.6}, "newmark(0.3025, 0.6)"},
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
@@ -172,8 +196,11 @@ static void of_newmark(method m)
 void laws_of_steps(void)
 {
     for (method m = 0; m < row_count(); m++) {
-        if (methods_table[m].newmark) of_newmark(m);
-        else if (recurrence(&methods_table[m])) as_recurrence(m);
-        else if (methods_table[m].family != EXACT) as_tableau(m);
+        if (methods_table[m].newmark)
+            of_newmark(m);
+        else if (recurrence(&methods_table[m]))
+            as_recurrence(m);
+        else if (methods_table[m].family != EXACT)
+            as_tableau(m);
     }
 }

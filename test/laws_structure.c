@@ -1,6 +1,7 @@
 /* LAWS OF STRUCTURE: reversal, symplecticity, volume, and how often the acceleration is asked for.
  *
- * Invariant: each law is tried both ways: rows that claim a property have it to the last digits, rows that do not must visibly lack it.
+ * Invariant: each law is tried both ways: rows that claim a property have it to the last digits, rows that do not
+ * must visibly lack it.
  */
 #include "core/rows.h"
 #include "test/laws.h"
@@ -28,10 +29,11 @@ static void reversal(method m, const quad_problem *p)
     const quad off = quad_distance(p, &s, &start);
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->reversible ? "reversal" : "no reversal", p->name);
-    /* Those that return do so up to rounding, and as exactly as their drifts reach the middle of the step, which time-dependent forces see.
-     * Of the others the smallest miss, at order 4, is near 1e-9. */
+    /* Those that return do so up to rounding, and as exactly as their drifts reach the middle of the step, which
+     * time-dependent forces see. Of the others the smallest miss, at order 4, is near 1e-9. */
     const quad bound = Q(1e-28) + quad_looseness(m);
-    judge(!count.bad && (card->reversible ? off < bound : off > Q(1e-13)), card->name, law, "returns within %.1e", (double)off);
+    judge(!count.bad && (card->reversible ? off < bound : off > Q(1e-13)), card->name, law, "returns within %.1e",
+          (double)off);
 }
 
 /* J' S J - S for the map over some steps, J by central differences: truncation d², rounding epsilon/d. Also det J. */
@@ -100,7 +102,8 @@ static void volume(method m, const quad_problem *p)
     }
     const quad off = quad_abs(determinant - 1);
     const bool keeps = methods_table[m].gyroscopic;
-    judge(keeps ? off < Q(1e-17) : off > Q(1e-7), row_card(m)->name, keeps ? "volume" : "no volume", "det J - 1: %.1e", (double)off);
+    judge(keeps ? off < Q(1e-17) : off > Q(1e-7), row_card(m)->name, keeps ? "volume" : "no volume", "det J - 1: %.1e",
+          (double)off);
 }
 
 /* `evaluations` a step in the long run, exactly; a linear velocity term costs no more and no iteration. */
@@ -113,8 +116,9 @@ static void evaluations(method m, const quad_problem *p)
     const quad_count count = quad_run(m, NULL, p, 0, Q(0.03125), steps, &s);
     char law[64];
     snprintf(law, sizeof law, "evaluations on %s", p->name);
-    judge(count.evaluations == steps * card->evaluations && count.iterations == 0, card->name, law, "%lld in %lld steps, %lld iterations",
-          (long long)count.evaluations, (long long)steps, (long long)count.iterations);
+    judge(count.evaluations == steps * card->evaluations && count.iterations == 0, card->name, law,
+          "%lld in %lld steps, %lld iterations", (long long)count.evaluations, (long long)steps,
+          (long long)count.iterations);
 }
 
 /* Free fall is a parabola: methods of order 2 and more follow it to round-off, the Eulers miss it by -+ g h t/2. */
@@ -130,11 +134,13 @@ static void parabola(method m)
     const quad miss = s.x[1] - (p->v[1] * t - Q(9.81) * t * t / 2);
     quad expected = 0;
     if (card->order == 1) {
-        const bool explicit_euler = methods_table[m].family == RUNGE_KUTTA, kick_first = methods_table[m].family == SPLITTING && methods_table[m].splitting.kick[0] != 0;
+        const bool explicit_euler = methods_table[m].family == RUNGE_KUTTA,
+                   kick_first = methods_table[m].family == SPLITTING && methods_table[m].splitting.kick[0] != 0;
         expected = (explicit_euler || !kick_first ? 1 : -1) * Q(9.81) * h * t / 2;
     }
     /* Coefficients of 15 digits miss the sums of products that give t²/2 by as much. */
-    judge(quad_abs(miss - expected) < Q(1e-13), card->name, "parabola", "misses by %.3e, expected %.3e", (double)miss, (double)expected);
+    judge(quad_abs(miss - expected) < Q(1e-13), card->name, "parabola", "misses by %.3e, expected %.3e", (double)miss,
+          (double)expected);
 }
 
 void laws_of_structure(void)

@@ -9,10 +9,14 @@
 enum { TREES_MAX = 1024, LINKS_MAX = TREES_ORDER_MAX };
 typedef struct tree {
     int order, leaves, children, child[LINKS_MAX];
-    bool velocity[LINKS_MAX];      /* child i hangs on v, not on x */
-    quad gamma;                    /* the exact solution has 1/gamma in v, 1/((order + 1) gamma) in x */
+    bool velocity[LINKS_MAX]; /* child i hangs on v, not on x */
+    quad gamma;               /* the exact solution has 1/gamma in v, 1/((order + 1) gamma) in x */
 } tree;
-typedef struct forest { trees_kind kind; int count; tree tree[TREES_MAX]; } forest;
+typedef struct forest {
+    trees_kind kind;
+    int count;
+    tree tree[TREES_MAX];
+} forest;
 
 /* What can hang: item 0 is a leaf v, 2k + 1 tree k on v, 2k + 2 tree k on x. Returns by how much it raises the order;
  * 0: not of this kind. */
@@ -71,7 +75,7 @@ int trees_conditions(trees_kind kind, const scheme *m, int order, condition *out
     static quad phi[TREES_MAX][SCHEME_STAGES_MAX];
     const forest *f = forest_of(kind);
     int count = 0;
-    for (int i = 0; i < m->stages && kind == TREES_ROOTED; i++) {      /* time is a component of s whose rate is 1 */
+    for (int i = 0; i < m->stages && kind == TREES_ROOTED; i++) { /* time is a component of s whose rate is 1 */
         out[count] = (condition){1, 0, m->c[i]};
         for (int j = 0; j < m->stages; j++) out[count].left += m->av[i][j];
         count++;

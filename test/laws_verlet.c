@@ -1,4 +1,5 @@
-/* LAWS OF VERLET: local error h^4 of the recursion, h^3 of the start, h^2 of the whole; and the two founding recurrences in 22 digits.
+/* LAWS OF VERLET: local error h^4 of the recursion, h^3 of the start, h^2 of the whole; and the two founding
+ * recurrences in 22 digits.
  */
 #include "test/laws.h"
 
@@ -55,7 +56,8 @@ static void slope(const char *law, error_at error, int expected, const quad_prob
     const double before = e0 - e1, last = e1 - e2, margin = 1.5 * fabs(last - before) + 0.01;
     char text[80];
     snprintf(text, sizeof text, "%s on %s", law, p->name);
-    judge(fabs(last - expected) <= margin && margin < 0.2, "verlet", text, "slope %.4f, expected %d, margin %.4f", last, expected, margin);
+    judge(fabs(last - expected) <= margin && margin < 0.2, "verlet", text, "slope %.4f, expected %d, margin %.4f", last,
+          expected, margin);
 }
 
 /* cos by Taylor's series after taking off whole turns. */
@@ -76,7 +78,11 @@ static void driven_oscillator(quad t, const quad *x, const quad *v, quad *a)
     (void)v;
     a[0] = -x[0] + x[0] * x[0] * x[0] + cosine(t) / 10;
 }
-static void damped_cubic(quad t, const quad *x, const quad *v, quad *a) { (void)t; a[0] = -v[0] - x[0] * x[0] * x[0]; }
+static void damped_cubic(quad t, const quad *x, const quad *v, quad *a)
+{
+    (void)t;
+    a[0] = -v[0] - x[0] * x[0] * x[0];
+}
 static void damped_cubic_jvp(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da)
 {
     (void)t, (void)v;
@@ -87,22 +93,30 @@ static void damped_cubic_jvp(quad t, const quad *x, const quad *v, const quad *d
 static void founding(void)
 {
     const quad_problem driven = {"driven oscillator", 1, 1, .time = true, .accel = driven_oscillator};
-    const quad_problem cubic = {"damped cubic", 1, 1, .velocity = true, .linear = true, .x = {10}, .accel = damped_cubic, .jvp = damped_cubic_jvp};
-    static const struct { bool cubic; int64_t steps; quad x; } known[] = {
-        {false, 1000, Q(0.04207516760960441335731)},   {false, 10000, Q(-0.1738773821515826231245)},
-        {false, 50000, Q(-0.8190196386833164899665)},  {false, 100000, Q(0.04778239807187257792945)},
-        {true, 500, Q(-5.818576420328394541357)},      {true, 1000, Q(4.071615394297357525042)},
-        {true, 2000, Q(4.921628363830870650900)},      {true, 3000, Q(-3.489442177206087865029)},
+    const quad_problem cubic = {
+        "damped cubic",         1, 1, .velocity = true, .linear = true, .x = {10}, .accel = damped_cubic,
+        .jvp = damped_cubic_jvp};
+    static const struct {
+        bool cubic;
+        int64_t steps;
+        quad x;
+    } known[] = {
+        {false, 1000, Q(0.04207516760960441335731)},  {false, 10000, Q(-0.1738773821515826231245)},
+        {false, 50000, Q(-0.8190196386833164899665)}, {false, 100000, Q(0.04778239807187257792945)},
+        {true, 500, Q(-5.818576420328394541357)},     {true, 1000, Q(4.071615394297357525042)},
+        {true, 2000, Q(4.921628363830870650900)},     {true, 3000, Q(-3.489442177206087865029)},
     };
     static const char *const rows[] = {"verlet", "verlet-literal"};
     for (int i = 0; i < 2; i++)
         for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
             quad_state s = {.x = {known[k].cubic ? 10 : 0}};
-            if (!known[k].cubic && known[k].steps > 10000 && i == 1) continue;     /* cosines are slow, and the two rows are one in 33 digits */
+            /* cosines are slow, and the two rows are one in 33 digits */
+            if (!known[k].cubic && known[k].steps > 10000 && i == 1) continue;
             quad_run(named(rows[i]), NULL, known[k].cubic ? &cubic : &driven, 0, Q(0.001), known[k].steps, &s);
             const quad off = quad_abs(s.x[0] - known[k].x);
             char law[80];
-            snprintf(law, sizeof law, "%s, n = %lld", known[k].cubic ? "damped cubic" : "driven oscillator", (long long)known[k].steps);
+            snprintf(law, sizeof law, "%s, n = %lld", known[k].cubic ? "damped cubic" : "driven oscillator",
+                     (long long)known[k].steps);
             /* The table has 22 digits; the recurrence multiplies rounding by about n². */
             judge(off < Q(2e-21), rows[i], law, "off the exact recurrence by %.1e", (double)off);
         }

@@ -11,12 +11,14 @@ static motus_system *system_of(const char *text)
     motus_error err = motus_default_error();
     motus_system *s = NULL;
     def.text = text;
-    if (motus_system_from_text(&def, &s, &err))
-        fail_msg("%s", err.message);
+    if (motus_system_from_text(&def, &s, &err)) fail_msg("%s", err.message);
     return s;
 }
 
-typedef struct witness { int seen, enough; double last; } witness;
+typedef struct witness {
+    int seen, enough;
+    double last;
+} witness;
 
 static int watching(void *context, motus_run *r)
 {
@@ -36,10 +38,8 @@ static motus_run *run_of(motus_system *s, const char *method, double step, doubl
     motus_error err = motus_default_error();
     motus_run *r = NULL;
     def.method = method, def.step = step, def.until = until;
-    if (w)
-        def.observer = watching, def.context = w;
-    if (motus_run_create(s, &def, &r, &err))
-        fail_msg("%s", err.message);
+    if (w) def.observer = watching, def.context = w;
+    if (motus_run_create(s, &def, &r, &err)) fail_msg("%s", err.message);
     return r;
 }
 
@@ -47,7 +47,8 @@ static motus_run *run_of(motus_system *s, const char *method, double step, doubl
 static void legs(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"verlet", "velocity-verlet", "beeman", "verlet-literal", "rk4", "gauss4", "newmark", "kahan-li8"};
+    static const char *const methods[] = {"verlet", "velocity-verlet", "beeman",  "verlet-literal",
+                                          "rk4",    "gauss4",          "newmark", "kahan-li8"};
     motus_system *s = system_of(oscillator);
     motus_error err = motus_default_error();
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
@@ -103,7 +104,8 @@ static void observers(void **state)
     motus_system *s = system_of(oscillator);
     motus_error err = motus_default_error();
     witness all = {0}, some = {.enough = 3};
-    motus_run *r = run_of(s, "verlet", 0.125, 2.03, &all), *q = run_of(s, "verlet", 0.125, 2.03, &some), *plain = run_of(s, "verlet", 0.125, 2.03, NULL);
+    motus_run *r = run_of(s, "verlet", 0.125, 2.03, &all), *q = run_of(s, "verlet", 0.125, 2.03, &some),
+              *plain = run_of(s, "verlet", 0.125, 2.03, NULL);
     assert_int_equal(motus_run_finish(r, &err), MOTUS_OK);
     assert_int_equal(all.seen, 17);
     assert_int_equal(motus_run_finish(q, &err), MOTUS_CANCELLED);
@@ -121,7 +123,8 @@ static void observers(void **state)
 static void back(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"verlet", "velocity-verlet", "beeman", "verlet-literal", "rk4", "gauss4", "newmark"};
+    static const char *const methods[] = {"verlet", "velocity-verlet", "beeman", "verlet-literal",
+                                          "rk4",    "gauss4",          "newmark"};
     motus_system *s = system_of(oscillator);
     motus_error err = motus_default_error();
     size_t column, count;
@@ -152,6 +155,7 @@ static void back(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(legs), cmocka_unit_test(refused), cmocka_unit_test(observers), cmocka_unit_test(back)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(legs), cmocka_unit_test(refused), cmocka_unit_test(observers),
+                                       cmocka_unit_test(back)};
     return cmocka_run_group_tests_name("leg", tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
-/* The same bits on every machine: each model of models/ by one method of every family, interpreted and compiled; and the cache of compiled
- * objects under damage.
+/* The same bits on every machine: each model of models/ by one method of every family, interpreted and compiled; and
+ * the cache of compiled objects under damage.
  *
- * A compiled row costs a compiler run, so `make test` takes one row of each family's text (and of each kind of force); with MOTUS_ALL_ROWS set, all.
- * Steps are few: bits that differ differ at once, and the longer runs are the golden test's.
+ * A compiled row costs a compiler run, so `make test` takes one row of each family's text (and of each kind of
+ * force); with MOTUS_ALL_ROWS set, all. Steps are few: bits that differ differ at once, and the longer runs are the
+ * golden test's.
  */
 #include "motus.h"
 #include "test/given_cache.h"
@@ -52,14 +53,18 @@ static motus_system *open_text(const char *text, const char *set)
     def.text = text;
     def.set = &set;
     def.set_count = set != NULL;
-    if (motus_system_from_text(&def, &s, &err))
-        fail_msg("%s", err.message);
+    if (motus_system_from_text(&def, &s, &err)) fail_msg("%s", err.message);
     return s;
 }
 
 enum { STEPS = 40 };
 
-typedef struct end { double *state; size_t count; int64_t evaluations, iterations; motus_status status; } end;
+typedef struct end {
+    double *state;
+    size_t count;
+    int64_t evaluations, iterations;
+    motus_status status;
+} end;
 
 static end run_on(motus_system *s, const char *machine, const char *method)
 {
@@ -73,18 +78,14 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     def.until = set.from + STEPS * set.step;
     motus_run *r = NULL;
     end e = {.count = motus_positions(s) + motus_velocities(s)};
-    if (motus_run_create(s, &def, &r, &err))
-        fail_msg("%s by %s: %s", machine, method, err.message);
+    if (motus_run_create(s, &def, &r, &err)) fail_msg("%s by %s: %s", machine, method, err.message);
     assert_string_equal(motus_run_machine(r), machine);
     e.state = calloc(e.count + 1, sizeof *e.state);
     /* Look on the way too: looking is another function of the object. */
     e.status = motus_run_step(r, STEPS / 2, &err);
-    if (!e.status)
-        e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
-    if (!e.status)
-        e.status = motus_run_finish(r, &err);
-    if (!e.status)
-        e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
+    if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
+    if (!e.status) e.status = motus_run_finish(r, &err);
+    if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
     e.evaluations = motus_run_evaluations(r);
     e.iterations = motus_run_iterations(r);
     motus_run_destroy(r);
@@ -105,15 +106,13 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 static bool chosen(const char *name)
 {
     static const char *const rows[] = {"verlet", "blanes-moan6", "boris", "rk4", "newmark", "gauss4"};
-    if (getenv("MOTUS_ALL_ROWS"))
-        return true;
+    if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* What the sanitizers watch is the library's part, which every row takes the same way. */
     return !strcmp(name, "gauss4");
 #endif
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!strcmp(rows[i], name))
-            return true;
+        if (!strcmp(rows[i], name)) return true;
     return false;
 }
 
@@ -126,13 +125,11 @@ static void every_model(void **state)
     assert_non_null(d);
     int pairs = 0;
     for (struct dirent *e; (e = readdir(d));) {
-        if (!strstr(e->d_name, ".motus"))
-            continue;
+        if (!strstr(e->d_name, ".motus")) continue;
         motus_system *s = open_text(read_model(e->d_name), NULL);
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (!chosen(m->name) || motus_method_admits(s, m->name, NULL) != MOTUS_OK)
-                continue;
+            if (!chosen(m->name) || motus_method_admits(s, m->name, NULL) != MOTUS_OK) continue;
             same_bits(s, e->d_name, m->name);
             pairs++;
         }
@@ -143,17 +140,20 @@ static void every_model(void **state)
     assert_true(pairs >= 18);
 }
 
-/* What the text can contain: sums nested and masked, wrapped indices, driven boundaries, lists, conditions, companions. */
+/* What the text can contain: sums nested and masked, wrapped indices, driven boundaries, lists, conditions,
+ * companions. */
 static void every_construct(void **state)
 {
     (void)state;
     static const char text[] =
         "N = 9\nm = [1, 2, 3]\nw[i] = 1 + i/10 for i = 1..N\n"
-        "u[i]'' = w[i] (u[i+1] - 2 u[i] + u[i-1]) + 0.1 sum(j = 1..N, j != i: (u[j] - u[i])/(1 + |u[j] - u[i]|^3)) for i = 1..N\n"
+        "u[i]'' = w[i] (u[i+1] - 2 u[i] + u[i-1]) + 0.1 sum(j = 1..N, j != i: (u[j] - u[i])/(1 + |u[j] - u[i]|^3)) for "
+        "i = 1..N\n"
         "u[0] = 0.1 sin(t)\nu[N+1] = 0\nu[i](0) = sin(i) for i = 1..N\nu[i]'(0) = 0 for i = 1..N\n"
         "p[i]'' = p[mod(i, N)+1] - 2 p[i] + p[mod(i-2, N)+1] + if(p[i] > 0.5, -p[i]^2, 0.3) for i = 1..N\n"
         "p[i](0) = cos(i) for i = 1..N\np[i]'(0) = 0 for i = 1..N\n"
-        "r'' = -m[2] r/|r|^3 + (t, 0, sum(k = 1..3: m[k] sum(j = k..3: exp(-j)))) \nr(0) = (1, 2, 0)\nr'(0) = (0, 0.3, 0)\n"
+        "r'' = -m[2] r/|r|^3 + (t, 0, sum(k = 1..3: m[k] sum(j = k..3: exp(-j)))) \nr(0) = (1, 2, 0)\nr'(0) = (0, 0.3, "
+        "0)\n"
         "s' = -s r.x + floor(t) + sum(k = 1..40: 1/k^2)\ns(0) = 1\n"
         "step 0.05\nuntil 3\n";
     for (int n = 4; n <= 41; n += 37) {
@@ -161,19 +161,42 @@ static void every_construct(void **state)
         snprintf(set, sizeof set, "N=%d", n);
         motus_system *s = open_text(text, set);
         static const char *const rows[] = {"rk4", "gauss4", "verlet"};
-        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-            same_bits(s, "every construct", rows[k]);
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) same_bits(s, "every construct", rows[k]);
         motus_system_destroy(s);
     }
 }
 
-/* A text carries the functions that its model uses and no other: each function alone, so that none lives on what another brought along. */
+/* A text carries the functions that its model uses and no other: each function alone, so that none lives on what
+ * another brought along. */
 static void every_function(void **state)
 {
     (void)state;
-    static const char *const calls[] = {"sin(x)", "cos(x)", "tan(x)", "asin(x/9)", "acos(x/9)", "atan(x)", "atan2(x, t+1)", "sinh(x)", "cosh(x)", "tanh(x)",
-        "exp(-x)", "log(x+4)", "sqrt(x+4)", "cbrt(x)", "hypot(x, t)", "abs(x)", "min(x, t)", "max(x, t)", "floor(3 x)", "mod(3 x, 0.7)", "sign(x)", "erf(x)",
-        "(x+4)^t", "if(x < 0 and t > 0.2 or not (x >= 0.5), 1, x)", "if(x <= t, 1, if(x == 0.5, 2, if(x != 0.25, 3, 4)))", "-x/(2 - t) - 0.1 x"};
+    static const char *const calls[] = {"sin(x)",
+                                        "cos(x)",
+                                        "tan(x)",
+                                        "asin(x/9)",
+                                        "acos(x/9)",
+                                        "atan(x)",
+                                        "atan2(x, t+1)",
+                                        "sinh(x)",
+                                        "cosh(x)",
+                                        "tanh(x)",
+                                        "exp(-x)",
+                                        "log(x+4)",
+                                        "sqrt(x+4)",
+                                        "cbrt(x)",
+                                        "hypot(x, t)",
+                                        "abs(x)",
+                                        "min(x, t)",
+                                        "max(x, t)",
+                                        "floor(3 x)",
+                                        "mod(3 x, 0.7)",
+                                        "sign(x)",
+                                        "erf(x)",
+                                        "(x+4)^t",
+                                        "if(x < 0 and t > 0.2 or not (x >= 0.5), 1, x)",
+                                        "if(x <= t, 1, if(x == 0.5, 2, if(x != 0.25, 3, 4)))",
+                                        "-x/(2 - t) - 0.1 x"};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
         char text[200];
         snprintf(text, sizeof text, "x'' = 0.5 (%s) - x\nx(0) = 1\nx'(0) = 0.1\nstep 0.05\nuntil 3\n", calls[i]);
@@ -192,11 +215,9 @@ static int entries(char *one, size_t size)
     for (struct dirent *e; d && (e = readdir(d));)
         if (strlen(e->d_name) > 3 && !strcmp(e->d_name + strlen(e->d_name) - 3, ".so")) {
             n++;
-            if (one)
-                snprintf(one, size, "%s/%s", path, e->d_name);
+            if (one) snprintf(one, size, "%s/%s", path, e->d_name);
         }
-    if (d)
-        closedir(d);
+    if (d) closedir(d);
     return n;
 }
 
@@ -232,12 +253,12 @@ static void damaged_entries_are_rebuilt(void **state)
     compile_again();
     assert_int_equal(entries(path, sizeof path), 1);
     assert_int_equal(stat(path, &before), 0);
-    compile_again();                                  /* served from the cache: the file is the same */
+    compile_again(); /* served from the cache: the file is the same */
     assert_int_equal(stat(path, &after), 0);
     assert_int_equal(before.st_ino, after.st_ino);
     for (int damage = 0; damage < 4; damage++) {
         stat(path, &before);
-        if (damage == 0) {                            /* a bit in the middle */
+        if (damage == 0) { /* a bit in the middle */
             int fd = open(path, O_RDWR);
             char c;
             assert_int_equal(pread(fd, &c, 1, before.st_size / 2), 1);
@@ -246,9 +267,9 @@ static void damaged_entries_are_rebuilt(void **state)
             close(fd);
         } else if (damage == 1) {
             assert_int_equal(truncate(path, before.st_size / 2), 0);
-        } else if (damage == 2) {                     /* somebody else could have written it */
+        } else if (damage == 2) { /* somebody else could have written it */
             assert_int_equal(chmod(path, 0666), 0);
-        } else {                                      /* a link to a sound object elsewhere */
+        } else { /* a link to a sound object elsewhere */
             char aside[1100];
             snprintf(aside, sizeof aside, "%s.aside", path);
             assert_int_equal(rename(path, aside), 0);
@@ -290,7 +311,8 @@ static void without_a_compiler(void **state)
     motus_error err = motus_default_error();
     motus_run *r = NULL;
     def.method = "verlet";
-    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);      /* auto: the interpreter serves, and says why */
+    /* auto: the interpreter serves, and says why */
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
     assert_string_equal(motus_run_machine(r), "interpreter");
     assert_non_null(strstr(motus_run_note(r), "no C compiler"));
     motus_run_destroy(r);
@@ -308,7 +330,9 @@ static void without_a_compiler(void **state)
 static void no_text_of_the_model_is_compiled(void **state)
 {
     (void)state;
-    motus_system *s = open_text("zebra = 0.25   # a remark\nqqquagga'' = -zebra qqquagga\nqqquagga(0) = 1\nqqquagga'(0) = 0\nstep 0.1\nuntil 1\n", NULL);
+    motus_system *s = open_text("zebra = 0.25   # a remark\nqqquagga'' = -zebra qqquagga\nqqquagga(0) = "
+                                "1\nqqquagga'(0) = 0\nstep 0.1\nuntil 1\n",
+                                NULL);
     const char *text = motus_compiled_text(s, "verlet", NULL);
     assert_non_null(text);
     assert_null(strstr(text, "zebra"));
@@ -320,10 +344,14 @@ static void no_text_of_the_model_is_compiled(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_model), cmocka_unit_test(every_construct), cmocka_unit_test(every_function), cmocka_unit_test(one_object_for_all_sizes),
-        cmocka_unit_test(damaged_entries_are_rebuilt), cmocka_unit_test(shared_directory_is_not_trusted), cmocka_unit_test(without_a_compiler),
-        cmocka_unit_test(no_text_of_the_model_is_compiled)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_model),
+                                       cmocka_unit_test(every_construct),
+                                       cmocka_unit_test(every_function),
+                                       cmocka_unit_test(one_object_for_all_sizes),
+                                       cmocka_unit_test(damaged_entries_are_rebuilt),
+                                       cmocka_unit_test(shared_directory_is_not_trusted),
+                                       cmocka_unit_test(without_a_compiler),
+                                       cmocka_unit_test(no_text_of_the_model_is_compiled)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     close_cache();
     return failed;

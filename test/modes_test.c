@@ -1,4 +1,5 @@
-/* What a host program may have set and the library must neither suffer from nor change: the rounding mode, the flush modes, the locale.
+/* What a host program may have set and the library must neither suffer from nor change: the rounding mode, the flush
+ * modes, the locale.
  */
 #include "base/decimal.h"
 #include "test/given.h"
@@ -10,8 +11,9 @@
 #endif
 
 /* A motion that dies away through the subnormal numbers, where flushing them would show. */
-static const char dying[] = "x'' = -2 x' - 3 x\nx(0) = 1e-300\nx'(0) = 0\ny'' = -sin(y)\ny(0) = 1.1\ny'(0) = 1/3\nq = x y + 1/3\n"
-                            "invariant e = y'^2/2 - cos(y)\n";
+static const char dying[] =
+    "x'' = -2 x' - 3 x\nx(0) = 1e-300\nx'(0) = 0\ny'' = -sin(y)\ny(0) = 1.1\ny'(0) = 1/3\nq = x y + 1/3\n"
+    "invariant e = y'^2/2 - cos(y)\n";
 
 static uint64_t everything(void)
 {
@@ -22,8 +24,7 @@ static uint64_t everything(void)
         motus_run *r = given_run(s, methods[i], 0.013, 30), *again = given_run(s, methods[i], 0.013, 30);
         size_t columns[8], all = motus_column_count(s);
         double out[8], t[2] = {29.5, 29.999};
-        for (size_t k = 0; k < all; k++)
-            columns[k] = k;
+        for (size_t k = 0; k < all; k++) columns[k] = k;
         motus_error err = motus_default_error();
         take_steps(r, 2000);
         const char *text;
@@ -33,13 +34,11 @@ static uint64_t everything(void)
         for (int turn = 0; turn < 2; turn++, r = again) {
             for (int j = 0; j < 2; j++) {
                 must(motus_run_sample(r, &t[j], 1, columns, all, out, &err), &err, "sample");
-                for (size_t k = 0; k < all * sizeof *out; k++)
-                    h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
+                for (size_t k = 0; k < all * sizeof *out; k++) h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
             }
             finish(r);
             must(motus_run_values(r, columns, all, out, &err), &err, "values");
-            for (size_t k = 0; k < all * sizeof *out; k++)
-                h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
+            for (size_t k = 0; k < all * sizeof *out; k++) h = (h ^ ((unsigned char *)out)[k]) * 1099511628211u;
             motus_run_destroy(r);
         }
     }
@@ -53,11 +52,10 @@ static uint64_t everything(void)
     must(motus_compare(s, &def, &c, &err), &err, "compare");
     for (size_t i = 0; i < c->row_count; i++) {
         const motus_compare_row *row = c->rows[i];
-        const double numbers[] = {row->error_max_x, row->error_max_v, row->error_final_x, row->error_final_v, row->reversal,
-            row->invariants[0]->max_drift,
+        const double numbers[] = {row->error_max_x,         row->error_max_v, row->error_final_x,
+                                  row->error_final_v,       row->reversal,    row->invariants[0]->max_drift,
                                   row->invariants[0]->trend};
-        for (size_t k = 0; k < sizeof numbers; k++)
-            h = (h ^ ((const unsigned char *)numbers)[k]) * 1099511628211u;
+        for (size_t k = 0; k < sizeof numbers; k++) h = (h ^ ((const unsigned char *)numbers)[k]) * 1099511628211u;
     }
     motus_comparison_destroy(c);
     motus_system_destroy(s);
@@ -74,14 +72,13 @@ static void rounding_and_flush_modes(void **state)
             fesetround(roundings[i]);
 #if defined(__x86_64__)
             unsigned before = _mm_getcsr();
-            if (flush)
-                _mm_setcsr(before | 0x8040);     /* flush to zero, denormals are zero */
+            if (flush) _mm_setcsr(before | 0x8040); /* flush to zero, denormals are zero */
             unsigned set = _mm_getcsr() & ~0x3Fu;
 #endif
             uint64_t other = everything();
             int rounding = fegetround();
 #if defined(__x86_64__)
-            unsigned after = _mm_getcsr() & ~0x3Fu;      /* but for the flags of exceptions */
+            unsigned after = _mm_getcsr() & ~0x3Fu; /* but for the flags of exceptions */
             _mm_setcsr(before);
 #endif
             fesetround(FE_TONEAREST);
@@ -100,12 +97,11 @@ static int decimal_comma(char *folder)
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8", "pt_BR.UTF-8"};
     for (int made = 0; made < 2; made++) {
         for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-            if (setlocale(LC_ALL, names[i]) && !strcmp(localeconv()->decimal_point, ","))
-                return 1;
+            if (setlocale(LC_ALL, names[i]) && !strcmp(localeconv()->decimal_point, ",")) return 1;
         char command[256];
-        snprintf(command, sizeof command, "localedef --no-archive -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/log 2>&1", folder, folder);
-        if (made || system(command) == -1 || setenv("LOCPATH", folder, 1))
-            return 0;
+        snprintf(command, sizeof command, "localedef --no-archive -i de_DE -f UTF-8 %s/de_DE.UTF-8 >%s/log 2>&1",
+                 folder, folder);
+        if (made || system(command) == -1 || setenv("LOCPATH", folder, 1)) return 0;
     }
     return 0;
 }

@@ -21,18 +21,18 @@ static void test_edits(void **state)
 {
     (void)state;
     both_ways("verlet", "verlet", 0);
-    both_ways("verlet", "verlett", 2);        /* one more */
-    both_ways("verlet", "verlat", 2);         /* another */
-    both_ways("verlet", "velret", 2);         /* two neighbours swapped */
+    both_ways("verlet", "verlett", 2); /* one more */
+    both_ways("verlet", "verlat", 2);  /* another */
+    both_ways("verlet", "velret", 2);  /* two neighbours swapped */
     both_ways("", "abc", 6);
     both_ways("kitten", "sitting", 6);
-    both_ways("verlet", "Verlet", 1);         /* letter case, */
-    both_ways("\u00B5", "\u03BC", 1);         /* a look-alike: micro and mu, */
-    both_ways("\u03A9", "\u03C9", 1);         /* a Greek capital: half an edit */
-    both_ways("\u00E4b", "\u00E4c", 2);       /* a character is one letter, not two bytes */
-    both_ways("a\xFF", "a\xFE", 2);           /* and a byte that is none is one, too */
+    both_ways("verlet", "Verlet", 1);   /* letter case, */
+    both_ways("\u00B5", "\u03BC", 1);   /* a look-alike: micro and mu, */
+    both_ways("\u03A9", "\u03C9", 1);   /* a Greek capital: half an edit */
+    both_ways("\u00E4b", "\u00E4c", 2); /* a character is one letter, not two bytes */
+    both_ways("a\xFF", "a\xFE", 2);     /* and a byte that is none is one, too */
     assert_true(near_distance("abcdefgh", "a", 4) > 4);
-    char longer[200];                         /* only the first 64 characters count */
+    char longer[200]; /* only the first 64 characters count */
     memset(longer, 'x', sizeof longer);
     longer[199] = 0;
     assert_int_equal(near_distance(longer, longer + 100, FAR), 0);
@@ -48,7 +48,7 @@ static void test_likely(void **state)
     int least = 7;
     assert_true(near_nearer("theta", "thetaa", &least));
     assert_int_equal(least, 2);
-    assert_false(near_nearer("theta", "thetab", &least));      /* no nearer */
+    assert_false(near_nearer("theta", "thetab", &least)); /* no nearer */
     assert_true(near_nearer("theta", "Theta", &least));
     assert_int_equal(least, 1);
     assert_false(near_nearer("theta", "energy", &least));

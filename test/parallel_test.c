@@ -1,4 +1,5 @@
-/* Work in pieces: every piece once, by nobody who is at another, in the caller's modes; whether threads come at once or have slept, or never come. */
+/* Work in pieces: every piece once, by nobody who is at another, in the caller's modes; whether threads come at once
+ * or have slept, or never come. */
 #include "machine/parallel.h"
 
 #include <fenv.h>
@@ -18,7 +19,7 @@ enum { ITEMS_MAX = 1000, THREADS = 8 };
 typedef struct count {
     atomic_int done[ITEMS_MAX], at_work[THREADS], wrong;
     int threads, modes;
-    parallel_crew *crew;             /* is called from inside as well */
+    parallel_crew *crew; /* is called from inside as well */
     atomic_int inside;
 } count;
 
@@ -27,8 +28,7 @@ static void inner(void *ctx, size_t item, int thread)
     count *c = ctx;
     (void)item;
     atomic_fetch_add(&c->inside, 1);
-    if (thread != 0)
-        atomic_store(&c->wrong, 1);
+    if (thread != 0) atomic_store(&c->wrong, 1);
 }
 
 static void piece(void *ctx, size_t item, int thread)
@@ -38,21 +38,16 @@ static void piece(void *ctx, size_t item, int thread)
         atomic_store(&c->wrong, 1);
     for (volatile int k = 0; k < 300; k++)
         ;
-    if (c->crew && item % 100 == 3)
-        parallel_by(c->crew, c->threads, 5, inner, c);
+    if (c->crew && item % 100 == 3) parallel_by(c->crew, c->threads, 5, inner, c);
     atomic_fetch_add(&c->done[item], 1);
     atomic_fetch_sub(&c->at_work[thread], 1);
 }
 
-static void clear(count *c, int threads)
-{
-    *c = (count){.threads = threads, .modes = fegetround()};
-}
+static void clear(count *c, int threads) { *c = (count){.threads = threads, .modes = fegetround()}; }
 
 static void judge(count *c, size_t items)
 {
-    for (size_t k = 0; k < items; k++)
-        assert_int_equal(atomic_load(&c->done[k]), 1);
+    for (size_t k = 0; k < items; k++) assert_int_equal(atomic_load(&c->done[k]), 1);
     assert_int_equal(atomic_load(&c->wrong), 0);
 }
 
@@ -77,7 +72,7 @@ static void a_crew_comes_again(void **state)
     parallel_crew *crew = parallel_hire(4, NULL);
     assert_non_null(crew);
     for (int round = 0; round < 300; round++) {
-        if (round % 100 == 99)       /* until they sleep */
+        if (round % 100 == 99) /* until they sleep */
             nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
         clear(&all, 1 + round % 4);
         parallel_by(crew, 1 + round % 4, sizes[round % SIZES], piece, &all);
@@ -131,7 +126,8 @@ static void nobody_to_be_had(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once), cmocka_unit_test(a_crew_comes_again), cmocka_unit_test(a_crew_that_is_taken),
-                                       cmocka_unit_test(the_callers_modes), cmocka_unit_test(nobody_to_be_had)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once), cmocka_unit_test(a_crew_comes_again),
+                                       cmocka_unit_test(a_crew_that_is_taken), cmocka_unit_test(the_callers_modes),
+                                       cmocka_unit_test(nobody_to_be_had)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* What may be set: the parameters of a model and its initial values, what they are now, where they stand, and which of them decide more than numbers.
+/* What may be set: the parameters of a model and its initial values, what they are now, where they stand, and which
+ * of them decide more than numbers.
  */
 #include "test/given.h"
 
@@ -6,10 +7,17 @@ static const char text[] =
     "N = 3          # cells\ng = (0, -9.81)\nF = 0.2 + 0.1\nk = [1, 4,\n     9]\nT = 2\nM = N + 0\n"
     "c[i] = k[i] + F   for i = 1..M\n"
     "P = 2\nQ = P + 0\nq[i] = i g   for i = 1..Q\n"
-    "x[i]'' = -c[i] x[i] + x[0]   for i = 1..N\nx[0] = 0\nx[i](1.5) = k[i]   for i = 1..N\nx[i]'(1.5) = 0   for i = 1..N\n"
+    "x[i]'' = -c[i] x[i] + x[0]   for i = 1..N\nx[0] = 0\nx[i](1.5) = k[i]   for i = 1..N\nx[i]'(1.5) = 0   for i = "
+    "1..N\n"
     "r'' = g\nr(1.5) = (1, 2)\nr'(1.5) = (F, 4)\ns' = -s\ns(1.5) = 5\nspeed = |r'|\nuntil 1.5 + T\nstep T/100\n";
 
-typedef struct expected { const char *name, *text; int components, list; size_t count; double values[4]; const char *decides; } expected;
+typedef struct expected {
+    const char *name, *text;
+    int components, list;
+    size_t count;
+    double values[4];
+    const char *decides;
+} expected;
 
 static void check(motus_system *s, const expected *list, size_t count)
 {
@@ -25,7 +33,8 @@ static void check(motus_system *s, const expected *list, size_t count)
         assert_int_equal(p.list, list[k].list);
         assert_int_equal(p.count, list[k].count);
         if (list[k].decides ? !p.decides || strcmp(p.decides, list[k].decides) : p.decides != NULL)
-            fail_msg("%s decides %s, expected %s", p.name, p.decides ? p.decides : "nothing", list[k].decides ? list[k].decides : "nothing");
+            fail_msg("%s decides %s, expected %s", p.name, p.decides ? p.decides : "nothing",
+                     list[k].decides ? list[k].decides : "nothing");
         assert_int_equal(motus_parameter_values(s, k, values), MOTUS_OK);
         for (size_t i = 0; i < p.count; i++) assert_true(values[i] == list[k].values[i]);
     }
@@ -37,10 +46,16 @@ static void parameters(void **state)
 {
     (void)state;
     const expected all[] = {
-        {"N", "3", 0, 0, 1, {3}, size}, {"g", "(0, -9.81)", 2, 0, 2, {0, -9.81}, NULL}, {"F", "0.2 + 0.1", 0, 0, 1, {0.2 + 0.1}, NULL},
-        {"k", "[1, 4,\n     9]", 0, 1, 3, {1, 4, 9}, NULL}, {"T", "2", 0, 0, 1, {2}, "until"}, {"M", "N + 0", 0, 0, 1, {3}, size},
+        {"N", "3", 0, 0, 1, {3}, size},
+        {"g", "(0, -9.81)", 2, 0, 2, {0, -9.81}, NULL},
+        {"F", "0.2 + 0.1", 0, 0, 1, {0.2 + 0.1}, NULL},
+        {"k", "[1, 4,\n     9]", 0, 1, 3, {1, 4, 9}, NULL},
+        {"T", "2", 0, 0, 1, {2}, "until"},
+        {"M", "N + 0", 0, 0, 1, {3}, size},
         {"c", "k[i] + F", 0, 1, 3, {1 + (0.2 + 0.1), 4 + (0.2 + 0.1), 9 + (0.2 + 0.1)}, NULL},
-        {"P", "2", 0, 0, 1, {2}, size}, {"Q", "P + 0", 0, 0, 1, {2}, size}, {"q", "i g", 2, 1, 4, {0, -9.81, 0, 2 * -9.81}, NULL},
+        {"P", "2", 0, 0, 1, {2}, size},
+        {"Q", "P + 0", 0, 0, 1, {2}, size},
+        {"q", "i g", 2, 1, 4, {0, -9.81, 0, 2 * -9.81}, NULL},
     };
     motus_system *s = given_text(text);
     motus_parameter p = motus_default_parameter();
@@ -73,7 +88,7 @@ static void decides_what_an_ensemble_refuses(void **state)
         motus_parameter_at(s, k, &p);
         char name[80];
         snprintf(name, sizeof name, p.list ? "%s[1]" : p.components ? "%s.x" : "%s", p.name);
-        if (p.list && p.components) continue;        /* an ensemble varies no vectors of lists */
+        if (p.list && p.components) continue; /* an ensemble varies no vectors of lists */
         const char *vary[] = {name};
         motus_error e = motus_default_error();
         motus_ensemble_def def = motus_default_ensemble();
@@ -86,7 +101,8 @@ static void decides_what_an_ensemble_refuses(void **state)
         motus_ensemble *ensemble = NULL;
         const motus_status status = motus_ensemble_create(s, &def, &ensemble, &e);
         if (status != (p.decides ? MOTUS_ARGUMENT : MOTUS_OK))
-            fail_msg("%s decides %s, and the ensemble says: %s", name, p.decides ? p.decides : "nothing", status ? e.message : "done");
+            fail_msg("%s decides %s, and the ensemble says: %s", name, p.decides ? p.decides : "nothing",
+                     status ? e.message : "done");
         refused += status != MOTUS_OK;
         motus_ensemble_destroy(ensemble);
     }
@@ -97,9 +113,15 @@ static void decides_what_an_ensemble_refuses(void **state)
 static void initials(void **state)
 {
     (void)state;
-    static const struct { const char *name; size_t variable; int is_velocity; size_t count; double values[3]; } all[] = {
-        {"x(1.5)", 0, 0, 3, {1, 4, 9}}, {"x'(1.5)", 0, 1, 3, {0}}, {"r(1.5)", 1, 0, 2, {1, 2}}, {"r'(1.5)", 1, 1, 2, {0.2 + 0.1, 4}},
-        {"s(1.5)", 2, 0, 1, {5}},
+    static const struct {
+        const char *name;
+        size_t variable;
+        int is_velocity;
+        size_t count;
+        double values[3];
+    } all[] = {
+        {"x(1.5)", 0, 0, 3, {1, 4, 9}},       {"x'(1.5)", 0, 1, 3, {0}}, {"r(1.5)", 1, 0, 2, {1, 2}},
+        {"r'(1.5)", 1, 1, 2, {0.2 + 0.1, 4}}, {"s(1.5)", 2, 0, 1, {5}},
     };
     motus_system *s = given_text(text);
     assert_int_equal(motus_initial_count(s), 5);
@@ -169,7 +191,9 @@ static void callbacks_and_wrong_requests(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters), cmocka_unit_test(decides_what_an_ensemble_refuses), cmocka_unit_test(initials),
+        cmocka_unit_test(parameters),
+        cmocka_unit_test(decides_what_an_ensemble_refuses),
+        cmocka_unit_test(initials),
         cmocka_unit_test(callbacks_and_wrong_requests),
     };
     return cmocka_run_group_tests_name("parameters", tests, NULL, NULL);

@@ -21,12 +21,10 @@ static void test_linear(void **context)
 {
     (void)context;
     range r = range_linear(0, 1, 11);
-    for (int k = 0; k <= 10; k++)
-        assert_true(range_value(&r, (uint64_t)k) == k / 10.0);
+    for (int k = 0; k <= 10; k++) assert_true(range_value(&r, (uint64_t)k) == k / 10.0);
     r = range_linear(0.1, -0.7, 1000001);
     assert_true(range_value(&r, 0) == 0.1 && range_value(&r, 1000000) == -0.7);
-    for (uint64_t k = 1; k <= 1000000; k += 999)
-        assert_true(range_value(&r, k) < range_value(&r, k - 1));
+    for (uint64_t k = 1; k <= 1000000; k += 999) assert_true(range_value(&r, k) < range_value(&r, k - 1));
     /* the values that one would type: k thousandths from -0.3 on, 0 among them */
     r = range_linear(-0.3, 0.9, 1201);
     for (int k = 0; k <= 1200; k++) {
@@ -47,7 +45,7 @@ static void test_decades(void **context)
                 range up = range_log(decade(first), decade(first + decades), (uint64_t)decades * parts + 1);
                 range down = range_log(-decade(first + decades), -decade(first), (uint64_t)decades * parts + 1);
                 for (int k = 0; k <= decades; k++) {
-                    if (first + k == 23)             /* 10^23 is half-way between two numbers */
+                    if (first + k == 23) /* 10^23 is half-way between two numbers */
                         continue;
                     assert_true(range_value(&up, (uint64_t)k * parts) == decade(first + k));
                     assert_true(range_value(&down, (uint64_t)(decades - k) * parts) == -decade(first + k));
@@ -68,8 +66,7 @@ static void test_roots(void **context)
         }
     }
     range wide = range_log(1e-150, 1e150, 10000001);
-    for (uint64_t k = 1; k <= 10000000; k += 99999)
-        assert_true(range_value(&wide, k) > range_value(&wide, k - 1));
+    for (uint64_t k = 1; k <= 10000000; k += 99999) assert_true(range_value(&wide, k) > range_value(&wide, k - 1));
     assert_true(range_value(&wide, 5000000) == 1);
     assert_true(range_value(&wide, 10000000) == 1e150);
     range flat = range_log(7, 7, 5), one = range_log(7, 7, 1);
@@ -80,6 +77,7 @@ static void test_roots(void **context)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_linear), cmocka_unit_test(test_decades), cmocka_unit_test(test_roots)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_linear), cmocka_unit_test(test_decades),
+                                       cmocka_unit_test(test_roots)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

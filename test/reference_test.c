@@ -1,24 +1,30 @@
 /* Motions known to 22 digits and more, test/reference.txt, against the library's.
  *
  * How near a result must come is not chosen by hand. Four things keep a computation from the true digits:
- *     shift    The numbers of the model are rounded to double precision. How far that alone moves any number of the true motion is
+ *     shift    The numbers of the model are rounded to double precision. How far that alone moves any number of the
+ *              true motion is
  *              known.
- *     halving  The method's truncation and rounding, measured: the largest change of any position, and of any velocity, when the
- *              step is halved and halved again, here or at an earlier time of the same case. Truncation of order p >= 2 is at most
+ *     halving The method's truncation and rounding, measured: the largest change of any position, and of any
+ *         velocity, when the
+ *              step is halved and halved again, here or at an earlier time of the same case. Truncation of order p >=
+ *                  2 is at most
  *              4/3 of it; rounding is of its size, being different at every step.
- *     unit     The method's own numbers, step and coefficients, are rounded as well. That is the same at every step, so halving does
- *              not see it: as if time ran, and numbers were scaled, differently by one part in 2^53. It moves y by (y + t y') 2^-53.
- *     nudge    Where neighbouring motions part, what is rounded early grows. Measured: how far the result moves when every number of
+ *     unit     The method's own numbers, step and coefficients, are rounded as well. That is the same at every step,
+ *              so halving does
+ *              not see it: as if time ran, and numbers were scaled, differently by one part in 2^53. It moves y by (y
+ *                  + t y') 2^-53.
+ *     nudge    Where neighbouring motions part, what is rounded early grows. Measured: how far the result moves when
+ *              every number of
  *              the start is moved by one part in 2^30 of the largest of its kind, brought down to one part in 2^53.
- * The bound is 4 (shift + halving + unit + nudge): four for "times a few". `reference_test --write` measures halvings and nudges
- * anew and writes them into the file.
+ * The bound is 4 (shift + halving + unit + nudge): four for "times a few". `reference_test --write` measures halvings
+ * and nudges anew and writes them into the file.
  */
 #include "test/given.h"
 
 enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
 static const double FEW = 4;
 
-typedef struct block {               /* what is computed, as the lines of a case before its first `at` say */
+typedef struct block { /* what is computed, as the lines of a case before its first `at` say */
     char label[64], model[64], method[32], text[TEXT_ROOM];
     char set[SETS_MAX][64];
     size_t set_count;
@@ -54,8 +60,7 @@ static const char *after(const char *line, const char *word)
 static motus_system *open_block(const block *b)
 {
     const char *set[SETS_MAX];
-    for (size_t i = 0; i < b->set_count; i++)
-        set[i] = b->set[i];
+    for (size_t i = 0; i < b->set_count; i++) set[i] = b->set[i];
     return b->model[0] ? given_model(b->model, set, b->set_count) : given_text(b->text);
 }
 
@@ -65,10 +70,9 @@ static motus_run *nudged(motus_system *s, const block *b, double until, double n
     size_t nx = motus_positions(s), n = 0;
     motus_run *r = given_run(s, b->method, b->step, until), *moved = NULL;
     double *y = whole_state(s, r, &n), size[2] = {0};
+    for (size_t k = 0; k < n; k++) size[k >= nx] = fmax(size[k >= nx], fabs(y[k]));
     for (size_t k = 0; k < n; k++)
-        size[k >= nx] = fmax(size[k >= nx], fabs(y[k]));
-    for (size_t k = 0; k < n; k++)
-        y[k] += (k * k % 5 < 2 ? nudge : -nudge) * size[k >= nx];       /* a pattern that no translation has */
+        y[k] += (k * k % 5 < 2 ? nudge : -nudge) * size[k >= nx]; /* a pattern that no translation has */
     motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();
     def.method = b->method;
@@ -83,22 +87,19 @@ static motus_run *nudged(motus_system *s, const block *b, double until, double n
     return moved;
 }
 
-/* The columns at `until`, with the step divided by `parts`, from a start that is nudged by `nudge`; and where `rate` is given, how fast
- * they change in the last step. */
-static void compute(const block *b, const char *const *names, size_t count, double until, int parts, double nudge, double *out,
-                    double *rate)
+/* The columns at `until`, with the step divided by `parts`, from a start that is nudged by `nudge`; and where `rate`
+ * is given, how fast they change in the last step. */
+static void compute(const block *b, const char *const *names, size_t count, double until, int parts, double nudge,
+                    double *out, double *rate)
 {
     motus_system *s = open_block(b);
     motus_run *r = nudge == 0 ? given_run(s, b->method, b->step / parts, until) : nudged(s, b, until, nudge);
     take_steps(r, motus_run_steps_total(r) - 1);
     double before = motus_run_time(r);
-    for (size_t i = 0; rate && i < count; i++)
-        rate[i] = value(s, r, names[i]);
+    for (size_t i = 0; rate && i < count; i++) rate[i] = value(s, r, names[i]);
     finish(r);
-    for (size_t i = 0; i < count; i++)
-        out[i] = value(s, r, names[i]);
-    for (size_t i = 0; rate && i < count; i++)
-        rate[i] = fabs(out[i] - rate[i]) / (until - before);
+    for (size_t i = 0; i < count; i++) out[i] = value(s, r, names[i]);
+    for (size_t i = 0; rate && i < count; i++) rate[i] = fabs(out[i] - rate[i]) / (until - before);
     motus_run_destroy(r);
     motus_system_destroy(s);
 }
@@ -106,11 +107,11 @@ static void compute(const block *b, const char *const *names, size_t count, doub
 static int is_velocity(const char *name) { return strchr(name, '\'') != NULL; }
 
 /* Largest changes, of positions and of velocities. */
-static void measure(const block *b, const char *const *names, size_t count, double until, double halving[2], double nudge[2])
+static void measure(const block *b, const char *const *names, size_t count, double until, double halving[2],
+                    double nudge[2])
 {
     double y[4][COLUMNS_MAX];
-    for (int i = 0; i < 3; i++)
-        compute(b, names, count, until, 1 << i, 0, y[i], NULL);
+    for (int i = 0; i < 3; i++) compute(b, names, count, until, 1 << i, 0, y[i], NULL);
     compute(b, names, count, until, 1, 0x1p-30, y[3], NULL);
     halving[0] = halving[1] = nudge[0] = nudge[1] = 0;
     for (size_t k = 0; k < count; k++) {
@@ -161,15 +162,17 @@ static size_t read_values(int at, char names[][32], const char **list, double *e
 }
 
 /* The largest seen so far in a case, of positions and of velocities. */
-typedef struct largest { double halving[2], nudge[2], size[2], rate[2]; } largest;
+typedef struct largest {
+    double halving[2], nudge[2], size[2], rate[2];
+} largest;
 
 static void judge(const block *b, int at, largest *most)
 {
     char names[COLUMNS_MAX][32], what[160];
     const char *list[COLUMNS_MAX];
     double until, shift, halving[2], nudge[2], expected[COLUMNS_MAX], got[COLUMNS_MAX], rate[COLUMNS_MAX];
-    if (sscanf(lines[at], "at %lf shift %lf halving %lf %lf nudge %lf %lf", &until, &shift, &halving[0], &halving[1], &nudge[0],
-        &nudge[1]) != 6)
+    if (sscanf(lines[at], "at %lf shift %lf halving %lf %lf nudge %lf %lf", &until, &shift, &halving[0], &halving[1],
+               &nudge[0], &nudge[1]) != 6)
         fail_msg("reference.txt:%d: %s", at + 1, lines[at]);
     size_t n = read_values(at, names, list, expected);
     compute(b, list, n, until, 1, 0, got, rate);
@@ -195,8 +198,7 @@ static void one_case(void **state)
     largest most = {0};
     int judged = 0;
     for (int i = *(int *)*state; i < line_count; i++) {
-        if (judged && after(lines[i], "case"))
-            break;
+        if (judged && after(lines[i], "case")) break;
         if (after(lines[i], "at")) {
             judge(&b, i, &most);
             judged++;
@@ -210,8 +212,7 @@ static int write_measures(void)
 {
     static block b;
     FILE *f = fopen(path, "w");
-    if (!f)
-        return 1;
+    if (!f) return 1;
     for (int i = 0; i < line_count; i++) {
         char names[COLUMNS_MAX][32], until[64], shift[32];
         const char *list[COLUMNS_MAX];
@@ -221,11 +222,11 @@ static int write_measures(void)
             fprintf(f, "%s\n", lines[i]);
             continue;
         }
-        if (sscanf(lines[i], "at %63s shift %31s", until, shift) != 2)
-            return fclose(f), 1;
+        if (sscanf(lines[i], "at %63s shift %31s", until, shift) != 2) return fclose(f), 1;
         size_t n = read_values(i, names, list, expected);
         measure(&b, list, n, strtod(until, NULL), halving, nudge);
-        fprintf(f, "at %s shift %s halving %.1e %.1e nudge %.1e %.1e\n", until, shift, halving[0], halving[1], nudge[0], nudge[1]);
+        fprintf(f, "at %s shift %s halving %.1e %.1e nudge %.1e %.1e\n", until, shift, halving[0], halving[1], nudge[0],
+                nudge[1]);
     }
     return fclose(f) != 0;
 }
@@ -237,16 +238,15 @@ int main(int argc, char **argv)
     static int starts[CASES_MAX];
     size_t count = 0;
     read_lines();
-    if (argc > 1 && !strcmp(argv[1], "--write"))
-        return write_measures();
+    if (argc > 1 && !strcmp(argv[1], "--write")) return write_measures();
     for (int i = 0; i < line_count && count < CASES_MAX; i++)
         if (after(lines[i], "case")) {
             starts[count] = i;
-            tests[count] = (struct CMUnitTest){.name = after(lines[i], "case"), .test_func = one_case, .initial_state = &starts[count]};
+            tests[count] = (struct CMUnitTest){
+                .name = after(lines[i], "case"), .test_func = one_case, .initial_state = &starts[count]};
             count++;
         }
     int failed = _cmocka_run_group_tests("reference values", tests, count, NULL, NULL);
-    for (int i = 0; i < line_count; i++)
-        free(lines[i]);
+    for (int i = 0; i < line_count; i++) free(lines[i]);
     return failed;
 }

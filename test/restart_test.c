@@ -2,7 +2,10 @@
  */
 #include "test/given.h"
 
-typedef struct kept { char *text; size_t length; } kept;
+typedef struct kept {
+    char *text;
+    size_t length;
+} kept;
 
 static kept save(motus_run *r)
 {
@@ -28,7 +31,8 @@ static const char *const texts[] = {
     "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
     "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\n",
-    ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 sin(t)\nx[6] = 0\n"
+    ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 "
+     "sin(t)\nx[6] = 0\n"
      "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n"),
     "r'' = (0.5, -9.81)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\n",
 };
@@ -41,7 +45,8 @@ static void same_counts(motus_run *a, motus_run *b)
     assert_true(motus_run_time(a) == motus_run_time(b));
 }
 
-/* Interrupted after n steps, in a system of its own as a new process would have it; looked at before and after, or not. */
+/* Interrupted after n steps, in a system of its own as a new process would have it; looked at before and after, or
+ * not. */
 static void interrupted(const char *text, const char *method, double start, int64_t n, int look)
 {
     motus_system *s = given_text(text), *other = given_text(text);
@@ -50,10 +55,9 @@ static void interrupted(const char *text, const char *method, double start, int6
     motus_error err;
     finish(whole);
     take_steps(first, n);
-    if (look)
-        free(whole_state(s, first, NULL));
+    if (look) free(whole_state(s, first, NULL));
     kept k = save(first);
-    take_steps(second, look ? 3 : 0);            /* it may have been elsewhere */
+    take_steps(second, look ? 3 : 0); /* it may have been elsewhere */
     must(restore(second, k, &err), &err, "restore");
     same_state(s, first, second, "restored");
     same_counts(first, second);
@@ -77,8 +81,7 @@ static void restarted_equals_uninterrupted(void **state)
         motus_settings_of(s, &set);
         for (size_t k = 0; k < motus_method_count(); k++) {
             const char *method = motus_method_at(k)->name;
-            if (motus_method_admits(s, method, NULL) != MOTUS_OK)
-                continue;
+            if (motus_method_admits(s, method, NULL) != MOTUS_OK) continue;
             for (int look = 0; look < 2; look++) {
                 interrupted(texts[i], method, set.from, 0, look);
                 interrupted(texts[i], method, set.from, 1, look);
@@ -90,14 +93,17 @@ static void restarted_equals_uninterrupted(void **state)
     }
 }
 
-/* A state saved after a shortened last step is that of the whole steps before it: it goes on to a later end as if there had been no end. */
+/* A state saved after a shortened last step is that of the whole steps before it: it goes on to a later end as if
+ * there had been no end. */
 static void the_short_step_leaves_no_trace(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"verlet", "velocity-verlet", "kahan-li8", "gauss6", "newmark", "beeman", "rk4"};
+    static const char *const methods[] = {"verlet",  "velocity-verlet", "kahan-li8", "gauss6",
+                                          "newmark", "beeman",          "rk4"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         motus_system *s = given_text(texts[0]);
-        motus_run *early = given_run(s, methods[i], 0.01, 0.5 + 0.2345), *late = given_run(s, methods[i], 0.01, 0.5 + 0.4567),
+        motus_run *early = given_run(s, methods[i], 0.01, 0.5 + 0.2345),
+                  *late = given_run(s, methods[i], 0.01, 0.5 + 0.4567),
                   *straight = given_run(s, methods[i], 0.01, 0.5 + 0.4567);
         motus_error err;
         finish(early);
@@ -127,8 +133,8 @@ static void backward_runs_restart_too(void **state)
 {
     (void)state;
     motus_system *s = given_text(texts[0]);
-    motus_run *whole = given_run(s, "verlet", 0.01, -0.5), *again = given_run(s, "verlet", 0.01, -0.5), *forward = given_run(s,
-        "verlet", 0.01, 1.5);
+    motus_run *whole = given_run(s, "verlet", 0.01, -0.5), *again = given_run(s, "verlet", 0.01, -0.5),
+              *forward = given_run(s, "verlet", 0.01, 1.5);
     motus_error err;
     take_steps(whole, 40);
     kept k = save(whole);
@@ -165,11 +171,14 @@ static void the_text_is_what_it_is(void **state)
     motus_system_destroy(s);
 }
 
-/* Refusals -------------------------------------------------------------------------------------------------------------- */
+/* Refusals --------------------------------------------------------------------------------------------------------- */
 
-typedef struct offer { const char *why, *text, *method; double step, until, start; } offer;
+typedef struct offer {
+    const char *why, *text, *method;
+    double step, until, start;
+} offer;
 
-#define CHAIN(n, strength, side, stiffness, end)                                                                  \
+#define CHAIN(n, strength, side, stiffness, end)                                                                    \
     "N = " #n "\nk = " #strength "\nx[i]'' = k x[i " #side " 1] - " #stiffness " x[i] for i = 1..N\nx[N+1] = " #end \
     "\nx[0] = 0\nx[i](0) = i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
 
@@ -177,17 +186,18 @@ static void what_does_not_fit_is_refused(void **state)
 {
     (void)state;
     static const char chain[] = CHAIN(3, 2, +, 2, 0);
-    static const offer given = {"itself", chain, "verlet", 0.01, 1, NAN}, offers[] = {
-        {"another force", CHAIN(3, 2, +, 3, 0), "verlet", 0.01, 1, NAN},
-        {"another neighbour", CHAIN(3, 2, -, 2, 0), "verlet", 0.01, 1, NAN},
-        {"another parameter", CHAIN(3, 3, +, 2, 0), "verlet", 0.01, 1, NAN},
-        {"another boundary", CHAIN(3, 2, +, 2, 1), "verlet", 0.01, 1, NAN},
-        {"another length", CHAIN(4, 2, +, 2, 0), "verlet", 0.01, 1, NAN},
-        {"another method", chain, "leapfrog", 0.01, 1, NAN},
-        {"another step", chain, "verlet", 0.02, 1, NAN},
-        {"another start", chain, "verlet", 0.01, 1, 0.5},
-        {"an end before the state", chain, "verlet", 0.01, 0.05, NAN},
-    };
+    static const offer given = {"itself", chain, "verlet", 0.01, 1, NAN},
+                       offers[] = {
+                           {"another force", CHAIN(3, 2, +, 3, 0), "verlet", 0.01, 1, NAN},
+                           {"another neighbour", CHAIN(3, 2, -, 2, 0), "verlet", 0.01, 1, NAN},
+                           {"another parameter", CHAIN(3, 3, +, 2, 0), "verlet", 0.01, 1, NAN},
+                           {"another boundary", CHAIN(3, 2, +, 2, 1), "verlet", 0.01, 1, NAN},
+                           {"another length", CHAIN(4, 2, +, 2, 0), "verlet", 0.01, 1, NAN},
+                           {"another method", chain, "leapfrog", 0.01, 1, NAN},
+                           {"another step", chain, "verlet", 0.02, 1, NAN},
+                           {"another start", chain, "verlet", 0.01, 1, 0.5},
+                           {"an end before the state", chain, "verlet", 0.01, 0.05, NAN},
+                       };
     motus_system *s = given_text(given.text);
     motus_run *r = given_run(s, given.method, given.step, given.until);
     take_steps(r, 10);
@@ -206,8 +216,7 @@ static void what_does_not_fit_is_refused(void **state)
         must(motus_run_create(other, &def, &untouched, &err), &err, o->why);
         take_steps(q, 2);
         take_steps(untouched, 2);
-        if (restore(q, k, &err) != MOTUS_STATE)
-            fail_msg("%s was accepted", o->why);
+        if (restore(q, k, &err) != MOTUS_STATE) fail_msg("%s was accepted", o->why);
         assert_true(strlen(err.message) > 10);
         same_state(other, q, untouched, "after a refusal");
         finish(q);
@@ -227,15 +236,15 @@ static void sums_with_other_bounds_are_other_models(void **state)
 {
     (void)state;
     static const char *const bodies[] = {"sum(j = 1..3, j != i: x[j] - x[i])", "sum(j = 1..2, j != i: x[j] - x[i])",
-        "sum(j = 1..i, j != i: x[j] - x[i])",
-                                         "sum(j = 1..3, j < i: x[j] - x[i])"};
+                                         "sum(j = 1..i, j != i: x[j] - x[i])", "sum(j = 1..3, j < i: x[j] - x[i])"};
     enum { BODIES = 4 };
     kept k[BODIES];
     motus_system *s[BODIES];
     motus_run *r[BODIES];
     for (int i = 0; i < BODIES; i++) {
         char text[256];
-        snprintf(text, sizeof text, "x[i]'' = %s for i = 1..3\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n", bodies[i]);
+        snprintf(text, sizeof text, "x[i]'' = %s for i = 1..3\nx[i](0) = i for i = 1..3\nx[i]'(0) = 0 for i = 1..3\n",
+                 bodies[i]);
         s[i] = given_text(text);
         r[i] = given_run(s[i], "rk4", 0.01, 1);
         take_steps(r[i], 5);
@@ -253,7 +262,8 @@ static void sums_with_other_bounds_are_other_models(void **state)
     }
 }
 
-/* Every byte changed, in every bit and to some that matter to a reader of numbers; every length; every byte left out or doubled. */
+/* Every byte changed, in every bit and to some that matter to a reader of numbers; every length; every byte left out
+ * or doubled. */
 static void damage_is_seen(void **state)
 {
     (void)state;
@@ -271,20 +281,18 @@ static void damage_is_seen(void **state)
         for (size_t j = 0; j < 8 + sizeof others; j++) {
             memcpy(copy, k.text, k.length + 1);
             copy[i] = j < 8 ? (char)(copy[i] ^ (1 << j)) : others[j - 8];
-            if (copy[i] == k.text[i])
-                continue;
-            if (restore(q, bad, &err) != MOTUS_STATE)
-                fail_msg("byte %zu as %d was accepted", i, copy[i]);
+            if (copy[i] == k.text[i]) continue;
+            if (restore(q, bad, &err) != MOTUS_STATE) fail_msg("byte %zu as %d was accepted", i, copy[i]);
         }
     }
     for (size_t n = 0; n < k.length; n++) {
         memcpy(copy, k.text, n);
         bad.length = n;
         assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-        memcpy(copy + n, k.text + n + 1, k.length - n);          /* one left out */
+        memcpy(copy + n, k.text + n + 1, k.length - n); /* one left out */
         bad.length = k.length - 1;
         assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-        memcpy(copy, k.text, n + 1);                             /* one twice */
+        memcpy(copy, k.text, n + 1); /* one twice */
         memcpy(copy + n + 1, k.text + n, k.length - n);
         bad.length = k.length + 1;
         assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
@@ -303,8 +311,7 @@ static void seal(char *text, size_t length)
 {
     enum { CLOSING = 21 };
     uint64_t h = 14695981039346656037u;
-    for (size_t i = 0; i < length - CLOSING; i++)
-        h = (h ^ (unsigned char)text[i]) * 1099511628211u;
+    for (size_t i = 0; i < length - CLOSING; i++) h = (h ^ (unsigned char)text[i]) * 1099511628211u;
     char closing[CLOSING + 1];
     snprintf(closing, sizeof closing, "end %016llx\n", (unsigned long long)h);
     memcpy(text + length - CLOSING, closing, CLOSING);
@@ -332,15 +339,26 @@ static void forged_states_do_no_harm(void **state)
     }
     assert_true(refused > 100);
     /* Numbers that are none, counters that are negative or too large, a carry that is too long. */
-    static const struct { const char *from, *to; } forged[] = {
-        {"\nat 7 ", "\nat -7 "}, {"\nat 7 ", "\nat 99999999999999999999 "}, {"\nat 7 ", "\nat 101 "}, {"\ncarry ", "\ncarry 9"},
-            {"\ncarry ", "\ncarry 1"},
-        {"\nstep 0x1", "\nstep 0x2"}, {"p-", "p-9"}, {"p-", "p+9"}, {"p-", "p-99999"}, {"p-", "p-999999999999"}, {"0x1.", "0x1"},
-            {"0x1.", "nan "}, {"method verlet", "method leapfrog"}};
+    static const struct {
+        const char *from, *to;
+    } forged[] = {{"\nat 7 ", "\nat -7 "},
+                  {"\nat 7 ", "\nat 99999999999999999999 "},
+                  {"\nat 7 ", "\nat 101 "},
+                  {"\ncarry ", "\ncarry 9"},
+                  {"\ncarry ", "\ncarry 1"},
+                  {"\nstep 0x1", "\nstep 0x2"},
+                  {"p-", "p-9"},
+                  {"p-", "p+9"},
+                  {"p-", "p-99999"},
+                  {"p-", "p-999999999999"},
+                  {"0x1.", "0x1"},
+                  {"0x1.", "nan "},
+                  {"method verlet", "method leapfrog"}};
     for (size_t i = 0; i < sizeof forged / sizeof *forged; i++) {
         const char *at = strstr(k.text, forged[i].from);
         assert_non_null(at);
-        int n = snprintf(copy, k.length + 64, "%.*s%s%s", (int)(at - k.text), k.text, forged[i].to, at + strlen(forged[i].from));
+        int n = snprintf(copy, k.length + 64, "%.*s%s%s", (int)(at - k.text), k.text, forged[i].to,
+                         at + strlen(forged[i].from));
         seal(copy, (size_t)n);
         if (restore(r, (kept){copy, (size_t)n}, &err) != MOTUS_STATE)
             fail_msg("accepted: %s for %s", forged[i].to, forged[i].from);

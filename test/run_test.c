@@ -2,13 +2,15 @@
  */
 #include "test/given.h"
 
-/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with companions and driven boundary cells. */
+/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with companions and driven
+ * boundary cells. */
 static const char *const texts[] = {
     "x'' = -x + x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\n",
     "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
     "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\n",
-    ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 sin(t)\nx[6] = 0\n"
+    ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.5 (x[i+1] - x[i])^3 - 0.5 (x[i] - x[i-1])^3 for i = 1..5\nx[0] = 0.1 "
+     "sin(t)\nx[6] = 0\n"
      "x[i](0) = sin(i) for i = 1..5\nx[i]'(0) = 0 for i = 1..5\n"),
     "r'' = (0.5, -9.81)\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\nexact r = r(0) + r'(0) t + (0.5, -9.81) t^2/2\n",
 };
@@ -30,18 +32,17 @@ static void each(void (*law)(motus_system *, const char *method))
     }
 }
 
-/* Walking and looking --------------------------------------------------------------------------------------------------- */
+/* Walking and looking ---------------------------------------------------------------------------------------------- */
 
 static int two_step_literal(const char *method) { return !strcmp(method, "verlet-literal"); }
 
 static void stepwise(motus_system *s, const char *method)
 {
-    double until = two_step_literal(method) ? 0.5 : 0.4951;      /* the second is cut short */
-    motus_run *at_once = given_run(s, method, 0.01, until), *by_steps = given_run(s, method, 0.01, until), *looking = given_run(s,
-        method, 0.01, until);
+    double until = two_step_literal(method) ? 0.5 : 0.4951; /* the second is cut short */
+    motus_run *at_once = given_run(s, method, 0.01, until), *by_steps = given_run(s, method, 0.01, until),
+              *looking = given_run(s, method, 0.01, until);
     finish(at_once);
-    for (int64_t n = 1; !motus_run_done(by_steps); n = n % 7 + 1)
-        take_steps(by_steps, n);
+    for (int64_t n = 1; !motus_run_done(by_steps); n = n % 7 + 1) take_steps(by_steps, n);
     while (!motus_run_done(looking)) {
         free(whole_state(s, looking, NULL));
         value(s, looking, "t");
@@ -56,7 +57,8 @@ static void stepwise(motus_system *s, const char *method)
     same_state(s, at_once, looking, "unseen and looked at");
     assert_int_equal(motus_run_steps(at_once), motus_run_steps(by_steps));
     assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(by_steps));
-    assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(looking));        /* looking is not counted */
+    /* looking is not counted */
+    assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(looking));
     assert_int_equal(motus_run_iterations(at_once), motus_run_iterations(by_steps));
     assert_int_equal(motus_run_steps(at_once), motus_run_steps_total(at_once));
     assert_true(motus_run_time(at_once) == until && motus_run_time(looking) == until);
@@ -79,18 +81,16 @@ static void samples_of(motus_system *s, const char *method)
     double *rows = malloc((N + 1) * all * sizeof *rows), *row = malloc(all * sizeof *row), times[N + 1];
     motus_error err = motus_default_error();
     assert_true(rows && row && all <= 64);
-    for (size_t k = 0; k < all; k++)
-        columns[k] = k;
-    for (int n = 0; n <= N; n++)
-        times[n] = n == N ? 0.12 : 0.01 * n;
+    for (size_t k = 0; k < all; k++) columns[k] = k;
+    for (int n = 0; n <= N; n++) times[n] = n == N ? 0.12 : 0.01 * n;
     must(motus_run_sample(sampled, times, N + 1, columns, all, rows, &err), &err, "sample");
     for (int n = 0; n <= N; n++) {
         must(motus_run_values(stepped, columns, all, row, &err), &err, "values");
         for (size_t k = 0; k < all; k++)
             if (memcmp(&row[k], &rows[(size_t)n * all + k], sizeof *row))
-                fail_msg("%s: column %zu after %d steps is %a, sampled %a", method, k, n, row[k], rows[(size_t)n * all + k]);
-        if (n < N)
-            take_steps(stepped, 1);
+                fail_msg("%s: column %zu after %d steps is %a, sampled %a", method, k, n, row[k],
+                         rows[(size_t)n * all + k]);
+        if (n < N) take_steps(stepped, 1);
     }
     free(rows);
     free(row);
@@ -104,8 +104,9 @@ static void samples_at_steps_are_the_state(void **state)
     each(samples_of);
 }
 
-/* Between two exact states only the polynomials err: h^6 in the position, h^5 in its velocity, h^4 in a companion. A slope
- * estimated from h and h/2 is off by O(h), half of which is left in the next one: twice their difference bounds what is left. */
+/* Between two exact states only the polynomials err: h^6 in the position, h^5 in its velocity, h^4 in a companion. A
+ * slope estimated from h and h/2 is off by O(h), half of which is left in the next one: twice their difference bounds
+ * what is left. */
 static void the_quintic_has_local_error_h_6(void **state)
 {
     (void)state;
@@ -114,8 +115,7 @@ static void the_quintic_has_local_error_h_6(void **state)
     static const char *const names[] = {"x", "x'", "s"};
     size_t columns[3];
     double log_error[4][3];
-    for (int k = 0; k < 3; k++)
-        columns[k] = column(s, names[k]);
+    for (int k = 0; k < 3; k++) columns[k] = column(s, names[k]);
     for (int i = 0; i < 4; i++) {
         double h = ldexp(0.8, -i), t = h * 0.4, out[3];
         motus_run *r = given_run(s, "exact", h, h);
@@ -123,8 +123,7 @@ static void the_quintic_has_local_error_h_6(void **state)
         must(motus_run_sample(r, &t, 1, columns, 3, out, &err), &err, "sample");
         assert_true(motus_run_time(r) == h);
         const double exact[3] = {cos(t) + 0.5 * sin(t), -sin(t) + 0.5 * cos(t), cos(t) + 0.5 * sin(t) + 1};
-        for (int k = 0; k < 3; k++)
-            log_error[i][k] = log2(fabs(out[k] - exact[k]));
+        for (int k = 0; k < 3; k++) log_error[i][k] = log2(fabs(out[k] - exact[k]));
         motus_run_destroy(r);
     }
     for (int k = 0; k < 3; k++) {
@@ -151,7 +150,7 @@ static void samples_between_steps_hit_the_neighbours(void **state)
         for (int n = 1; n <= 300; n++) {
             double at = n * steps[j], times[3] = {nextafter(at, 0), at, nextafter(at, INFINITY)}, out[6];
             must(motus_run_sample(r, times, 3, k, 2, out, &err), &err, "sample");
-            if (n % 3 == 0) {            /* from three steps before */
+            if (n % 3 == 0) { /* from three steps before */
                 double before[2];
                 must(motus_run_sample(leap, times, 1, k, 2, before, &err), &err, "sample");
                 assert_memory_equal(before, out, sizeof before);
@@ -168,7 +167,9 @@ static void samples_between_steps_hit_the_neighbours(void **state)
         motus_run_destroy(leap);
     }
     r = given_run(s, "rk4", 0.1, 3);
-    static const struct { double first, second; } wrong[] = {{0.1, 3.01}, {0.1, INFINITY}, {0.1, NAN}, {2.5, 0.1}, {0.5, -1}};
+    static const struct {
+        double first, second;
+    } wrong[] = {{0.1, 3.01}, {0.1, INFINITY}, {0.1, NAN}, {2.5, 0.1}, {0.5, -1}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         double times[2] = {wrong[i].first, wrong[i].second}, out[4];
         motus_run *p = given_run(s, "rk4", 0.1, 3);
@@ -183,13 +184,13 @@ static void samples_between_steps_hit_the_neighbours(void **state)
     motus_system_destroy(s);
 }
 
-/* Start and end ----------------------------------------------------------------------------------------------------------- */
+/* Start and end ---------------------------------------------------------------------------------------------------- */
 
 static void another_start(void **state)
 {
     (void)state;
     motus_system *moved = given_text("x'' = -x + sin(t)\nx(0) = 1\nx'(0) = 2\n"),
-        *s = given_text("x'' = -x + sin(t)\nx(3) = 5\nx'(3) = 6\n");
+                 *s = given_text("x'' = -x + sin(t)\nx(3) = 5\nx'(3) = 6\n");
     const double x = 5, v = 6;
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
@@ -226,14 +227,14 @@ static void another_start(void **state)
 static void starts_are_in_the_order_of_the_columns(void **state)
 {
     (void)state;
-    motus_system *s = given_text("r[i]'' = -r[i] for i = 1..3\nr[i](0) = (1, 2) for i = 1..3\nr[i]'(0) = (0, 0) for i = 1..3\n"
-                                 "y'' = -y\ny(0) = 0\ny'(0) = 0\ns' = -s\ns(0) = 1\n");
+    motus_system *s =
+        given_text("r[i]'' = -r[i] for i = 1..3\nr[i](0) = (1, 2) for i = 1..3\nr[i]'(0) = (0, 0) for i = 1..3\n"
+                   "y'' = -y\ny(0) = 0\ny'(0) = 0\ns' = -s\ns(0) = 1\n");
     size_t nx = motus_positions(s), nv = motus_velocities(s);
     double x[7], v[8];
     assert_true(nx == 7 && nv == 8);
     for (size_t k = 0; k < nv; k++) {
-        if (k < nx)
-            x[k] = 10 + (double)k;
+        if (k < nx) x[k] = 10 + (double)k;
         v[k] = 20 + (double)k;
     }
     motus_run_def def = motus_default_run();
@@ -254,7 +255,8 @@ static void starts_are_in_the_order_of_the_columns(void **state)
     motus_system_destroy(s);
 }
 
-/* A reversible method comes back; the sign of the step is that of the direction. What is lost is rounding: a few units per step. */
+/* A reversible method comes back; the sign of the step is that of the direction. What is lost is rounding: a few
+ * units per step. */
 static void backward(void **state)
 {
     (void)state;
@@ -281,7 +283,8 @@ static void backward(void **state)
         must(motus_run_sample(back, t, 2, &k, 1, out, &err), &err, "sample");
         finish(back);
         assert_true(motus_run_time(back) == 0);
-        const double lost = ROUNDING * 200 * 18;         /* steps there and back, operations on each number in the longest step */
+        /* steps there and back, operations on each number in the longest step */
+        const double lost = ROUNDING * 200 * 18;
         near(value(s, back, "x"), 1, lost, methods[i]);
         near(value(s, back, "x'"), 0.5, lost, methods[i]);
         free(y);
@@ -318,7 +321,7 @@ static void short_end(motus_system *s, const char *method)
     finish(r);
     assert_true(motus_run_time(r) == 0.1037);
     assert_int_equal(motus_run_steps(r), 11);
-    take_steps(r, 5);                    /* there is nothing after the end */
+    take_steps(r, 5); /* there is nothing after the end */
     assert_int_equal(motus_run_steps(r), 11);
     size_t nx = motus_positions(s);
     double *y = whole_state(s, whole, NULL);
@@ -326,7 +329,7 @@ static void short_end(motus_system *s, const char *method)
     def.x = y;
     def.v = y + nx;
     def.step = 1;
-    if (strcmp(method, "exact")) {       /* which is one motion, not a map */
+    if (strcmp(method, "exact")) { /* which is one motion, not a map */
         must(motus_run_create(s, &def, &last, &err), &err, method);
         finish(last);
         same_state(s, r, last, "the short step");
@@ -347,12 +350,23 @@ static void steps_and_ends_that_are_refused(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
-    static const struct { double step, until, start; motus_status status; } cases[] = {
-        {NAN, 1, NAN, MOTUS_ARGUMENT}, {0.1, NAN, NAN, MOTUS_ARGUMENT}, {0, 1, NAN, MOTUS_ARGUMENT}, {-0.1, 1, NAN, MOTUS_ARGUMENT},
-        {INFINITY, 1, NAN, MOTUS_ARGUMENT}, {0.1, INFINITY, NAN, MOTUS_ARGUMENT}, {1e-20, 1, NAN, MOTUS_LIMIT}, {1e-3, 1e20, NAN,
-            MOTUS_LIMIT},
-        {1e-3, 1e16 + 4, 1e16, MOTUS_ARGUMENT}, {0.1, 1, INFINITY, MOTUS_ARGUMENT}, {1e-300, 1e300, NAN, MOTUS_LIMIT},
-        {0.1, 0, NAN, MOTUS_OK}, {5, 1, NAN, MOTUS_OK}, {1e-300, 1e-299, NAN, MOTUS_OK}};
+    static const struct {
+        double step, until, start;
+        motus_status status;
+    } cases[] = {{NAN, 1, NAN, MOTUS_ARGUMENT},
+                 {0.1, NAN, NAN, MOTUS_ARGUMENT},
+                 {0, 1, NAN, MOTUS_ARGUMENT},
+                 {-0.1, 1, NAN, MOTUS_ARGUMENT},
+                 {INFINITY, 1, NAN, MOTUS_ARGUMENT},
+                 {0.1, INFINITY, NAN, MOTUS_ARGUMENT},
+                 {1e-20, 1, NAN, MOTUS_LIMIT},
+                 {1e-3, 1e20, NAN, MOTUS_LIMIT},
+                 {1e-3, 1e16 + 4, 1e16, MOTUS_ARGUMENT},
+                 {0.1, 1, INFINITY, MOTUS_ARGUMENT},
+                 {1e-300, 1e300, NAN, MOTUS_LIMIT},
+                 {0.1, 0, NAN, MOTUS_OK},
+                 {5, 1, NAN, MOTUS_OK},
+                 {1e-300, 1e-299, NAN, MOTUS_OK}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motus_error err = motus_default_error();
         motus_run_def def = motus_default_run();
@@ -361,8 +375,7 @@ static void steps_and_ends_that_are_refused(void **state)
         def.until = cases[i].until;
         def.start = cases[i].start;
         motus_status status = motus_run_create(s, &def, &r, &err);
-        if (status != cases[i].status)
-            fail_msg("case %zu: %s, %s", i, motus_status_word(status), err.message);
+        if (status != cases[i].status) fail_msg("case %zu: %s, %s", i, motus_status_word(status), err.message);
         if (status == MOTUS_OK) {
             finish(r);
             assert_true(motus_run_time(r) == cases[i].until);
@@ -389,13 +402,14 @@ static void slivers_are_no_steps(void **state)
     motus_system_destroy(s);
 }
 
-/* What goes wrong ---------------------------------------------------------------------------------------------------------- */
+/* What goes wrong -------------------------------------------------------------------------------------------------- */
 
 static void divergence_names_time_and_variable(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\ny'' = y^3\ny(0) = 2\ny'(0) = 2\n");
-    static const char *const methods[] = {"rk4", "verlet", "velocity-verlet", "kahan-li8", "explicit-euler", "verlet-literal"};
+    static const char *const methods[] = {"rk4",       "verlet",         "velocity-verlet",
+                                          "kahan-li8", "explicit-euler", "verlet-literal"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         motus_run *r = given_run(s, methods[i], 0.01, 100);
         motus_error err = motus_default_error();
@@ -408,10 +422,10 @@ static void divergence_names_time_and_variable(void **state)
         double x[2], v[2], t = motus_run_time(r);
         motus_error look = motus_default_error();
         motus_status seen = motus_run_state(r, x, v, &look);
-        /* Where the velocity waits for the acceleration at the same place, that may be the first infinity: then the look says so. */
+        /* Where the velocity waits for the acceleration at the same place, that may be the first infinity: then the
+         * look says so. */
         assert_true(seen == MOTUS_OK || (seen == MOTUS_DIVERGED && look.time == t));
-        for (int k = 0; k < 2 && seen == MOTUS_OK; k++)
-            assert_true(isfinite(x[k]) && isfinite(v[k]));
+        for (int k = 0; k < 2 && seen == MOTUS_OK; k++) assert_true(isfinite(x[k]) && isfinite(v[k]));
         assert_true(t <= err.time && t >= err.time - 0.0101);
         motus_error again = motus_default_error();
         assert_int_equal(motus_run_step(r, 1, &again), MOTUS_DIVERGED);
@@ -426,7 +440,7 @@ static void divergence_names_time_and_variable(void **state)
         motus_run_destroy(q);
     }
     motus_system_destroy(s);
-    s = given_text("x'' = 1/(x - 1)\nx(0) = 1\nx'(0) = 0\n");       /* a division by zero at the start */
+    s = given_text("x'' = 1/(x - 1)\nx(0) = 1\nx'(0) = 0\n"); /* a division by zero at the start */
     motus_run *r = given_run(s, "verlet", 0.01, 1);
     motus_error err = motus_default_error();
     assert_int_equal(motus_run_finish(r, &err), MOTUS_DIVERGED);
@@ -470,15 +484,16 @@ static void progress_and_cancellation(void **state)
     motus_system *s = given_text("x'' = -sin(x)\nx(0) = 1\nx'(0) = 0\n");
     motus_error err = motus_default_error();
     watcher w = {0, 0, 0}, impatient = {0, 2, 0};
-    const double until = 100;                    /* some 10^5 steps: a few tenths of a second */
-    motus_run *seen = watched(s, &w, until), *unseen = given_run(s, "kahan-li8", 0.001, until), *cut = watched(s, &impatient, until);
+    const double until = 100; /* some 10^5 steps: a few tenths of a second */
+    motus_run *seen = watched(s, &w, until), *unseen = given_run(s, "kahan-li8", 0.001, until),
+              *cut = watched(s, &impatient, until);
     finish(seen);
     finish(unseen);
     assert_true(w.calls > 2);
     same_state(s, seen, unseen, "watched and unwatched");
     assert_int_equal(motus_run_finish(cut, &err), MOTUS_CANCELLED);
     assert_true(impatient.calls == 2 && !motus_run_done(cut) && motus_run_steps(cut) > 0);
-    finish(cut);                                 /* cancelled is not broken */
+    finish(cut); /* cancelled is not broken */
     same_state(s, cut, unseen, "cancelled and gone on");
     motus_run_destroy(seen);
     motus_run_destroy(unseen);
@@ -493,9 +508,8 @@ static void progress_is_told_now_and_then(void **state)
     motus_system *s = given_text(texts[0]);
     watcher w = {0, 0, 0};
     motus_run *r = watched(s, &w, 10);
-    while (!motus_run_done(r))
-        take_steps(r, 1);
-    assert_true(w.calls < 1000);                 /* of 10000 steps */
+    while (!motus_run_done(r)) take_steps(r, 1);
+    assert_true(w.calls < 1000); /* of 10000 steps */
     motus_run_destroy(r);
     motus_system_destroy(s);
 }

@@ -1,5 +1,5 @@
-/* Numbers set in a system that was read already: the same bits as a text read with `set`, refusals that leave everything
- * as it was, and clones that have the numbers too.
+/* Numbers set in a system that was read already: the same bits as a text read with `set`, refusals that leave
+ * everything as it was, and clones that have the numbers too.
  */
 #include "test/ensemble_given.h"
 
@@ -11,8 +11,7 @@
 static void same_values(const double *a, const double *b, size_t count, const char *what, const char *name)
 {
     for (size_t k = 0; k < count; k++)
-        if (!same_number(a[k], b[k]))
-            fail_msg("%s: number %zu of %s is %a, expected %a", what, k, name, a[k], b[k]);
+        if (!same_number(a[k], b[k])) fail_msg("%s: number %zu of %s is %a, expected %a", what, k, name, a[k], b[k]);
 }
 
 /* Parameters, initial values, and the bits of a run. */
@@ -46,8 +45,7 @@ static void same_systems(motus_system *got, motus_system *expected, const char *
         fail_msg("%s: a run is refused, or not: %s and %s", what, one.message, two.message);
     const motus_status end = p ? motus_run_finish(p, &one) : MOTUS_OK;
     assert_int_equal(end, q ? motus_run_finish(q, &two) : MOTUS_OK);
-    if (p && end == MOTUS_OK)
-        same_state(got, p, q, what);
+    if (p && end == MOTUS_OK) same_state(got, p, q, what);
     motus_run_destroy(p);
     motus_run_destroy(q);
 }
@@ -56,16 +54,16 @@ static void same_systems(motus_system *got, motus_system *expected, const char *
 static bool write_setting(char *out, size_t size, const char *name, int components, int list, int dimensions,
                           const double *values, size_t count)
 {
-    if (dimensions > 1 || (list && components) || count > 32)
-        return false;
+    if (dimensions > 1 || (list && components) || count > 32) return false;
     int n = snprintf(out, size, "%s=%s", name, list ? "[" : components ? "(" : "");
-    for (size_t k = 0; k < count; k++)
-        n += snprintf(out + n, size - (size_t)n, "%s%.17g", k ? ", " : "", values[k]);
+    for (size_t k = 0; k < count; k++) n += snprintf(out + n, size - (size_t)n, "%s%.17g", k ? ", " : "", values[k]);
     snprintf(out + n, size - (size_t)n, "%s", list ? "]" : components ? ")" : "");
     return true;
 }
 
-typedef struct tally { int same, refused, decided; } tally;
+typedef struct tally {
+    int same, refused, decided;
+} tally;
 
 /* One name of one model: by motus_system_set, and by a text read with `set`. */
 static void set_both(const char *text, const char *name, const double *values, size_t count, const char *setting,
@@ -79,11 +77,10 @@ static void set_both(const char *text, const char *name, const double *values, s
     def.set_count = 1;
     const motus_status status = motus_system_set(s, name, values, count, &err),
                        due = motus_system_from_text(&def, &t, &other);
-    if (status != due)
-        fail_msg("%s: %s (%s), and read with `set`: %s", setting, err.message, err.hint, other.message);
+    if (status != due) fail_msg("%s: %s (%s), and read with `set`: %s", setting, err.message, err.hint, other.message);
     if (status == MOTUS_OK) {
         same_systems(s, t, machine, setting);
-    } else {                             /* and nothing has changed */
+    } else { /* and nothing has changed */
         motus_system *before = given_text(text);
         same_systems(s, before, machine, setting);
         motus_system_destroy(before);
@@ -104,14 +101,12 @@ static void set_all_of(const char *text, const char *machine, tally *sum)
         motus_variable v = motus_default_variable();
         const bool initial = k >= motus_parameter_count(s);
         assert_int_equal(initial ? motus_initial_at(s, i, &n) : motus_parameter_at(s, k, &p), MOTUS_OK);
-        if (initial)
-            assert_int_equal(motus_variable_at(s, n.variable, &v), MOTUS_OK);
+        if (initial) assert_int_equal(motus_variable_at(s, n.variable, &v), MOTUS_OK);
         const size_t count = initial ? n.count : p.count;
         double *values = malloc((count + 1) * sizeof *values);
         assert_non_null(values);
         assert_int_equal(initial ? motus_initial_values(s, i, values) : motus_parameter_values(s, k, values), MOTUS_OK);
-        for (size_t j = 0; j < count; j++)
-            values[j] = 1.03125 * values[j] + 0.015625 * (double)(j + 1);
+        for (size_t j = 0; j < count; j++) values[j] = 1.03125 * values[j] + 0.015625 * (double)(j + 1);
         char setting[1024];
         motus_error err = motus_default_error();
         if (!initial && p.decides) {
@@ -124,7 +119,7 @@ static void set_all_of(const char *text, const char *machine, tally *sum)
                    write_setting(setting, sizeof setting, initial ? n.name : p.name,
                                  initial ? v.components : p.components, initial ? 0 : p.list,
                                  initial ? 0 : p.dimensions, values, count)) {
-            if (initial || !p.list || p.text[0] == '[')          /* a text sets a list, and no family of parameters */
+            if (initial || !p.list || p.text[0] == '[') /* a text sets a list, and no family of parameters */
                 set_both(text, initial ? n.name : p.name, values, count, setting, machine, sum);
         }
         free(values);
@@ -141,8 +136,7 @@ static void every_number_of_every_model(void **state)
     assert_non_null(folder);
     tally sum = {0};
     for (struct dirent *one; (one = readdir(folder));) {
-        if (!strstr(one->d_name, ".motus"))
-            continue;
+        if (!strstr(one->d_name, ".motus")) continue;
         given_path(path, sizeof path, "models", one->d_name);
         char *text = given_file(path);
         set_all_of(text, "interpreter", &sum);
@@ -165,12 +159,11 @@ static void compiled_models_too(void **state)
 
 /* ---- several, one after the other ---- */
 
-static const char chained[] =
-    "A = 1\nB = 2 A\nk = [1, 4, 9]\nN = 3\nc[i] = k[i] + B   for i = 1..N\n"
-    "x'' = -B x\nx(0) = A\nx'(0) = x(0) + B\n"
-    "y[i]'' = -c[i] y[i] + y[0]   for i = 1..N\ny[0] = A\ny[i](0) = A i   for i = 1..N\n"
-    "y[2](0) = B\ny[i]'(0) = y[i](0)   for i = 1..N\n"
-    "r'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\ns' = -B s\ns(0) = A\n";
+static const char chained[] = "A = 1\nB = 2 A\nk = [1, 4, 9]\nN = 3\nc[i] = k[i] + B   for i = 1..N\n"
+                              "x'' = -B x\nx(0) = A\nx'(0) = x(0) + B\n"
+                              "y[i]'' = -c[i] y[i] + y[0]   for i = 1..N\ny[0] = A\ny[i](0) = A i   for i = 1..N\n"
+                              "y[2](0) = B\ny[i]'(0) = y[i](0)   for i = 1..N\n"
+                              "r'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\ns' = -B s\ns(0) = A\n";
 
 static void set(motus_system *s, const char *name, size_t count, const double *values)
 {
@@ -182,7 +175,10 @@ static void set(motus_system *s, const char *name, size_t count, const double *v
 static void what_was_set_stays(void **state)
 {
     (void)state;
-    static const struct { const char *name, *setting; size_t count; double values[3];
+    static const struct {
+        const char *name, *setting;
+        size_t count;
+        double values[3];
     } steps[] = {{"A", "A=3", 1, {3}},
                  {"x(0)", "x(0)=0.5", 1, {0.5}},
                  {"B", "B=0.25", 1, {0.25}},
@@ -286,7 +282,7 @@ static void refusals(void **state)
             fail_msg("%s, case %zu: %s: %s (%s)", cases[i].name, i, motus_status_word(status), err.message, err.hint);
         same_systems(s, before, "interpreter", cases[i].name);
     }
-    assert_true(err.line > 0 && strchr(err.caret, '^'));         /* of the exact line */
+    assert_true(err.line > 0 && strchr(err.caret, '^')); /* of the exact line */
     const double one = 1;
     assert_int_equal(motus_system_set(NULL, "k", &one, 1, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_system_set(s, NULL, &one, 1, &err), MOTUS_ARGUMENT);
@@ -359,15 +355,13 @@ static void ensembles(void **state)
     const double *values[] = {A};
     static const char *const vary[] = {"A"}, *const machines[] = {"interpreter", "compiled"};
     motus_record records[4];
-    for (int k = 0; k < COUNT; k++)
-        A[k] = 0.5 + 0.25 * k;
+    for (int k = 0; k < COUNT; k++) A[k] = 0.5 + 0.25 * k;
     static const char text[] =
         "A = 1\nB = 2 A\nx'' = -B x\nx(0) = A\nx'(0) = x(0) + B\nr'' = -A r\nr(0) = (A, 0)\nr'(0) = (0, B)\n";
     motus_system *s = given_text(text);
     set(s, "x(0)", 1, &x0);
     set(s, "r'(0)", 2, (const double[]){1, -1});
-    for (size_t k = 0; k < 4; k++)
-        records[k] = (motus_record){MOTUS_REDUCE_FINAL, k + 1};
+    for (size_t k = 0; k < 4; k++) records[k] = (motus_record){MOTUS_REDUCE_FINAL, k + 1};
     for (int m = 0; m < 2; m++) {
         motus_ensemble_def def = motus_default_ensemble();
         def.vary = vary, def.vary_count = 1, def.records = records, def.record_count = 4;
@@ -513,8 +507,7 @@ static void setting_again_takes_no_memory(void **state)
         motus_run *r = given_run(s, "exact", 0.1, 0.5);
         finish(r);
         motus_run_destroy(r);
-        if (n == 1)
-            after = blocks;
+        if (n == 1) after = blocks;
     }
     assert_int_equal(blocks, after);
     motus_system_destroy(s);

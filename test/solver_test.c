@@ -1,5 +1,5 @@
-/* The linear systems of implicit methods: sparse, dense and by difference quotients the same; a million unknowns in proportion; singular
- * ones reported; every allocation may fail.
+/* The linear systems of implicit methods: sparse, dense and by difference quotients the same; a million unknowns in
+ * proportion; singular ones reported; every allocation may fail.
  */
 #include "test/stepper_test.h"
 #include "core/solver.h"
@@ -11,7 +11,11 @@ static int cubic(void *ctx, double t, double *x, double *v, double *a)
     return 0;
 }
 /* x'' = -x - C v with C a shuffled ring: row k couples to next[k] and to the one it came from. */
-typedef struct ring { size_t n, *next; bool told; int64_t jvps; } ring;
+typedef struct ring {
+    size_t n, *next;
+    bool told;
+    int64_t jvps;
+} ring;
 static int ring_force(void *ctx, double t, double *x, double *v, double *a)
 {
     const ring *r = ctx;
@@ -52,16 +56,20 @@ static void structure_does_not_change_the_motion(void **state)
     static const char *const methods[] = {"verlet", "verlet-literal", "newmark", "gauss4", "gauss6"};
     for (size_t i = 0; i < 2 * (sizeof methods / sizeof *methods); i++) {
         size_t next[N];
-        for (size_t k = 0; k < N; k++) next[k] = (k + (i % 2 ? 7 : 6)) % N;      /* one ring, or six */
+        for (size_t k = 0; k < N; k++) next[k] = (k + (i % 2 ? 7 : 6)) % N; /* one ring, or six */
         const char *method = methods[i / 2];
         double x[3][N], v[3][N], x0[N], v0[N];
         int64_t jvps[2];
         for (size_t k = 0; k < N; k++) x0[k] = 0.1 * (double)(k % 5), v0[k] = 0.05 * (double)(k % 7);
         for (int how = 0; how < 3; how++) {
             ring r = {.n = N, .next = next};
-            problem p = {.ctx = &r, .nx = N, .nv = N, .accel = ring_force, .traits = {.velocity = true, .linear_v = true, .constant_jv = true}};
+            problem p = {.ctx = &r,
+                         .nx = N,
+                         .nv = N,
+                         .accel = ring_force,
+                         .traits = {.velocity = true, .linear_v = true, .constant_jv = true}};
             if (how < 2) p.jvp = ring_jvp;
-            if (how == 0) p.pattern = ring_pattern;       /* else dense, and then by difference quotients */
+            if (how == 0) p.pattern = ring_pattern; /* else dense, and then by difference quotients */
             stepper *s = begin(&p, method, 0, 0.05, x0, v0);
             assert_int_equal(stepper_advance(s, (stepper_limit){20, NAN}, NULL, NULL), MOTUS_OK);
             assert_int_equal(stepper_sync(s, x[how], v[how], NULL, NULL), MOTUS_OK);
@@ -73,7 +81,7 @@ static void structure_does_not_change_the_motion(void **state)
                 assert_near(x[how][k], x[0][k], 1e-12);
                 assert_near(v[how][k], v[0][k], 1e-11);
             }
-        assert_true(jvps[0] * 4 <= jvps[1]);              /* colours: a few derivatives instead of N */
+        assert_true(jvps[0] * 4 <= jvps[1]); /* colours: a few derivatives instead of N */
     }
 }
 
@@ -106,7 +114,9 @@ static void pivoting(void **state)
     assert_false(solver_band_factor(N, LOWER, UPPER, matrix, pivot));
 }
 
-typedef struct meter { size_t now, most, count, fail_at; } meter;
+typedef struct meter {
+    size_t now, most, count, fail_at;
+} meter;
 static void *metered(void *context, size_t bytes)
 {
     meter *m = context;
@@ -137,7 +147,8 @@ static int damped_jvp(void *ctx, double t, double *x, double *v, const double *d
 {
     (void)t, (void)x;
     const size_t n = *(size_t *)ctx;
-    for (size_t k = 0; k < n; k++) da[k] = (dx ? -dx[k] : 0) - (dv ? 3 * (1 + (double)(k % 3)) * v[k] * v[k] * dv[k] : 0);
+    for (size_t k = 0; k < n; k++)
+        da[k] = (dx ? -dx[k] : 0) - (dv ? 3 * (1 + (double)(k % 3)) * v[k] * v[k] * dv[k] : 0);
     return 0;
 }
 static void damped_pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), void *arg)
@@ -150,7 +161,13 @@ static void a_million_damped_masses(void **state)
 {
     (void)state;
     size_t n = 1000000;
-    problem p = {.ctx = &n, .nx = n, .nv = n, .accel = damped, .jvp = damped_jvp, .pattern = damped_pattern, .traits = {.velocity = true}};
+    problem p = {.ctx = &n,
+                 .nx = n,
+                 .nv = n,
+                 .accel = damped,
+                 .jvp = damped_jvp,
+                 .pattern = damped_pattern,
+                 .traits = {.velocity = true}};
     double *x = malloc(2 * n * sizeof *x), *v = x + n;
     for (size_t k = 0; k < n; k++) x[k] = 1, v[k] = 0.5;
     chosen c;
@@ -160,12 +177,12 @@ static void a_million_damped_masses(void **state)
     stepper *s = NULL;
     motus_error err = {0};
     assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_OK);
-    assert_true(m.most < n * 32 * sizeof(double));         /* a fixed number of numbers for each mass */
+    assert_true(m.most < n * 32 * sizeof(double)); /* a fixed number of numbers for each mass */
     assert_int_equal(stepper_advance(s, (stepper_limit){3, NAN}, NULL, &err), MOTUS_OK);
     stepper_destroy(s);
     assert_int_equal(m.now, 0);
 
-    p.pattern = NULL;                                      /* dense: refused before anything of that size is taken */
+    p.pattern = NULL; /* dense: refused before anything of that size is taken */
     m = (meter){0};
     assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_LIMIT);
     assert_true(m.most < n * 16 * sizeof(double));
@@ -180,7 +197,7 @@ static void singular_matrix(void **state)
     /* I - (h/2) J with J = 2/h: no delta at all. */
     const problem p = {.nx = 1, .nv = 1, .accel = cubic, .traits = {.velocity = true, .linear_v = true}};
     const double one = 1;
-    stepper *s = begin(&p, "verlet", 0, -2, &one, &one);   /* a = -v: q = 1 - h/2 (-1) = 1 + h/2 = 0 */
+    stepper *s = begin(&p, "verlet", 0, -2, &one, &one); /* a = -v: q = 1 - h/2 (-1) = 1 + h/2 = 0 */
     motus_error err = {0};
     assert_int_equal(stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err), MOTUS_SOLVE);
     assert_int_equal(stepper_steps(s), 1);
@@ -192,7 +209,8 @@ static void allocation_failures(void **state)
     (void)state;
     size_t next[6] = {3, 4, 5, 1, 2, 0};
     ring r = {.n = 6, .next = next};
-    const problem p = {.ctx = &r, .nx = 6, .nv = 6, .accel = ring_force, .pattern = ring_pattern, .traits = {.velocity = true}};
+    const problem p = {
+        .ctx = &r, .nx = 6, .nv = 6, .accel = ring_force, .pattern = ring_pattern, .traits = {.velocity = true}};
     static const char *const methods[] = {"verlet", "gauss4", "newmark", "rk4"};
     const double start[6] = {1, 2, 3, 4, 5, 6};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
@@ -204,11 +222,12 @@ static void allocation_failures(void **state)
             const motus_allocator hooks = {metered, unmetered, &m};
             stepper *s = NULL;
             motus_error err = {0};
-            const motus_status status = stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, start, start, &hooks, &s, &err);
+            const motus_status status =
+                stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, start, start, &hooks, &s, &err);
             if (!status) {
                 const size_t taken = m.count;
                 assert_int_equal(stepper_advance(s, (stepper_limit){20, NAN}, NULL, &err), MOTUS_OK);
-                assert_int_equal(m.count, taken);          /* nothing is taken on the way */
+                assert_int_equal(m.count, taken); /* nothing is taken on the way */
                 stepper_destroy(s);
                 assert_int_equal(m.now, 0);
                 break;

@@ -1,5 +1,5 @@
-/* What goes wrong in a run, and what is refused: each error names its time, its variable or the remedy, and the stepper stands where
- * the motion was still good.
+/* What goes wrong in a run, and what is refused: each error names its time, its variable or the remedy, and the
+ * stepper stands where the motion was still good.
  */
 #include "test/stepper_test.h"
 
@@ -10,10 +10,14 @@ static int oscillator(void *ctx, double t, double *x, double *v, double *a)
     return 0;
 }
 
-/* Errors ------------------------------------------------------------------------------------------------------------ */
+/* Errors ----------------------------------------------------------------------------------------------------------- */
 
-/* x'' = 2 (x - centre)^3 grows without bound in finite time where it starts outward; the rest of a long family only rests. */
-typedef struct burst { size_t n, hot; int64_t calls, fail_at; } burst;
+/* x'' = 2 (x - centre)^3 grows without bound in finite time where it starts outward; the rest of a long family only
+ * rests. */
+typedef struct burst {
+    size_t n, hot;
+    int64_t calls, fail_at;
+} burst;
 static int bursting(void *ctx, double t, double *x, double *v, double *a)
 {
     burst *b = ctx;
@@ -45,7 +49,8 @@ static void divergence(const char *method, size_t n, int64_t chunk)
     snprintf(expected, sizeof expected, "y[%zu]", b.hot + 1);
     assert_int_equal(strncmp(err.variable, expected, strlen(expected)), 0);
     assert_non_null(strstr(err.message, expected));
-    /* It stands at the last finite step: the next one is the one that was reported, and reaching it anew fails alike. */
+    /* It stands at the last finite step: the next one is the one that was reported, and reaching it anew fails
+     * alike. */
     const int64_t at = stepper_steps(s);
     assert_true(fabs(stepper_time(s) + 0.01 - err.time) < 1e-9);
     memset(x, 0, 2 * n * sizeof *x);
@@ -72,7 +77,7 @@ static void divergence_names_time_and_variable(void **state)
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         divergence(methods[i], 3, 1);
         divergence(methods[i], 3, 1000);
-        divergence(methods[i], 5000, 1000);       /* beyond the size that is looked at after every step */
+        divergence(methods[i], 5000, 1000); /* beyond the size that is looked at after every step */
         divergence(methods[i], 5000, 7);
     }
 }
@@ -90,7 +95,7 @@ static void failing_callback(void **state)
         motus_error err = {0};
         assert_int_equal(stepper_advance(s, (stepper_limit){400, NAN}, NULL, &err), MOTUS_CALLBACK);
         assert_true(isfinite(err.time) && err.time >= 2 && err.time <= 4);
-        assert_true(stepper_time(s) == err.time);          /* it stands where the failing step began */
+        assert_true(stepper_time(s) == err.time); /* it stands where the failing step began */
         /* Once the callback works again the run goes on as if nothing had happened. */
         stepper *whole = begin(&p, row_card(k)->name, 2, 0.01, &x, &v);
         assert_int_equal(stepper_advance(s, (stepper_limit){400 - stepper_steps(s), NAN}, NULL, &err), MOTUS_OK);
@@ -136,9 +141,19 @@ static void refused_requests(void **state)
     assert_int_equal(row_choose("verlt", &c, NULL, &err), MOTUS_METHOD);
     assert_non_null(strstr(err.hint, "verlet"));
     assert_int_equal(row_choose("rk4(1)", &c, NULL, &err), MOTUS_METHOD);
-    static const char *const wrong[] = {"newmark(", "newmark(1/4", "newmark(1/4,", "newmark(1/0, 1/2)", "newmark(1,2)", "newmark(a,b)",
-                                        "newmark(1/4, 1/2) x", "newmark(-1, 1/2)", "", "(1)", "newmark(1e999, 1/2)"};
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) assert_int_equal(row_choose(wrong[i], &c, NULL, &err), MOTUS_METHOD);
+    static const char *const wrong[] = {"newmark(",
+                                        "newmark(1/4",
+                                        "newmark(1/4,",
+                                        "newmark(1/0, 1/2)",
+                                        "newmark(1,2)",
+                                        "newmark(a,b)",
+                                        "newmark(1/4, 1/2) x",
+                                        "newmark(-1, 1/2)",
+                                        "",
+                                        "(1)",
+                                        "newmark(1e999, 1/2)"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(row_choose(wrong[i], &c, NULL, &err), MOTUS_METHOD);
     assert_int_equal(row_choose("Newmark( 1/6 , 1/2 )", &c, &card, &err), MOTUS_OK);
     assert_string_equal(c.name, "newmark(0.16666666666666666, 0.5)");
     assert_int_equal(card->order, 2);
@@ -155,8 +170,13 @@ static void refused_requests(void **state)
     assert_false(row_uniform(&c));
 
     const traits velocity = {.velocity = true}, plain = {0}, constant = {.constant = true};
-    static const struct { const char *method, *hint; } pairs[] = {
-        {"velocity-verlet", "verlet"}, {"pefrl", "gauss4"}, {"kahan-li6", "gauss6"}, {"kahan-li8", "gauss8"}, {"boris", "verlet"}};
+    static const struct {
+        const char *method, *hint;
+    } pairs[] = {{"velocity-verlet", "verlet"},
+                 {"pefrl", "gauss4"},
+                 {"kahan-li6", "gauss6"},
+                 {"kahan-li8", "gauss8"},
+                 {"boris", "verlet"}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         row_choose(pairs[i].method, &c, &card, NULL);
         assert_int_equal(row_admits(&c, &velocity, &err), MOTUS_METHOD);
@@ -172,9 +192,12 @@ static void refused_requests(void **state)
     stepper *s = NULL;
     row_choose("verlet", &c, NULL, NULL);
     assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 1e20, 1, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, NAN, &zero, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
-    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 1, &nan_value, &zero, NULL, &s, &err), MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 1e20, 1, &zero, &zero, NULL, &s, &err),
+                     MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, NAN, &zero, &zero, NULL, &s, &err),
+                     MOTUS_ARGUMENT);
+    assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 1, &nan_value, &zero, NULL, &s, &err),
+                     MOTUS_ARGUMENT);
     s = begin(&p, "verlet", 0, 0.1, &zero, &zero);
     const double carry[2] = {1, NAN};
     assert_int_equal(stepper_load(s, (stepper_count){1, 1, 0}, carry, &err), MOTUS_STATE);
@@ -188,7 +211,8 @@ static void names_are_unique(void **state)
     for (size_t k = 0; k < row_count(); k++) {
         const motus_method *card = row_card(k), *found = NULL;
         chosen c;
-        assert_true(card->name && card->aliases && card->family && card->cite && strlen(card->formula) > 0 && strlen(card->use) > 0);
+        assert_true(card->name && card->aliases && card->family && card->cite && strlen(card->formula) > 0 &&
+                    strlen(card->use) > 0);
         char words[256];
         snprintf(words, sizeof words, "%s %s", card->name, card->aliases);
         for (char *word = strtok(words, " "); word; word = strtok(NULL, " ")) {
@@ -208,7 +232,10 @@ static void errors_are_safe(void **state)
     wild[sizeof wild - 1] = 0;
     fail(&err, MOTUS_NAME, "%s", wild);
     for (const unsigned char *c = (unsigned char *)err.message; *c; c++) assert_true(*c >= 0x20 && *c != 0x7F);
-    fail(&err, MOTUS_NAME, "a\033[31mb\nc\xc2\x9b" "d\xe2\x80\xae" "e\xffµ");
+    fail(&err, MOTUS_NAME,
+         "a\033[31mb\nc\xc2\x9b"
+         "d\xe2\x80\xae"
+         "e\xffµ");
     assert_string_equal(err.message, "a?[31mb c?d?e?µ");
     for (size_t i = 0; i + 2 < sizeof wild; i += 2) memcpy(wild + i, "µ", 2);
     fail(&err, MOTUS_NAME, "x%s", wild);

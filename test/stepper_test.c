@@ -1,10 +1,10 @@
-/* The stepper as its callers see it: restarts and looks that change no bit, instruction sets that agree, driven boundaries, exact
- * motion, and the two founding recurrences.
+/* The stepper as its callers see it: restarts and looks that change no bit, instruction sets that agree, driven
+ * boundaries, exact motion, and the two founding recurrences.
  */
 #include "test/stepper_test.h"
 #include "core/stepper_body.h"
 
-/* Problems ---------------------------------------------------------------------------------------------------------- */
+/* Problems --------------------------------------------------------------------------------------------------------- */
 
 static int oscillator(void *ctx, double t, double *x, double *v, double *a)
 {
@@ -29,7 +29,9 @@ static int cubic_jvp(void *ctx, double t, double *x, double *v, const double *dx
 }
 
 /* Two coupled positions and a companion; with `tangle`, all of it nonlinear in the velocities. */
-typedef struct mix { bool tangle; } mix;
+typedef struct mix {
+    bool tangle;
+} mix;
 static int mixed(void *ctx, double t, double *x, double *v, double *a)
 {
     const mix *m = ctx;
@@ -62,7 +64,7 @@ static const problem problems[] = {
 enum { PROBLEMS = sizeof problems / sizeof *problems };
 static const double start_x[3] = {0.2, -0.3, 0.1}, start_v[3] = {0.4, 0.1, -0.2};
 
-/* Bits -------------------------------------------------------------------------------------------------------------- */
+/* Bits ------------------------------------------------------------------------------------------------------------- */
 
 static void looking_and_restarting_change_no_bit(void **state)
 {
@@ -81,7 +83,7 @@ static void looking_and_restarting_change_no_bit(void **state)
             double x[3], v[3], a[3], carry[32];
             for (int i = 0; i < 45; i++) {
                 assert_int_equal(stepper_sync(watched, x, v, i % 2 ? a : NULL, NULL), MOTUS_OK);
-                if (i == 0 || i == 21) {          /* on to another stepper, made alike */
+                if (i == 0 || i == 21) { /* on to another stepper, made alike */
                     assert_in_range(stepper_carry(watched), 0, 32);
                     const stepper_count at = stepper_save(watched, carry);
                     stepper *next = begin(p, name, 0.5, 0.05, start_x, start_v);
@@ -92,7 +94,8 @@ static void looking_and_restarting_change_no_bit(void **state)
                 assert_int_equal(stepper_advance(watched, (stepper_limit){1, NAN}, NULL, NULL), MOTUS_OK);
             }
             const outcome one = finish(plain), other = finish(watched);
-            if (memcmp(&one, &other, sizeof one)) explain("%s on problem %d: looking or restarting changed the result", name, q);
+            if (memcmp(&one, &other, sizeof one))
+                explain("%s on problem %d: looking or restarting changed the result", name, q);
         }
     assert_true(rows > 50);
 }
@@ -117,7 +120,8 @@ static void instruction_sets_agree(void **state)
                 stepper_use_body(s, bodies[b]);
                 assert_int_equal(stepper_advance(s, (stepper_limit){100, NAN}, NULL, NULL), MOTUS_OK);
                 o[b] = finish(s);
-                if (memcmp(&o[0], &o[b], sizeof *o)) explain("%s on problem %d: %s differs", row_card(k)->name, q, bodies[b]->name);
+                if (memcmp(&o[0], &o[b], sizeof *o))
+                    explain("%s on problem %d: %s differs", row_card(k)->name, q, bodies[b]->name);
             }
         }
 }
@@ -136,19 +140,24 @@ static double run(const problem *p, const char *method, double h, int64_t steps,
     return x;
 }
 
-/* The notebook's two recurrences: summed Verlet within round-off of the exact recurrence, the literal one on the notebook's numbers. */
+/* The notebook's two recurrences: summed Verlet within round-off of the exact recurrence, the literal one on the
+ * notebook's numbers. */
 static void founding_recurrences(void **state)
 {
     (void)state;
     const problem a = {.nx = 1, .nv = 1, .accel = oscillator, .traits = {.time = true}};
     assert_near(run(&a, "verlet", 0.001, 100000, 0), 0.04778239807187258, 1e-13);
     assert_near(run(&a, "verlet-literal", 0.001, 100000, 0), 0.04778239807006475, 1e-11);
-    const problem b = {.nx = 1, .nv = 1, .accel = cubic, .jvp = cubic_jvp, .traits = {.velocity = true, .linear_v = true, .constant_jv = true}};
+    const problem b = {.nx = 1,
+                       .nv = 1,
+                       .accel = cubic,
+                       .jvp = cubic_jvp,
+                       .traits = {.velocity = true, .linear_v = true, .constant_jv = true}};
     assert_near(run(&b, "verlet", 0.001, 3000, 10), -3.489442177206087865, 1e-13);
     assert_near(run(&b, "verlet-literal", 0.001, 3000, 10), -3.4894421772061026, 1e-13);
 }
 
-/* Boundaries and exact motion ---------------------------------------------------------------------------------------- */
+/* Boundaries and exact motion -------------------------------------------------------------------------------------- */
 
 /* Cell 0 is driven, cell 1 hangs on it; `apart` is the same without a cell, the drive written into the force. */
 static void drive(void *ctx, double t, double *x, double *v)
@@ -179,7 +188,12 @@ static void driven_boundaries(void **state)
     for (int velocity = 0; velocity < 2; velocity++)
         for (size_t k = 0; k < row_count(); k++) {
             const traits traits = {.velocity = velocity, .linear_v = true, .constant_jv = true, .time = true};
-            const problem cell = {.ctx = velocity ? &dummy : NULL, .nx = 2, .nv = 2, .accel = hanging, .refresh = drive, .traits = traits};
+            const problem cell = {.ctx = velocity ? &dummy : NULL,
+                                  .nx = 2,
+                                  .nv = 2,
+                                  .accel = hanging,
+                                  .refresh = drive,
+                                  .traits = traits};
             const problem none = {.ctx = velocity ? &dummy : NULL, .nx = 1, .nv = 1, .accel = apart, .traits = traits};
             if (!admitted(&cell, k)) continue;
             rows++;
@@ -194,7 +208,7 @@ static void driven_boundaries(void **state)
                 assert_int_equal(stepper_sync(b, &y, &w, NULL, NULL), MOTUS_OK);
                 assert_true(x[0] == sin(stepper_time(a)) && v[0] == cos(stepper_time(a)));
                 if (velocity == 0 && row_card(k)->evaluations) {
-                    assert_true(x[1] == y && v[1] == w);   /* explicit: the same operations, the same bits */
+                    assert_true(x[1] == y && v[1] == w); /* explicit: the same operations, the same bits */
                 } else {
                     assert_near(x[1], y, 1e-11);
                     assert_near(v[1], w, 1e-11);
@@ -246,7 +260,8 @@ static void exact_motion(void **state)
     assert_true(x[0] == cos(3.5) && v[0] == -sin(3.5));
     stepper_destroy(s);
     motus_error err = {0};
-    assert_int_equal(stepper_create(&(machine){.problem = &swinging}, &c, 0, 0.5, &zero, &zero, NULL, &s, &err), MOTUS_METHOD);
+    assert_int_equal(stepper_create(&(machine){.problem = &swinging}, &c, 0, 0.5, &zero, &zero, NULL, &s, &err),
+                     MOTUS_METHOD);
 }
 
 int main(void)

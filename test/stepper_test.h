@@ -13,17 +13,20 @@
 
 #include <cmocka.h>
 
-#undef fail                    /* cmocka has a macro of that name; here it is the house's */
+#undef fail /* cmocka has a macro of that name; here it is the house's */
 #define explain(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
-#define assert_near(a, b, margin) (fabs((a) - (b)) <= (margin) ? (void)0 : explain(#a " is %.17g, not %.17g within %g", (a), (b), (margin)))
+#define assert_near(a, b, margin) \
+    (fabs((a) - (b)) <= (margin) ? (void)0 : explain(#a " is %.17g, not %.17g within %g", (a), (b), (margin)))
 
-static inline stepper *begin(const problem *p, const char *method, double t0, double h, const double *x, const double *v)
+static inline stepper *begin(const problem *p, const char *method, double t0, double h, const double *x,
+                             const double *v)
 {
     chosen c;
     stepper *s = NULL;
     motus_error err = {0};
     assert_int_equal(row_choose(method, &c, NULL, &err), MOTUS_OK);
-    if (stepper_create(&(machine){.problem = p}, &c, t0, h, x, v, NULL, &s, &err)) explain("%s: %s", method, err.message);
+    if (stepper_create(&(machine){.problem = p}, &c, t0, h, x, v, NULL, &s, &err))
+        explain("%s: %s", method, err.message);
     return s;
 }
 
@@ -33,7 +36,10 @@ static inline bool admitted(const problem *p, size_t k)
     return !row_choose(row_card(k)->name, &c, NULL, NULL) && !row_admits(&c, &p->traits, NULL);
 }
 
-typedef struct outcome { double x[3], v[3], time; int64_t evaluations, iterations; } outcome;
+typedef struct outcome {
+    double x[3], v[3], time;
+    int64_t evaluations, iterations;
+} outcome;
 
 static inline outcome finish(stepper *s)
 {

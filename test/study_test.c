@@ -1,7 +1,8 @@
-/* The experiments: the rule that finds a slope, the detector of trends, and the studies on motions whose truth is known.
+/* The experiments: the rule that finds a slope, the detector of trends, and the studies on motions whose truth is
+ * known.
  *
- * The first part feeds the pure functions errors that are made up, so that methods which are not what they say can be tried too; the
- * second runs the studies on callback systems and texts.
+ * The first part feeds the pure functions errors that are made up, so that methods which are not what they say can be
+ * tried too; the second runs the studies on callback systems and texts.
  */
 #include "motus.h"
 #include "study/fit.h"
@@ -21,16 +22,13 @@
 #define POINTS 40
 
 /* A fixed scatter in [-1, 1]: the same on every machine. */
-static double scatter(size_t k)
-{
-    return 2 * fmod(0.6180339887498949 * (double)(k + 1) + 0.137, 1) - 1;
-}
+static double scatter(size_t k) { return 2 * fmod(0.6180339887498949 * (double)(k + 1) + 0.137, 1) - 1; }
 
 typedef struct recipe {
-    double coefficient, order;       /* coefficient h^order */
-    double next, next_order;         /* + next h^next_order */
-    double floor, growth;            /* + floor × scatter × steps^growth */
-    double unstable;                 /* NaN above this step */
+    double coefficient, order; /* coefficient h^order */
+    double next, next_order;   /* + next h^next_order */
+    double floor, growth;      /* + floor × scatter × steps^growth */
+    double unstable;           /* NaN above this step */
 } recipe;
 
 /* steps 8, 16, 32, … (or with ratio √2) of a motion of length 8; at most `count` points. */
@@ -40,12 +38,12 @@ static size_t make(motus_point *p, size_t count, double ratio, recipe r)
         double h = pow(ratio, -(double)i), n = 8 / h;
         double e = r.coefficient * pow(h, r.order) + r.next * pow(h, r.next_order);
         e += r.floor * (0.6 + 0.4 * fabs(scatter(i))) * pow(n, r.growth);
-        p[i] = (motus_point){ h, h > r.unstable ? NAN : fabs(e), 7, 0 };
+        p[i] = (motus_point){h, h > r.unstable ? NAN : fabs(e), 7, 0};
     }
     return count;
 }
 
-static const recipe quiet = { .coefficient = 0.01, .order = 2, .unstable = INFINITY };
+static const recipe quiet = {.coefficient = 0.01, .order = 2, .unstable = INFINITY};
 
 static void slope_of_clean_errors(void **state)
 {
@@ -60,8 +58,7 @@ static void slope_of_clean_errors(void **state)
         assert_true(fabs(f.observed - p) < 1e-9);
         assert_true(f.standard_error < 1e-9);
         assert_true(fit_passes(f.observed, f.standard_error, p));
-        for (size_t i = 0; i < n; i++)
-            assert_true(points[i].used == 0 || points[i].used == 1);
+        for (size_t i = 0; i < n; i++) assert_true(points[i].used == 0 || points[i].used == 1);
     }
 }
 
@@ -71,8 +68,11 @@ static void plateau_is_left_out(void **state)
     for (int p = 4; p <= 8; p += 2)
         for (int growth = 0; growth <= 2; growth++) {
             motus_point points[POINTS];
-            recipe r = { .coefficient = 0.05, .order = p, .floor = growth == 2 ? 1e-16 : 1e-14, .growth = 0.5 * growth,
-                         .unstable = INFINITY };
+            recipe r = {.coefficient = 0.05,
+                        .order = p,
+                        .floor = growth == 2 ? 1e-16 : 1e-14,
+                        .growth = 0.5 * growth,
+                        .unstable = INFINITY};
             size_t n = make(points, 34, 1.4142135623730951, r);
             fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 0);
             assert_int_equal(f.verdict, FIT_SLOPE);
@@ -94,28 +94,26 @@ static void coarse_points_are_left_out(void **state)
     (void)state;
     motus_point points[POINTS];
     /* unstable, then superconvergent (the h^4 term hides the h^2 one), then order 2 */
-    recipe r = { .coefficient = 1e-5, .order = 2, .next = 0.05, .next_order = 5, .unstable = 0.3 };
+    recipe r = {.coefficient = 1e-5, .order = 2, .next = 0.05, .next_order = 5, .unstable = 0.3};
     size_t n = make(points, 14, 2, r);
     fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 0);
     assert_int_equal(f.verdict, FIT_SLOPE);
     assert_true(fabs(f.observed - 2) < 0.05);
     assert_false(fit_passes(f.observed, f.standard_error, 5));
-    for (size_t i = 0; i < 4; i++)
-        assert_false(points[i].used);
+    for (size_t i = 0; i < 4; i++) assert_false(points[i].used);
 }
 
 static void large_errors_are_left_out(void **state)
 {
     (void)state;
     motus_point points[POINTS];
-    recipe r = { .coefficient = 100, .order = 2, .unstable = INFINITY };
+    recipe r = {.coefficient = 100, .order = 2, .unstable = INFINITY};
     size_t n = make(points, 28, 1.4142135623730951, r);
     fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 0);
     assert_int_equal(f.verdict, FIT_SLOPE);
     /* Errors as large as the motion have no order, even where they look it; nor has the octave next to them. */
     for (size_t i = 0; i + 1 < n; i++)
-        if (points[i].error >= 0.1)
-            assert_false(points[i].used || points[i + 1].used);
+        if (points[i].error >= 0.1) assert_false(points[i].used || points[i + 1].used);
     assert_true(points[n - 1].used);
 }
 
@@ -124,7 +122,7 @@ static void a_lower_order_is_seen(void **state)
     (void)state;
     for (int p = 2; p <= 8; p++) {
         motus_point points[POINTS];
-        recipe r = { .coefficient = 0.01, .order = p - 1, .floor = 1e-15, .unstable = INFINITY };
+        recipe r = {.coefficient = 0.01, .order = p - 1, .floor = 1e-15, .unstable = INFINITY};
         size_t n = make(points, 16, 1.4142135623730951, r);
         fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 0);
         assert_int_equal(f.verdict, FIT_SLOPE);
@@ -136,13 +134,12 @@ static void the_truth_s_error_is_a_floor(void **state)
 {
     (void)state;
     motus_point points[POINTS];
-    recipe r = { .coefficient = 0.05, .order = 4, .unstable = INFINITY };
+    recipe r = {.coefficient = 0.05, .order = 4, .unstable = INFINITY};
     size_t n = make(points, 20, 1.4142135623730951, r);
     /* A truth known to 1e-7 leaves the points below 3e-6 out, though they look perfect. */
     fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 1e-7);
     assert_int_equal(f.verdict, FIT_SLOPE);
-    for (size_t i = 0; i < n; i++)
-        assert_true(!points[i].used || points[i].error >= 3e-6);
+    for (size_t i = 0; i < n; i++) assert_true(!points[i].used || points[i].error >= 3e-6);
     f = fit_order(points, n, 8, DBL_EPSILON, 1e-3);
     assert_int_equal(f.verdict, FIT_FEW);
     assert_true(isnan(f.observed));
@@ -152,8 +149,7 @@ static void noise_is_no_slope(void **state)
 {
     (void)state;
     motus_point points[POINTS];
-    for (size_t i = 0; i < 12; i++)
-        points[i] = (motus_point){ pow(2, -(double)i), 1e-3 * exp(4 * scatter(i)), 0, 0 };
+    for (size_t i = 0; i < 12; i++) points[i] = (motus_point){pow(2, -(double)i), 1e-3 * exp(4 * scatter(i)), 0, 0};
     fit_order_result f = fit_order(points, 12, 8, DBL_EPSILON, 0);
     assert_true(f.verdict != FIT_EXACT);
     assert_false(f.verdict == FIT_SLOPE && fit_passes(f.observed, f.standard_error, 6));
@@ -163,13 +159,12 @@ static void exact_methods_have_no_slope(void **state)
 {
     (void)state;
     motus_point points[POINTS];
-    recipe r = { .floor = 1e-16, .growth = 0.5, .unstable = INFINITY };
+    recipe r = {.floor = 1e-16, .growth = 0.5, .unstable = INFINITY};
     size_t n = make(points, 12, 2, r);
     assert_int_equal(fit_order(points, n, 8, DBL_EPSILON, 0).verdict, FIT_EXACT);
-    points[0].error = 1e-9;          /* a single error at a coarse step that rounding does not explain */
+    points[0].error = 1e-9; /* a single error at a coarse step that rounding does not explain */
     assert_int_not_equal(fit_order(points, n, 8, DBL_EPSILON, 0).verdict, FIT_EXACT);
-    for (size_t i = 0; i < n; i++)
-        points[i].error = NAN;
+    for (size_t i = 0; i < n; i++) points[i].error = NAN;
     assert_int_equal(fit_order(points, n, 8, DBL_EPSILON, 0).verdict, FIT_FEW);
     assert_int_equal(fit_order(points, 0, 8, DBL_EPSILON, 0).verdict, FIT_FEW);
 }
@@ -189,13 +184,13 @@ static void line_by_hand(void **state)
 {
     (void)state;
     /* y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, residuals -1/2, 1, -1/2, standard error sqrt(1.5 / 1 / 2) */
-    fit_result f = fit_line((double[]){ 0, 1, 2 }, (double[]){ 1, 3, 2 }, 3);
+    fit_result f = fit_line((double[]){0, 1, 2}, (double[]){1, 3, 2}, 3);
     assert_true(fabs(f.slope - 0.5) < 1e-15 && fabs(f.intercept - 1.5) < 1e-15);
     assert_true(fabs(f.slope_error - sqrt(0.75)) < 1e-15);
     /* far from the origin nothing is lost */
-    f = fit_line((double[]){ 1e9, 1e9 + 1, 1e9 + 2 }, (double[]){ 1, 3, 5 }, 3);
+    f = fit_line((double[]){1e9, 1e9 + 1, 1e9 + 2}, (double[]){1, 3, 5}, 3);
     assert_true(fabs(f.slope - 2) < 1e-12);
-    assert_true(isnan(fit_line((double[]){ 1, 1 }, (double[]){ 0, 1 }, 2).slope));
+    assert_true(isnan(fit_line((double[]){1, 1}, (double[]){0, 1}, 2).slope));
 }
 
 /* Trends --------------------------------------------------------------------------------------------------------- */
@@ -229,16 +224,15 @@ static trend_result trend_of(shape *f, double size, double noise, double roundof
 static void oscillations_are_no_trend(void **state)
 {
     (void)state;
-    shape *bounded[] = { swing, one_turn, turn_and_a_half, spikes, beats };
+    shape *bounded[] = {swing, one_turn, turn_and_a_half, spikes, beats};
     for (size_t k = 0; k < sizeof bounded / sizeof *bounded; k++)
-        for (double noise = 0; noise < 0.3; noise += 0.1)
-            assert_false(trend_of(bounded[k], 1, noise, 1e-12).trending);
+        for (double noise = 0; noise < 0.3; noise += 0.1) assert_false(trend_of(bounded[k], 1, noise, 1e-12).trending);
 }
 
 static void drifts_are_trends(void **state)
 {
     (void)state;
-    shape *running[] = { straight, swing_and_drift, grows, grows_swinging, stairs, stairs_and_spikes };
+    shape *running[] = {straight, swing_and_drift, grows, grows_swinging, stairs, stairs_and_spikes};
     for (size_t k = 0; k < sizeof running / sizeof *running; k++) {
         assert_true(trend_of(running[k], 1, 0, 1e-12).trending);
         assert_true(trend_of(running[k], -1, 0, 1e-12).trending);
@@ -252,9 +246,9 @@ static void rounding_is_no_trend(void **state)
     (void)state;
     assert_true(trend_of(straight, 1e-12, 0, 1e-13).trending);
     assert_false(trend_of(straight, 1e-13, 0, 1e-12).trending);
-    assert_true(isnan(trend_find((double[]){ 1 }, (double[]){ 1 }, 1, 0).trend));
+    assert_true(isnan(trend_find((double[]){1}, (double[]){1}, 1, 0).trend));
     /* too few looks to tell */
-    assert_false(trend_find((double[]){ 0, 1, 2 }, (double[]){ 0, 1, 2 }, 3, 0).trending);
+    assert_false(trend_find((double[]){0, 1, 2}, (double[]){0, 1, 2}, 3, 0).trending);
 }
 
 /* Systems -------------------------------------------------------------------------------------------------------- */
@@ -306,7 +300,7 @@ static int bursting_accel(void *context, double t, const double *x, const double
 
 static motus_callback_def spring_def(void)
 {
-    static const double x[] = { 1 }, v[] = { 0 };
+    static const double x[] = {1}, v[] = {0};
     motus_callback_def def = motus_default_callback();
     def.positions = 1;
     def.x = x;
@@ -332,8 +326,7 @@ static motus_system *system_of_text(const char *text)
     motus_system *s = NULL;
     motus_error e = motus_default_error();
     def.text = text;
-    if (motus_system_from_text(&def, &s, &e) != MOTUS_OK)
-        fail_msg("%s", e.message);
+    if (motus_system_from_text(&def, &s, &e) != MOTUS_OK) fail_msg("%s", e.message);
     return s;
 }
 
@@ -351,8 +344,7 @@ static motus_comparison *compare(motus_system *s, const motus_study_def *def)
 {
     motus_comparison *c = NULL;
     motus_error e = motus_default_error();
-    if (motus_compare(s, def, &c, &e) != MOTUS_OK)
-        fail_msg("%s", e.message);
+    if (motus_compare(s, def, &c, &e) != MOTUS_OK) fail_msg("%s", e.message);
     return c;
 }
 
@@ -360,16 +352,14 @@ static motus_convergence *converge(motus_system *s, const motus_study_def *def)
 {
     motus_convergence *c = NULL;
     motus_error e = motus_default_error();
-    if (motus_converge(s, def, &c, &e) != MOTUS_OK)
-        fail_msg("%s", e.message);
+    if (motus_converge(s, def, &c, &e) != MOTUS_OK) fail_msg("%s", e.message);
     return c;
 }
 
 static const motus_compare_row *row_of(const motus_comparison *c, const char *method)
 {
     for (size_t k = 0; k < c->row_count; k++)
-        if (strncmp(c->rows[k]->method, method, strlen(method)) == 0)
-            return c->rows[k];
+        if (strncmp(c->rows[k]->method, method, strlen(method)) == 0) return c->rows[k];
     fail_msg("no row %s", method);
     return NULL;
 }
@@ -377,8 +367,7 @@ static const motus_compare_row *row_of(const motus_comparison *c, const char *me
 static const motus_converge_row *slope_of(const motus_convergence *c, const char *method)
 {
     for (size_t k = 0; k < c->row_count; k++)
-        if (strncmp(c->rows[k]->method, method, strlen(method)) == 0)
-            return c->rows[k];
+        if (strncmp(c->rows[k]->method, method, strlen(method)) == 0) return c->rows[k];
     fail_msg("no row %s", method);
     return NULL;
 }
@@ -392,7 +381,7 @@ static void every_number_of_a_spring(void **state)
     (void)state;
     motus_callback_def callback = spring_def();
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "explicit-euler", "symplectic-euler", "verlet" };
+    const char *methods[] = {"explicit-euler", "symplectic-euler", "verlet"};
     const double h = 0.05, T = 50;
     const int n = 1000;
     motus_study_def def = study_of(methods, 3, h, T);
@@ -400,7 +389,8 @@ static void every_number_of_a_spring(void **state)
     assert_int_equal(c->row_count, 3);
     assert_string_equal(c->reference, "exact");
     assert_true(c->reference_error == 0);
-    /* Explicit Euler turns by atan h and grows by sqrt(1 + h²) in each step; there and back it has grown by (1 + h²)^n. */
+    /* Explicit Euler turns by atan h and grows by sqrt(1 + h²) in each step; there and back it has grown by (1 +
+     * h²)^n. */
     const motus_compare_row *r = c->rows[0];
     assert_int_equal(r->steps, n);
     assert_int_equal(r->evaluations, n);
@@ -414,8 +404,9 @@ static void every_number_of_a_spring(void **state)
     NEAR(r->invariants[0]->final, growth / 2, 1e-10);
     NEAR(r->invariants[0]->max_drift, growth / 2 - 0.5, 1e-10);
     assert_true(r->invariants[0]->trending);
-    NEAR(r->reversal, (growth - 1) / 2, 0.01);       /* in units of the range, 2 */
-    /* Symplectic Euler keeps x² + v² + h x v to the rounding: the energy swings within h/2 of a half, and has no trend. */
+    NEAR(r->reversal, (growth - 1) / 2, 0.01); /* in units of the range, 2 */
+    /* Symplectic Euler keeps x² + v² + h x v to the rounding: the energy swings within h/2 of a half, and has no
+     * trend. */
     r = c->rows[1];
     assert_true(r->invariants[0]->max_drift > 0.2 * h / 2 && r->invariants[0]->max_drift < 0.6 * h);
     assert_false(r->invariants[0]->trending);
@@ -437,7 +428,7 @@ static void a_reference_stands_in_for_the_truth(void **state)
     motus_callback_def known = spring_def(), unknown = spring_def();
     unknown.exact = NULL;
     motus_system *a = system_of(&known), *b = system_of(&unknown);
-    const char *methods[] = { "explicit-euler", "verlet", "rk4", "forest-ruth" };
+    const char *methods[] = {"explicit-euler", "verlet", "rk4", "forest-ruth"};
     motus_study_def def = study_of(methods, 4, 0.125, 20);
     motus_comparison *p = compare(a, &def), *q = compare(b, &def);
     assert_string_not_equal(q->reference, "exact");
@@ -462,7 +453,7 @@ static void a_reference_knows_its_error(void **state)
     callback.acceleration = jumping_accel;
     callback.exact = NULL;
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "rk4", "verlet", "implicit-midpoint" };
+    const char *methods[] = {"rk4", "verlet", "implicit-midpoint"};
     motus_study_def def = study_of(methods, 3, 0.01, 2);
     motus_comparison *c = compare(s, &def);
     assert_true(c->reference_error > 1e-12 && c->reference_error < 1e-4);
@@ -508,7 +499,7 @@ static void eulers_miss_the_parabola(void **state)
     assert_non_null(strstr(c->remarks, "parabola"));
     motus_comparison_destroy(c);
     /* The reason is found in the numbers: one Euler alone has no opposite. */
-    const char *one[] = { "explicit-euler" };
+    const char *one[] = {"explicit-euler"};
     motus_study_def def = study_of(one, 1, NAN, NAN);
     c = compare(s, &def);
     assert_null(strstr(c->remarks, "opposite"));
@@ -522,7 +513,7 @@ static void short_last_steps_and_ways_back(void **state)
     (void)state;
     motus_callback_def callback = spring_def();
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "verlet", "rk4", "gauss4", "pefrl" };
+    const char *methods[] = {"verlet", "rk4", "gauss4", "pefrl"};
     for (int backward = 0; backward < 2; backward++)
         for (int few = 0; few < 2; few++) {
             motus_study_def def = study_of(methods, 4, few ? 5 : 0.03, backward ? -2 : 2);
@@ -532,8 +523,7 @@ static void short_last_steps_and_ways_back(void **state)
                 assert_int_equal(c->rows[k]->steps, few ? 1 : 67);
                 assert_non_null(strstr(c->rows[k]->note, "last step"));
                 /* The way back takes the short step first, or it would not be the way. */
-                if (k != 1 && !few)
-                    assert_true(c->rows[k]->reversal < 1e-13);
+                if (k != 1 && !few) assert_true(c->rows[k]->reversal < 1e-13);
                 assert_true(few || c->rows[k]->error_final_x < 1e-3);
             }
             motus_comparison_destroy(c);
@@ -573,7 +563,7 @@ static void rows_that_fail_say_so(void **state)
     callback.exact = NULL;
     callback.depends_on_velocity = 1;
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "kahan-li8", "rk4" };
+    const char *methods[] = {"kahan-li8", "rk4"};
     motus_study_def def = study_of(methods, 2, 0.1, 5);
     motus_comparison *c = compare(s, &def);
     assert_int_equal(c->rows[0]->status, MOTUS_METHOD);
@@ -584,7 +574,7 @@ static void rows_that_fail_say_so(void **state)
     motus_comparison_destroy(c);
     motus_system_destroy(s);
 
-    static const double one[] = { 1 };
+    static const double one[] = {1};
     callback.acceleration = bursting_accel;
     callback.depends_on_velocity = 0;
     callback.v = one;
@@ -609,7 +599,7 @@ static void a_step_beyond_the_limit(void **state)
     (void)state;
     motus_callback_def callback = spring_def();
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "verlet", "implicit-midpoint" };
+    const char *methods[] = {"verlet", "implicit-midpoint"};
     motus_study_def def = study_of(methods, 2, 2.5, 1000);
     motus_comparison *c = compare(s, &def);
     assert_non_null(strstr(c->remarks, "verlet: the step 2.5 is outside its stability limit"));
@@ -641,8 +631,10 @@ static void certificates(void **state)
         assert_int_equal(motus_method_find(r->method, &card, NULL), MOTUS_OK);
         for (size_t i = 0; i < r->point_count; i++) {
             used += r->points[i]->used != 0;
-            /* as the card says; where a step begins with the acceleration that ended the last one, one more for the first */
-            double expected = card->evaluations * round(5 / r->points[i]->step), spent = (double)r->points[i]->evaluations;
+            /* as the card says; where a step begins with the acceleration that ended the last one, one more for the
+             * first */
+            double expected = card->evaluations * round(5 / r->points[i]->step),
+                   spent = (double)r->points[i]->evaluations;
             assert_true(card->evaluations ? spent == expected || spent == expected + 1 : spent > 0);
         }
         assert_true(used >= FIT_POINTS_MIN);
@@ -655,12 +647,13 @@ static void certificates(void **state)
 static void a_hidden_velocity_is_found_out(void **state)
 {
     (void)state;
-    /* The definition says that the force does not depend on the velocity, and it does: kick and drift then lose their order. */
+    /* The definition says that the force does not depend on the velocity, and it does: kick and drift then lose their
+     * order. */
     motus_callback_def callback = spring_def();
     callback.acceleration = damped_accel;
     callback.exact = NULL;
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "velocity-verlet", "forest-ruth", "rk4" };
+    const char *methods[] = {"velocity-verlet", "forest-ruth", "rk4"};
     motus_study_def def = study_of(methods, 3, NAN, 5);
     motus_convergence *c = converge(s, &def);
     assert_false(c->passed);
@@ -680,7 +673,7 @@ static void a_jump_costs_the_order(void **state)
     callback.acceleration = jumping_accel;
     callback.exact = NULL;
     motus_system *s = system_of(&callback);
-    const char *methods[] = { "rk4", "kahan-li6" };
+    const char *methods[] = {"rk4", "kahan-li6"};
     motus_study_def def = study_of(methods, 2, NAN, 5);
     motus_convergence *c = converge(s, &def);
     assert_false(c->rows[0]->passed);
@@ -708,13 +701,13 @@ static void long_motions_are_cut(void **state)
 {
     (void)state;
     motus_system *s = system_of_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 10000\n");
-    const char *methods[] = { "verlet", "kahan-li8" };
+    const char *methods[] = {"verlet", "kahan-li8"};
     motus_study_def def = study_of(methods, 2, NAN, NAN);
     motus_convergence *c = converge(s, &def);
     assert_true(c->passed);
     assert_non_null(strstr(c->reference, "not 10000"));
     motus_convergence_destroy(c);
-    def.until = 60;                  /* asked for: taken */
+    def.until = 60; /* asked for: taken */
     c = converge(s, &def);
     assert_null(strstr(c->reference, ", not "));
     NEAR(c->rows[0]->points[0]->step, 7.5, 0);
@@ -726,7 +719,7 @@ static void long_motions_are_cut(void **state)
 static void models_certify_every_method(void **state)
 {
     (void)state;
-    const char *models[] = { "pendulum", "damped-cubic", "projectile-drag", "charged-particle" };
+    const char *models[] = {"pendulum", "damped-cubic", "projectile-drag", "charged-particle"};
     for (size_t m = 0; m < 4; m++) {
         char path[1024], *text = calloc(1, 1 << 16);
         snprintf(path, sizeof path, MOTUS_SOURCE_DIR "/models/%s.motus", models[m]);
@@ -738,8 +731,7 @@ static void models_certify_every_method(void **state)
         motus_convergence *c = converge(s, NULL);
         assert_true(c->row_count >= 14);
         for (size_t k = 0; k < c->row_count; k++)
-            if (!c->rows[k]->passed)
-                fail_msg("%s: %s: %s", models[m], c->rows[k]->method, c->rows[k]->certificate);
+            if (!c->rows[k]->passed) fail_msg("%s: %s: %s", models[m], c->rows[k]->method, c->rows[k]->certificate);
         assert_true(c->passed);
         motus_convergence_destroy(c);
         motus_system_destroy(s);
@@ -750,8 +742,9 @@ static void models_certify_every_method(void **state)
 static void the_notebook_s_error(void **state)
 {
     (void)state;
-    motus_system *s = system_of_text("F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0\nx'(0) = 0\nstep 0.001\nuntil 100\n");
-    const char *methods[] = { "verlet" };
+    motus_system *s =
+        system_of_text("F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0\nx'(0) = 0\nstep 0.001\nuntil 100\n");
+    const char *methods[] = {"verlet"};
     motus_study_def def = study_of(methods, 1, NAN, NAN);
     motus_comparison *c = compare(s, &def);
     /* the recursion in exact arithmetic, and the solution, both to 20 digits */
@@ -773,20 +766,20 @@ static void wrong_requests(void **state)
     motus_convergence *v = (motus_convergence *)s;
     motus_error e = motus_default_error();
     motus_study_def def = motus_default_study();
-    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);      /* no step, no end */
+    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT); /* no step, no end */
     assert_null(c);
     assert_true(e.message[0] && e.hint[0]);
     assert_int_equal(motus_converge(s, &def, &v, &e), MOTUS_ARGUMENT);
     assert_null(v);
     def.until = 1;
-    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);      /* no step */
+    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT); /* no step */
     def.step = -1;
     assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);
     def.step = INFINITY;
     assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);
     def.step = 0.1;
     def.until = 0;
-    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);      /* no length */
+    assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT); /* no length */
     assert_int_equal(motus_converge(s, &def, &v, &e), MOTUS_ARGUMENT);
     def.until = INFINITY;
     assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);
@@ -794,7 +787,7 @@ static void wrong_requests(void **state)
     def.evaluations = -1;
     assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_ARGUMENT);
     def.evaluations = 0;
-    const char *unknown[] = { "verlet", "verletto" };
+    const char *unknown[] = {"verlet", "verletto"};
     def.methods = unknown;
     def.method_count = 2;
     assert_int_equal(motus_compare(s, &def, &c, &e), MOTUS_METHOD);
@@ -811,7 +804,10 @@ static void wrong_requests(void **state)
     motus_system_destroy(s);
 }
 
-typedef struct watch { int calls, stop_at; double last; } watch;
+typedef struct watch {
+    int calls, stop_at;
+    double last;
+} watch;
 
 static int watching(void *context, double fraction)
 {
@@ -833,7 +829,7 @@ static void progress_and_cancelling(void **state)
     def.until = 100;
     def.progress = watching;
     for (int stop = 1; stop <= 3; stop++) {
-        watch w = { 0, stop, 0 };
+        watch w = {0, stop, 0};
         def.context = &w;
         motus_comparison *c = NULL;
         motus_error e = motus_default_error();
@@ -841,33 +837,35 @@ static void progress_and_cancelling(void **state)
         assert_int_equal(e.status, MOTUS_CANCELLED);
         assert_null(c);
         assert_int_equal(w.calls, stop);
-        w = (watch){ 0, stop, 0 };
+        w = (watch){0, stop, 0};
         motus_convergence *v = NULL;
         assert_int_equal(motus_converge(s, &def, &v, NULL), MOTUS_CANCELLED);
         assert_null(v);
         assert_int_equal(w.calls, stop);
     }
-    watch w = { 0, 0, 0 };
+    watch w = {0, 0, 0};
     def.context = &w;
     motus_comparison *c = compare(s, &def);
     assert_true(w.calls > 3);
     assert_true(w.last > 0.5);
     motus_comparison_destroy(c);
-    w = (watch){ 0, 0, 0 };
+    w = (watch){0, 0, 0};
     motus_convergence *v = converge(s, &def);
     assert_true(w.calls > 3);
     motus_convergence_destroy(v);
     motus_system_destroy(s);
 }
 
-typedef struct purse { long left, open, refused; } purse;
+typedef struct purse {
+    long left, open, refused;
+} purse;
 
 static void *spend(void *context, size_t bytes)
 {
     purse *p = context;
     if (p->left == 0) {
         p->refused++;
-        p->left = -1;                /* once only: whoever swallows it would go on and give a wrong answer */
+        p->left = -1; /* once only: whoever swallows it would go on and give a wrong answer */
         return NULL;
     }
     p->left -= p->left > 0;
@@ -885,13 +883,13 @@ static void every_allocation_may_fail(void **state)
 {
     (void)state;
     for (int what = 0; what < 3; what++) {
-        purse p = { -1, 0, 0 };
+        purse p = {-1, 0, 0};
         motus_callback_def callback = spring_def();
         callback.exact = NULL;
-        callback.allocator = (motus_allocator){ spend, spare, &p };
+        callback.allocator = (motus_allocator){spend, spare, &p};
         motus_system *s = system_of(&callback);
         long before = p.open;
-        const char *methods[] = { "verlet" };
+        const char *methods[] = {"verlet"};
         motus_study_def def = study_of(methods, 1, 0.5, 4);
         def.evaluations = what == 0 ? 40 : 0;
         motus_status status = MOTUS_MEMORY;
@@ -903,11 +901,12 @@ static void every_allocation_may_fail(void **state)
             motus_error e = motus_default_error();
             p.left = k;
             p.refused = 0;
-            status = what == 0 ? motus_compare(s, &def, &c, &e) : what == 1 ? motus_converge(s, &def, &v, &e) : motus_reference_create(s, &def, &r, &e);
-            const double times[] = { 3.1, 0.2 };
+            status = what == 0   ? motus_compare(s, &def, &c, &e)
+                     : what == 1 ? motus_converge(s, &def, &v, &e)
+                                 : motus_reference_create(s, &def, &r, &e);
+            const double times[] = {3.1, 0.2};
             double x[2];
-            if (r)
-                status = motus_reference_at(r, times, 2, x, NULL, &e);
+            if (r) status = motus_reference_at(r, times, 2, x, NULL, &e);
             p.left = -1;
             assert_int_equal(status, p.refused ? MOTUS_MEMORY : MOTUS_OK);
             assert_int_equal(e.status, status);
@@ -924,22 +923,39 @@ static void every_allocation_may_fail(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slope_of_clean_errors), cmocka_unit_test(plateau_is_left_out),
-        cmocka_unit_test(coarse_points_are_left_out), cmocka_unit_test(a_lower_order_is_seen),
-        cmocka_unit_test(large_errors_are_left_out), cmocka_unit_test(a_reference_knows_its_error),
-        cmocka_unit_test(the_truth_s_error_is_a_floor), cmocka_unit_test(noise_is_no_slope),
-        cmocka_unit_test(exact_methods_have_no_slope), cmocka_unit_test(margins_of_the_certificate),
-        cmocka_unit_test(line_by_hand), cmocka_unit_test(oscillations_are_no_trend),
-        cmocka_unit_test(drifts_are_trends), cmocka_unit_test(rounding_is_no_trend),
-        cmocka_unit_test(every_number_of_a_spring), cmocka_unit_test(a_reference_stands_in_for_the_truth),
-        cmocka_unit_test(eulers_miss_the_parabola), cmocka_unit_test(short_last_steps_and_ways_back),
-        cmocka_unit_test(equal_work), cmocka_unit_test(rows_that_fail_say_so), cmocka_unit_test(a_step_beyond_the_limit),
-        cmocka_unit_test(certificates), cmocka_unit_test(a_hidden_velocity_is_found_out), cmocka_unit_test(a_jump_costs_the_order),
-        cmocka_unit_test(exact_here), cmocka_unit_test(long_motions_are_cut),
+        cmocka_unit_test(slope_of_clean_errors),
+        cmocka_unit_test(plateau_is_left_out),
+        cmocka_unit_test(coarse_points_are_left_out),
+        cmocka_unit_test(a_lower_order_is_seen),
+        cmocka_unit_test(large_errors_are_left_out),
+        cmocka_unit_test(a_reference_knows_its_error),
+        cmocka_unit_test(the_truth_s_error_is_a_floor),
+        cmocka_unit_test(noise_is_no_slope),
+        cmocka_unit_test(exact_methods_have_no_slope),
+        cmocka_unit_test(margins_of_the_certificate),
+        cmocka_unit_test(line_by_hand),
+        cmocka_unit_test(oscillations_are_no_trend),
+        cmocka_unit_test(drifts_are_trends),
+        cmocka_unit_test(rounding_is_no_trend),
+        cmocka_unit_test(every_number_of_a_spring),
+        cmocka_unit_test(a_reference_stands_in_for_the_truth),
+        cmocka_unit_test(eulers_miss_the_parabola),
+        cmocka_unit_test(short_last_steps_and_ways_back),
+        cmocka_unit_test(equal_work),
+        cmocka_unit_test(rows_that_fail_say_so),
+        cmocka_unit_test(a_step_beyond_the_limit),
+        cmocka_unit_test(certificates),
+        cmocka_unit_test(a_hidden_velocity_is_found_out),
+        cmocka_unit_test(a_jump_costs_the_order),
+        cmocka_unit_test(exact_here),
+        cmocka_unit_test(long_motions_are_cut),
 #ifdef MOTUS_SOURCE_DIR
-        cmocka_unit_test(models_certify_every_method), cmocka_unit_test(the_notebook_s_error),
+        cmocka_unit_test(models_certify_every_method),
+        cmocka_unit_test(the_notebook_s_error),
 #endif
-        cmocka_unit_test(wrong_requests), cmocka_unit_test(progress_and_cancelling), cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(wrong_requests),
+        cmocka_unit_test(progress_and_cancelling),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests_name("study", tests, NULL, NULL);
 }

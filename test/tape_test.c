@@ -1,10 +1,17 @@
-/* The tape: every way of running a program against a plain evaluator written here, bit for bit; binding; and what happens when memory ends.
+/* The tape: every way of running a program against a plain evaluator written here, bit for bit; binding; and what
+ * happens when memory ends.
  */
 #include "graph_world.h"
 
-/* The plain evaluator of a normal form ------------------------------------------------------------------------------- */
+/* The plain evaluator of a normal form ----------------------------------------------------------------------------- */
 
-typedef struct plain { const graph *g; world *w; double t; int64_t index[MAX_LEVELS]; double total[MAX_LEVELS]; } plain;
+typedef struct plain {
+    const graph *g;
+    world *w;
+    double t;
+    int64_t index[MAX_LEVELS];
+    double total[MAX_LEVELS];
+} plain;
 
 static double *cell(plain *p, const reference *r)
 {
@@ -28,7 +35,7 @@ static double plain_value(plain *p, node n)
     case OP_SUM: {
         int64_t first = subscript_value(&p->g->ranges[m->c].first, p->index, p->w->ints);
         int64_t last = subscript_value(&p->g->ranges[m->c].last, p->index, p->w->ints), kept = p->index[m->level];
-        double part[8] = { 0 }, total = p->total[m->level];
+        double part[8] = {0}, total = p->total[m->level];
         int parts = last - first + 1 <= 16 ? 1 : 8;
         for (int64_t k = first; k <= last; k++) {
             double *at = &part[(k - first) % parts];
@@ -36,16 +43,17 @@ static double plain_value(plain *p, node n)
             p->total[m->level] = *at;
             double next = plain_value(p, m->a);
             p->index[m->level] = k;
-            if (!m->b || plain_value(p, m->b) != 0)
-                *at = next;
+            if (!m->b || plain_value(p, m->b) != 0) *at = next;
         }
         p->index[m->level] = kept;
         p->total[m->level] = total;
-        return parts == 1 ? part[0] : ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+        return parts == 1 ? part[0]
+                          : ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
     }
     default: {
         int arity = operation_at(m->op)->arity;
-        double a = plain_value(p, m->a), b = arity > 1 ? plain_value(p, m->b) : 0, c = arity > 2 ? plain_value(p, m->c) : 0;
+        double a = plain_value(p, m->a), b = arity > 1 ? plain_value(p, m->b) : 0,
+               c = arity > 2 ? plain_value(p, m->c) : 0;
         return operation_value(m->op, a, b, c);
     }
     }
@@ -66,21 +74,19 @@ static void plain_output(plain *p, const output *o, int d)
 
 static void plain_run(const program *p, world *w, double t)
 {
-    plain e = { .g = p->graph, .w = w, .t = t };
-    for (size_t k = 0; k < p->count; k++)
-        plain_output(&e, &p->outputs[k], 0);
+    plain e = {.g = p->graph, .w = w, .t = t};
+    for (size_t k = 0; k < p->count; k++) plain_output(&e, &p->outputs[k], 0);
 }
 
 static void wipe(world *w)
 {
-    for (size_t k = 0; k < 4096; k++)
-        w->a[k] = w->out[k] = -77;
+    for (size_t k = 0; k < 4096; k++) w->a[k] = w->out[k] = -77;
 }
 
 /* Every choice of machine, width and code gives the plain evaluator's bits. */
 static void check_all_ways(fixture *f, const program *p, double t)
 {
-    static const size_t widths[] = { 0, 8, 16, 64, 1024 };
+    static const size_t widths[] = {0, 8, 16, 64, 1024};
     static double wanted[4096], wanted_out[4096];
     world *w = f->w;
     wipe(w);
@@ -91,16 +97,16 @@ static void check_all_ways(fixture *f, const program *p, double t)
     for (int k = 0; (m = tape_machine_at(k)); k++)
         for (int blocks = -1; blocks <= 1; blocks++)
             for (size_t j = 0; j < (blocks ? sizeof widths / sizeof *widths : 1); j++) {
-                tape *tp = tape_create_as(&f->arena, p, &(tape_choice){ widths[j], m->name, blocks });
+                tape *tp = tape_create_as(&f->arena, p, &(tape_choice){widths[j], m->name, blocks});
                 assert_non_null(tp);
                 assert_true(tape_bind(tp, &w->binding));
                 wipe(w);
                 tape_run(tp, t, w->base);
-                tape_run(tp, t, w->base);        /* nothing is left over from a run */
+                tape_run(tp, t, w->base); /* nothing is left over from a run */
                 for (size_t i = 0; i < 4096; i++)
                     if (!same_bits(w->a[i], wanted[i]) || !same_bits(w->out[i], wanted_out[i]))
-                        fail_msg("%s, width %zu, blocks %d: cell %zu is %a and %a, not %a and %a", m->name, widths[j], blocks, i,
-                                 w->a[i], w->out[i], wanted[i], wanted_out[i]);
+                        fail_msg("%s, width %zu, blocks %d: cell %zu is %a and %a, not %a and %a", m->name, widths[j],
+                                 blocks, i, w->a[i], w->out[i], wanted[i], wanted_out[i]);
             }
 }
 
@@ -114,39 +120,40 @@ static void sums_have_their_bits(void **state)
         w.ints[INT_N] = n;
         fixture f = begin(&w);
         graph *g = start(&f);
-        range r = { literal(1), slot(INT_N, 0) };
+        range r = {literal(1), slot(INT_N, 0)};
         node x = load(g, ref1(CHAIN, level(0, 0))), v = load(g, ref1(CHAIN_V, level(0, 0)));
         node odd = bin(g, OP_NE, bin(g, OP_MOD, graph_index(g, 0), graph_const(g, 3)), graph_const(g, 1));
-        double part[8] = { 0 }, masked[8] = { 0 };
+        double part[8] = {0}, masked[8] = {0};
         for (int64_t k = 1; k <= n; k++) {
             int m = n <= 16 ? 0 : (int)((k - 1) % 8);
             part[m] = fma(w.x[1 + k], w.v[1 + k], part[m]);
-            if (k % 3 != 1)
-                masked[m] += w.x[1 + k];
+            if (k % 3 != 1) masked[m] += w.x[1 + k];
         }
         double total = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-        double others = ((masked[0] + masked[1]) + (masked[2] + masked[3])) + ((masked[4] + masked[5]) + (masked[6] + masked[7]));
+        double others =
+            ((masked[0] + masked[1]) + (masked[2] + masked[3])) + ((masked[4] + masked[5]) + (masked[6] + masked[7]));
         double got = run_one(&f, sum_over(g, 0, r, 0, bin(g, OP_MUL, x, v)), 0);
-        if (!same_bits(got, total))
-            fail_msg("%d products: %a, not %a", (int)n, got, total);
+        if (!same_bits(got, total)) fail_msg("%d products: %a, not %a", (int)n, got, total);
         got = run_one(&f, sum_over(g, 0, r, odd, x), 0);
-        if (!same_bits(got, others))
-            fail_msg("%d masked terms: %a, not %a", (int)n, got, others);
+        if (!same_bits(got, others)) fail_msg("%d masked terms: %a, not %a", (int)n, got, others);
         node terms[40];
         for (int k = 0; k < n; k++)
             terms[k] = bin(g, OP_MUL, load(g, ref1(CHAIN, literal(k + 1))), load(g, ref1(CHAIN_V, literal(k + 1))));
         got = run_one(&f, graph_total(g, terms, (size_t)n), 0);
-        if (!same_bits(got, total))
-            fail_msg("%d explicit products: %a, not %a", (int)n, got, total);
+        if (!same_bits(got, total)) fail_msg("%d explicit products: %a, not %a", (int)n, got, total);
         arena_release(&f.arena);
     }
 }
 
-/* Random programs ---------------------------------------------------------------------------------------------------- */
+/* Random programs -------------------------------------------------------------------------------------------------- */
 
 /* What an index runs over decides where it may be used as a subscript. */
 typedef enum walk { OVER_N, OVER_ROWS, OVER_COLUMNS, OVER_LIST } walk;
-typedef struct scope { int levels; walk over[MAX_LEVELS]; int sums; } scope;
+typedef struct scope {
+    int levels;
+    walk over[MAX_LEVELS];
+    int sums;
+} scope;
 
 static node random_leaf(fixture *f, const scope *s)
 {
@@ -154,17 +161,16 @@ static node random_leaf(fixture *f, const scope *s)
     if (s->levels && draw(4)) {
         int l = (int)draw((uint32_t)s->levels), m = (int)draw((uint32_t)s->levels);
         int32_t shift = (int32_t)draw(3) - 1;
-        if (!draw(8))
-            return graph_index(g, l);
+        if (!draw(8)) return graph_index(g, l);
         switch (s->over[l]) {
         case OVER_N:
             if (!draw(5)) return load(g, ref1(CHAIN, folded(l, (int32_t)draw(7) - 3, INT_N)));
             return load(g, ref1(draw(3) ? CHAIN : CHAIN_V, level(l, shift)));
         case OVER_ROWS:
-            if (!draw(5))
-                return load(g, ref2(GRID, level(l, shift), folded(l, 0, INT_COLUMNS)));
+            if (!draw(5)) return load(g, ref2(GRID, level(l, shift), folded(l, 0, INT_COLUMNS)));
             if (s->over[m] == OVER_COLUMNS)
-                return load(g, ref2(GRID, draw(4) ? level(l, shift) : folded(l, shift, INT_ROWS), level(m, (int32_t)draw(3) - 1)));
+                return load(g, ref2(GRID, draw(4) ? level(l, shift) : folded(l, shift, INT_ROWS),
+                                    level(m, (int32_t)draw(3) - 1)));
             return load(g, ref2(GRID, level(l, shift), draw(2) ? literal(1) : slot(INT_COLUMNS, 0)));
         case OVER_COLUMNS:
             if (s->over[m] == OVER_ROWS)
@@ -188,15 +194,17 @@ static node random_sum(fixture *f, scope s, int depth)
 {
     graph *g = f->g;
     int l = s.levels;
-    range r = { literal(1), slot(INT_N, 0) };
+    range r = {literal(1), slot(INT_N, 0)};
     walk over = (walk)draw(4);
     if (over == OVER_ROWS) r.last = slot(INT_ROWS, 0);
     if (over == OVER_COLUMNS) r.last = slot(INT_COLUMNS, 0);
     if (over == OVER_LIST) r.last = slot(INT_LIST, 0);
     int outer = l ? (int)draw((uint32_t)l) : 0;
-    if (l && s.over[outer] == over && draw(2)) {         /* bounds that depend on an outer index */
-        if (draw(2)) r.first = level(outer, 1);
-        else r.last = level(outer, draw(2) ? 0 : -1);
+    if (l && s.over[outer] == over && draw(2)) { /* bounds that depend on an outer index */
+        if (draw(2))
+            r.first = level(outer, 1);
+        else
+            r.last = level(outer, draw(2) ? 0 : -1);
     }
     s.over[s.levels++] = over;
     s.sums++;
@@ -204,8 +212,7 @@ static node random_sum(fixture *f, scope s, int depth)
     if (draw(2))
         condition = l && draw(2) ? bin(g, OP_NE, graph_index(g, l), graph_index(g, outer))
                                  : bin(g, OP_LT, random_value(f, s, 1), random_value(f, s, 1));
-    if (condition && graph_at(g, condition)->op == OP_CONST)
-        condition = 0;
+    if (condition && graph_at(g, condition)->op == OP_CONST) condition = 0;
     node body = random_value(f, s, depth);
     /* A masked term may well be infinite or no number. */
     if (condition && l && graph_at(g, condition)->op == OP_NE && draw(2))
@@ -215,25 +222,25 @@ static node random_sum(fixture *f, scope s, int depth)
 
 static node random_value(fixture *f, scope s, int depth)
 {
-    static const operation ops[] = { OP_ADD, OP_ADD, OP_SUB, OP_SUB, OP_MUL, OP_MUL, OP_MUL, OP_NEG, OP_DIV, OP_LT, OP_SELECT, OP_SELECT, OP_FLOOR,
-                                     OP_ABS, OP_MIN, OP_MAX, OP_SIGN, OP_SQRT, OP_SIN, OP_MOD, OP_AND, OP_NOT, OP_GE, OP_EQ, OP_OR };
+    static const operation ops[] = {OP_ADD, OP_ADD,    OP_SUB,    OP_SUB,   OP_MUL, OP_MUL, OP_MUL, OP_NEG,  OP_DIV,
+                                    OP_LT,  OP_SELECT, OP_SELECT, OP_FLOOR, OP_ABS, OP_MIN, OP_MAX, OP_SIGN, OP_SQRT,
+                                    OP_SIN, OP_MOD,    OP_AND,    OP_NOT,   OP_GE,  OP_EQ,  OP_OR};
     graph *g = f->g;
-    if (!depth || !draw(7))
-        return random_leaf(f, &s);
-    if (s.sums < 2 && !draw(6))
-        return random_sum(f, s, depth - 1);
+    if (!depth || !draw(7)) return random_leaf(f, &s);
+    if (s.sums < 2 && !draw(6)) return random_sum(f, s, depth - 1);
     operation op = ops[draw(sizeof ops / sizeof *ops)];
     node a = random_value(f, s, depth - 1), b = operation_at(op)->arity > 1 ? random_value(f, s, depth - 1) : 0;
     node c = operation_at(op)->arity > 2 ? random_value(f, s, depth - 1) : 0;
     node n = graph_op(g, op, a, b, c);
-    return draw(6) ? n : bin(g, OP_ADD, bin(g, OP_MUL, n, n), n);        /* shared */
+    return draw(6) ? n : bin(g, OP_ADD, bin(g, OP_MUL, n, n), n); /* shared */
 }
 
 static void every_way_of_running_gives_the_same_bits(void **state)
 {
     (void)state;
     static world w;
-    static const int64_t sizes[][4] = { { 1, 1, 1, 1 }, { 5, 3, 4, 2 }, { 13, 2, 19, 17 }, { 40, 21, 3, 16 }, { 100, 5, 37, 9 }, { 0, 0, 3, 1 } };
+    static const int64_t sizes[][4] = {{1, 1, 1, 1},    {5, 3, 4, 2},    {13, 2, 19, 17},
+                                       {40, 21, 3, 16}, {100, 5, 37, 9}, {0, 0, 3, 1}};
     for (int k = 0; k < 500; k++) {
         const int64_t *size = sizes[k % 6];
         world_make(&w, size[0], size[1], size[2], size[3]);
@@ -241,17 +248,19 @@ static void every_way_of_running_gives_the_same_bits(void **state)
         start(&f);
         output o[6];
         size_t count = 1 + draw(6);
-        range rn = { literal(1), slot(INT_N, 0) }, rr = { literal(1), slot(INT_ROWS, 0) }, rc = { literal(1), slot(INT_COLUMNS, 0) };
-        /* Six outputs: twice the same loops, the second time to places out of order: folded by a modulus, transposed. */
+        range rn = {literal(1), slot(INT_N, 0)}, rr = {literal(1), slot(INT_ROWS, 0)},
+              rc = {literal(1), slot(INT_COLUMNS, 0)};
+        /* Six outputs: twice the same loops, the second time to places out of order: folded by a modulus,
+         * transposed. */
         const output shapes[] = {
-            { .to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = { rn } },
-            { .to = ref2(TO_GRID, level(0, 0), level(1, 0)), .loops = 2, .loop = { rr, rc } },
-            { .to = ref0(TO_SCALAR) },
-            { .to = ref1(OUT_CHAIN, folded(0, 3, INT_N)), .loops = 1, .loop = { rn } },
-            { .to = ref2(OUT_GRID, level(1, 0), level(0, 0)), .loops = 2, .loop = { rr, rc } },
-            { .to = ref0(OUT_SCALAR) },
+            {.to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = {rn}},
+            {.to = ref2(TO_GRID, level(0, 0), level(1, 0)), .loops = 2, .loop = {rr, rc}},
+            {.to = ref0(TO_SCALAR)},
+            {.to = ref1(OUT_CHAIN, folded(0, 3, INT_N)), .loops = 1, .loop = {rn}},
+            {.to = ref2(OUT_GRID, level(1, 0), level(0, 0)), .loops = 2, .loop = {rr, rc}},
+            {.to = ref0(OUT_SCALAR)},
         };
-        const scope scopes[] = { { 1, { OVER_N }, 0 }, { 2, { OVER_ROWS, OVER_COLUMNS }, 0 }, { 0, { 0 }, 0 } };
+        const scope scopes[] = {{1, {OVER_N}, 0}, {2, {OVER_ROWS, OVER_COLUMNS}, 0}, {0, {0}, 0}};
         for (size_t j = 0; j < count; j++) {
             o[j] = shapes[j];
             o[j].value = j && !draw(8) && j % 3 == 0 ? o[0].value : random_value(&f, scopes[j % 3], 2 + (int)draw(4));
@@ -263,7 +272,7 @@ static void every_way_of_running_gives_the_same_bits(void **state)
     }
 }
 
-/* Binding, length, memory -------------------------------------------------------------------------------------------- */
+/* Binding, length, memory ------------------------------------------------------------------------------------------ */
 
 static void parameters_and_sizes_are_bound_again(void **state)
 {
@@ -272,15 +281,17 @@ static void parameters_and_sizes_are_bound_again(void **state)
     world_make(&w, 30, 1, 1, 1);
     fixture f = begin(&w);
     graph *g = start(&f);
-    range r = { literal(1), slot(INT_N, 0) };
+    range r = {literal(1), slot(INT_N, 0)};
     node p = graph_param(g, 0);
     node mean = bin(g, OP_DIV, sum_over(g, 1, r, 0, load(g, ref1(CHAIN, level(1, 0)))), p);
     node weight = bin(g, OP_ADD, sum_over(g, 1, r, 0, bin(g, OP_MUL, graph_index(g, 1), p)), un(g, OP_SIN, p));
-    output o = { .value = bin(g, OP_ADD, bin(g, OP_MUL, load(g, ref1(CHAIN, level(0, 0))), mean), weight),
-                 .to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = { r } };
+    output o = {.value = bin(g, OP_ADD, bin(g, OP_MUL, load(g, ref1(CHAIN, level(0, 0))), mean), weight),
+                .to = ref1(TO_CHAIN, level(0, 0)),
+                .loops = 1,
+                .loop = {r}};
     program *form = program_create(g, &o, 1);
     tape *t = tape_create(&f.arena, form);
-    static const int64_t sizes[] = { 1, 30, 2, 0, 17, 30 };      /* where scalars serve and where blocks do */
+    static const int64_t sizes[] = {1, 30, 2, 0, 17, 30}; /* where scalars serve and where blocks do */
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         static double wanted[4096];
         w.ints[INT_N] = sizes[k];
@@ -325,8 +336,7 @@ static void long_expressions_need_no_stack(void **state)
     fixture f = begin(&w);
     graph *g = start(&f);
     node n = load(g, ref0(SCALAR));
-    for (int k = 0; k < 60; k++)
-        n = bin(g, OP_ADD, un(g, OP_SIN, n), n);
+    for (int k = 0; k < 60; k++) n = bin(g, OP_ADD, un(g, OP_SIN, n), n);
     assert_int_equal(graph_print(g, n, NULL, NULL, text, sizeof text), GRAPH_TEXT_MAX);
     assert_string_equal(text + GRAPH_TEXT_MAX - 3, "...");
     arena_release(&f.arena);
@@ -336,30 +346,31 @@ static void long_expressions_need_no_stack(void **state)
 static bool all_of_it(arena *a, world *w)
 {
     graph *g = graph_create(a);
-    if (!g)
-        return false;
+    if (!g) return false;
     g->arrays = w->arrays;
-    range r = { literal(1), slot(INT_N, 0) };
+    range r = {literal(1), slot(INT_N, 0)};
     node x = load(g, ref1(CHAIN, folded(0, 1, INT_N))), y = load(g, ref1(CHAIN, level(1, 0)));
     node body = bin(g, OP_MUL, bin(g, OP_SUB, x, y), graph_param(g, 0));
-    node n = bin(g, OP_ADD, sum_over(g, 1, r, bin(g, OP_NE, graph_index(g, 0), graph_index(g, 1)), body), un(g, OP_SIN, graph_time(g)));
-    for (int k = 0; k < 400; k++)            /* past the first tables */
+    node n = bin(g, OP_ADD, sum_over(g, 1, r, bin(g, OP_NE, graph_index(g, 0), graph_index(g, 1)), body),
+                 un(g, OP_SIN, graph_time(g)));
+    for (int k = 0; k < 400; k++) /* past the first tables */
         n = bin(g, OP_ADD, n, bin(g, OP_MUL, graph_const(g, k + 0.5), load(g, ref1(CHAIN, literal(k % 30)))));
-    graph_shift shift = { DIRECTION_CHAIN - CHAIN, 0 };
-    output o[] = { { .value = n, .to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = { r } },
-                   { .value = graph_derivative(g, n, graph_seed_direction, &shift), .to = ref1(OUT_CHAIN, level(0, 0)), .loops = 1,
-                     .loop = { r } } };
+    graph_shift shift = {DIRECTION_CHAIN - CHAIN, 0};
+    output o[] = {{.value = n, .to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = {r}},
+                  {.value = graph_derivative(g, n, graph_seed_direction, &shift),
+                   .to = ref1(OUT_CHAIN, level(0, 0)),
+                   .loops = 1,
+                   .loop = {r}}};
     char text[100];
     graph_print(g, n, NULL, NULL, text, sizeof text);
     bool known = graph_degree(g, n, DEP_X) == 1 && !graph_kink(g, n);
-    seen found = { .count = -10000 };
+    seen found = {.count = -10000};
     graph_loads(g, body, SPACE_X, see, &found);
     program *p = program_create(g, o, 2);
     tape *t = p ? tape_create(a, p) : NULL;
-    if (!t || !tape_bind(t, &w->binding))
-        return false;
+    if (!t || !tape_bind(t, &w->binding)) return false;
     tape_run(t, 1, w->base);
-    w->ints[INT_N] = 1;                      /* the other code */
+    w->ints[INT_N] = 1; /* the other code */
     bool bound = tape_bind(t, &w->binding);
     w->ints[INT_N] = 29;
     return bound && known && !a->failed;
@@ -372,19 +383,18 @@ static void every_allocation_may_fail(void **state)
     world_make(&clean, 29, 1, 1, 1);
     long failures = 0;
     for (long k = 0;; k++, failures++) {
-        meter m = { .left = k };
+        meter m = {.left = k};
         arena a;
         w = clean;
-        w.binding = (binding){ w.arrays, w.ints, w.pool };
-        w.base[SPACE_X] = w.x, w.base[SPACE_V] = w.v, w.base[SPACE_A] = w.a, w.base[SPACE_DX] = w.dx, w.base[SPACE_OUT] = w.out;
-        arena_init(&a, &(motus_allocator){ metered_take, metered_give, &m });
+        w.binding = (binding){w.arrays, w.ints, w.pool};
+        w.base[SPACE_X] = w.x, w.base[SPACE_V] = w.v, w.base[SPACE_A] = w.a, w.base[SPACE_DX] = w.dx,
+        w.base[SPACE_OUT] = w.out;
+        arena_init(&a, &(motus_allocator){metered_take, metered_give, &m});
         bool done = all_of_it(&a, &w);
-        if (m.taken > k)
-            assert_true(!done && a.failed);
+        if (m.taken > k) assert_true(!done && a.failed);
         arena_release(&a);
         assert_int_equal(m.live, 0);
-        if (done)
-            break;
+        if (done) break;
     }
     assert_true(failures > 30);
 }

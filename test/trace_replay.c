@@ -1,5 +1,6 @@
-/* See trace_replay.h. What is compared with a sum may differ from it by the rounding of its terms: 16 roundings, relative to their sizes. Slopes
- * of explicit stages and kicks must be the acceleration to the bit; those of an equation that was solved, to some roundings of the largest. */
+/* See trace_replay.h. What is compared with a sum may differ from it by the rounding of its terms: 16 roundings,
+ * relative to their sizes. Slopes of explicit stages and kicks must be the acceleration to the bit; those of an
+ * equation that was solved, to some roundings of the largest. */
 #include "api/system.h"
 
 #include "test/trace_replay.h"
@@ -16,7 +17,8 @@
 #include <cmocka.h>
 
 #define ROUNDINGS 16
-#define SOLVED (256 * DBL_EPSILON)   /* of an equation's solution: its residual is rounded where it is evaluated, term by term */
+/* of an equation's solution: its residual is rounded where it is evaluated, term by term */
+#define SOLVED (256 * DBL_EPSILON)
 
 typedef struct step {
     const motus_system *system;
@@ -24,14 +26,18 @@ typedef struct step {
     const motus_trace_entry *entry, *start, *end;
     size_t count, nx, nv;
     double h;
-    double *a;                       /* room of nv */
+    double *a; /* room of nv */
 } step;
 
-#define broken(s, ...) (print_error("%s, %s: ", (s)->what, (s)->method), print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
+#define broken(s, ...)                                                                             \
+    (print_error("%s, %s: ", (s)->what, (s)->method), print_error(__VA_ARGS__), print_error("\n"), \
+     _fail(__FILE__, __LINE__))
 
 /* ---- sums ---- */
 
-typedef struct sum { long double value, size; } sum;
+typedef struct sum {
+    long double value, size;
+} sum;
 
 static void add(sum *s, double c, double y)
 {
@@ -43,7 +49,8 @@ static void reaches(const step *s, const char *name, size_t k, double got, sum e
 {
     const long double off = fabsl(got - expected.value), margin = ROUNDINGS * (DBL_EPSILON / 2) * expected.size + extra;
     if (!(off <= margin))
-        broken(s, "%s, number %zu, is %.17g and not %.17Lg: off by %.3Lg, not %.3Lg", name, k, got, expected.value, off, margin);
+        broken(s, "%s, number %zu, is %.17g and not %.17Lg: off by %.3Lg, not %.3Lg", name, k, got, expected.value, off,
+               margin);
 }
 
 /* ---- slopes ---- */
@@ -69,7 +76,8 @@ static void is_slope(const step *s, const motus_trace_entry *e, const double *x,
     for (size_t k = 0; k < s->nv; k++) largest = fmax(largest, fabs(s->a[k]));
     for (size_t k = 0; k < s->nv; k++)
         if (margin ? !(fabs(s->a[k] - e->a[k]) <= margin * largest) : s->a[k] != e->a[k])
-            broken(s, "slope %zu of stage %d is %.17g, and the acceleration there %.17g", k, e->stage, e->a[k], s->a[k]);
+            broken(s, "slope %zu of stage %d is %.17g, and the acceleration there %.17g", k, e->stage, e->a[k],
+                   s->a[k]);
 }
 
 static void same(const step *s, const char *name, const double *a, const double *b, size_t n)
@@ -146,8 +154,8 @@ static void splitting(const step *s, const motus_method *m)
 /* ---- stages ---- */
 
 /* x₀ + c h v₀ + h² Σ row_x[j] a[j], and, where the positions follow the velocities' tableau, x₀ + h Σ row[j] v[j]. */
-static void position(const step *s, const char *name, const double *x, double c, const double *row, const double *row_x, const motus_trace_entry *stage,
-                     int stages)
+static void position(const step *s, const char *name, const double *x, double c, const double *row, const double *row_x,
+                     const motus_trace_entry *stage, int stages)
 {
     for (size_t k = 0; k < s->nx; k++) {
         sum by_v = {0}, by_a = {0};
@@ -159,12 +167,14 @@ static void position(const step *s, const char *name, const double *x, double c,
             add(&by_a, row_x[j] * s->h * s->h, stage[j].a[k]);
         }
         by_a.size += by_v.size;
-        if (strncmp(s->method, "newmark", 7)) reaches(s, name, k, x[k], by_v, (double)by_a.size * ROUNDINGS * DBL_EPSILON / 2);
+        if (strncmp(s->method, "newmark", 7))
+            reaches(s, name, k, x[k], by_v, (double)by_a.size * ROUNDINGS * DBL_EPSILON / 2);
         reaches(s, name, k, x[k], by_a, 0);
     }
 }
 
-static void velocity(const step *s, const char *name, const double *v, const double *row, const motus_trace_entry *stage, int stages)
+static void velocity(const step *s, const char *name, const double *v, const double *row,
+                     const motus_trace_entry *stage, int stages)
 {
     for (size_t k = 0; k < s->nv; k++) {
         sum sum = {0};
@@ -212,11 +222,12 @@ static void stormer(const step *s, const motus_trace_entry *e, const double *bef
     const bool first = e->kind == MOTUS_EVENT_TAYLOR, literal = !strcmp(s->method, "verlet-literal");
     assert_int_equal(first, before_x == NULL);
     assert_int_equal(first, e->before_x == NULL);
-    /* verlet-literal's velocities are differences of positions, and the companions' of integrals since the start: what these are rounded by, and
-     * with them the velocities at which every component's acceleration is taken. */
+    /* verlet-literal's velocities are differences of positions, and the companions' of integrals since the start:
+     * what these are rounded by, and with them the velocities at which every component's acceleration is taken. */
     double around = 0;
     for (size_t k = 0; literal && k < s->nv; k++)
-        around = fmax(around, ROUNDINGS * DBL_EPSILON * ((k < s->nx ? fabs(e->x[k]) : 0) + (fabs(e->time) + 1) * fabs(e->v[k])) / fabs(s->h));
+        around = fmax(around, ROUNDINGS * DBL_EPSILON *
+                                  ((k < s->nx ? fabs(e->x[k]) : 0) + (fabs(e->time) + 1) * fabs(e->v[k])) / fabs(s->h));
     for (size_t k = 0; k < s->nv; k++) {
         sum x = {0}, v = {0}, end = {0};
         if (k < s->nx) {
@@ -269,8 +280,10 @@ static void recurrence(const step *s, const double *before_x, const double *befo
     assert_int_equal(s->count, 3);
     assert_true(e->time == s->start->time);
     is_slope(s, e, s->start->x, s->start->v, 0);
-    if (!strcmp(s->method, "beeman")) beeman(s, e, before_a);
-    else stormer(s, e, before_x);
+    if (!strcmp(s->method, "beeman"))
+        beeman(s, e, before_a);
+    else
+        stormer(s, e, before_x);
     same(s, "positions at the end", e->x, s->end->x, s->nx);
 }
 
@@ -278,12 +291,20 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
                   size_t count, const double *before_x, const double *before_a, const char *what)
 {
     assert_true(count >= 2);
-    motus_trace_entry *entry = calloc(count, sizeof *entry);     /* side by side: each is compared with its neighbours */
+    /* side by side: each is compared with its neighbours */
+    motus_trace_entry *entry = calloc(count, sizeof *entry);
     assert_non_null(entry);
-    for (size_t i = 0; i < count; i++)
-        entry[i] = *entries[i];
-    step s = {.system = system, .what = what, .method = m->name, .entry = entry, .start = entry, .end = entry + count - 1, .count = count,
-              .nx = motus_positions(system), .nv = motus_velocities(system), .h = entry->step};
+    for (size_t i = 0; i < count; i++) entry[i] = *entries[i];
+    step s = {.system = system,
+              .what = what,
+              .method = m->name,
+              .entry = entry,
+              .start = entry,
+              .end = entry + count - 1,
+              .count = count,
+              .nx = motus_positions(system),
+              .nv = motus_velocities(system),
+              .h = entry->step};
     s.a = calloc(s.nv + 1, sizeof *s.a);
     assert_non_null(s.a);
     assert_int_equal(s.start->kind, MOTUS_EVENT_START);
@@ -296,11 +317,16 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
     }
     is_slope(&s, s.start, s.start->x, s.start->v, 0);
     is_slope(&s, s.end, s.end->x, s.end->v, 0);
-    if (!strcmp(m->family, "splitting")) splitting(&s, m);
-    else if (!strcmp(m->family, "runge-kutta")) tableau(&s, m, false);
-    else if (!strcmp(m->family, "implicit")) tableau(&s, m, true);
-    else if (!strcmp(m->family, "two-step")) recurrence(&s, before_x, before_a);
-    else assert_int_equal(count, 2);
+    if (!strcmp(m->family, "splitting"))
+        splitting(&s, m);
+    else if (!strcmp(m->family, "runge-kutta"))
+        tableau(&s, m, false);
+    else if (!strcmp(m->family, "implicit"))
+        tableau(&s, m, true);
+    else if (!strcmp(m->family, "two-step"))
+        recurrence(&s, before_x, before_a);
+    else
+        assert_int_equal(count, 2);
     free(s.a);
     free(entry);
 }

@@ -1,7 +1,7 @@
 /* One step opened up: what is told of a step replays to it by the formulas on paper, and telling changes no bit.
  *
- * For every model of models/, models of every kind of force besides, and callbacks, by every method that they admit; forward and backward, over the
- * shorter last step; by the compiled machine too.
+ * For every model of models/, models of every kind of force besides, and callbacks, by every method that they admit;
+ * forward and backward, over the shorter last step; by the compiled machine too.
  */
 #include "test/ensemble_given.h"
 #include "test/trace_replay.h"
@@ -48,7 +48,8 @@ static void one(motus_system *s, const char *name, double h, double until, const
     motus_error err = motus_default_error();
     must(motus_method_find(name, &m, &err), &err, name);
     const size_t nx = motus_positions(s), nv = motus_velocities(s);
-    motus_run *plain = create(s, name, h, until, "auto"), *traced = create(s, name, h, until, machine), *mixed = create(s, name, h, until, machine);
+    motus_run *plain = create(s, name, h, until, "auto"), *traced = create(s, name, h, until, machine),
+              *mixed = create(s, name, h, until, machine);
     double *kept = calloc(2 * (nx + 2 * nv) + 1, sizeof *kept), *now = kept + nx + nv, *before = now + nx;
     assert_non_null(kept);
     const int64_t total = motus_run_steps_total(traced);
@@ -63,11 +64,11 @@ static void one(motus_system *s, const char *name, double h, double until, const
         assert_true(first->time == start && end->time == motus_run_time(traced));
         assert_int_equal(motus_run_steps(traced), n + 1);
         assert_int_equal(end->iterations, motus_run_iterations(traced) - iterations);
-        const bool again = n > 0 && !(n == total - 1 && motus_run_last_step(traced) != 0);      /* the short step starts anew */
+        /* the short step starts anew */
+        const bool again = n > 0 && !(n == total - 1 && motus_run_last_step(traced) != 0);
         trace_replay(s, m, e, count, again ? now : NULL, again ? before : NULL, what);
         memcpy(now, first->x, nx * sizeof *now);
-        if (first->a)
-            memcpy(before, first->a, nv * sizeof *before);
+        if (first->a) memcpy(before, first->a, nv * sizeof *before);
         take_steps(plain, 1);
         motus_run *fresh = create(s, name, h, until, "interpreter");
         take_steps(fresh, n + 1);
@@ -92,7 +93,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
     const motus_trace_entry *const *e = (const motus_trace_entry *const *)kept;
     size_t count = 7;
     must(motus_run_trace(traced, &e, &count, &err), &err, name);
-    assert_true(count == 0 && !e);                       /* nothing is left to take */
+    assert_true(count == 0 && !e); /* nothing is left to take */
     free(kept);
     motus_run_destroy(plain);
     motus_run_destroy(traced);
@@ -106,8 +107,7 @@ static int every_method(motus_system *s, double h, double way, const char *machi
     int count = 0;
     for (size_t k = 0; k <= motus_method_count(); k++) {
         const char *name = k < motus_method_count() ? motus_method_at(k)->name : "newmark(1/6, 0.6)";
-        if (motus_method_admits(s, name, NULL) != MOTUS_OK)
-            continue;
+        if (motus_method_admits(s, name, NULL) != MOTUS_OK) continue;
         const bool uniform = !strcmp(name, "verlet-literal");
         one(s, name, h, set.from + way * h * (STEPS + (uniform ? 0 : 0.4)), machine, what);
         count++;
@@ -115,9 +115,24 @@ static int every_method(motus_system *s, double h, double way, const char *machi
     return count;
 }
 
-static const char *const models[] = {"arenstorf", "chain", "charged-particle", "damped-cubic", "damped-spring", "double-pendulum", "driven-oscillator",
-                                     "duffing", "henon-heiles", "kepler", "outer-solar-system", "pendulum", "penning-trap", "projectile-drag",
-                                     "projectile", "spring", "three-body-figure-eight", "van-der-pol"};
+static const char *const models[] = {"arenstorf",
+                                     "chain",
+                                     "charged-particle",
+                                     "damped-cubic",
+                                     "damped-spring",
+                                     "double-pendulum",
+                                     "driven-oscillator",
+                                     "duffing",
+                                     "henon-heiles",
+                                     "kepler",
+                                     "outer-solar-system",
+                                     "pendulum",
+                                     "penning-trap",
+                                     "projectile-drag",
+                                     "projectile",
+                                     "spring",
+                                     "three-body-figure-eight",
+                                     "van-der-pol"};
 
 static void every_model(void **state)
 {
@@ -138,9 +153,11 @@ static const char *const texts[] = {
     "x'' = -x + x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\ns' = x\ns(0) = 0.5\nstep 0.05\nuntil 3\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\nstep 0.05\nuntil 3\n",
     "N = 5\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.1 x[i]'^3   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
-    "x[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\nstep 0.05\nuntil 3\n",
+    "x[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\nstep "
+    "0.05\nuntil 3\n",
     "N = 5\nx[i]'' = x[i+1] - 2 x[i] + x[i-1]   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
-    "x[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\nstep 0.05\nuntil 3\n",
+    "x[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\nstep "
+    "0.05\nuntil 3\n",
     "s' = -s\ns(0) = 1\nexact s = exp(-t)\nstep 0.05\nuntil 3\n",
 };
 
@@ -157,7 +174,9 @@ static void every_force(void **state)
 
 /* ---- callbacks ---- */
 
-typedef struct wall { double after; } wall;         /* beyond this time the callback fails; 0: never */
+typedef struct wall {
+    double after;
+} wall; /* beyond this time the callback fails; 0: never */
 
 static int spring(void *context, double t, const double *x, const double *v, double *a)
 {
@@ -195,7 +214,8 @@ static void callbacks(void **state)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const char *name = motus_method_at(k)->name;
             if (motus_method_admits(s, name, NULL) == MOTUS_OK)
-                one(s, name, 0.05, strcmp(name, "verlet-literal") ? 0.47 : 0.45, NULL, velocity ? "callback of x, v, t" : "callback of x, t");
+                one(s, name, 0.05, strcmp(name, "verlet-literal") ? 0.47 : 0.45, NULL,
+                    velocity ? "callback of x, v, t" : "callback of x, t");
         }
         motus_system_destroy(s);
     }
@@ -206,8 +226,9 @@ static void callbacks(void **state)
 static void compiled(void **state)
 {
     (void)state;
-    static const char *const some[][2] = {{"charged-particle.motus", "boris"}, {"chain.motus", "verlet"}, {"chain.motus", "velocity-verlet"},
-                                          {"duffing.motus", "rk4"}, {"damped-cubic.motus", "gauss4"}, {"chain.motus", "kahan-li6"},
+    static const char *const some[][2] = {{"charged-particle.motus", "boris"}, {"chain.motus", "verlet"},
+                                          {"chain.motus", "velocity-verlet"},  {"duffing.motus", "rk4"},
+                                          {"damped-cubic.motus", "gauss4"},    {"chain.motus", "kahan-li6"},
                                           {"projectile.motus", "beeman"}};
     for (size_t i = 0; i < sizeof some / sizeof *some; i++) {
         motus_system *s = given_model(some[i][0], NULL, 0);
@@ -240,7 +261,8 @@ static void compiled(void **state)
 
 /* ---- what goes wrong ---- */
 
-/* The traced run meets the error of the untraced one that is looked at after each step, in the same words, and stays where that one stays. */
+/* The traced run meets the error of the untraced one that is looked at after each step, in the same words, and stays
+ * where that one stays. */
 static void same_failure(motus_system *s, const char *method, double h, motus_status expected, const char *what)
 {
     motus_run *plain = create(s, method, h, 1000 * h, NULL), *traced = create(s, method, h, 1000 * h, NULL);
@@ -251,15 +273,16 @@ static void same_failure(motus_system *s, const char *method, double h, motus_st
     motus_status status = MOTUS_OK;
     for (int n = 0; n < 500 && status == MOTUS_OK; n++) {
         status = motus_run_step(plain, 1, &one);
-        if (status == MOTUS_OK)
-            status = motus_run_state(plain, x, v, &one);
+        if (status == MOTUS_OK) status = motus_run_state(plain, x, v, &one);
         const motus_status other = motus_run_trace(traced, &e, &count, &two);
         if (other != status)
-            fail_msg("%s, %s, step %d: %s and %s", what, method, n + 1, motus_status_word(status), motus_status_word(other));
+            fail_msg("%s, %s, step %d: %s and %s", what, method, n + 1, motus_status_word(status),
+                     motus_status_word(other));
     }
     assert_int_equal(status, expected);
     assert_true(count == 0 && !e);
-    if (strcmp(one.message, two.message) || strcmp(one.hint, two.hint) || strcmp(one.variable, two.variable) || one.time != two.time)
+    if (strcmp(one.message, two.message) || strcmp(one.hint, two.hint) || strcmp(one.variable, two.variable) ||
+        one.time != two.time)
         fail_msg("%s, %s: \"%s\" and \"%s\"", what, method, one.message, two.message);
     assert_int_equal(motus_run_steps(plain), motus_run_steps(traced));
     assert_int_equal(motus_run_evaluations(plain), motus_run_evaluations(traced));
@@ -271,12 +294,12 @@ static void same_failure(motus_system *s, const char *method, double h, motus_st
 static void failures(void **state)
 {
     (void)state;
-    static const char escaping[] = "x'' = exp(x)\nx(0) = 1\nx'(0) = 1\nstep 0.1\nuntil 9\n", rough[] = "x'' = -1e9 sin(1e6 x)\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 9\n";
+    static const char escaping[] = "x'' = exp(x)\nx(0) = 1\nx'(0) = 1\nstep 0.1\nuntil 9\n",
+                      rough[] = "x'' = -1e9 sin(1e6 x)\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 9\n";
     motus_system *s = given_text(escaping), *hard = given_text(rough);
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
-        if (motus_method_admits(s, m->name, NULL) != MOTUS_OK || !strcmp(m->family, "implicit"))
-            continue;
+        if (motus_method_admits(s, m->name, NULL) != MOTUS_OK || !strcmp(m->family, "implicit")) continue;
         same_failure(s, m->name, 0.5, MOTUS_DIVERGED, "escaping");
         wall w = {.after = 1};
         motus_system *p = from_callback(&w, false);
@@ -301,11 +324,8 @@ static void failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_model),
-        cmocka_unit_test(every_force),
-        cmocka_unit_test(callbacks),
-        cmocka_unit_test(compiled),
-        cmocka_unit_test(failures),
+        cmocka_unit_test(every_model), cmocka_unit_test(every_force), cmocka_unit_test(callbacks),
+        cmocka_unit_test(compiled),    cmocka_unit_test(failures),
     };
     open_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* motus_reference: the truth at any times, on motions that are known in closed form, and the same truth that compare and converge judge by. */
+/* motus_reference: the truth at any times, on motions that are known in closed form, and the same truth that compare
+ * and converge judge by. */
 #include "study/truth.h"
 #include "test/given.h"
 
@@ -41,12 +42,14 @@ static void exact_is_exact(void **state)
     scatter(t, MANY, 0, 12.34);
     t[0] = 0, t[1] = 12.34, t[2] = 1e-17;
     at(r, t, MANY, x, v);
-    for (size_t k = 0; k < MANY; k++) assert_true(fabs(x[k] - cos(t[k])) <= DBL_EPSILON && fabs(v[k] + sin(t[k])) <= DBL_EPSILON);
+    for (size_t k = 0; k < MANY; k++)
+        assert_true(fabs(x[k] - cos(t[k])) <= DBL_EPSILON && fabs(v[k] + sin(t[k])) <= DBL_EPSILON);
     motus_reference_destroy(r);
     motus_system_destroy(s);
 }
 
-/* The error between the points of the grid, where it was estimated, is not larger than there; at each answer the state is rounded once more. */
+/* The error between the points of the grid, where it was estimated, is not larger than there; at each answer the
+ * state is rounded once more. */
 static void judge(const char *text, double from, double until, double (*truth)(double), double (*speed)(double))
 {
     motus_system *s = given_text(text);
@@ -61,7 +64,8 @@ static void judge(const char *text, double from, double until, double (*truth)(d
     at(r, t, MANY, x, v);
     for (size_t k = 0; k < MANY; k++)
         if (!(fabs(x[k] - truth(t[k])) <= bound) || !(fabs(v[k] - speed(t[k])) <= bound))
-            fail_msg("%s at %g: %.1e and %.1e off, bound %.1e", motus_reference_name(r), t[k], x[k] - truth(t[k]), v[k] - speed(t[k]), bound);
+            fail_msg("%s at %g: %.1e and %.1e off, bound %.1e", motus_reference_name(r), t[k], x[k] - truth(t[k]),
+                     v[k] - speed(t[k]), bound);
     for (size_t k = 0; k < MANY; k++) t[k] = from + (until - from) * (double)k / (MANY - 1);
     at(r, t, MANY, sorted_x, NULL);
     for (size_t k = 0; k < MANY; k++) assert_true(fabs(sorted_x[k] - truth(t[k])) <= bound);
@@ -73,15 +77,19 @@ static void judge(const char *text, double from, double until, double (*truth)(d
 static double swing(double t) { return cos(t); }
 static double swing_speed(double t) { return -sin(t); }
 static double damped_swing(double t) { return exp(-0.2 * t) * cos(sqrt(0.96) * t); }
-static double damped_speed(double t) { return -0.2 * damped_swing(t) - sqrt(0.96) * exp(-0.2 * t) * sin(sqrt(0.96) * t); }
+static double damped_speed(double t)
+{
+    return -0.2 * damped_swing(t) - sqrt(0.96) * exp(-0.2 * t) * sin(sqrt(0.96) * t);
+}
 
 static void a_reference_knows_its_error(void **state)
 {
     (void)state;
     judge(spring, 0, 12.34, swing, swing_speed);
     judge(damped, 0, 20, damped_swing, damped_speed);
-    judge(spring, 0, -5, swing, swing_speed);                /* backward */
-    judge("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 7\n", 0, 7, swing, swing_speed);      /* no step is given: its own choice */
+    judge(spring, 0, -5, swing, swing_speed); /* backward */
+    /* no step is given: its own choice */
+    judge("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 7\n", 0, 7, swing, swing_speed);
 }
 
 /* compare's largest error is the largest distance from these answers, to the bit: it is the same truth. */
@@ -97,7 +105,8 @@ static void is_what_compare_judges_by(void **state)
         motus_study_def def = motus_default_study();
         def.methods = &method;
         def.method_count = 1;
-        def.until = k ? 14.0 : 10;   /* 123 steps and 160, and no shorter one at the end: the grid of compare is every step */
+        /* 123 steps and 160, and no shorter one at the end: the grid of compare is every step */
+        def.until = k ? 14.0 : 10;
         def.step = k ? 0.1 : 0.0625;
         motus_comparison *c = NULL;
         must(motus_compare(s, &def, &c, &err), &err, "motus_compare");
@@ -128,7 +137,8 @@ static void is_what_compare_judges_by(void **state)
     }
 }
 
-/* At the points of the grid the answers are the rows that were found, to the bit, though their times are rounded once more than the grid's. */
+/* At the points of the grid the answers are the rows that were found, to the bit, though their times are rounded once
+ * more than the grid's. */
 static void kept_rows_are_given_back(void **state)
 {
     (void)state;
@@ -198,9 +208,9 @@ static void wrong_requests(void **state)
     assert_int_equal(motus_reference_create(s, &def, &r, &e), MOTUS_ARGUMENT);
     motus_system_destroy(s);
     s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\n");
-    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_ARGUMENT);       /* no end */
+    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_ARGUMENT); /* no end */
     motus_system_destroy(s);
-    s = given_text("x'' = 2 x^3\nx(0) = 1\nx'(0) = 1\nstep 0.1\nuntil 2\n");          /* 1/(1 - t) */
+    s = given_text("x'' = 2 x^3\nx(0) = 1\nx'(0) = 1\nstep 0.1\nuntil 2\n"); /* 1/(1 - t) */
     assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);
     assert_null(r);
     assert_true(e.message[0] && e.hint[0]);
@@ -208,7 +218,9 @@ static void wrong_requests(void **state)
 }
 
 /* A spring whose force fails, or takes its time, when it is told to. */
-typedef struct mood { int fail, slow; } mood;
+typedef struct mood {
+    int fail, slow;
+} mood;
 
 static int moody(void *context, double t, const double *x, const double *v, double *a)
 {
@@ -292,8 +304,13 @@ static void may_be_cancelled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_is_exact), cmocka_unit_test(a_reference_knows_its_error), cmocka_unit_test(is_what_compare_judges_by),
-        cmocka_unit_test(kept_rows_are_given_back), cmocka_unit_test(rows_are_states), cmocka_unit_test(wrong_requests), cmocka_unit_test(a_failure_is_forgotten),
+        cmocka_unit_test(exact_is_exact),
+        cmocka_unit_test(a_reference_knows_its_error),
+        cmocka_unit_test(is_what_compare_judges_by),
+        cmocka_unit_test(kept_rows_are_given_back),
+        cmocka_unit_test(rows_are_states),
+        cmocka_unit_test(wrong_requests),
+        cmocka_unit_test(a_failure_is_forgotten),
         cmocka_unit_test(may_be_cancelled),
     };
     return cmocka_run_group_tests_name("truth", tests, NULL, NULL);

@@ -1,5 +1,6 @@
-/* Statements typeset as MathML, from the side of a page that shows a stranger's model: nothing of the text is more than characters; what is huge
- * or deep is cut, and well-formed all the same; every model of models/ can be shown; and what `set` has changed shows.
+/* Statements typeset as MathML, from the side of a page that shows a stranger's model: nothing of the text is more
+ * than characters; what is huge or deep is cut, and well-formed all the same; every model of models/ can be shown;
+ * and what `set` has changed shows.
  */
 #include "test/given.h"
 #include "test/mathml.h"
@@ -20,8 +21,7 @@ static int all_well(motus_system *s, const char *what)
         assert_non_null(text);
         assert_true(strlen(text) < BYTES_MAX);
         wrong = mathml_read(text, out, ROOM, &depth);
-        if (wrong)
-            fail_msg("%s: %s: %.2000s", what, wrong, text);
+        if (wrong) fail_msg("%s: %s: %.2000s", what, wrong, text);
         deepest = depth > deepest ? depth : deepest;
     }
     return deepest;
@@ -34,22 +34,20 @@ static void models(void **state)
     DIR *folder = opendir(MOTUS_SOURCE_DIR "/models");
     assert_non_null(folder);
     for (struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        if (!strstr(entry->d_name, ".motus"))
-            continue;
+        if (!strstr(entry->d_name, ".motus")) continue;
         char path[1024], *text;
         given_path(path, sizeof path, "models", entry->d_name);
         text = given_file(path);
         motus_system *s = given_text(text);
         assert_true(motus_statement_count(s) >= 4);
         assert_in_range(all_well(s, entry->d_name), 3, 40);
-        assert_null(strstr(out, "⋯"));           /* nothing of them is cut */
+        assert_null(strstr(out, "⋯")); /* nothing of them is cut */
         /* Each statement begins with its name in the line it says. */
         for (size_t k = 0; k < motus_statement_count(s); k++) {
             motus_statement one = motus_default_statement();
             assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);
             const char *line = text;
-            for (int i = 1; i < one.line; i++)
-                line = strchr(line, '\n') + 1;
+            for (int i = 1; i < one.line; i++) line = strchr(line, '\n') + 1;
             line += !strncmp(line, "invariant ", 10) ? 10 : !strncmp(line, "exact ", 6) ? 6 : 0;
             if (strncmp(line, one.name, strlen(one.name)))
                 fail_msg("%s: line %d does not begin with %s", entry->d_name, one.line, one.name);
@@ -62,7 +60,8 @@ static void models(void **state)
     assert_true(read >= 18);
 }
 
-/* The one place where a model's text is not made of names and numbers is the name of a method, which is asked for only by a run. */
+/* The one place where a model's text is not made of names and numbers is the name of a method, which is asked for
+ * only by a run. */
 static void nasty(void **state)
 {
     (void)state;
@@ -72,9 +71,14 @@ static void nasty(void **state)
         {"method a\001b\x7F\tc", "method_a\uFFFDb\uFFFD\uFFFDc"},
         {"method \xFF\xC3(\xED\xA0\x80\xEF\xBF\xBF\xC2\x85\xF4\x90\x80\x80\xC0\xBC", NULL},
         {"method é\xE2\x82", "method_é\uFFFD\uFFFD"},
-        {"ключ_ё2 = 1", "msub{ключ|ё2}=1"}, {"名前₁ = 1", "msub{名前|1}=1"}, {"𝔵 = 1", "𝔵=1"},
-        {"x_\xCC\xB8y = 1", "x_\xCC\xB8y=1"},     /* a combining stroke would cross out the end of a tag */
-        {"__ = 1", "__=1"}, {"a_b_c = 1", "msub{a|b,c}=1"}, {"a₊₍ₙ₎ = 1", "msub{a|+(n)}=1"}, {"Α = 1", "Α=1"}};
+        {"ключ_ё2 = 1", "msub{ключ|ё2}=1"},
+        {"名前₁ = 1", "msub{名前|1}=1"},
+        {"𝔵 = 1", "𝔵=1"},
+        {"x_\xCC\xB8y = 1", "x_\xCC\xB8y=1"}, /* a combining stroke would cross out the end of a tag */
+        {"__ = 1", "__=1"},
+        {"a_b_c = 1", "msub{a|b,c}=1"},
+        {"a₊₍ₙ₎ = 1", "msub{a|+(n)}=1"},
+        {"Α = 1", "Α=1"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char text[512];
         snprintf(text, sizeof text, "z'' = -z\nz(0) = 1\nz'(0) = 0\n%s\n", cases[k][0]);
@@ -86,9 +90,12 @@ static void nasty(void **state)
     }
 }
 
-/* Limits ----------------------------------------------------------------------------------------------------------------------------- */
+/* Limits ----------------------------------------------------------------------------------------------------------- */
 
-typedef struct text { char *bytes; size_t length, room; } text;
+typedef struct text {
+    char *bytes;
+    size_t length, room;
+} text;
 
 static void write_times(text *t, const char *s, size_t times)
 {
@@ -98,13 +105,13 @@ static void write_times(text *t, const char *s, size_t times)
         t->bytes = realloc(t->bytes, t->room);
         assert_non_null(t->bytes);
     }
-    for (; times > 0; times--, t->length += n)
-        memcpy(t->bytes + t->length, s, n);
+    for (; times > 0; times--, t->length += n) memcpy(t->bytes + t->length, s, n);
     t->bytes[t->length] = 0;
 }
 
 /* The depth of a model whose last line is  before, open × times, middle, close × times, behind. */
-static int depth_of(const char *before, const char *open, size_t times, const char *middle, const char *close, const char *behind)
+static int depth_of(const char *before, const char *open, size_t times, const char *middle, const char *close,
+                    const char *behind)
 {
     text t = {0};
     write_times(&t, "k = 1\nx'' = -x\nx(0) = 1\nx'(0) = 0\n", 1);
@@ -123,8 +130,7 @@ static int depth_of(const char *before, const char *open, size_t times, const ch
 static size_t count_of(const char *what)
 {
     size_t count = 0;
-    for (const char *at = out; (at = strstr(at, what)) != NULL; at += strlen(what))
-        count++;
+    for (const char *at = out; (at = strstr(at, what)) != NULL; at += strlen(what)) count++;
     return count;
 }
 
@@ -141,7 +147,7 @@ static void limits(void **state)
     depth_of("e = if(x > 0", " or x > k", 5000, "", "", ", 1, 2)\n");
     assert_int_equal(count_of("_or_"), 65);
     depth_of("e = if(x > 0", " and x > k", 64, "", "", ", 1, 2)\n");
-    assert_null(strstr(out, "⋯"));               /* 65 terms are not too many */
+    assert_null(strstr(out, "⋯")); /* 65 terms are not too many */
     depth_of("e = [1", ", 2", 50000, "", "", "]\n");
     assert_string_equal(out, "e={[1,2,2,2,2,2,2,2,2,2,…,2]}");
     depth_of("e = min(k", ", x", 11, "", "", ")\n");
@@ -150,16 +156,23 @@ static void limits(void **state)
     assert_int_equal(count_of("1"), 47);
     assert_non_null(strstr(out, "…"));
     /* What is deep is cut within. */
-    static const char *const deep[][5] = {
-        {"e = ", "1+(", "x", ")", "\n"}, {"e = ", "sin(", "x", ")", "\n"}, {"e = ", "x^(", "x", ")", "\n"}, {"e = x", "/k", "", "", "\n"},
-        {"e = ", "1/(k+", "k", ")", "\n"}, {"e = ", "if(x > 0, ", "x", ", 0)+1", "\n"}, {"e = ", "if(if(x > 0, x, 0) > 0, 1, ", "x", "+1)", "\n"},
-        {"e = ", "sqrt(", "x", ")", "\n"}, {"e = ", "cbrt(1+", "x", ")", "\n"},
-        {"e = ", "|k+", "x", "|", "\n"}, {"e = ", "-(", "x", ")", "\n"}, {"e = ", "x^x^", "x", "", "\n"}, {"e = ", "(k (", "x", " k)^k)^x", "\n"}};
+    static const char *const deep[][5] = {{"e = ", "1+(", "x", ")", "\n"},
+                                          {"e = ", "sin(", "x", ")", "\n"},
+                                          {"e = ", "x^(", "x", ")", "\n"},
+                                          {"e = x", "/k", "", "", "\n"},
+                                          {"e = ", "1/(k+", "k", ")", "\n"},
+                                          {"e = ", "if(x > 0, ", "x", ", 0)+1", "\n"},
+                                          {"e = ", "if(if(x > 0, x, 0) > 0, 1, ", "x", "+1)", "\n"},
+                                          {"e = ", "sqrt(", "x", ")", "\n"},
+                                          {"e = ", "cbrt(1+", "x", ")", "\n"},
+                                          {"e = ", "|k+", "x", "|", "\n"},
+                                          {"e = ", "-(", "x", ")", "\n"},
+                                          {"e = ", "x^x^", "x", "", "\n"},
+                                          {"e = ", "(k (", "x", " k)^k)^x", "\n"}};
     for (size_t k = 0; k < sizeof deep / sizeof *deep; k++) {
         size_t times = k + 1 == sizeof deep / sizeof *deep ? 100 : 120;
         int depth = depth_of(deep[k][0], deep[k][1], times, deep[k][2], deep[k][3], deep[k][4]);
-        if (depth < 24 || !strstr(out, "…"))
-            fail_msg("%s: depth %d, %.200s", deep[k][1], depth, out);
+        if (depth < 24 || !strstr(out, "…")) fail_msg("%s: depth %d, %.200s", deep[k][1], depth, out);
     }
     depth_of("e = if(", "not ", 120, "x > 0", "", ", 1, 2)\n");
     assert_int_equal(count_of("not"), 48);
@@ -182,17 +195,27 @@ static void limits(void **state)
     free(t.bytes);
 }
 
-/* What `set` says ---------------------------------------------------------------------------------------------------------------------- */
+/* What `set` says -------------------------------------------------------------------------------------------------- */
 
 static void settings(void **state)
 {
     (void)state;
-    static const char text[] = "\nF =\n  0.1\nx'' = -x + F\nx(0) = 1\nx'(0) = 0\nu[i]'' = 0 for i = 1..3\nu[1](0) = 1\nu[i](0) = 2 for i = 2..3\nu[i]'(0) = 0 for i = 1..3\nG = F\n";
+    static const char text[] = "\nF =\n  0.1\nx'' = -x + F\nx(0) = 1\nx'(0) = 0\nu[i]'' = 0 for i = 1..3\nu[1](0) = "
+                               "1\nu[i](0) = 2 for i = 2..3\nu[i]'(0) = 0 for i = 1..3\nG = F\n";
     const char *const set[] = {"F = 7", "\n\n F = 8e-3", "x(0) = F", "u[2](0) = 5"};
-    static const struct { int line, is_set; const char *in_short; } expected[] = {
-        {2, 1, "F={8×msup{10|{−3}}}"}, {4, 0, "msup{x|′′}=−x+F"}, {5, 1, "{x@{(0)}}=F"}, {6, 0, "{msup{x|′}@{(0)}}=0"}, {7, 0, "msubsup{u|i|′′}=0 {for_i=1,…,3}"},
-        {8, 0, "{msub{u|1}@{(0)}}=1"}, {9, 0, "{msub{u|i}@{(0)}}=2 {for_i=2,3}"}, {10, 0, "{msubsup{u|i|′}@{(0)}}=0 {for_i=1,…,3}"}, {11, 0, "G=F"},
-        {0, 1, "{msub{u|2}@{(0)}}=5"}};
+    static const struct {
+        int line, is_set;
+        const char *in_short;
+    } expected[] = {{2, 1, "F={8×msup{10|{−3}}}"},
+                    {4, 0, "msup{x|′′}=−x+F"},
+                    {5, 1, "{x@{(0)}}=F"},
+                    {6, 0, "{msup{x|′}@{(0)}}=0"},
+                    {7, 0, "msubsup{u|i|′′}=0 {for_i=1,…,3}"},
+                    {8, 0, "{msub{u|1}@{(0)}}=1"},
+                    {9, 0, "{msub{u|i}@{(0)}}=2 {for_i=2,3}"},
+                    {10, 0, "{msubsup{u|i|′}@{(0)}}=0 {for_i=1,…,3}"},
+                    {11, 0, "G=F"},
+                    {0, 1, "{msub{u|2}@{(0)}}=5"}};
     motus_system *s = given_text_with(text, set, 4, "set");
     assert_int_equal(motus_statement_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_statement_count(s); k++) {
@@ -250,7 +273,8 @@ static void callback(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(models), cmocka_unit_test(nasty), cmocka_unit_test(limits), cmocka_unit_test(settings),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(models),    cmocka_unit_test(nasty),
+                                       cmocka_unit_test(limits),    cmocka_unit_test(settings),
                                        cmocka_unit_test(set_twice), cmocka_unit_test(callback)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,21 +5,24 @@
  *                       # start: column = value              at the start, to the bit
  *                       # end: column = value ± tolerance    where the run ends
  *
- * Invariant: every file of these folders says something, and what it says is checked; a file that expects nothing fails.
+ * Invariant: every file of these folders says something, and what it says is checked; a file that expects nothing
+ * fails.
  */
 #include "test/given.h"
 
 #include <dirent.h>
 #include <stdbool.h>
 
-typedef struct text { char *bytes; size_t length; } text;
+typedef struct text {
+    char *bytes;
+    size_t length;
+} text;
 
 static text load(const char *path)
 {
     FILE *file = fopen(path, "rb");
     text t = {0};
-    if (!file)
-        fail_msg("%s cannot be read", path);
+    if (!file) fail_msg("%s cannot be read", path);
     size_t room = 1 << 20;
     t.bytes = malloc(room);
     assert_non_null(t.bytes);
@@ -39,8 +42,7 @@ static size_t for_models(const char *folder, void (*each)(const char *name, text
     int faults = 0;
     snprintf(path, sizeof path, "%s/test/%s", MOTUS_SOURCE_DIR, folder);
     DIR *dir = opendir(path);
-    if (!dir)
-        fail_msg("there is no folder %s", path);
+    if (!dir) fail_msg("there is no folder %s", path);
     for (struct dirent *entry; (entry = readdir(dir)) && count < 1024;)
         if (strlen(entry->d_name) > 6 && !strcmp(entry->d_name + strlen(entry->d_name) - 6, ".motus"))
             names[count++] = strdup(entry->d_name);
@@ -53,8 +55,7 @@ static size_t for_models(const char *folder, void (*each)(const char *name, text
         free(t.bytes);
         free(names[i]);
     }
-    if (faults)
-        fail_msg("%d of the %zu models in test/%s do not do as they say", faults, count, folder);
+    if (faults) fail_msg("%d of the %zu models in test/%s do not do as they say", faults, count, folder);
     return count;
 }
 
@@ -70,13 +71,10 @@ static motus_status go(text t, motus_system **s, motus_run **r, motus_error *err
     def.length = t.length;
     *r = NULL;
     motus_status status = motus_system_from_text(&def, s, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     motus_settings_of(*s, &settings);
-    if (isnan(settings.step))
-        run.step = 0.1;
-    if (isnan(settings.until))
-        run.until = settings.from + 1;
+    if (isnan(settings.step)) run.step = 0.1;
+    if (isnan(settings.until)) run.until = settings.from + 1;
     return motus_run_create(*s, &run, r, err);
 }
 
@@ -93,8 +91,7 @@ static bool points(const motus_error *err)
 static bool printable(const char *s)
 {
     for (; *s; s++)
-        if ((unsigned char)*s < 0x20 || *s == 0x7F)
-            return false;
+        if ((unsigned char)*s < 0x20 || *s == 0x7F) return false;
     return true;
 }
 
@@ -110,22 +107,21 @@ static void wrong_one(const char *name, text t, int *faults)
     message += 3;
     end = strstr(message, " | ");
     hint = end ? end + 3 : "";
-    if (end)
-        *end = 0;
+    if (end) *end = 0;
     motus_system *s = NULL;
     motus_run *r = NULL;
     motus_error err = motus_default_error();
     motus_status status = go(t, &s, &r, &err);
-    if (status == MOTUS_OK)
-        status = motus_run_finish(r, &err);
-    if (strcmp(motus_status_word(status), word) || err.line != line || err.column != column || !strstr(err.message, message) ||
-        !strstr(err.hint, hint) || (status != MOTUS_OK && err.status != status))
-        FAULT("%s: %d:%d %s | %s | %s\n    and not: %d:%d %s | %s | %s\n", name, err.line, err.column, motus_status_word(status), err.message,
-              err.hint, line, column, word, message, hint);
+    if (status == MOTUS_OK) status = motus_run_finish(r, &err);
+    if (strcmp(motus_status_word(status), word) || err.line != line || err.column != column ||
+        !strstr(err.message, message) || !strstr(err.hint, hint) || (status != MOTUS_OK && err.status != status))
+        FAULT("%s: %d:%d %s | %s | %s\n    and not: %d:%d %s | %s | %s\n", name, err.line, err.column,
+              motus_status_word(status), err.message, err.hint, line, column, word, message, hint);
     else if (motus_status_exit(status) != 2)
         FAULT("%s: a wrong model is a wrong request, with exit status 2\n", name);
     else if (!points(&err))
-        FAULT("%s: the caret does not stand under column %d:\n    %s\n    %s\n", name, err.column, err.source, err.caret);
+        FAULT("%s: the caret does not stand under column %d:\n    %s\n    %s\n", name, err.column, err.source,
+              err.caret);
     else if (!printable(err.message) || !printable(err.hint) || !printable(err.source))
         FAULT("%s: a control character in the message\n", name);
     motus_run_destroy(r);
@@ -146,18 +142,15 @@ static bool promise(const char *line, char column[128], double *value, double *t
 {
     const char *equals = strstr(line, " = ");
     char *end;
-    if (!equals || equals - line >= 128)
-        return false;
+    if (!equals || equals - line >= 128) return false;
     snprintf(column, 128, "%.*s", (int)(equals - line), line);
     *value = strtod(equals + 3, &end);
     *tolerance = 0;
-    if (end == equals + 3)
-        return false;
+    if (end == equals + 3) return false;
     if (!strncmp(end, " ± ", strlen(" ± "))) {
         char *from = end + strlen(" ± ");
         *tolerance = strtod(from, &end);
-        if (end == from)
-            return false;
+        if (end == from) return false;
     }
     return *end == '\n' || *end == '\r' || *end == 0;
 }
@@ -166,8 +159,7 @@ static int keep_promises(const char *name, text t, const char *when, motus_syste
 {
     int count = 0;
     for (const char *line = t.bytes; line && *line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
-        if (strncmp(line, when, strlen(when)))
-            continue;
+        if (strncmp(line, when, strlen(when))) continue;
         char column[128];
         double value, tolerance, got;
         size_t first, n;
@@ -189,7 +181,8 @@ static void right_one(const char *name, text t, int *faults)
     motus_run *r = NULL;
     motus_error err = motus_default_error();
     if (go(t, &s, &r, &err)) {
-        FAULT("%s:%d:%d: %s (%s)\n    %s\n    %s\n", name, err.line, err.column, err.message, err.hint, err.source, err.caret);
+        FAULT("%s:%d:%d: %s (%s)\n    %s\n    %s\n", name, err.line, err.column, err.message, err.hint, err.source,
+              err.caret);
     } else {
         int promises = keep_promises(name, t, "# start: ", s, r, faults);
         if (motus_run_finish(r, &err))

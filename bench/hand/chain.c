@@ -1,13 +1,14 @@
 /* The chain of Fermi, Pasta, Ulam and Tsingou by leapfrog, v += kick a(x), x += h v, in place.
  *
- * Why the skewed ones are fast. A state of a million cells is 16 MB, so a plain step waits for memory, or for the last cache at best. But
- * a cell's next value needs its neighbours only: a tile that fits the first cache can be taken several steps ahead, if each step ends
- * WIDTH cells further left than the one before (those cells' right neighbours are not there yet) and remembers the old values at its
- * own right edge, which the next tile needs as left neighbours and which are overwritten by then. The state passes memory once per
- * `levels` steps. Threads take turns of `levels` steps and follow each other along the chain.
+ * Why the skewed ones are fast. A state of a million cells is 16 MB, so a plain step waits for memory, or for the
+ * last cache at best. But a cell's next value needs its neighbours only: a tile that fits the first cache can be
+ * taken several steps ahead, if each step ends WIDTH cells further left than the one before (those cells' right
+ * neighbours are not there yet) and remembers the old values at its own right edge, which the next tile needs as left
+ * neighbours and which are overwritten by then. The state passes memory once per `levels` steps. Threads take turns
+ * of `levels` steps and follow each other along the chain.
  *
- * Invariant: every cell sees the same operations in the same order as in the plain loops, which are those of motus: the same bits, but
- * for the free form.
+ * Invariant: every cell sees the same operations in the same order as in the plain loops, which are those of motus:
+ * the same bits, but for the free form.
  */
 #include "bench/hand/hand.h"
 #include "bench/hand/lanes.h"
@@ -42,9 +43,10 @@ void hand_chain_plain(const chain *c, int64_t steps, double kick)
     }
 }
 
-/* One step of the cells [from, to), `left` holding the old value of cell from - 1 in its last lane; so it does afterwards for `to`.
- * Both neighbours are read from memory, a cell off the grid of registers; therefore new values are stored one turn late, when the next
- * register has read its left neighbours. Shuffles in their place would wait for the units that multiply. */
+/* One step of the cells [from, to), `left` holding the old value of cell from - 1 in its last lane; so it does
+ * afterwards for `to`. Both neighbours are read from memory, a cell off the grid of registers; therefore new values
+ * are stored one turn late, when the next register has read its left neighbours. Shuffles in their place would wait
+ * for the units that multiply. */
 INLINE vec pass(const chain *c, size_t from, size_t to, double kick, vec left)
 {
     double *x = c->x, *v = c->v;
@@ -54,7 +56,9 @@ INLINE vec pass(const chain *c, size_t from, size_t to, double kick, vec left)
         vec here = vec_load(x + i), l = vec_before(left, here), r, next;
         for (;;) {
             r = vec_load(x + i + 1);
-            KEEP(here); KEEP(l); KEEP(r);               /* one load each, however often they are used */
+            KEEP(here);
+            KEEP(l);
+            KEEP(r); /* one load each, however often they are used */
             vec speed = vec_fma(k, vec_force(l, here, r, beta), vec_load(v + i));
             vec_store(v + i, speed);
             next = vec_fma(h, speed, here);
@@ -113,14 +117,15 @@ void hand_chain_fused(const chain *c, int64_t steps, double kick)
     for (; steps > 0; steps--) pass(c, 1, c->N + 1, kick, vec_all(c->x[0]));
 }
 
-/* `levels` steps over the whole chain, tile by tile. `ready` (or NULL) tells how far the steps before have come, `done` (or NULL) is
- * told how far these have. */
-INLINE void slab(const chain *c, int levels, size_t tile, double kick, int free, _Atomic size_t *ready, _Atomic size_t *done)
+/* `levels` steps over the whole chain, tile by tile. `ready` (or NULL) tells how far the steps before have come,
+ * `done` (or NULL) is told how far these have. */
+INLINE void slab(const chain *c, int levels, size_t tile, double kick, int free, _Atomic size_t *ready,
+                 _Atomic size_t *done)
 {
     size_t end = c->N + 1, at[LEVELS_MAX];
     vec left[LEVELS_MAX];
     for (int k = 0; k < levels; k++) at[k] = 1, left[k] = vec_all(c->x[0]);
-    for (size_t stop = 1 + tile; ; stop += tile) {
+    for (size_t stop = 1 + tile;; stop += tile) {
         size_t need = stop < end ? stop + WIDTH : end;
         if (need > end) need = end;
         for (int spins = 0; ready && atomic_load_explicit(ready, memory_order_acquire) < need; spins++)

@@ -1,4 +1,5 @@
-/* The drive of the oscillators at every step and half step, by the cosine that motus evaluates, so that bits can be compared. */
+/* The drive of the oscillators at every step and half step, by the cosine that motus evaluates, so that bits can be
+ * compared. */
 #include "bench/hand/hand.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* The ensembles of oscillators: which block size is best here, and the loop over blocks.
  *
- * Invariant: every block size gives the same bits; the last block of an ensemble overlaps the one before rather than being shorter.
+ * Invariant: every block size gives the same bits; the last block of an ensemble overlaps the one before rather than
+ * being shorter.
  */
 #include "bench/hand/hand.h"
 #include "bench/hand/lanes.h"
@@ -43,15 +44,22 @@
 #include "bench/hand/oscillator_block.h"
 
 typedef void block(const oscillators *, size_t at);
-typedef struct size { int registers, in_step; block *run[HAND_KINDS]; } size;
+typedef struct size {
+    int registers, in_step;
+    block *run[HAND_KINDS];
+} size;
 
 /* In the order of hand_kind. */
-#define SIZE(u, s)                                                                                                       \
-    { u, s, { verlet_##u##_##s, velocity_verlet_##u##_##s, rk4_##u##_##s, free_leapfrog_##u##_##s, free_rk4_##u##_##s,   \
-              free_position_##u##_##s } }
-static const size sizes[] = {
-    SIZE(2, 1), SIZE(4, 1), SIZE(6, 1), SIZE(8, 1), SIZE(10, 1), SIZE(11, 1), SIZE(12, 1), SIZE(13, 1), SIZE(10, 2), SIZE(10, 5), SIZE(8, 4)
-};
+#define SIZE(u, s)                                                                                                   \
+    {                                                                                                                \
+        u, s,                                                                                                        \
+        {                                                                                                            \
+            verlet_##u##_##s, velocity_verlet_##u##_##s, rk4_##u##_##s, free_leapfrog_##u##_##s, free_rk4_##u##_##s, \
+                free_position_##u##_##s                                                                              \
+        }                                                                                                            \
+    }
+static const size sizes[] = {SIZE(2, 1),  SIZE(4, 1),  SIZE(6, 1),  SIZE(8, 1),  SIZE(10, 1), SIZE(11, 1),
+                             SIZE(12, 1), SIZE(13, 1), SIZE(10, 2), SIZE(10, 5), SIZE(8, 4)};
 enum { SIZES = sizeof sizes / sizeof *sizes, TRIES = 5 };
 
 static int chosen[HAND_KINDS];

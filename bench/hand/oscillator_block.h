@@ -1,23 +1,28 @@
 /* The oscillators U registers at a time, of which S go through a step side by side; included once for each (U, S).
  *
- * Why they are fast. A trajectory's step waits for the step before: 15 to 20 cycles of latency for five operations, where the machine
- * could start two a cycle. So U registers of trajectories advance together, enough to fill that wait; for each only x or v must stay in
- * a register, the rest comes from the first cache as operands. The block runs through all steps before the next one starts, so memory
- * is touched once. The drive depends on time alone and is one broadcast a step. With S > 1 the stages of a step are interleaved in the
- * program, because a processor looks ahead over one or two hundred instructions, not over a whole step of Runge-Kutta for all of them.
+ * Why they are fast. A trajectory's step waits for the step before: 15 to 20 cycles of latency for five operations,
+ * where the machine could start two a cycle. So U registers of trajectories advance together, enough to fill that
+ * wait; for each only x or v must stay in a register, the rest comes from the first cache as operands. The block runs
+ * through all steps before the next one starts, so memory is touched once. The drive depends on time alone and is one
+ * broadcast a step. With S > 1 the stages of a step are interleaved in the program, because a processor looks ahead
+ * over one or two hundred instructions, not over a whole step of Runge-Kutta for all of them.
  */
 #define JOIN_(name, u, s) name##_##u##_##s
-#define JOIN(name, u, s) JOIN_(name, u, s)
-#define BLOCK(name) static void JOIN(name, U, S)(const oscillators *o, size_t at)
-#define EACH UNROLL for (int u = 0; u < U; u++)
-#define EACH_GROUP UNROLL for (int g = 0; g < U; g += S)
-#define EACH_IN_GROUP UNROLL for (int s = 0, u = g; s < S; s++, u++)
-/* What is before and after the loop is none of the loop's business: else the compiler carries over from step to step what it needs there. */
-#define SEAL(array) EACH KEEP(array[u])
-#define F_OF(u) vec_load(o->F + at + (size_t)(u) * WIDTH)
-#define STORE(array, u, value) vec_store(o->array + at + (size_t)(u) * WIDTH, value)
+#define JOIN(name, u, s)  JOIN_(name, u, s)
+#define BLOCK(name)       static void JOIN(name, U, S)(const oscillators *o, size_t at)
+#define EACH              UNROLL for (int u = 0; u < U; u++)
+#define EACH_GROUP        UNROLL for (int g = 0; g < U; g += S)
+#define EACH_IN_GROUP     UNROLL for (int s = 0, u = g; s < S; s++, u++)
+/* What is before and after the loop is none of the loop's business: else the compiler carries over from step to step
+ * what it needs there. */
+#define SEAL(array) \
+    EACH            \
+    KEEP(array[u])
+#define F_OF(u)                vec_load(o->F + at + (size_t)(u)*WIDTH)
+#define STORE(array, u, value) vec_store(o->array + at + (size_t)(u)*WIDTH, value)
 
-/* Our operations in our order: x³ as (x x) x, minus x, plus F cos t, each with one rounding where it is one operation. */
+/* Our operations in our order: x³ as (x x) x, minus x, plus F cos t, each with one rounding where it is one
+ * operation. */
 #define FORCE(x, F, c) vec_fma(F, c, vec_fms((x) * (x), x, x))
 
 BLOCK(verlet)
@@ -51,7 +56,8 @@ BLOCK(velocity_verlet)
 {
     vec h = vec_all(o->step), half_h = vec_all(0.5 * o->step), kick = half_h, c;
     vec x[U], v[U];
-    EACH x[u] = vec_all(o->x0), v[u] = vec_all(o->v0);
+    EACH
+        x[u] = vec_all(o->x0), v[u] = vec_all(o->v0);
     SEAL(x);
     for (int64_t n = 0; n < o->steps; n++, kick = h) {
         c = vec_all(o->whole[n]);
@@ -71,36 +77,43 @@ BLOCK(velocity_verlet)
 /* A product and a sum where our text has them; products with the tableau's zeros are left out, which changes no bit. */
 BLOCK(rk4)
 {
-    vec h = vec_all(o->step), half = vec_all(0.5 * o->step), b0 = vec_all(1.0 / 6 * o->step), b1 = vec_all(1.0 / 3 * o->step);
+    vec h = vec_all(o->step), half = vec_all(0.5 * o->step), b0 = vec_all(1.0 / 6 * o->step),
+        b1 = vec_all(1.0 / 3 * o->step);
     vec x[U], v[U];
-    EACH x[u] = vec_all(o->x0), v[u] = vec_all(o->v0);
+    EACH
+        x[u] = vec_all(o->x0), v[u] = vec_all(o->v0);
     SEAL(x);
     for (int64_t n = 0; n < o->steps; n++) {
         vec c0 = vec_all(o->whole[n]), c1 = vec_all(o->half[n]), c2 = vec_all(o->whole[n + 1]);
-        EACH_GROUP {
+        EACH_GROUP
+        {
             vec X[S], V[S], A[S], sum_x[S], sum_v[S];
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 A[s] = FORCE(x[u], F_OF(u), c0);
                 sum_x[s] = b0 * v[u];
                 sum_v[s] = b0 * A[s];
                 X[s] = x[u] + half * v[u];
                 V[s] = v[u] + half * A[s];
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 A[s] = FORCE(X[s], F_OF(u), c1);
                 sum_x[s] = vec_fma(b1, V[s], sum_x[s]);
                 sum_v[s] = vec_fma(b1, A[s], sum_v[s]);
                 X[s] = x[u] + half * V[s];
                 V[s] = v[u] + half * A[s];
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 A[s] = FORCE(X[s], F_OF(u), c1);
                 sum_x[s] = vec_fma(b1, V[s], sum_x[s]);
                 sum_v[s] = vec_fma(b1, A[s], sum_v[s]);
                 X[s] = x[u] + h * V[s];
                 V[s] = v[u] + h * A[s];
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 A[s] = FORCE(X[s], F_OF(u), c2);
                 x[u] += vec_fma(b0, V[s], sum_x[s]);
                 v[u] += vec_fma(b0, A[s], sum_v[s]);
@@ -114,8 +127,8 @@ BLOCK(rk4)
     }
 }
 
-/* The same leapfrog for fewer operations. With y = h x and w = h² v, between the steps, its step is w += y (y² - h²) + h³ F c; y += w:
- * three fused operations and an addition, where the plain order takes four and one, or five. */
+/* The same leapfrog for fewer operations. With y = h x and w = h² v, between the steps, its step is w += y (y² - h²)
+ * + h³ F c; y += w: three fused operations and an addition, where the plain order takes four and one, or five. */
 #define FREE_FORCE(y, drive) vec_fma(y, vec_fms(y, y, hh), drive)
 
 BLOCK(free_leapfrog)
@@ -145,12 +158,14 @@ BLOCK(free_leapfrog)
     }
 }
 
-/* The recursion in positions, y[n+1] = y[n] (y[n]² + 2 - h²) + (h³ F c - y[n-1]): three operations a step, all fused. Differences of
- * neighbouring positions are lost in it, 1/h times the round-off of the others; so it is shown, not compared with. */
+/* The recursion in positions, y[n+1] = y[n] (y[n]² + 2 - h²) + (h³ F c - y[n-1]): three operations a step, all fused.
+ * Differences of neighbouring positions are lost in it, 1/h times the round-off of the others; so it is shown, not
+ * compared with. */
 BLOCK(free_position)
 {
     double h = o->step;
-    vec hh = vec_all(h * h), hhh = vec_all(h * h * h), half = vec_all(0.5), two = vec_all(2 - h * h), c = vec_all(o->whole[0]);
+    vec hh = vec_all(h * h), hhh = vec_all(h * h * h), half = vec_all(0.5), two = vec_all(2 - h * h),
+        c = vec_all(o->whole[0]);
     vec y[U], z[U], F[U];
     EACH {
         F[u] = F_OF(u) * hhh;
@@ -174,12 +189,13 @@ BLOCK(free_position)
     }
 }
 
-/* Kutta's method as Nyström wrote it: the velocities of the stages are eliminated, and in the same units 24 operations are left of 34.
- * The drive at the end of a step is kept for the beginning of the next. */
+/* Kutta's method as Nyström wrote it: the velocities of the stages are eliminated, and in the same units 24
+ * operations are left of 34. The drive at the end of a step is kept for the beginning of the next. */
 BLOCK(free_rk4)
 {
     double h = o->step;
-    vec hh = vec_all(h * h), hhh = vec_all(h * h * h), half = vec_all(0.5), quarter = vec_all(0.25), sixth = vec_all(1.0 / 6);
+    vec hh = vec_all(h * h), hhh = vec_all(h * h * h), half = vec_all(0.5), quarter = vec_all(0.25),
+        sixth = vec_all(1.0 / 6);
     vec y[U], w[U], F[U], end[U];
     EACH {
         F[u] = F_OF(u) * hhh;
@@ -190,24 +206,29 @@ BLOCK(free_rk4)
     SEAL(y);
     for (int64_t n = 0; n < o->steps; n++) {
         vec c1 = vec_all(o->half[n]), c2 = vec_all(o->whole[n + 1]);
-        EACH_GROUP {
+        EACH_GROUP
+        {
             vec Y[S], k1[S], k2[S], k3[S], far[S], middle[S];
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 k1[s] = FREE_FORCE(y[u], end[u]);
                 Y[s] = vec_fma(half, w[u], y[u]);
                 far[s] = y[u] + w[u];
                 middle[s] = F[u] * c1;
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 k2[s] = FREE_FORCE(Y[s], middle[s]);
                 Y[s] = vec_fma(quarter, k1[s], Y[s]);
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 k3[s] = FREE_FORCE(Y[s], middle[s]);
                 end[u] = F[u] * c2;
                 Y[s] = vec_fma(half, k2[s], far[s]);
             }
-            EACH_IN_GROUP {
+            EACH_IN_GROUP
+            {
                 vec k4 = FREE_FORCE(Y[s], end[u]), k23 = k2[s] + k3[s], sum = k1[s] + k23;
                 y[u] = vec_fma(sixth, sum, far[s]);
                 w[u] = vec_fma(sixth, sum + (k23 + k4), w[u]);

@@ -1,8 +1,9 @@
-/* Pendulums by velocity Verlet with the vector functions of the compiler's own C library (libmvec): what gcc makes of a loop over sin
- * with -ffast-math and -fopenmp-simd, without the loop: the calls are written out, so no flag need relax anything else.
+/* Pendulums by velocity Verlet with the vector functions of the compiler's own C library (libmvec): what gcc makes of
+ * a loop over sin with -ffast-math and -fopenmp-simd, without the loop: the calls are written out, so no flag need
+ * relax anything else.
  *
- * Invariant: lanes do not meet. A call takes every vector register, so the block lives in the first cache and the loop is as good as its
- * sine: BLOCK is only as large as lets one call's latency hide behind the next.
+ * Invariant: lanes do not meet. A call takes every vector register, so the block lives in the first cache and the
+ * loop is as good as its sine: BLOCK is only as large as lets one call's latency hide behind the next.
  */
 #include "bench/hand/hand.h"
 #include "bench/hand/lanes.h"
@@ -27,7 +28,7 @@ int hand_pendulums(size_t count, const double *theta0, double step, int64_t step
         vec x[BLOCK], v[BLOCK];
         for (int u = 0; u < BLOCK; u++) {
             x[u] = vec_load(theta0 + at + (size_t)u * WIDTH);
-            v[u] = half * VECTOR_SIN(x[u]);             /* half a kick back: then every step is the same */
+            v[u] = half * VECTOR_SIN(x[u]); /* half a kick back: then every step is the same */
         }
         for (int64_t n = 0; n < steps; n++)
             for (int u = 0; u < BLOCK; u++) {

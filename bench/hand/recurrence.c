@@ -1,7 +1,8 @@
 /* One trajectory of the oscillator: the loop as one writes it down, and how fast its recursion can be at all.
  *
- * Invariant: a step cannot begin before the step before has ended, so the longest chain of operations from x[n] to x[n+1] is a bound that
- * no width and no core count moves. Each loop below is one such chain; nothing else in it takes as long.
+ * Invariant: a step cannot begin before the step before has ended, so the longest chain of operations from x[n] to
+ * x[n+1] is a bound that no width and no core count moves. Each loop below is one such chain; nothing else in it
+ * takes as long.
  */
 #include "bench/hand/hand.h"
 
@@ -10,7 +11,7 @@
 
 double hand_plain_loop(double F, double h, int64_t steps)
 {
-    double x = 0, d = h * h / 2 * F;                    /* from rest at the origin */
+    double x = 0, d = h * h / 2 * F; /* from rest at the origin */
     x += d;
     for (int64_t n = 1; n < steps; n++) {
         double a = -x + x * x * x + F * cos((double)n * h);
@@ -29,16 +30,17 @@ static double seconds(void)
 
 enum { CALLS = 2000000, TRIES = 7 };
 
-/* The best of some tries of a chain of `expression`, in ns. What comes out goes where the compiler does not see it end. */
-#define LATENCY(expression)                                                  \
-    double best = INFINITY;                                                  \
-    for (int try = 0; try < TRIES; try++) {                                  \
-        double start = seconds();                                            \
-        for (int i = 0; i < CALLS; i++) expression;                          \
-        double took = seconds() - start;                                     \
-        if (took < best) best = took;                                        \
-    }                                                                        \
-    *kept += x;                                                              \
+/* The best of some tries of a chain of `expression`, in ns. What comes out goes where the compiler does not see it
+ * end. */
+#define LATENCY(expression)                         \
+    double best = INFINITY;                         \
+    for (int try = 0; try < TRIES; try++) {         \
+        double start = seconds();                   \
+        for (int i = 0; i < CALLS; i++) expression; \
+        double took = seconds() - start;            \
+        if (took < best) best = took;               \
+    }                                               \
+    *kept += x;                                     \
     return best / CALLS * 1e9
 
 static double multiply(double x, double c, volatile double *kept) { LATENCY(x = x * c); }
@@ -54,6 +56,7 @@ static double step(double x, double c, volatile double *kept)
 
 latencies hand_latencies(void)
 {
-    volatile double x = 0.5, c = 0.75, one = 1, kept = 0;       /* not known to the compiler; no product may shrink to a subnormal */
-    return (latencies){ multiply(x, one, &kept), fused(x, c, &kept), add(x, c, &kept), step(x, c, &kept) };
+    /* not known to the compiler; no product may shrink to a subnormal */
+    volatile double x = 0.5, c = 0.75, one = 1, kept = 0;
+    return (latencies){multiply(x, one, &kept), fused(x, c, &kept), add(x, c, &kept), step(x, c, &kept)};
 }

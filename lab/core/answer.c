@@ -7,8 +7,7 @@
 static void add(void *to, const char *bytes, size_t count)
 {
     lab_text *t = to;
-    if (t->failed)
-        return;
+    if (t->failed) return;
     if (t->length + count + 1 > t->capacity) {
         const size_t capacity = 2 * (t->length + count) + 256;
         char *more = realloc(t->text, capacity);

@@ -1,6 +1,8 @@
-/* The calls of the page, over motus.h. The page writes texts and reads numbers in the module's memory; answers with names in them are JSON.
+/* The calls of the page, over motus.h. The page writes texts and reads numbers in the module's memory; answers with
+ * names in them are JSON.
  *
- * Every call that can fail returns a motus_status, and lab_problem tells the rest. Counts are doubles: JavaScript's integers.
+ * Every call that can fail returns a motus_status, and lab_problem tells the rest. Counts are doubles: JavaScript's
+ * integers.
  */
 #include "lab/core/core.h"
 
@@ -11,8 +13,7 @@
 const char **lab_list(const char *strings, size_t count)
 {
     const char **list = malloc((count + 1) * sizeof *list);
-    for (size_t k = 0; list && k < count; k++, strings += strlen(strings) + 1)
-        list[k] = strings;
+    for (size_t k = 0; list && k < count; k++, strings += strlen(strings) + 1) list[k] = strings;
     return list;
 }
 
@@ -26,8 +27,7 @@ bool lab_no_memory(lab *l)
 LAB_CALL(lab_create) lab *lab_create(void)
 {
     lab *l = malloc(sizeof *l);
-    if (l)
-        *l = (lab){.error = motus_default_error()};
+    if (l) *l = (lab){.error = motus_default_error()};
     return l;
 }
 
@@ -39,8 +39,7 @@ static void forget_run(lab *l)
 
 LAB_CALL(lab_destroy) void lab_destroy(lab *l)
 {
-    if (!l)
-        return;
+    if (!l) return;
     forget_run(l);
     motus_reference_destroy(l->reference);
     motus_system_destroy(l->system);
@@ -97,23 +96,21 @@ LAB_CALL(lab_start) motus_status lab_start(lab *l, const char *method, double st
     return motus_run_create(l->system, &def, &l->run, &l->error);
 }
 
-/* Steps on by `every` (from the second row of a run on) and writes the numbers of `count` columns, up to `rows` times or to the end. The rows
- * that were written are in *written, also where a step failed. */
+/* Steps on by `every` (from the second row of a run on) and writes the numbers of `count` columns, up to `rows` times
+ * or to the end. The rows that were written are in *written, also where a step failed. */
 LAB_CALL(lab_record)
-motus_status lab_record(lab *l, const size_t *columns, size_t count, double every, size_t rows, int first, double *out, size_t *written)
+motus_status lab_record(lab *l, const size_t *columns, size_t count, double every, size_t rows, int first, double *out,
+                        size_t *written)
 {
     *written = 0;
     for (size_t i = 0; i < rows; i++) {
         motus_status status = MOTUS_OK;
         if (!first || i > 0) {
-            if (motus_run_done(l->run))
-                return MOTUS_OK;
+            if (motus_run_done(l->run)) return MOTUS_OK;
             status = motus_run_step(l->run, (int64_t)every, &l->error);
         }
-        if (status == MOTUS_OK)
-            status = motus_run_values(l->run, columns, count, out + i * count, &l->error);
-        if (status != MOTUS_OK)
-            return status;
+        if (status == MOTUS_OK) status = motus_run_values(l->run, columns, count, out + i * count, &l->error);
+        if (status != MOTUS_OK) return status;
         *written = i + 1;
     }
     return MOTUS_OK;
@@ -131,7 +128,10 @@ LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
     out[6] = motus_run_done(l->run);
 }
 
-LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps) { return motus_run_step(l->run, (int64_t)steps, &l->error); }
+LAB_CALL(lab_advance) motus_status lab_advance(lab *l, double steps)
+{
+    return motus_run_step(l->run, (int64_t)steps, &l->error);
+}
 
 LAB_CALL(lab_method) const char *lab_method(const lab *l) { return motus_run_method(l->run); }
 
@@ -145,4 +145,7 @@ LAB_CALL(lab_save) const char *lab_save(lab *l)
 
 LAB_CALL(lab_positions) size_t lab_positions(const lab *l) { return motus_positions(l->system); }
 LAB_CALL(lab_velocities) size_t lab_velocities(const lab *l) { return motus_velocities(l->system); }
-LAB_CALL(lab_jacobian) motus_status lab_jacobian(lab *l, double *da_dx, double *da_dv) { return motus_run_jacobian(l->run, da_dx, da_dv, &l->error); }
+LAB_CALL(lab_jacobian) motus_status lab_jacobian(lab *l, double *da_dx, double *da_dv)
+{
+    return motus_run_jacobian(l->run, da_dx, da_dv, &l->error);
+}

@@ -14,7 +14,7 @@
 typedef struct lab_text {
     char *text;
     size_t length, capacity;
-    bool failed;                 /* there was no memory */
+    bool failed; /* there was no memory */
 } lab_text;
 
 /* One model, and what is done with it. */

@@ -7,14 +7,15 @@
 static void describe_columns(json *j, const motus_system *s)
 {
     static const char *const kinds[] = {
-        [MOTUS_COLUMN_TIME] = "time", [MOTUS_COLUMN_POSITION] = "position", [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_COMPANION] = "companion",
-        [MOTUS_COLUMN_QUANTITY] = "quantity", [MOTUS_COLUMN_INVARIANT] = "invariant", [MOTUS_COLUMN_EXACT] = "exact",
+        [MOTUS_COLUMN_TIME] = "time",         [MOTUS_COLUMN_POSITION] = "position",
+        [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_COMPANION] = "companion",
+        [MOTUS_COLUMN_QUANTITY] = "quantity", [MOTUS_COLUMN_INVARIANT] = "invariant",
+        [MOTUS_COLUMN_EXACT] = "exact",
     };
     json_open(j, "columns", '[');
     for (size_t k = 0; k < motus_column_count(s); k++) {
         motus_column c = motus_default_column();
-        if (motus_column_at(s, k, &c) != MOTUS_OK)
-            continue;
+        if (motus_column_at(s, k, &c) != MOTUS_OK) continue;
         json_open(j, NULL, '{');
         json_string(j, "name", c.name);
         json_string(j, "kind", kinds[c.kind]);
@@ -67,28 +68,31 @@ static void describe_parameters(json *j, const motus_system *s)
     json_close(j, ']');
 }
 
-/* What a model calls its method, by the method's own name; what there is not, and what has arguments, as it is written. */
+/* What a model calls its method, by the method's own name; what there is not, and what has arguments, as it is
+ * written. */
 static const char *method_of(const motus_settings *settings)
 {
     const motus_method *found;
-    if (!settings->method)
-        return "";
-    return strchr(settings->method, '(') || motus_method_find(settings->method, &found, NULL) != MOTUS_OK ? settings->method : found->name;
+    if (!settings->method) return "";
+    return strchr(settings->method, '(') || motus_method_find(settings->method, &found, NULL) != MOTUS_OK
+               ? settings->method
+               : found->name;
 }
 
 static void describe_statements(json *j, motus_system *s)
 {
     static const char *const kinds[] = {
-        [MOTUS_STATEMENT_MOTION] = "motion", [MOTUS_STATEMENT_COMPANION] = "companion", [MOTUS_STATEMENT_PARAMETER] = "parameter",
-        [MOTUS_STATEMENT_QUANTITY] = "quantity", [MOTUS_STATEMENT_START] = "start", [MOTUS_STATEMENT_BOUNDARY] = "boundary",
-        [MOTUS_STATEMENT_EXACT] = "exact", [MOTUS_STATEMENT_INVARIANT] = "invariant", [MOTUS_STATEMENT_SETTING] = "setting",
+        [MOTUS_STATEMENT_MOTION] = "motion",       [MOTUS_STATEMENT_COMPANION] = "companion",
+        [MOTUS_STATEMENT_PARAMETER] = "parameter", [MOTUS_STATEMENT_QUANTITY] = "quantity",
+        [MOTUS_STATEMENT_START] = "start",         [MOTUS_STATEMENT_BOUNDARY] = "boundary",
+        [MOTUS_STATEMENT_EXACT] = "exact",         [MOTUS_STATEMENT_INVARIANT] = "invariant",
+        [MOTUS_STATEMENT_SETTING] = "setting",
     };
     json_open(j, "statements", '[');
     for (size_t k = 0; k < motus_statement_count(s); k++) {
         motus_statement t = motus_default_statement();
         const char *mathml = motus_statement_mathml(s, k);
-        if (motus_statement_at(s, k, &t) != MOTUS_OK || !mathml)
-            continue;
+        if (motus_statement_at(s, k, &t) != MOTUS_OK || !mathml) continue;
         json_open(j, NULL, '{');
         json_string(j, "kind", kinds[t.kind]);
         json_integer(j, "line", t.line);

@@ -11,7 +11,8 @@ static motus_study_def study(double step, double until)
     return def;
 }
 
-/* The study's methods, `count` names one behind the other; the list is to be freed. False: no memory, which is the problem then. */
+/* The study's methods, `count` names one behind the other; the list is to be freed. False: no memory, which is the
+ * problem then. */
 static bool by(lab *l, motus_study_def *def, const char *methods, size_t count)
 {
     def->methods = lab_list(methods, count);
@@ -31,7 +32,8 @@ LAB_CALL(lab_reference_name) const char *lab_reference_name(const lab *l) { retu
 LAB_CALL(lab_reference_error) double lab_reference_error(const lab *l) { return motus_reference_error(l->reference); }
 
 /* positions and velocities at `count` times, row by row. */
-LAB_CALL(lab_reference_at) motus_status lab_reference_at(lab *l, const double *times, size_t count, double *x, double *v)
+LAB_CALL(lab_reference_at)
+motus_status lab_reference_at(lab *l, const double *times, size_t count, double *x, double *v)
 {
     return motus_reference_at(l->reference, times, count, x, v, &l->error);
 }
@@ -40,13 +42,13 @@ LAB_CALL(lab_reference_at) motus_status lab_reference_at(lab *l, const double *t
 LAB_CALL(lab_trace) const char *lab_trace(lab *l)
 {
     static const char *const kinds[] = {
-        [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick", [MOTUS_EVENT_DRIFT] = "drift", [MOTUS_EVENT_STAGE] = "stage",
-        [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor", [MOTUS_EVENT_STEP] = "step", [MOTUS_EVENT_END] = "end",
+        [MOTUS_EVENT_START] = "start", [MOTUS_EVENT_KICK] = "kick",   [MOTUS_EVENT_DRIFT] = "drift",
+        [MOTUS_EVENT_STAGE] = "stage", [MOTUS_EVENT_SOLVE] = "solve", [MOTUS_EVENT_TAYLOR] = "taylor",
+        [MOTUS_EVENT_STEP] = "step",   [MOTUS_EVENT_END] = "end",
     };
     const motus_trace_entry *const *entries;
     size_t count;
-    if (motus_run_trace(l->run, &entries, &count, &l->error) != MOTUS_OK)
-        return NULL;
+    if (motus_run_trace(l->run, &entries, &count, &l->error) != MOTUS_OK) return NULL;
     const size_t nx = motus_positions(l->system), nv = motus_velocities(l->system);
     json j = lab_answer(l);
     json_open(&j, "entries", '[');
@@ -80,12 +82,10 @@ LAB_CALL(lab_converge) const char *lab_converge(lab *l, const char *methods, siz
 {
     motus_study_def def = study(step, until);
     motus_convergence *c = NULL;
-    if (!by(l, &def, methods, count))
-        return NULL;
+    if (!by(l, &def, methods, count)) return NULL;
     motus_converge(l->system, &def, &c, &l->error);
     free((void *)def.methods);
-    if (!c)
-        return NULL;
+    if (!c) return NULL;
     json j = lab_answer(l);
     tell_convergence(&j, c);
     motus_convergence_destroy(c);
@@ -97,19 +97,18 @@ LAB_CALL(lab_compare) const char *lab_compare(lab *l, const char *methods, size_
 {
     motus_study_def def = study(step, until);
     motus_comparison *c = NULL;
-    if (!by(l, &def, methods, count))
-        return NULL;
+    if (!by(l, &def, methods, count)) return NULL;
     motus_compare(l->system, &def, &c, &l->error);
     free((void *)def.methods);
-    if (!c)
-        return NULL;
+    if (!c) return NULL;
     json j = lab_answer(l);
     tell_comparison(&j, c);
     motus_comparison_destroy(c);
     return lab_answered(l, &j);
 }
 
-LAB_CALL(lab_stability) motus_status lab_stability(lab *l, const char *method, size_t count, const double *re, const double *im, double *growth)
+LAB_CALL(lab_stability)
+motus_status lab_stability(lab *l, const char *method, size_t count, const double *re, const double *im, double *growth)
 {
     return motus_stability(method, count, re, im, growth, &l->error);
 }

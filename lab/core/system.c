@@ -1,5 +1,6 @@
-/* What the C library asks of an operating system, in a module that has none: no files, no way out but a trap, and time stands
- * still. These take the place of the calls that the module would otherwise import from its host, so that it imports nothing.
+/* What the C library asks of an operating system, in a module that has none: no files, no way out but a trap, and
+ * time stands still. These take the place of the calls that the module would otherwise import from its host, so that
+ * it imports nothing.
  */
 #include <wasi/api.h>
 

@@ -8,16 +8,15 @@
 
 typedef struct arena_block {
     struct arena_block *next;
-    size_t used, size;               /* bytes after this header */
+    size_t used, size; /* bytes after this header */
 } arena_block;
 
 enum { FIRST_BLOCK = 16 << 10, LARGEST_BLOCK = 1 << 20, LINE = 64 };
 
 void arena_init(arena *a, const motus_allocator *allocator)
 {
-    *a = (arena){ 0 };
-    if (allocator)
-        a->allocator = *allocator;
+    *a = (arena){0};
+    if (allocator) a->allocator = *allocator;
 }
 
 void arena_release(arena *a)
@@ -36,8 +35,7 @@ static char *carve(arena_block *b, size_t bytes, size_t align)
     char *start = (char *)(b + 1);
     uintptr_t at = (uintptr_t)(start + b->used);
     size_t gap = (size_t)(-at & (align - 1));
-    if (gap > b->size - b->used || bytes > b->size - b->used - gap)
-        return NULL;
+    if (gap > b->size - b->used || bytes > b->size - b->used - gap) return NULL;
     char *p = start + b->used + gap;
     b->used += gap + bytes;
     return p;
@@ -46,8 +44,7 @@ static char *carve(arena_block *b, size_t bytes, size_t align)
 static void *none(arena *a, size_t bytes)
 {
     a->failed = true;
-    if (bytes > ARENA_SPARE)
-        return NULL;
+    if (bytes > ARENA_SPARE) return NULL;
     memset(a->spare, 0, sizeof a->spare);
     return a->spare;
 }
@@ -57,20 +54,15 @@ void *arena_take(arena *a, size_t bytes)
     size_t align = bytes >= LINE ? LINE : 16;
     if (a->blocks) {
         char *p = carve(a->blocks, bytes, align);
-        if (p)
-            return p;
+        if (p) return p;
     }
-    if (bytes > SIZE_MAX / 4)
-        return none(a, bytes);
+    if (bytes > SIZE_MAX / 4) return none(a, bytes);
     size_t size = a->blocks ? a->blocks->size * 2 : FIRST_BLOCK;
-    if (size > LARGEST_BLOCK)
-        size = LARGEST_BLOCK;
-    bool alone = bytes > size / 2;   /* a big piece gets its own block; the open block stays open */
-    if (alone)
-        size = bytes + LINE;
+    if (size > LARGEST_BLOCK) size = LARGEST_BLOCK;
+    bool alone = bytes > size / 2; /* a big piece gets its own block; the open block stays open */
+    if (alone) size = bytes + LINE;
     arena_block *b = take(&a->allocator, 1, sizeof *b + size);
-    if (!b)
-        return none(a, bytes);
+    if (!b) return none(a, bytes);
     b->size = size;
     if (alone && a->blocks) {
         b->next = a->blocks->next;
@@ -85,24 +77,21 @@ void *arena_take(arena *a, size_t bytes)
 void *arena_room(arena *a, size_t bytes)
 {
     void *p = arena_take(a, bytes);
-    return p == a->spare ? NULL : p;        /* the next failed request would overwrite the spare */
+    return p == a->spare ? NULL : p; /* the next failed request would overwrite the spare */
 }
 
 void *arena_grow(arena *a, void *old, size_t old_bytes, size_t new_bytes)
 {
     void *p = arena_room(a, new_bytes);
-    if (p && old_bytes)
-        memcpy(p, old, old_bytes < new_bytes ? old_bytes : new_bytes);
+    if (p && old_bytes) memcpy(p, old, old_bytes < new_bytes ? old_bytes : new_bytes);
     return p;
 }
 
 char *arena_text(arena *a, const char *text, size_t length)
 {
     char *p = length < SIZE_MAX ? arena_take(a, length + 1) : NULL;
-    if (!p)
-        return a->failed = true, NULL;
-    if (p == a->spare)
-        return p;                    /* the empty text */
+    if (!p) return a->failed = true, NULL;
+    if (p == a->spare) return p; /* the empty text */
     memcpy(p, text, length);
     p[length] = 0;
     return p;

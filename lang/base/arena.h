@@ -18,14 +18,15 @@ typedef struct arena {
     motus_allocator allocator;
     struct arena_block *blocks;
     bool failed;
-    _Alignas(max_align_t) char spare[ARENA_SPARE];   /* a block from the hooks is aligned no more strictly */
+    _Alignas(max_align_t) char spare[ARENA_SPARE]; /* a block from the hooks is aligned no more strictly */
 } arena;
 
 void arena_init(arena *, const motus_allocator *);
-void *arena_take(arena *, size_t bytes);                       /* zeroed, 64-byte aligned for requests of 64 bytes and more */
-void *arena_room(arena *, size_t bytes);                       /* the same; NULL when there is none, however small */
-void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes);   /* a copy in larger room */
-char *arena_text(arena *, const char *text, size_t length);    /* a copy that ends with 0 */
+/* zeroed, 64-byte aligned for requests of 64 bytes and more */
+void *arena_take(arena *, size_t bytes);
+void *arena_room(arena *, size_t bytes); /* the same; NULL when there is none, however small */
+void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes); /* a copy in larger room */
+char *arena_text(arena *, const char *text, size_t length);               /* a copy that ends with 0 */
 void arena_release(arena *);
 
 #endif

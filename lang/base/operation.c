@@ -9,20 +9,20 @@
 #include "lang/base/functions.h"
 
 static const operation_row rows[OPERATIONS] = {
-#define OP(id, arity, spelling, degree, smooth, value, derivative) [OP_##id] = { spelling, arity, DEGREE_##degree, smooth },
+#define OP(id, arity, spelling, degree, smooth, value, derivative) \
+    [OP_##id] = {spelling, arity, DEGREE_##degree, smooth},
 #include "lang/base/operations.def"
 #undef OP
 };
 
-const operation_row *operation_at(operation op)
-{
-    return &rows[op < OPERATIONS ? op : OP_CONST];
-}
+const operation_row *operation_at(operation op) { return &rows[op < OPERATIONS ? op : OP_CONST]; }
 
 double operation_value(operation op, double a, double b, double c)
 {
     switch (op) {
-#define OP(id, arity, spelling, degree, smooth, value, derivative) case OP_##id: return value;
+#define OP(id, arity, spelling, degree, smooth, value, derivative) \
+    case OP_##id:                                                  \
+        return value;
 #include "lang/base/operations.def"
 #undef OP
     case OPERATIONS: break;

@@ -17,13 +17,14 @@ typedef enum operation {
 
 /* How the degree in some variables follows from the operands' degrees. */
 typedef enum degree_rule {
-    DEGREE_LEAF, DEGREE_SUM,
-    DEGREE_LINEAR,      /* the larger */
-    DEGREE_PRODUCT,     /* the sum */
-    DEGREE_QUOTIENT,    /* the dividend's, if the divisor has none */
-    DEGREE_FUSED,       /* product, then larger */
-    DEGREE_CHOICE,      /* the larger of the branches, if the condition has none */
-    DEGREE_CURVED       /* none only if no operand has any */
+    DEGREE_LEAF,
+    DEGREE_SUM,
+    DEGREE_LINEAR,   /* the larger */
+    DEGREE_PRODUCT,  /* the sum */
+    DEGREE_QUOTIENT, /* the dividend's, if the divisor has none */
+    DEGREE_FUSED,    /* product, then larger */
+    DEGREE_CHOICE,   /* the larger of the branches, if the condition has none */
+    DEGREE_CURVED    /* none only if no operand has any */
 } degree_rule;
 
 typedef struct operation_row {

@@ -1,7 +1,8 @@
 /* Writing a plan out as C. See emit.h; the order is the interpreter's, so are the bits.
  *
- * Invariant: a value is one `const` of the block in which the plan computes it; sums follow lang/graph/program.c to the letter. A value is `wide`,
- * different in every lane, or a plain double that all lanes share; where both meet, the plain one is spread by MANY.
+ * Invariant: a value is one `const` of the block in which the plan computes it; sums follow lang/graph/program.c to
+ * the letter. A value is `wide`, different in every lane, or a plain double that all lanes share; where both meet,
+ * the plain one is spread by MANY.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -13,8 +14,7 @@ static void write_constants(writer *w)
     for (uint32_t k = 0; k < bind->item_count; k++) {
         uint32_t item = w->plan.order[bind->items + k];
         const graph_node *n = &w->plan.g->nodes[w->plan.items.at[item].n];
-        if (n->op != OP_CONST)
-            continue;
+        if (n->op != OP_CONST) continue;
         emit_number(n->value, number);
         emit_line(w, "const double r%u = %s; (void)r%u;", item, number, item);
     }
@@ -31,7 +31,9 @@ static void write_functions(writer *w, const char *name, bool terms)
     emit_region(w, AT_BIND);
     SAY(w, "}\n\n");
     if (w->e->lanes) {
-        SAY(w, "static inline void %s_bind_lanes(%sconst double *restrict u, const real *restrict own, real *restrict w)\n{\n%s, (void)own, (void)w;\n",
+        SAY(w,
+            "static inline void %s_bind_lanes(%sconst double *restrict u, const real *restrict own, real *restrict "
+            "w)\n{\n%s, (void)own, (void)w;\n",
             name, parameters, silence);
         w->part = BINDING_LANES;
         write_constants(w);
@@ -39,15 +41,22 @@ static void write_functions(writer *w, const char *name, bool terms)
         SAY(w, "}\n\n");
     }
     if (terms && w->e->terms) {
-        SAY(w, "static inline void %s_terms(%sconst double *restrict u, const reals t, reals *restrict T)\n{\n%s, (void)t;\n", name, parameters, silence);
+        SAY(w,
+            "static inline void %s_terms(%sconst double *restrict u, const reals t, reals *restrict T)\n{\n%s, "
+            "(void)t;\n",
+            name, parameters, silence);
         w->part = TERMS;
         write_constants(w);
         emit_region(w, AT_RUN);
         SAY(w, "}\n\n");
     }
-    SAY(w, "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double *restrict T, "
-           "real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, (void)w, (void)own, (void)t, (void)T, (void)x, (void)v, (void)a, "
-           "(void)out;\n", w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
+    SAY(w,
+        "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double "
+        "*restrict T, "
+        "real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, (void)w, (void)own, "
+        "(void)t, (void)T, (void)x, (void)v, (void)a, "
+        "(void)out;\n",
+        w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,
         w->e->windowed ? ", const whole from, const whole to, const window_put *move" : "", silence);
     w->part = RUNNING;
     write_constants(w);
@@ -64,15 +73,12 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
         w.nature = arena_room(e->text.arena, (w.plan.g->count + 1) * sizeof *w.nature);
         w.term = arena_room(e->text.arena, (w.plan.g->count + 1) * sizeof *w.term);
         if (w.fixed && w.nature && w.term) {
-            if (emit_natures(&w, false) && e->lanes)
-                emit_natures(&w, true);
+            if (emit_natures(&w, false) && e->lanes) emit_natures(&w, true);
             for (uint32_t k = 0; k < w.plan.g->count; k++) {
                 w.term[k] = NONE;
-                if (!terms)
-                    w.nature[k] &= (uint8_t)~PLAIN_TIME;
+                if (!terms) w.nature[k] &= (uint8_t)~PLAIN_TIME;
             }
-            if (terms)
-                emit_terms(&w);
+            if (terms) emit_terms(&w);
             w.part = RUNNING;
             for (uint32_t k = 0; k < bind->item_count; k++) {
                 uint32_t item = w.plan.order[bind->items + k];
@@ -86,8 +92,8 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
 }
 
 /* OF, FUSE and WHEN are the text's: they mean one thing for doubles and another for lanes. */
-#define OF(f) OF(f)
-#define FUSE(a, b, c) FUSE(a, b, c)
+#define OF(f)                 OF(f)
+#define FUSE(a, b, c)         FUSE(a, b, c)
 #define WHEN(condition, a, b) WHEN(condition, a, b)
 
 bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix)
@@ -98,9 +104,12 @@ bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix
 #define UNARY(id, spelling, degree, smooth, value, derivative) \
     IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a) { return %s; }\n", type, prefix, OP_##id, type, #value);
 #define BINARY(id, spelling, degree, smooth, value, derivative) \
-    IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
-#define TERNARY(id, spelling, degree, smooth, value, derivative) \
-    IN_SET(id) emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, #value);
+    IN_SET(id)                                                  \
+    emit_add(t, "static inline %s %s_%d(%s a, %s b) { return %s; }\n", type, prefix, OP_##id, type, type, #value);
+#define TERNARY(id, spelling, degree, smooth, value, derivative)                                                      \
+    IN_SET(id)                                                                                                        \
+    emit_add(t, "static inline %s %s_%d(%s a, %s b, %s c) { return %s; }\n", type, prefix, OP_##id, type, type, type, \
+             #value);
 #include "lang/base/operations.def"
 #undef IN_SET
     return !e->text.arena->failed;

@@ -1,14 +1,14 @@
 /* A program as C text: the bodies that a compiled machine puts between the texts of step/.
  *
- * No byte of the model reaches the text: names are made here (r12, j0), numbers are hexadecimal, and everything that a size or a bound decides
- * is read at run time from `q`, so one text serves every N and every parameter.
+ * No byte of the model reaches the text: names are made here (r12, j0), numbers are hexadecimal, and everything that
+ * a size or a bound decides is read at run time from `q`, so one text serves every N and every parameter.
  */
 #ifndef LANG_EMIT_EMIT_H
 #define LANG_EMIT_EMIT_H
 
 #include "lang/graph/graph.h"
 
-typedef struct emit_text {              /* grows in an arena; `failed` once there is no memory */
+typedef struct emit_text { /* grows in an arena; `failed` once there is no memory */
     arena *arena;
     char *bytes;
     size_t length, room;
@@ -16,12 +16,12 @@ typedef struct emit_text {              /* grows in an arena; `failed` once ther
 void emit_add(emit_text *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 typedef enum emit_int_kind { EMIT_OFFSET, EMIT_STRIDE, EMIT_SLOT } emit_int_kind;
-typedef struct emit_int {            /* what q[k] is */
+typedef struct emit_int { /* what q[k] is */
     emit_int_kind kind;
-    reference ref;                   /* OFFSET: element where all loop variables are 0; modular dimensions left out */
-    uint16_t array;                  /* STRIDE */
+    reference ref;  /* OFFSET: element where all loop variables are 0; modular dimensions left out */
+    uint16_t array; /* STRIDE */
     int dim;
-    int slot;                        /* SLOT: an int of the model */
+    int slot; /* SLOT: an int of the model */
 } emit_int;
 
 #define OPERATION_BIT(id) ((uint64_t)1 << OP_##id)
@@ -29,30 +29,38 @@ _Static_assert(OPERATIONS <= 64, "a set of operations is a word");
 
 typedef struct emit {
     emit_text text;
-    emit_int *ints; uint32_t int_count, int_room;
-    bool literal;                    /* sizes are structure (no families): places are written as numbers */
+    emit_int *ints;
+    uint32_t int_count, int_room;
+    bool literal; /* sizes are structure (no families): places are written as numbers */
     const array *arrays;
-    bool lanes;                      /* `real` is one number for each of several trajectories */
-    const uint8_t *varied;           /* by place of the pool: lanes have their own, in `own`; NULL: none */
-    uint32_t fixed, fixed_lanes;     /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
-    uint64_t used, used_lanes;       /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
-    bool wraps;                      /* they call `wrapped` */
-    bool vectors;                    /* loops may take several values of their index at once, by machine/text/index_lanes.h */
-    bool uses_vectors;               /* and some do */
-    bool separate;                   /* the next program is compiled once, and called */
-    bool windowed;                   /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
-    uint32_t terms;                  /* values of time alone: T[0 … terms) */
-    int moments;                     /* at how many different times a step evaluates them */
+    bool lanes;            /* `real` is one number for each of several trajectories */
+    const uint8_t *varied; /* by place of the pool: lanes have their own, in `own`; NULL: none */
+    /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
+    uint32_t fixed, fixed_lanes;
+    /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
+    uint64_t used, used_lanes;
+    bool wraps; /* they call `wrapped` */
+    /* loops may take several values of their index at once, by machine/text/index_lanes.h */
+    bool vectors;
+    bool uses_vectors; /* and some do */
+    bool separate;     /* the next program is compiled once, and called */
+    /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
+    bool windowed;
+    uint32_t terms; /* values of time alone: T[0 … terms) */
+    int moments;    /* at how many different times a step evaluates them */
 } emit;
 
 /* Appends
  *     NAME_bind(pool, q, u)                             u: what depends on parameters alone
- *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are lanes
- *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with `terms`, and where e->terms > 0
- *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of machine/text/window.h
- * A program along a direction has no outputs there: `out` is the direction.
- * The text around it defines real, reals, MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how many doubles reals has.
- * False: the arena failed. */
+ *     NAME_bind_lanes(pool, q, u, own, w)               w: the same that differs between lanes; only where there are
+ *                                                       lanes
+ *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with
+ *                                                       `terms`, and where e->terms > 0
+ *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of
+ *                                                       machine/text/window.h
+ * A program along a direction has no outputs there: `out` is the direction. The text around it defines real, reals,
+ * MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how many doubles reals has. False: the
+ * arena failed. */
 bool emit_program(emit *, const program *, const char *name, bool terms);
 enum { EMIT_NUMBER = 40 };
 /* A double as C text that reads back to the same bits; returns out. */

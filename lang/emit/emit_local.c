@@ -1,7 +1,11 @@
 /* See emit_local.h. Everything here is read off the subscripts; no size and no parameter decides. */
 #include "lang/emit/emit_local.h"
 
-typedef struct seeing { const graph *g; const subscript *own; locality *l; } seeing;
+typedef struct seeing {
+    const graph *g;
+    const subscript *own;
+    locality *l;
+} seeing;
 
 static bool plain(const subscript *s) { return s->modulus < 0; }
 
@@ -15,19 +19,17 @@ static void see(void *ctx, const reference *r, const range *sums, int first_leve
         return;
     }
     const int64_t away = (int64_t)at->literal - s->own->literal, far = away < 0 ? -away : away;
-    if (far > s->l->reach)
-        s->l->reach = far;
-    if (far > LOCAL_REACH_MAX)
-        s->l->local = false;
+    if (far > s->l->reach) s->l->reach = far;
+    if (far > LOCAL_REACH_MAX) s->l->local = false;
 }
 
-/* A sum of the state that no family index moves is computed once for all cells, and would be computed once for every window. */
+/* A sum of the state that no family index moves is computed once for all cells, and would be computed once for every
+ * window. */
 static bool sums_of_all(const program *p)
 {
     for (uint32_t n = 0; n < p->graph->count; n++) {
         const graph_node *m = &p->graph->nodes[n];
-        if (m->op == OP_SUM && (m->deps & (DEP_STATE | DEP_TIME)) && !(m->deps & DEP_LEVELS))
-            return true;
+        if (m->op == OP_SUM && (m->deps & (DEP_STATE | DEP_TIME)) && !(m->deps & DEP_LEVELS)) return true;
     }
     return false;
 }
@@ -38,7 +40,8 @@ locality emit_local(const program *p)
     for (size_t k = 0; k < p->count; k++) {
         const output *o = &p->outputs[k];
         const subscript *own = &o->to.at[0];
-        if (o->to.dims == 0 || !plain(own) || own->level != (o->loops ? 0 : -1) || (o->loops && (own->slot >= 0 || own->literal))) {
+        if (o->to.dims == 0 || !plain(own) || own->level != (o->loops ? 0 : -1) ||
+            (o->loops && (own->slot >= 0 || own->literal))) {
             l.divisible = false;
             break;
         }

@@ -1,7 +1,7 @@
 /* How far the equations of a program see: whether a family's cells can be advanced window by window.
  *
- * "Outer index" is a family's first index. A program is divisible where every cell belongs to one outer index; it is local where, besides,
- * the acceleration at outer index i reads the state at i - reach … i + reach alone.
+ * "Outer index" is a family's first index. A program is divisible where every cell belongs to one outer index; it is
+ * local where, besides, the acceleration at outer index i reads the state at i - reach … i + reach alone.
  */
 #ifndef LANG_EMIT_EMIT_LOCAL_H
 #define LANG_EMIT_EMIT_LOCAL_H
@@ -10,7 +10,10 @@
 
 enum { LOCAL_REACH_MAX = 64 };
 
-typedef struct locality { bool divisible, local; int64_t reach; } locality;
+typedef struct locality {
+    bool divisible, local;
+    int64_t reach;
+} locality;
 
 locality emit_local(const program *);
 

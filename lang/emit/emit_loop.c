@@ -1,7 +1,8 @@
 /* Regions, loops, sums. See emit_parts.h.
  *
- * Invariant: sums follow lang/graph/program.c to the letter: up to 16 terms in turn, more in turn to eight partials and these in a fixed tree. Where the
- * inside of a loop holds no other, WIDTH values of its index are taken at once, one in each lane, and the rest one by one.
+ * Invariant: sums follow lang/graph/program.c to the letter: up to 16 terms in turn, more in turn to eight partials
+ * and these in a fixed tree. Where the inside of a loop holds no other, WIDTH values of its index are taken at once,
+ * one in each lane, and the rest one by one.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -41,12 +42,10 @@ static void write_eights(writer *w, uint32_t region)
     const bool along = w->e->vectors && w->part == RUNNING;
     emit_line(w, "if (n%d > 16) {", level);
     w->depth++;
-    if (along)
-        EACH_SUM(k, r)
-            emit_line(w, "reals v%u[8 / WIDTH] = {MANY(0.0)};", k);
+    if (along) EACH_SUM(k, r)
+    emit_line(w, "reals v%u[8 / WIDTH] = {MANY(0.0)};", k);
     emit_line(w, "for (; m%d + 8 <= n%d; m%d += 8)", level, level, level);
-    if (along)
-        emit_line(w, "#pragma GCC unroll 8");
+    if (along) emit_line(w, "#pragma GCC unroll 8");
     emit_line(w, along ? "for (int k = 0; k < 8 / WIDTH; k++) {" : "for (int k = 0; k < 8; k++) {");
     w->depth++;
     emit_line(w, "const int64_t j%d = f%d + m%d + k%s;", level, level, level, along ? " * WIDTH" : "");
@@ -55,9 +54,8 @@ static void write_eights(writer *w, uint32_t region)
     w->along = -1;
     w->depth--;
     emit_line(w, "}");
-    if (along)
-        EACH_SUM(k, r)
-            emit_line(w, "for (int k = 0; k < 8; k++) s%u[k] = LANE_OF(v%u[k / WIDTH], k %% WIDTH);", k, k);
+    if (along) EACH_SUM(k, r)
+    emit_line(w, "for (int k = 0; k < 8; k++) s%u[k] = LANE_OF(v%u[k / WIDTH], k %% WIDTH);", k, k);
     w->depth--;
     emit_line(w, "}");
     w->e->uses_vectors |= along;
@@ -71,15 +69,16 @@ static void write_sum(writer *w, uint32_t region)
     const int level = r->level;
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
-    EACH_SUM(k, r) {
+    EACH_SUM(k, r)
+    {
         emit_line(w, emit_wide(w, w->plan.items.at[k].n) ? "reals s%u[8] = {{0}};" : "double s%u[8] = {0};", k);
-        w->plan.items.at[k].reg = 0;                       /* done */
+        w->plan.items.at[k].reg = 0; /* done */
     }
     emit_line(w, "{");
     w->depth++;
     emit_line(w, "const int64_t f%d = %s, n%d = %s - f%d + 1;", level, first, level, last, level);
     emit_line(w, "int64_t m%d = 0;", level);
-    if (!r->holds_sums)              /* a body without sums of its own is cheap to write twice */
+    if (!r->holds_sums) /* a body without sums of its own is cheap to write twice */
         write_eights(w, region);
     emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     w->depth++;
@@ -91,8 +90,10 @@ static void write_sum(writer *w, uint32_t region)
     w->depth--;
     emit_line(w, "}");
     EACH_SUM(k, r)
-        emit_line(w, "const %s r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + (s%u[6] + s%u[7])) : s%u[0];",
-             emit_type(w, w->plan.items.at[k].n), k, last, first, k, k, k, k, k, k, k, k, k);
+    emit_line(w,
+              "const %s r%u = %s - (%s) + 1 > 16 ? ((s%u[0] + s%u[1]) + (s%u[2] + s%u[3])) + ((s%u[4] + s%u[5]) + "
+              "(s%u[6] + s%u[7])) : s%u[0];",
+              emit_type(w, w->plan.items.at[k].n), k, last, first, k, k, k, k, k, k, k, k, k);
 }
 
 static void write_loop(writer *w, uint32_t region)
@@ -109,7 +110,9 @@ static void write_loop(writer *w, uint32_t region)
     emit_bound(w, &r->range.last, last);
     emit_line(w, "{");
     w->depth++;
-    emit_line(w, level == 0 && w->e->windowed ? "int64_t j%d = window_later(%s, from), e%d = window_sooner(%s, to - 1);" : "int64_t j%d = %s, e%d = %s;",
+    emit_line(w,
+              level == 0 && w->e->windowed ? "int64_t j%d = window_later(%s, from), e%d = window_sooner(%s, to - 1);"
+                                           : "int64_t j%d = %s, e%d = %s;",
               level, first, level, last);
     if (w->e->vectors && r->innermost && !r->holds_sums) {
         w->e->uses_vectors = true;
@@ -137,10 +140,8 @@ static void write_loop(writer *w, uint32_t region)
 /* Whether the function that is being written computes an item of its region itself. */
 static bool belongs(const writer *w, const plan_item *i, uint32_t region)
 {
-    if (w->part == TERMS)
-        return (w->nature[i->n] & PLAIN_TIME) || w->plan.g->nodes[i->n].op == OP_TIME;
-    if (region != AT_BIND || w->part == RUNNING)
-        return true;
+    if (w->part == TERMS) return (w->nature[i->n] & PLAIN_TIME) || w->plan.g->nodes[i->n].op == OP_TIME;
+    if (region != AT_BIND || w->part == RUNNING) return true;
     return emit_wide(w, i->n) == (w->part == BINDING_LANES) && w->plan.g->nodes[i->n].op != OP_CONST;
 }
 
@@ -153,10 +154,8 @@ void emit_region(writer *w, uint32_t region)
     for (uint32_t k = 0; k < r->item_count && !w->plan.failed; k++) {
         uint32_t item = w->plan.order[r->items + k];
         plan_item *i = &w->plan.items.at[item];
-        if (!belongs(w, i, region))
-            continue;
-        if (i->inside != NONE && i->reg == NONE)
-            write_loop(w, i->inside);
+        if (!belongs(w, i, region)) continue;
+        if (i->inside != NONE && i->reg == NONE) write_loop(w, i->inside);
         w->region = region;
         if (i->sum != NONE) {
             snprintf(partial, sizeof partial, w->along < 0 ? "s%u[k]" : "v%u[k]", i->sum);

@@ -1,4 +1,5 @@
-/* What the files that write C share: emit.c (the functions), emit_loop.c (regions, loops, sums), emit_value.c (values), emit_place.c (text, places). */
+/* What the files that write C share: emit.c (the functions), emit_loop.c (regions, loops, sums), emit_value.c
+ * (values), emit_place.c (text, places). */
 #ifndef LANG_EMIT_EMIT_PARTS_H
 #define LANG_EMIT_EMIT_PARTS_H
 
@@ -11,17 +12,21 @@ typedef struct writer {
     plan plan;
     uint32_t region;
     int depth;
-    enum { BINDING, BINDING_LANES, TERMS, RUNNING } part;      /* of the program's functions: which one is being written */
-    uint32_t *fixed;                 /* by item of region AT_BIND: its place in u, or in w where it is wide */
-    uint8_t *nature;                 /* by node: NATURE_ */
-    uint32_t *term;                  /* by node: its place in T, or NONE */
-    int along;                       /* the level whose index is another one in every lane, while the inside of its loop is written; else -1 */
-    bool one_by_one;                 /* in it, a place is that of lane l */
+    /* of the program's functions: which one is being written */
+    enum { BINDING, BINDING_LANES, TERMS, RUNNING } part;
+    uint32_t *fixed; /* by item of region AT_BIND: its place in u, or in w where it is wide */
+    uint8_t *nature; /* by node: NATURE_ */
+    uint32_t *term;  /* by node: its place in T, or NONE */
+    /* the level whose index is another one in every lane, while the inside of its loop is written; else -1 */
+    int along;
+    bool one_by_one; /* in it, a place is that of lane l */
 } writer;
 
-enum { WIDE = 1,                     /* differs from lane to lane */
-       PLAIN_TIME = 2,               /* a function of time and of what all lanes share, without sums */
-       CLOSED = 4 };                 /* no sum in it, no index */
+enum {
+    WIDE = 1,       /* differs from lane to lane */
+    PLAIN_TIME = 2, /* a function of time and of what all lanes share, without sums */
+    CLOSED = 4
+}; /* no sum in it, no index */
 
 #define SAY(w, ...) emit_add(&(w)->e->text, __VA_ARGS__)
 void emit_line(writer *, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -30,8 +35,8 @@ enum { PLACE_MAX = 320 };
 /* Whether one of the lanes' own numbers lies in an array of the pool. */
 bool emit_varies(const writer *, const array *);
 /* Of an element's indices the first `dims`. */
-void emit_element(writer *, const reference *, int dims, char out[PLACE_MAX]);     /* "q[3] + j0 * q[4] + j1" */
-void emit_address(writer *, const reference *, int dims, char out[PLACE_MAX]);     /* "AT(x, ELEMENT)" */
+void emit_element(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "q[3] + j0 * q[4] + j1" */
+void emit_address(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "AT(x, ELEMENT)" */
 void emit_bound(writer *, const subscript *, char out[PLACE_MAX]);
 /* How the lanes of a wide place lie: side by side; so but for a wrap, which emit_around writes; or anywhere. */
 typedef enum spread { TOGETHER, AROUND, ANYWHERE } spread;

@@ -1,6 +1,7 @@
 /* Text, and where numbers stand in it. See emit_parts.h.
  *
- * Invariant: whatever a size, a bound or a stride decides is a number of `q`, which is the same for all places that mean the same.
+ * Invariant: whatever a size, a bound or a stride decides is a number of `q`, which is the same for all places that
+ * mean the same.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -54,7 +55,8 @@ const char *emit_number(double v, char out[EMIT_NUMBER])
     else if (!exponent && !fraction)
         snprintf(out, EMIT_NUMBER, "%s0.0", sign);
     else
-        snprintf(out, EMIT_NUMBER, "%s0x%d.%013" PRIx64 "p%+d", sign, exponent != 0, fraction, exponent ? exponent - 1023 : -1022);
+        snprintf(out, EMIT_NUMBER, "%s0x%d.%013" PRIx64 "p%+d", sign, exponent != 0, fraction,
+                 exponent ? exponent - 1023 : -1022);
     return out;
 }
 
@@ -62,18 +64,13 @@ const char *emit_number(double v, char out[EMIT_NUMBER])
 
 static bool same_int(const emit_int *a, const emit_int *b)
 {
-    if (a->kind != b->kind)
-        return false;
-    if (a->kind == EMIT_SLOT)
-        return a->slot == b->slot;
-    if (a->kind == EMIT_STRIDE)
-        return a->array == b->array && a->dim == b->dim;
-    if (a->ref.array != b->ref.array)
-        return false;
+    if (a->kind != b->kind) return false;
+    if (a->kind == EMIT_SLOT) return a->slot == b->slot;
+    if (a->kind == EMIT_STRIDE) return a->array == b->array && a->dim == b->dim;
+    if (a->ref.array != b->ref.array) return false;
     for (int d = 0; d < a->ref.dims; d++) {
         const subscript *s = &a->ref.at[d], *t = &b->ref.at[d];
-        if (s->slot != t->slot || s->literal != t->literal || s->modulus != t->modulus)
-            return false;
+        if (s->slot != t->slot || s->literal != t->literal || s->modulus != t->modulus) return false;
     }
     return true;
 }
@@ -82,13 +79,11 @@ static uint32_t integer(writer *w, const emit_int *want)
 {
     emit *e = w->e;
     for (uint32_t k = 0; k < e->int_count; k++)
-        if (same_int(&e->ints[k], want))
-            return k;
+        if (same_int(&e->ints[k], want)) return k;
     if (e->int_count == e->int_room) {
         uint32_t room = e->int_room ? 2 * e->int_room : 32;
         emit_int *more = arena_grow(e->text.arena, e->ints, e->int_room * sizeof *more, room * sizeof *more);
-        if (!more)
-            return 0;
+        if (!more) return 0;
         e->ints = more;
         e->int_room = room;
     }
@@ -100,10 +95,8 @@ static uint32_t slot_integer(writer *w, int slot) { return integer(w, &(emit_int
 
 int64_t emit_int_value(const emit_int *k, const array *arrays, const int64_t *ints)
 {
-    if (k->kind == EMIT_SLOT)
-        return ints[k->slot];
-    if (k->kind == EMIT_STRIDE)
-        return arrays[k->array].stride[k->dim];
+    if (k->kind == EMIT_SLOT) return ints[k->slot];
+    if (k->kind == EMIT_STRIDE) return arrays[k->array].stride[k->dim];
     const array *a = &arrays[k->ref.array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < k->ref.dims; d++) {
@@ -116,8 +109,9 @@ int64_t emit_int_value(const emit_int *k, const array *arrays, const int64_t *in
 
 static const char *space_name(space s)
 {
-    static const char *const names[SPACES] = {[SPACE_X] = "x", [SPACE_V] = "v", [SPACE_A] = "a", [SPACE_DX] = "out", [SPACE_DV] = "out",
-                                              [SPACE_POOL] = "own", [SPACE_OUT] = "out"};
+    static const char *const names[SPACES] = {
+        [SPACE_X] = "x",    [SPACE_V] = "v",      [SPACE_A] = "a",    [SPACE_DX] = "out",
+        [SPACE_DV] = "out", [SPACE_POOL] = "own", [SPACE_OUT] = "out"};
     return names[s];
 }
 
@@ -135,10 +129,8 @@ void emit_bound(writer *w, const subscript *s, char out[PLACE_MAX])
 {
     char name[16];
     size_t n = 0;
-    if (s->level >= 0)
-        n += (size_t)snprintf(out + n, PLACE_MAX - n, "%s + ", variable(w, s, name));
-    if (s->slot >= 0)
-        n += (size_t)snprintf(out + n, PLACE_MAX - n, "q[%u] + ", slot_integer(w, s->slot));
+    if (s->level >= 0) n += (size_t)snprintf(out + n, PLACE_MAX - n, "%s + ", variable(w, s, name));
+    if (s->slot >= 0) n += (size_t)snprintf(out + n, PLACE_MAX - n, "q[%u] + ", slot_integer(w, s->slot));
     snprintf(out + n, PLACE_MAX - n, "%d", s->literal);
 }
 
@@ -165,7 +157,8 @@ void emit_element(writer *w, const reference *r, int dims, char out[PLACE_MAX])
             continue;
         }
         if (d < r->dims - 1 && n < size)
-            n += (size_t)snprintf(out + n, size - n, " * q[%u]", integer(w, &(emit_int){.kind = EMIT_STRIDE, .array = r->array, .dim = d}));
+            n += (size_t)snprintf(out + n, size - n, " * q[%u]",
+                                  integer(w, &(emit_int){.kind = EMIT_STRIDE, .array = r->array, .dim = d}));
     }
 }
 
@@ -183,10 +176,8 @@ void emit_address(writer *w, const reference *r, int dims, char out[PLACE_MAX])
 spread emit_spread(const writer *w, const reference *r)
 {
     for (int d = 0; d < r->dims - 1; d++)
-        if (r->at[d].level == w->along)
-            return ANYWHERE;
-    if (r->dims == 0 || r->at[r->dims - 1].level != w->along)
-        return ANYWHERE;
+        if (r->at[d].level == w->along) return ANYWHERE;
+    if (r->dims == 0 || r->at[r->dims - 1].level != w->along) return ANYWHERE;
     return r->at[r->dims - 1].modulus < 0 ? TOGETHER : AROUND;
 }
 

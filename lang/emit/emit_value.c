@@ -3,7 +3,8 @@
 
 #include <stdio.h>
 
-/* The nature of every node. Sums of parameters that share a loop with a wide one are made wide as well: `loops` says that there is one. */
+/* The nature of every node. Sums of parameters that share a loop with a wide one are made wide as well: `loops` says
+ * that there is one. */
 bool emit_natures(writer *w, bool loops)
 {
     const graph *g = w->plan.g;
@@ -20,20 +21,16 @@ bool emit_natures(writer *w, bool loops)
         if (arity > 1) a |= w->nature[m->b], all &= w->nature[m->b];
         if (arity > 2) a |= w->nature[m->c], all &= w->nature[m->c];
         *own = (uint8_t)((a & WIDE) | (all & CLOSED));
-        if (m->op == OP_TOTAL || m->op == OP_INDEX)
-            *own = 0;
-        if (m->op == OP_PARAM && w->e->varied && w->e->varied[m->a])
-            *own |= WIDE;
+        if (m->op == OP_TOTAL || m->op == OP_INDEX) *own = 0;
+        if (m->op == OP_PARAM && w->e->varied && w->e->varied[m->a]) *own |= WIDE;
         if (m->op == OP_LOAD) {
             const array *from = &g->arrays[g->references[m->a].array];
             *own = from->space == SPACE_POOL ? CLOSED : WIDE;
-            if (from->space == SPACE_POOL && emit_varies(w, from))
-                *own |= WIDE;
+            if (from->space == SPACE_POOL && emit_varies(w, from)) *own |= WIDE;
         }
         bool of_parameters = m->op == OP_SUM && !(m->deps & (DEP_STATE | DEP_D | DEP_TIME));
         wide_loops |= of_parameters && *own & WIDE;
-        if (of_parameters && loops)
-            *own |= WIDE;
+        if (of_parameters && loops) *own |= WIDE;
         if (*own & CLOSED && !(*own & WIDE) && m->deps & DEP_TIME && !(m->deps & DEP_LEVELS) && m->op != OP_TIME)
             *own |= PLAIN_TIME;
     }
@@ -50,8 +47,7 @@ void emit_terms(writer *w)
         const node operands[3] = {m->a, m->b, m->c};
         int arity = operation_at(m->op)->arity;
         if (w->nature[item->n] & PLAIN_TIME) {
-            if (item->outputs != NONE && w->term[item->n] == NONE)
-                w->term[item->n] = w->e->terms++;
+            if (item->outputs != NONE && w->term[item->n] == NONE) w->term[item->n] = w->e->terms++;
             continue;
         }
         for (int i = 0; i < arity; i++)
@@ -62,8 +58,7 @@ void emit_terms(writer *w)
     }
     for (uint32_t k = 0; k < w->plan.program->count; k++) {
         node n = w->plan.program->outputs[k].value;
-        if (w->nature[n] & PLAIN_TIME && w->term[n] == NONE)
-            w->term[n] = w->e->terms++;
+        if (w->nature[n] & PLAIN_TIME && w->term[n] == NONE) w->term[n] = w->e->terms++;
     }
 }
 
@@ -71,10 +66,8 @@ void emit_terms(writer *w)
 bool emit_wide(const writer *w, node n)
 {
     const graph_node *m = &w->plan.g->nodes[n];
-    if (w->part == TERMS)
-        return (m->deps & DEP_TIME) != 0;
-    if (w->along >= 0)
-        return m->deps >> w->along & 1 || (m->op == OP_SUM && m->level == w->along);
+    if (w->part == TERMS) return (m->deps & DEP_TIME) != 0;
+    if (w->along >= 0) return m->deps >> w->along & 1 || (m->op == OP_SUM && m->level == w->along);
     return (w->e->lanes && w->nature[n] & WIDE) != 0;
 }
 
@@ -87,14 +80,16 @@ const char *emit_operation(const writer *w, node n, unsigned op)
     return lanes ? "ops" : "op";
 }
 
-/* The name of a value where it is needed, as wide as `user`: what was computed once, when parameters were bound, stands in u. */
+/* The name of a value where it is needed, as wide as `user`: what was computed once, when parameters were bound,
+ * stands in u. */
 void emit_operand(writer *w, node n, node user, char out[48])
 {
     uint32_t home = plan_home(&w->plan, w->plan.g->nodes[n].deps, w->region);
     uint32_t item = plan_find(&w->plan, n, home);
     bool spread = emit_wide(w, user) && !emit_wide(w, n);
     const char *open = spread ? "MANY(" : "", *close = spread ? ")" : "";
-    bool mine = w->part == BINDING || (w->part == BINDING_LANES && emit_wide(w, n));      /* computed in this function */
+    /* computed in this function */
+    bool mine = w->part == BINDING || (w->part == BINDING_LANES && emit_wide(w, n));
     if (home != AT_BIND || mine || w->plan.g->nodes[n].op == OP_CONST)
         snprintf(out, 48, "%sr%u%s", open, item, close);
     else if (emit_wide(w, n))
@@ -103,7 +98,8 @@ void emit_operand(writer *w, node n, node user, char out[48])
         snprintf(out, 48, "%su[%u]%s", open, w->fixed[item], close);
 }
 
-/* What becomes of an acceleration is the window's affair; one cell that has an equation of its own may lie outside of it. */
+/* What becomes of an acceleration is the window's affair; one cell that has an equation of its own may lie outside of
+ * it. */
 static void write_put(writer *w, const output *o, const char *value)
 {
     char index[PLACE_MAX], place[PLACE_MAX];
@@ -166,33 +162,38 @@ void emit_item(writer *w, uint32_t k)
     const char *type = emit_type(w, item->n);
     char a[48], b[48], c[48], text[EMIT_NUMBER];
     bool term = w->part == RUNNING && w->nature[item->n] & PLAIN_TIME;
-    if (term && w->term[item->n] == NONE)
-        return;                      /* only other terms need it */
+    if (term && w->term[item->n] == NONE) return; /* only other terms need it */
     if (term)
         emit_line(w, "const double r%u = T[%u];", k, w->term[item->n]);
     else
-    switch (n->op) {
-    case OP_CONST:
-        emit_number(n->value, text);
-        emit_line(w, "const double r%u = %s;", k, text);
-        break;
-    case OP_TIME: emit_line(w, "const %s r%u = t;", type, k); break;
-    case OP_PARAM: emit_line(w, emit_wide(w, item->n) ? "const reals r%u = AT(own, %u);" : "const double r%u = pool[%u];", k, n->a); break;
-    case OP_INDEX: emit_line(w, n->level == w->along ? "const reals r%u = index_count(j%d);" : "const double r%u = (double)j%d;", k, n->level); break;
-    case OP_LOAD: write_load(w, k, &w->plan.g->references[n->a], emit_wide(w, item->n)); break;
-    case OP_SUM: break;              /* its loop has made it */
-    default: {
-        int arity = operation_at(n->op)->arity;
-        emit_operand(w, n->a, item->n, a);
-        if (arity > 1) emit_operand(w, n->b, item->n, b);
-        if (arity > 2) emit_operand(w, n->c, item->n, c);
-        emit_line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, emit_operation(w, item->n, n->op), n->op, a, arity > 1 ? ", " : "", arity > 1 ? b : "",
-             arity > 2 ? ", " : "", arity > 2 ? c : "");
-    }
-    }
+        switch (n->op) {
+        case OP_CONST:
+            emit_number(n->value, text);
+            emit_line(w, "const double r%u = %s;", k, text);
+            break;
+        case OP_TIME: emit_line(w, "const %s r%u = t;", type, k); break;
+        case OP_PARAM:
+            emit_line(w, emit_wide(w, item->n) ? "const reals r%u = AT(own, %u);" : "const double r%u = pool[%u];", k,
+                      n->a);
+            break;
+        case OP_INDEX:
+            emit_line(w,
+                      n->level == w->along ? "const reals r%u = index_count(j%d);" : "const double r%u = (double)j%d;",
+                      k, n->level);
+            break;
+        case OP_LOAD: write_load(w, k, &w->plan.g->references[n->a], emit_wide(w, item->n)); break;
+        case OP_SUM: break; /* its loop has made it */
+        default: {
+            int arity = operation_at(n->op)->arity;
+            emit_operand(w, n->a, item->n, a);
+            if (arity > 1) emit_operand(w, n->b, item->n, b);
+            if (arity > 2) emit_operand(w, n->c, item->n, c);
+            emit_line(w, "const %s r%u = %s_%d(%s%s%s%s%s);", type, k, emit_operation(w, item->n, n->op), n->op, a,
+                      arity > 1 ? ", " : "", arity > 1 ? b : "", arity > 2 ? ", " : "", arity > 2 ? c : "");
+        }
+        }
     if (w->region == AT_BIND && w->part == (emit_wide(w, item->n) ? BINDING_LANES : BINDING))
         emit_line(w, emit_wide(w, item->n) ? "AT(w, %u) = r%u;" : "u[%u] = r%u;", w->fixed[k], k);
-    if (w->part == TERMS && w->term[item->n] != NONE)
-        emit_line(w, "T[%u] = r%u;", w->term[item->n], k);
+    if (w->part == TERMS && w->term[item->n] != NONE) emit_line(w, "T[%u] = r%u;", w->term[item->n], k);
     emit_outputs(w, item->outputs);
 }

@@ -1,8 +1,8 @@
 /* The graph's constructors: every node is made here, folded where it is constant and shared where it exists already.
  *
- * Invariant: operands have smaller numbers than the node, so ascending numbers are an order of evaluation; no two nodes are
- * identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node 0 and the caller sees
- * arena->failed or too_large.
+ * Invariant: operands have smaller numbers than the node, so ascending numbers are an order of evaluation; no two
+ * nodes are identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node
+ * 0 and the caller sees arena->failed or too_large.
  */
 #include "lang/graph/graph.h"
 
@@ -16,23 +16,20 @@ graph *graph_create(arena *a)
     graph_node *nodes = arena_take(a, FIRST_NODES * sizeof *nodes);
     uint32_t *place = arena_take(a, FIRST_NODES * sizeof *place);
     node *table = arena_take(a, 2 * FIRST_NODES * sizeof *table);
-    if (a->failed)
-        return NULL;
-    *g = (graph){ .arena = a, .nodes = nodes, .place = place, .capacity = FIRST_NODES,
-                  .table = table, .table_size = 2 * FIRST_NODES };
-    g->count = 1;                    /* node 0: zeroed memory is OP_CONST, value +0; in the table 0 means free */
+    if (a->failed) return NULL;
+    *g = (graph){.arena = a,
+                 .nodes = nodes,
+                 .place = place,
+                 .capacity = FIRST_NODES,
+                 .table = table,
+                 .table_size = 2 * FIRST_NODES};
+    g->count = 1; /* node 0: zeroed memory is OP_CONST, value +0; in the table 0 means free */
     return g;
 }
 
-const graph_node *graph_at(const graph *g, node n)
-{
-    return &g->nodes[n];
-}
+const graph_node *graph_at(const graph *g, node n) { return &g->nodes[n]; }
 
-unsigned graph_deps(const graph *g, node n)
-{
-    return g->nodes[n].deps;
-}
+unsigned graph_deps(const graph *g, node n) { return g->nodes[n].deps; }
 
 /* Sharing --------------------------------------------------------------------------------------------------------- */
 
@@ -66,8 +63,7 @@ static uint64_t hash_node(const graph_node *n, const reference *ref, const range
     uint64_t h = mix(n->op, n->level);
     if (ref) {
         h = mix(h, (uint64_t)ref->array << 8 | ref->dims);
-        for (int d = 0; d < ref->dims; d++)
-            h = hash_subscript(h, &ref->at[d]);
+        for (int d = 0; d < ref->dims; d++) h = hash_subscript(h, &ref->at[d]);
         return h;
     }
     h = mix(mix(h, (uint64_t)n->a << 32 | n->b), bits_of(n->value));
@@ -76,39 +72,32 @@ static uint64_t hash_node(const graph_node *n, const reference *ref, const range
 
 static bool same_node(const graph *g, const graph_node *n, const graph_node *m, const reference *ref, const range *r)
 {
-    if (n->op != m->op || n->level != m->level)
-        return false;
+    if (n->op != m->op || n->level != m->level) return false;
     if (ref) {
         const reference *q = &g->references[m->a];
-        if (q->array != ref->array || q->dims != ref->dims)
-            return false;
+        if (q->array != ref->array || q->dims != ref->dims) return false;
         for (int d = 0; d < ref->dims; d++)
-            if (!same_subscript(&q->at[d], &ref->at[d]))
-                return false;
+            if (!same_subscript(&q->at[d], &ref->at[d])) return false;
         return true;
     }
-    if (n->a != m->a || n->b != m->b || bits_of(n->value) != bits_of(m->value))
-        return false;
-    if (r)
-        return same_subscript(&r->first, &g->ranges[m->c].first) && same_subscript(&r->last, &g->ranges[m->c].last);
+    if (n->a != m->a || n->b != m->b || bits_of(n->value) != bits_of(m->value)) return false;
+    if (r) return same_subscript(&r->first, &g->ranges[m->c].first) && same_subscript(&r->last, &g->ranges[m->c].last);
     return n->c == m->c;
 }
 
 static bool grow_nodes(graph *g)
 {
-    if (g->count >= GRAPH_NODES_MAX)
-        return g->too_large = true, false;
+    if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
     uint32_t capacity = g->capacity * 2, size = capacity * 2;
     graph_node *nodes = arena_grow(g->arena, g->nodes, g->count * sizeof *nodes, capacity * sizeof *nodes);
     uint32_t *place = nodes ? arena_room(g->arena, capacity * sizeof *place) : NULL;
     node *table = place ? arena_room(g->arena, size * sizeof *table) : NULL;
-    if (!table)
-        return false;
+    if (!table) return false;
     for (uint32_t k = 1; k < g->count; k++) {
         const graph_node *n = &nodes[k];
-        uint64_t h = hash_node(n, n->op == OP_LOAD ? &g->references[n->a] : NULL, n->op == OP_SUM ? &g->ranges[n->c] : NULL);
-        while (table[h & (size - 1)])
-            h++;
+        uint64_t h =
+            hash_node(n, n->op == OP_LOAD ? &g->references[n->a] : NULL, n->op == OP_SUM ? &g->ranges[n->c] : NULL);
+        while (table[h & (size - 1)]) h++;
         table[h & (size - 1)] = k;
     }
     g->nodes = nodes;
@@ -122,41 +111,34 @@ static bool grow_nodes(graph *g)
 /* Growing tables of references and ranges: capacities are the powers of two, so the count tells when to grow. */
 static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
 {
-    if (count && (count < FIRST_REFERENCES || (count & (count - 1))))
-        return rows;
+    if (count && (count < FIRST_REFERENCES || (count & (count - 1)))) return rows;
     return arena_grow(g->arena, rows, count * size, (count ? 2 * (size_t)count : FIRST_REFERENCES) * size);
 }
 
 static node share(graph *g, graph_node n, const reference *ref, const range *r)
 {
-    if (g->arena->failed || g->too_large)
-        return 0;
+    if (g->arena->failed || g->too_large) return 0;
     uint64_t h = hash_node(&n, ref, r);
     for (node k; (k = g->table[h & (g->table_size - 1)]) != 0; h++)
-        if (same_node(g, &n, &g->nodes[k], ref, r))
-            return k;
+        if (same_node(g, &n, &g->nodes[k], ref, r)) return k;
     if (ref) {
         reference *rows = grow_rows(g, g->references, g->reference_count, sizeof *rows);
-        if (!rows)
-            return 0;
+        if (!rows) return 0;
         g->references = rows;
         n.a = g->reference_count;
         rows[g->reference_count++] = *ref;
     }
     if (r) {
         range *rows = grow_rows(g, g->ranges, g->range_count, sizeof *rows);
-        if (!rows)
-            return 0;
+        if (!rows) return 0;
         g->ranges = rows;
         n.c = g->range_count;
         rows[g->range_count++] = *r;
     }
     if (g->count == g->capacity) {
-        if (!grow_nodes(g))
-            return 0;
+        if (!grow_nodes(g)) return 0;
         h = hash_node(&n, ref, r);
-        while (g->table[h & (g->table_size - 1)])
-            h++;
+        while (g->table[h & (g->table_size - 1)]) h++;
     }
     g->nodes[g->count] = n;
     g->table[h & (g->table_size - 1)] = g->count;
@@ -167,27 +149,24 @@ static node share(graph *g, graph_node n, const reference *ref, const range *r)
 
 node graph_const(graph *g, double value)
 {
-    return bits_of(value) ? share(g, (graph_node){ .op = OP_CONST, .value = value }, NULL, NULL) : 0;
+    return bits_of(value) ? share(g, (graph_node){.op = OP_CONST, .value = value}, NULL, NULL) : 0;
 }
 
-node graph_time(graph *g)
-{
-    return share(g, (graph_node){ .op = OP_TIME, .deps = DEP_TIME }, NULL, NULL);
-}
+node graph_time(graph *g) { return share(g, (graph_node){.op = OP_TIME, .deps = DEP_TIME}, NULL, NULL); }
 
 node graph_param(graph *g, uint32_t pool_slot)
 {
-    return share(g, (graph_node){ .op = OP_PARAM, .deps = DEP_PARAM, .a = pool_slot }, NULL, NULL);
+    return share(g, (graph_node){.op = OP_PARAM, .deps = DEP_PARAM, .a = pool_slot}, NULL, NULL);
 }
 
 node graph_index(graph *g, int level)
 {
-    return share(g, (graph_node){ .op = OP_INDEX, .level = (uint8_t)level, .deps = (uint16_t)(1 << level) }, NULL, NULL);
+    return share(g, (graph_node){.op = OP_INDEX, .level = (uint8_t)level, .deps = (uint16_t)(1 << level)}, NULL, NULL);
 }
 
 node graph_running_total(graph *g, int level)
 {
-    return share(g, (graph_node){ .op = OP_TOTAL, .level = (uint8_t)level, .deps = (uint16_t)(1 << level) }, NULL, NULL);
+    return share(g, (graph_node){.op = OP_TOTAL, .level = (uint8_t)level, .deps = (uint16_t)(1 << level)}, NULL, NULL);
 }
 
 static unsigned subscript_deps(const subscript *s)
@@ -197,12 +176,12 @@ static unsigned subscript_deps(const subscript *s)
 
 node graph_load(graph *g, const reference *ref)
 {
-    static const uint16_t of_space[SPACES] = { [SPACE_X] = DEP_X, [SPACE_V] = DEP_V, [SPACE_A] = DEP_A, [SPACE_DX] = DEP_D,
-                                               [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A };
+    static const uint16_t of_space[SPACES] = {
+        [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
+        [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
     unsigned deps = of_space[g->arrays[ref->array].space];
-    for (int d = 0; d < ref->dims; d++)
-        deps |= subscript_deps(&ref->at[d]);
-    return share(g, (graph_node){ .op = OP_LOAD, .deps = (uint16_t)deps }, ref, NULL);
+    for (int d = 0; d < ref->dims; d++) deps |= subscript_deps(&ref->at[d]);
+    return share(g, (graph_node){.op = OP_LOAD, .deps = (uint16_t)deps}, ref, NULL);
 }
 
 /* Operations ------------------------------------------------------------------------------------------------------ */
@@ -212,8 +191,8 @@ static bool is_const(const graph *g, node n, double value)
     return g->nodes[n].op == OP_CONST && g->nodes[n].value == value;
 }
 
-/* The identities of real numbers, for derivatives only: they may change a sign of zero, or hide a NaN, which in an equation that
- * somebody wrote would change its bits. Returns false where none applies. */
+/* The identities of real numbers, for derivatives only: they may change a sign of zero, or hide a NaN, which in an
+ * equation that somebody wrote would change its bits. Returns false where none applies. */
 static bool simplified(graph *g, operation op, node a, node b, node c, node *out)
 {
     const graph_node *na = &g->nodes[a], *nb = &g->nodes[b];
@@ -240,8 +219,14 @@ static bool simplified(graph *g, operation op, node a, node b, node c, node *out
         if (is_const(g, b, 1)) return *out = a, true;
         if (is_const(g, a, -1)) return *out = graph_op(g, OP_NEG, b, 0, 0), true;
         if (is_const(g, b, -1)) return *out = graph_op(g, OP_NEG, a, 0, 0), true;
-        if (na->op == OP_NEG) { node u = na->a; return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, u, b, 0), 0, 0), true; }
-        if (nb->op == OP_NEG) { node u = nb->a; return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, a, u, 0), 0, 0), true; }
+        if (na->op == OP_NEG) {
+            node u = na->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, u, b, 0), 0, 0), true;
+        }
+        if (nb->op == OP_NEG) {
+            node u = nb->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_MUL, a, u, 0), 0, 0), true;
+        }
         if (nb->op == OP_CONST) return *out = graph_op(g, OP_MUL, b, a, 0), true;
         if (na->op == OP_CONST && nb->op == OP_MUL && g->nodes[nb->a].op == OP_CONST) {
             node rest = nb->b, factor = graph_const(g, na->value * g->nodes[nb->a].value);
@@ -252,21 +237,23 @@ static bool simplified(graph *g, operation op, node a, node b, node c, node *out
         if (is_const(g, a, 0)) return *out = 0, true;
         if (is_const(g, b, 1)) return *out = a, true;
         if (a == b) return *out = graph_const(g, 1), true;
-        if (na->op == OP_NEG) { node u = na->a; return *out = graph_op(g, OP_NEG, graph_op(g, OP_DIV, u, b, 0), 0, 0), true; }
+        if (na->op == OP_NEG) {
+            node u = na->a;
+            return *out = graph_op(g, OP_NEG, graph_op(g, OP_DIV, u, b, 0), 0, 0), true;
+        }
         return false;
     case OP_SELECT:
         if (b == c) return *out = b, true;
         if (na->op == OP_CONST) return *out = na->value != 0 ? b : c, true;
         return false;
-    default:
-        return false;
+    default: return false;
     }
 }
 
 node graph_op(graph *g, operation op, node a, node b, node c)
 {
     int arity = operation_at(op)->arity;
-    node operand[3] = { a, arity > 1 ? b : 0, arity > 2 ? c : 0 };
+    node operand[3] = {a, arity > 1 ? b : 0, arity > 2 ? c : 0};
     unsigned deps = 0;
     bool constant = true;
     for (int k = 0; k < arity; k++) {
@@ -274,24 +261,20 @@ node graph_op(graph *g, operation op, node a, node b, node c)
         constant &= g->nodes[operand[k]].op == OP_CONST;
     }
     a = operand[0], b = operand[1], c = operand[2];
-    if (constant)
-        return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
+    if (constant) return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
     node out;
-    if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out))
-        return out;
-    return share(g, (graph_node){ .op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c }, NULL, NULL);
+    if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
+    return share(g, (graph_node){.op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c}, NULL, NULL);
 }
 
 node graph_power(graph *g, node base, int exponent)
 {
     if (exponent < 0) {
-        node power = graph_power(g, base, -exponent);      /* made first, whatever a compiler would choose */
+        node power = graph_power(g, base, -exponent); /* made first, whatever a compiler would choose */
         return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
     }
-    if (exponent == 0)
-        return graph_const(g, 1);
-    if (exponent == 1)
-        return base;
+    if (exponent == 0) return graph_const(g, 1);
+    if (exponent == 1) return base;
     node half = graph_power(g, base, exponent % 2 ? exponent - 1 : exponent / 2);
     return graph_op(g, OP_MUL, half, exponent % 2 ? base : half, 0);
 }
@@ -299,11 +282,10 @@ node graph_power(graph *g, node base, int exponent)
 node graph_sum(graph *g, int level, const range *r, node condition, node body)
 {
     unsigned deps = g->nodes[body].deps | g->nodes[condition].deps;
-    if (g->simplify && is_const(g, body, 0))
-        return 0;
+    if (g->simplify && is_const(g, body, 0)) return 0;
     deps &= ~(1u << level);
     deps |= subscript_deps(&r->first) | subscript_deps(&r->last);
-    graph_node n = { .op = OP_SUM, .level = (uint8_t)level, .deps = (uint16_t)deps, .a = body, .b = condition };
+    graph_node n = {.op = OP_SUM, .level = (uint8_t)level, .deps = (uint16_t)deps, .a = body, .b = condition};
     return share(g, n, NULL, r);
 }
 
@@ -311,20 +293,17 @@ enum { IN_ORDER = 16, PARTIALS = 8 };
 
 node graph_total(graph *g, const node *terms, size_t count)
 {
-    if (!count)
-        return 0;
+    if (!count) return 0;
     if (count <= IN_ORDER) {
         node total = terms[0];
-        for (size_t k = 1; k < count; k++)
-            total = graph_op(g, OP_ADD, total, terms[k], 0);
+        for (size_t k = 1; k < count; k++) total = graph_op(g, OP_ADD, total, terms[k], 0);
         return total;
     }
     node p[PARTIALS];
     for (size_t k = 0; k < count; k++)
         p[k % PARTIALS] = k < PARTIALS ? terms[k] : graph_op(g, OP_ADD, p[k % PARTIALS], terms[k], 0);
     for (int width = 1; width < PARTIALS; width *= 2)
-        for (int k = 0; k < PARTIALS; k += 2 * width)
-            p[k] = graph_op(g, OP_ADD, p[k], p[k + width], 0);
+        for (int k = 0; k < PARTIALS; k += 2 * width) p[k] = graph_op(g, OP_ADD, p[k], p[k + width], 0);
     return p[0];
 }
 
@@ -344,10 +323,8 @@ size_t graph_shape(array *a, space space, size_t base, int dims, const int64_t f
 bool graph_marked(const array *a, const uint8_t *marks)
 {
     size_t last = a->base;
-    for (int d = 0; d < a->dims; d++)
-        last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
+    for (int d = 0; d < a->dims; d++) last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
     for (size_t k = a->base; k <= last; k++)
-        if (marks[k])
-            return true;
+        if (marks[k]) return true;
     return false;
 }

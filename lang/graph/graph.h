@@ -1,8 +1,9 @@
 /* The expression graph: scalar nodes, shared, folded, differentiated. It defines the bits.
  *
- * A node is an index; node 0 is the constant 0. Vectors are several nodes. Loops (families, sums) are not unrolled: inside them a node
- * may refer to loop variables by LEVEL (0 = outermost family index, and so on inward; a sum opens the next level).
- * N, bounds and parameters are run-time numbers: int slots and the pool. So the graph of a family does not depend on N.
+ * A node is an index; node 0 is the constant 0. Vectors are several nodes. Loops (families, sums) are not unrolled:
+ * inside them a node may refer to loop variables by LEVEL (0 = outermost family index, and so on inward; a sum opens
+ * the next level). N, bounds and parameters are run-time numbers: int slots and the pool. So the graph of a family
+ * does not depend on N.
  */
 #ifndef LANG_GRAPH_GRAPH_H
 #define LANG_GRAPH_GRAPH_H
@@ -15,10 +16,17 @@ typedef uint32_t node;
 
 /* Value of a subscript: base = (level >= 0 ? index[level] : 0) + literal + (slot >= 0 ? ints[slot] : 0);
  * if modulus >= 0: 1 + (base mod ints[modulus]), the mathematical mod (never negative). */
-typedef struct subscript { int8_t level; int16_t slot, modulus; int32_t literal; } subscript;
-typedef struct range { subscript first, last; } range;       /* empty if last < first; bounds may use outer levels */
+typedef struct subscript {
+    int8_t level;
+    int16_t slot, modulus;
+    int32_t literal;
+} subscript;
+typedef struct range {
+    subscript first, last;
+} range; /* empty if last < first; bounds may use outer levels */
 
-/* Where numbers live. X, V: the state (A: the acceleration there). DX, DV: a direction. POOL: parameters, initial values. */
+/* Where numbers live. X, V: the state (A: the acceleration there). DX, DV: a direction. POOL: parameters, initial
+ * values. */
 typedef enum space { SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV, SPACE_POOL, SPACE_OUT, SPACES } space;
 
 /* One component of one state, list or quantity, as an array over its indices. Addresses are run-time values
@@ -36,34 +44,48 @@ size_t graph_shape(array *, space, size_t base, int dims, const int64_t first[],
 /* Whether any of an array's places, from its first to its last, is marked. */
 bool graph_marked(const array *, const uint8_t *marks);
 
-typedef struct reference { uint16_t array; uint8_t dims; subscript at[MAX_DIMS]; } reference;
+typedef struct reference {
+    uint16_t array;
+    uint8_t dims;
+    subscript at[MAX_DIMS];
+} reference;
 
 /* What a node depends on, transitively. Bits 0 … MAX_LEVELS-1: loop variables bound outside the node. */
 enum {
-    DEP_TIME = 1 << 8, DEP_X = 1 << 9, DEP_V = 1 << 10, DEP_A = 1 << 11, DEP_D = 1 << 12 /* DX, DV */, DEP_PARAM = 1 << 13,
-    DEP_LEVELS = (1 << MAX_LEVELS) - 1, DEP_STATE = DEP_X | DEP_V | DEP_A
+    DEP_TIME = 1 << 8,
+    DEP_X = 1 << 9,
+    DEP_V = 1 << 10,
+    DEP_A = 1 << 11,
+    DEP_D = 1 << 12 /* DX, DV */,
+    DEP_PARAM = 1 << 13,
+    DEP_LEVELS = (1 << MAX_LEVELS) - 1,
+    DEP_STATE = DEP_X | DEP_V | DEP_A
 };
 
 typedef struct graph_node {
     uint8_t op;
-    uint8_t level;            /* INDEX, TOTAL: which; SUM: the level it opens */
+    uint8_t level; /* INDEX, TOTAL: which; SUM: the level it opens */
     uint16_t deps;
-    node a, b, c;             /* operands. LOAD: a is the reference's number. PARAM: a is the pool slot. SUM: a body, b condition (0: none),
-                               * c the range's number */
-    double value;             /* CONST */
+    /* operands. LOAD: a is the reference's number. PARAM: a is the pool slot. SUM: a body, b condition (0: none),
+     * c the range's number */
+    node a, b, c;
+    double value; /* CONST */
 } graph_node;
 
 typedef struct graph {
     arena *arena;
     graph_node *nodes;
     uint32_t count, capacity;
-    reference *references; uint32_t reference_count;
-    range *ranges; uint32_t range_count;
-    const array *arrays;      /* owned by the model; index = reference.array */
-    node *table; uint32_t table_size;       /* hash-consing */
-    uint32_t *place;          /* scratch of graph_order */
-    bool simplify;            /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
-    bool too_large;           /* more than GRAPH_NODES_MAX: building stops, node 0 is returned */
+    reference *references;
+    uint32_t reference_count;
+    range *ranges;
+    uint32_t range_count;
+    const array *arrays; /* owned by the model; index = reference.array */
+    node *table;
+    uint32_t table_size; /* hash-consing */
+    uint32_t *place;     /* scratch of graph_order */
+    bool simplify;       /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
+    bool too_large;      /* more than GRAPH_NODES_MAX: building stops, node 0 is returned */
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
@@ -72,14 +94,17 @@ graph *graph_create(arena *);
 node graph_const(graph *, double);
 node graph_time(graph *);
 node graph_param(graph *, uint32_t pool_slot);
-node graph_index(graph *, int level);                       /* the loop variable as a number */
+node graph_index(graph *, int level); /* the loop variable as a number */
 node graph_load(graph *, const reference *);
-node graph_running_total(graph *, int level);               /* TOTAL: only in the normal form */
-node graph_op(graph *, operation, node a, node b, node c);   /* unused operands 0 */
-node graph_power(graph *, node base, int exponent);          /* |exponent| <= 64: the fixed chain: even: square of the half; odd: chain(n-1)*x */
-/* condition 0: none. A condition that folds to false is node 0 too: the caller then writes graph_const(g, 0), the empty sum. */
+node graph_running_total(graph *, int level);              /* TOTAL: only in the normal form */
+node graph_op(graph *, operation, node a, node b, node c); /* unused operands 0 */
+/* |exponent| <= 64: the fixed chain: even: square of the half; odd: chain(n-1)*x */
+node graph_power(graph *, node base, int exponent);
+/* condition 0: none. A condition that folds to false is node 0 too: the caller then writes graph_const(g, 0), the
+ * empty sum. */
 node graph_sum(graph *, int level, const range *, node condition, node body);
-/* Left to right for up to 16, else 8 interleaved partials and the fixed tree: as a SUM would, but for the sign of a zero total. */
+/* Left to right for up to 16, else 8 interleaved partials and the fixed tree: as a SUM would, but for the sign of a
+ * zero total. */
 node graph_total(graph *, const node *terms, size_t count);
 
 const graph_node *graph_at(const graph *, node);
@@ -88,32 +113,44 @@ unsigned graph_deps(const graph *, node);
 int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison); else 0. */
 node graph_kink(graph *, node);
-/* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD) as a node; all else follows by the rules of calculus. */
+/* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD) as a node; all else follows by the rules of
+ * calculus. */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);
 node graph_derivative(graph *, node, graph_seed, void *ctx);
 /* Seeds for the common cases: directional (X → DX, V → DV; arrays for DX/DV are the state's array number + the given
  * offset). */
-typedef struct graph_shift { uint16_t x_to, v_to; } graph_shift;   /* array number of the image = array number + shift, by space of the source */
+/* array number of the image = array number + shift, by space of the source */
+typedef struct graph_shift {
+    uint16_t x_to, v_to;
+} graph_shift;
 node graph_seed_direction(graph *, node leaf, void *graph_shift_ctx);
-node graph_seed_time(graph *, node leaf, void *unused);     /* d/dt where only t moves */
-/* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every nest of sums
- * around it. sums[k] is the range of level first_level + k, k < inside. */
-void graph_loads(graph *, node, space, void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside), void *ctx);
-/* Infix text in the language. `name` writes the name of a PARAM slot or LOAD reference; it is also asked for INDEX nodes (level < MAX_LEVELS: a
- * loop variable; level MAX_LEVELS: the int slot a) and may leave those empty: i, j, k … and n0, n1 … then stand in. Returns the length
- * it wanted (like snprintf), at most GRAPH_TEXT_MAX: a longer text ends there in "...". */
+node graph_seed_time(graph *, node leaf, void *unused); /* d/dt where only t moves */
+/* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every
+ * nest of sums around it. sums[k] is the range of level first_level + k, k < inside. */
+void graph_loads(graph *, node, space,
+                 void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside),
+                 void *ctx);
+/* Infix text in the language. `name` writes the name of a PARAM slot or LOAD reference; it is also asked for INDEX
+ * nodes (level < MAX_LEVELS: a loop variable; level MAX_LEVELS: the int slot a) and may leave those empty: i, j, k …
+ * and n0, n1 … then stand in. Returns the length it wanted (like snprintf), at most GRAPH_TEXT_MAX: a longer text
+ * ends there in "...". */
 enum { GRAPH_TEXT_MAX = 1 << 20 };
 typedef void (*graph_namer)(void *ctx, const graph_node *, char *out, size_t size);
 size_t graph_print(const graph *, node, graph_namer, void *ctx, char *out, size_t size);
 
-/* A program: what is to be computed and where it goes, in normal form (fused multiply-adds chosen by use count over the whole program). */
+/* A program: what is to be computed and where it goes, in normal form (fused multiply-adds chosen by use count over
+ * the whole program). */
 typedef struct output {
     node value;
-    reference to;             /* subscripts over the levels 0 … loops-1 */
+    reference to; /* subscripts over the levels 0 … loops-1 */
     int loops;
-    range loop[MAX_DIMS];     /* innermost last */
+    range loop[MAX_DIMS]; /* innermost last */
 } output;
-typedef struct program { graph *graph; output *outputs; size_t count; } program;
+typedef struct program {
+    graph *graph;
+    output *outputs;
+    size_t count;
+} program;
 /* A copy in normal form, in the same arena. In it a SUM's body a is the update of its running total: ADD(TOTAL, body),
  * FMA(p, q, TOTAL) or FNMA(p, q, TOTAL). NULL: the arena failed or the graph is too large. */
 program *program_create(graph *, const output *, size_t count);

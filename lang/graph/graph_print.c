@@ -1,8 +1,9 @@
 /* A node as text in the language, with as few brackets as the grammar allows.
  *
- * Invariant: the text reads back as a node of the same value, bit for bit, but that what the graph shares is written out (and so may be fused
- * otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of multiplications are powers again. Nodes to be written wait
- * on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX: written as a tree, a shared graph may be endless.
+ * Invariant: the text reads back as a node of the same value, bit for bit, but that what the graph shares is written
+ * out (and so may be fused otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of multiplications
+ * are powers again. Nodes to be written wait on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX:
+ * written as a tree, a shared graph may be endless.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -20,10 +21,10 @@ typedef enum tail { TAIL_NONE, TAIL_NUMBER, TAIL_LATE_NUMBER, TAIL_NAME, TAIL_ST
 typedef enum task_kind { TASK_NODE, TASK_TEXT, TASK_NUMBER, TASK_LEVEL, TASK_BOUND, TASK_TIMES } task_kind;
 typedef struct task {
     uint8_t kind, tightness, tail;
-    bool bare;                       /* NODE: without its minus sign */
-    node n;                          /* NODE; TIMES: the right factor; LEVEL: which; BOUND: the range's number */
+    bool bare; /* NODE: without its minus sign */
+    node n;    /* NODE; TIMES: the right factor; LEVEL: which; BOUND: the range's number */
     const char *text;
-    int number;                      /* NUMBER; BOUND: 0 first, 1 last */
+    int number; /* NUMBER; BOUND: 0 first, 1 last */
 } task;
 
 typedef struct printer {
@@ -33,16 +34,16 @@ typedef struct printer {
     char *out;
     size_t size, wanted;
     tail tail;
-    char last;                       /* character written */
-    task *tasks; uint32_t count, capacity;
+    char last; /* character written */
+    task *tasks;
+    uint32_t count, capacity;
     bool failed;
 } printer;
 
 static void text(printer *p, const char *s)
 {
     for (; *s && p->wanted < GRAPH_TEXT_MAX; s++, p->wanted++) {
-        if (p->wanted + 1 < p->size)
-            p->out[p->wanted] = *s;
+        if (p->wanted + 1 < p->size) p->out[p->wanted] = *s;
         p->last = *s;
     }
 }
@@ -63,9 +64,18 @@ static void push(printer *p, task t)
 }
 
 /* Pushed in reverse: what is pushed last is written first. */
-static void say(printer *p, const char *s, tail t) { push(p, (task){ .kind = TASK_TEXT, .text = s, .tail = (uint8_t)t }); }
-static void then(printer *p, node n, tightness t) { push(p, (task){ .kind = TASK_NODE, .n = n, .tightness = (uint8_t)t }); }
-static void bare(printer *p, node n) { push(p, (task){ .kind = TASK_NODE, .n = n, .tightness = T_PRODUCT, .bare = true }); }
+static void say(printer *p, const char *s, tail t)
+{
+    push(p, (task){.kind = TASK_TEXT, .text = s, .tail = (uint8_t)t});
+}
+static void then(printer *p, node n, tightness t)
+{
+    push(p, (task){.kind = TASK_NODE, .n = n, .tightness = (uint8_t)t});
+}
+static void bare(printer *p, node n)
+{
+    push(p, (task){.kind = TASK_NODE, .n = n, .tightness = T_PRODUCT, .bare = true});
+}
 
 /* Shapes ---------------------------------------------------------------------------------------------------------- */
 
@@ -83,27 +93,27 @@ static bool negative(const graph *g, node n)
 
 /* The power that the product a*b is: x*x, or a step of graph_power's chain. exponent 0: none. */
 enum { POWER_MAX = 64, CHAIN_MAX = 12 };
-typedef struct power { node base; int exponent; } power;
+typedef struct power {
+    node base;
+    int exponent;
+} power;
 
 static power power_of(const graph *g, node a, node b, int depth)
 {
-    power p = { a, 1 };
+    power p = {a, 1};
     if (depth < CHAIN_MAX && g->nodes[a].op == OP_MUL) {
         power inner = power_of(g, g->nodes[a].a, g->nodes[a].b, depth + 1);
-        if (inner.exponent)
-            p = inner;
+        if (inner.exponent) p = inner;
     }
-    if (a == b && 2 * p.exponent <= POWER_MAX)
-        return (power){ p.base, 2 * p.exponent };
-    if (p.base == b && p.exponent % 2 == 0 && p.exponent < POWER_MAX)
-        return (power){ p.base, p.exponent + 1 };
-    return (power){ 0, 0 };
+    if (a == b && 2 * p.exponent <= POWER_MAX) return (power){p.base, 2 * p.exponent};
+    if (p.base == b && p.exponent % 2 == 0 && p.exponent < POWER_MAX) return (power){p.base, p.exponent + 1};
+    return (power){0, 0};
 }
 
 static power power_at(const graph *g, node n)
 {
     const graph_node *m = &g->nodes[n];
-    return m->op == OP_MUL ? power_of(g, m->a, m->b, 0) : (power){ 0, 0 };
+    return m->op == OP_MUL ? power_of(g, m->a, m->b, 0) : (power){0, 0};
 }
 
 /* A factor whose minus can stand before the whole product. */
@@ -115,14 +125,22 @@ static bool minus_factor(const graph *g, node n)
 static tightness tightness_of(const graph *g, node n)
 {
     const graph_node *m = &g->nodes[n];
-    if (negative(g, n))
-        return T_MINUS;
+    if (negative(g, n)) return T_MINUS;
     switch (m->op) {
     case OP_OR: return T_OR;
     case OP_AND: return T_AND;
     case OP_NOT: return T_NOT;
-    case OP_LT: case OP_LE: case OP_GT: case OP_GE: case OP_EQ: case OP_NE: return T_COMPARISON;
-    case OP_ADD: case OP_SUB: case OP_FMA: case OP_FMS: case OP_FNMA: return T_SUM;
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_EQ:
+    case OP_NE: return T_COMPARISON;
+    case OP_ADD:
+    case OP_SUB:
+    case OP_FMA:
+    case OP_FMS:
+    case OP_FNMA: return T_SUM;
     case OP_MUL: return power_at(g, n).exponent ? T_POWER : T_PRODUCT;
     case OP_DIV: return T_PRODUCT;
     case OP_POW: return T_POWER;
@@ -153,22 +171,21 @@ static void right_factor(const graph *g, node n, bool *digit, bool *bracket)
 static void ask(printer *p, const graph_node *n, const char *otherwise)
 {
     char name[MOTUS_NAME_MAX * 4] = "";
-    if (p->name)
-        p->name(p->ctx, n, name, sizeof name);
+    if (p->name) p->name(p->ctx, n, name, sizeof name);
     text(p, name[0] ? name : otherwise);
 }
 
 static void level_name(printer *p, int level)
 {
-    ask(p, &(graph_node){ .op = OP_INDEX, .level = (uint8_t)level }, (const char *[]){ "i", "j", "k", "l", "m", "n", "o", "p" }[level]);
+    ask(p, &(graph_node){.op = OP_INDEX, .level = (uint8_t)level},
+        (const char *[]){"i", "j", "k", "l", "m", "n", "o", "p"}[level]);
 }
 
 static void bound(printer *p, const subscript *s)
 {
     char number[32];
     bool first = true;
-    if (s->modulus >= 0)
-        text(p, "mod(");
+    if (s->modulus >= 0) text(p, "mod(");
     if (s->level >= 0) {
         level_name(p, s->level);
         first = false;
@@ -176,18 +193,19 @@ static void bound(printer *p, const subscript *s)
     if (s->slot >= 0) {
         text(p, first ? "" : " + ");
         snprintf(number, sizeof number, "n%d", s->slot);
-        ask(p, &(graph_node){ .op = OP_INDEX, .level = MAX_LEVELS, .a = (node)s->slot }, number);
+        ask(p, &(graph_node){.op = OP_INDEX, .level = MAX_LEVELS, .a = (node)s->slot}, number);
         first = false;
     }
     if (s->literal || first) {
-        snprintf(number, sizeof number, "%lld", s->literal < 0 && !first ? -(long long)s->literal : (long long)s->literal);
+        snprintf(number, sizeof number, "%lld",
+                 s->literal < 0 && !first ? -(long long)s->literal : (long long)s->literal);
         text(p, first ? "" : s->literal < 0 ? " - " : " + ");
         text(p, number);
     }
     if (s->modulus >= 0) {
         text(p, ", ");
         snprintf(number, sizeof number, "n%d", s->modulus);
-        ask(p, &(graph_node){ .op = OP_INDEX, .level = MAX_LEVELS, .a = (node)s->modulus }, number);
+        ask(p, &(graph_node){.op = OP_INDEX, .level = MAX_LEVELS, .a = (node)s->modulus}, number);
         text(p, ")+1");
     }
 }
@@ -211,9 +229,15 @@ static void leaf(printer *p, const graph_node *n)
     switch (n->op) {
     case OP_CONST: number(p, n->value); return;
     case OP_TIME: text(p, "t"); break;
-    case OP_INDEX: level_name(p, n->level); p->tail = TAIL_STATE; return;
+    case OP_INDEX:
+        level_name(p, n->level);
+        p->tail = TAIL_STATE;
+        return;
     case OP_TOTAL: text(p, "total"); break;
-    case OP_LOAD: ask(p, n, "?"); p->tail = TAIL_STATE; return;
+    case OP_LOAD:
+        ask(p, n, "?");
+        p->tail = TAIL_STATE;
+        return;
     default: ask(p, n, "?"); break;
     }
     p->tail = TAIL_NAME;
@@ -243,12 +267,13 @@ static void sum(printer *p, node a, bool minus, node b)
 
 static void raise(printer *p, power w)
 {
-    push(p, (task){ .kind = TASK_NUMBER, .number = w.exponent });
+    push(p, (task){.kind = TASK_NUMBER, .number = w.exponent});
     say(p, "^", TAIL_NONE);
     then(p, w.base, T_FACTOR);
 }
 
-/* The quotient on the left gets brackets: what follows a quotient by juxtaposition would be read with care, or refused. */
+/* The quotient on the left gets brackets: what follows a quotient by juxtaposition would be read with care, or
+ * refused. */
 static void product(printer *p, node a, node b, bool without_minus)
 {
     power whole = power_of(p->g, a, b, 0);
@@ -257,7 +282,7 @@ static void product(printer *p, node a, node b, bool without_minus)
         return;
     }
     then(p, b, T_POWER);
-    push(p, (task){ .kind = TASK_TIMES, .n = b });
+    push(p, (task){.kind = TASK_TIMES, .n = b});
     if (without_minus)
         bare(p, a);
     else
@@ -278,8 +303,7 @@ static void call(printer *p, const char *name, const node *operands, int count)
     say(p, ")", TAIL_CLOSE);
     for (int k = count; k-- > 0;) {
         then(p, operands[k], T_OR);
-        if (k)
-            say(p, ", ", TAIL_NONE);
+        if (k) say(p, ", ", TAIL_NONE);
     }
     say(p, "(", TAIL_NONE);
     say(p, name, TAIL_NONE);
@@ -293,8 +317,7 @@ static void sum_over(printer *p, const graph_node *m)
     say(p, ")", TAIL_CLOSE);
     if (fuse) {
         product(p, how->a, how->b, false);
-        if (how->op == OP_FNMA)
-            say(p, "-", TAIL_NONE);
+        if (how->op == OP_FNMA) say(p, "-", TAIL_NONE);
     } else {
         then(p, add ? how->b : m->a, T_OR);
     }
@@ -303,11 +326,11 @@ static void sum_over(printer *p, const graph_node *m)
         then(p, m->b, T_OR);
         say(p, ", ", TAIL_NONE);
     }
-    push(p, (task){ .kind = TASK_BOUND, .n = m->c, .number = 1 });
+    push(p, (task){.kind = TASK_BOUND, .n = m->c, .number = 1});
     say(p, "..", TAIL_NONE);
-    push(p, (task){ .kind = TASK_BOUND, .n = m->c, .number = 0 });
+    push(p, (task){.kind = TASK_BOUND, .n = m->c, .number = 0});
     say(p, " = ", TAIL_NONE);
-    push(p, (task){ .kind = TASK_LEVEL, .n = m->level });
+    push(p, (task){.kind = TASK_LEVEL, .n = m->level});
     say(p, "sum(", TAIL_NONE);
 }
 
@@ -329,7 +352,7 @@ static void without_minus(printer *p, node n)
 
 static void write_node(printer *p, node n)
 {
-    static const char *const comparisons[] = { " < ", " <= ", " > ", " >= ", " == ", " != " };
+    static const char *const comparisons[] = {" < ", " <= ", " > ", " >= ", " == ", " != "};
     const graph *g = p->g;
     const graph_node *m = &g->nodes[n];
     const char *sign = operation_at(m->op)->spelling;
@@ -339,7 +362,12 @@ static void write_node(printer *p, node n)
         return;
     }
     switch (m->op) {
-    case OP_CONST: case OP_TIME: case OP_PARAM: case OP_INDEX: case OP_LOAD: case OP_TOTAL: leaf(p, m); return;
+    case OP_CONST:
+    case OP_TIME:
+    case OP_PARAM:
+    case OP_INDEX:
+    case OP_LOAD:
+    case OP_TOTAL: leaf(p, m); return;
     case OP_SUM: sum_over(p, m); return;
     case OP_ADD: sum(p, m->a, false, m->b); return;
     case OP_SUB: sum(p, m->a, true, m->b); return;
@@ -354,22 +382,24 @@ static void write_node(printer *p, node n)
             say(p, " - ", TAIL_NONE);
         }
         product(p, m->a, m->b, minus_factor(g, m->a));
-        if (minus_factor(g, m->a))
-            say(p, "-", TAIL_NONE);
+        if (minus_factor(g, m->a)) say(p, "-", TAIL_NONE);
         return;
     case OP_MUL: product(p, m->a, m->b, false); return;
     case OP_DIV: infix(p, m->a, T_PRODUCT, "/", m->b, T_POWER); return;
     case OP_POW: infix(p, m->a, T_FACTOR, "^", m->b, T_POWER); return;
-    case OP_LT: case OP_LE: case OP_GT: case OP_GE: case OP_EQ: case OP_NE:
-        infix(p, m->a, T_SUM, comparisons[m->op - OP_LT], m->b, T_SUM);
-        return;
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_EQ:
+    case OP_NE: infix(p, m->a, T_SUM, comparisons[m->op - OP_LT], m->b, T_SUM); return;
     case OP_AND: infix(p, m->a, T_AND, " and ", m->b, T_NOT); return;
     case OP_OR: infix(p, m->a, T_OR, " or ", m->b, T_AND); return;
     case OP_NOT:
         then(p, m->a, T_NOT);
         say(p, "not ", TAIL_NONE);
         return;
-    default: call(p, sign, (node[]){ m->a, m->b, m->c }, operation_at(m->op)->arity); return;
+    default: call(p, sign, (node[]){m->a, m->b, m->c}, operation_at(m->op)->arity); return;
     }
 }
 
@@ -398,7 +428,10 @@ static void work(printer *p, const task *t)
             write_node(p, t->n);
         }
         break;
-    case TASK_TEXT: text(p, t->text); p->tail = (tail)t->tail; break;
+    case TASK_TEXT:
+        text(p, t->text);
+        p->tail = (tail)t->tail;
+        break;
     case TASK_NUMBER:
         snprintf(digits, sizeof digits, "%d", t->number);
         text(p, digits);
@@ -412,20 +445,18 @@ static void work(printer *p, const task *t)
 
 size_t graph_print(const graph *g, node n, graph_namer name, void *ctx, char *out, size_t size)
 {
-    printer p = { .g = g, .name = name, .ctx = ctx, .out = out, .size = size };
+    printer p = {.g = g, .name = name, .ctx = ctx, .out = out, .size = size};
     then(&p, n, T_OR);
     while (p.count && !p.failed && p.wanted < GRAPH_TEXT_MAX) {
         task t = p.tasks[--p.count];
         work(&p, &t);
     }
     give(&g->arena->allocator, p.tasks);
-    if (size)
-        out[p.wanted < size ? p.wanted : size - 1] = 0;
+    if (size) out[p.wanted < size ? p.wanted : size - 1] = 0;
     if (p.failed || p.wanted >= GRAPH_TEXT_MAX) {
         g->arena->failed |= p.failed;
         size_t end = p.wanted < size ? p.wanted : size ? size - 1 : 0;
-        if (end >= 3)
-            memcpy(out + end - 3, "...", 3);
+        if (end >= 3) memcpy(out + end - 3, "...", 3);
     }
     return p.wanted;
 }

@@ -1,7 +1,7 @@
 /* Reading a graph: what a node reaches, its degree in the state, its kinks, the places it loads.
  *
- * Invariant: no recursion but over nested sums, which are at most MAX_LEVELS deep, so that an expression of any length, in any shape,
- * needs no more C stack than a short one. Nothing here makes nodes.
+ * Invariant: no recursion but over nested sums, which are at most MAX_LEVELS deep, so that an expression of any
+ * length, in any shape, needs no more C stack than a short one. Nothing here makes nodes.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -11,8 +11,7 @@
 int graph_operands(const graph_node *n, node out[3])
 {
     out[0] = n->a, out[1] = n->b, out[2] = n->c;
-    if (n->op == OP_SUM)
-        return n->b ? 2 : 1;
+    if (n->op == OP_SUM) return n->b ? 2 : 1;
     return operation_at(n->op)->arity;
 }
 
@@ -22,8 +21,7 @@ static bool push(graph *g, graph_walk *w, node n)
     if (w->count == w->capacity) {
         uint32_t capacity = w->capacity ? w->capacity * 2 : 64;
         node *nodes = take_more(&g->arena->allocator, w->nodes, w->count, capacity, sizeof *nodes);
-        if (!nodes)
-            return g->arena->failed = true, false;
+        if (!nodes) return g->arena->failed = true, false;
         w->nodes = nodes;
         w->capacity = capacity;
     }
@@ -33,10 +31,10 @@ static bool push(graph *g, graph_walk *w, node n)
 
 bool graph_order(graph *g, const node *roots, size_t count, unsigned deps, bool into_sums, graph_walk *w)
 {
-    /* `place` needs no clearing: a node is reached if the list holds it at its place. A node is expanded once, so the stack stays
-     * below three entries a node. */
-    graph_walk stack = { 0 };
-    *w = (graph_walk){ 0 };
+    /* `place` needs no clearing: a node is reached if the list holds it at its place. A node is expanded once, so the
+     * stack stays below three entries a node. */
+    graph_walk stack = {0};
+    *w = (graph_walk){0};
     bool ok = true;
     for (size_t r = 0; ok && r < count; r++) {
         ok = push(g, &stack, roots[r]);
@@ -62,44 +60,34 @@ bool graph_order(graph *g, const node *roots, size_t count, unsigned deps, bool 
     give(&g->arena->allocator, stack.nodes);
     if (!ok) {
         give(&g->arena->allocator, w->nodes);
-        *w = (graph_walk){ 0 };
+        *w = (graph_walk){0};
     }
     return ok;
 }
 
 void graph_order_again(graph *g, const graph_walk *w)
 {
-    for (uint32_t k = 0; k < w->count; k++)
-        g->place[w->nodes[k]] = k;
+    for (uint32_t k = 0; k < w->count; k++) g->place[w->nodes[k]] = k;
 }
 
 /* Degree ---------------------------------------------------------------------------------------------------------- */
 
-static int at_most_2(int degree)
-{
-    return degree > 2 ? 2 : degree;
-}
+static int at_most_2(int degree) { return degree > 2 ? 2 : degree; }
 
-static int larger(int a, int b)
-{
-    return a > b ? a : b;
-}
+static int larger(int a, int b) { return a > b ? a : b; }
 
 int graph_degree(graph *g, node root, unsigned deps)
 {
-    if (!(g->nodes[root].deps & deps))
-        return 0;
+    if (!(g->nodes[root].deps & deps)) return 0;
     graph_walk w;
-    if (!graph_order(g, &root, 1, deps, true, &w))
-        return 2;
+    if (!graph_order(g, &root, 1, deps, true, &w)) return 2;
     uint8_t *degree = take(&g->arena->allocator, w.count, 1);
     int result = 2;
-    if (!degree)
-        g->arena->failed = true;
+    if (!degree) g->arena->failed = true;
     for (uint32_t k = 0; degree && k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
         node operand[3];
-        int d[3] = { 0, 0, 0 };
+        int d[3] = {0, 0, 0};
         for (int j = graph_operands(n, operand); j-- > 0;)
             d[j] = graph_reached(g, &w, operand[j]) ? degree[g->place[operand[j]]] : 0;
         switch ((degree_rule)operation_at(n->op)->degree) {
@@ -127,13 +115,11 @@ node graph_kink(graph *g, node root)
     const unsigned moving = DEP_TIME | DEP_STATE | DEP_D;
     graph_walk w;
     node found = 0;
-    if (!graph_order(g, &root, 1, moving, true, &w))
-        return 0;
+    if (!graph_order(g, &root, 1, moving, true, &w)) return 0;
     for (uint32_t k = 0; !found && k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
         unsigned deps = n->op == OP_SELECT ? g->nodes[n->a].deps : n->deps;
-        if (!operation_at(n->op)->smooth && deps & moving)
-            found = w.nodes[k];
+        if (!operation_at(n->op)->smooth && deps & moving) found = w.nodes[k];
     }
     give(&g->arena->allocator, w.nodes);
     return found;
@@ -149,14 +135,16 @@ typedef struct visit_loads {
     void *ctx;
 } visit_loads;
 
-typedef struct nest { range range[MAX_LEVELS]; int first, inside; } nest;
+typedef struct nest {
+    range range[MAX_LEVELS];
+    int first, inside;
+} nest;
 
 static void loads_below(const visit_loads *v, const node *roots, size_t count, const nest *around)
 {
     graph *g = v->g;
     graph_walk w;
-    if (!graph_order(g, roots, count, v->deps, false, &w))
-        return;
+    if (!graph_order(g, roots, count, v->deps, false, &w)) return;
     for (uint32_t k = 0; k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
         if (n->op == OP_LOAD && g->arrays[g->references[n->a].array].space == v->space) {
@@ -170,21 +158,22 @@ static void loads_below(const visit_loads *v, const node *roots, size_t count, c
                 inner.inside = 0;
             }
             while (inner.inside < n->level - inner.first)
-                inner.range[inner.inside++] = (range){ { -1, -1, -1, 0 }, { -1, -1, -1, -1 } };
+                inner.range[inner.inside++] = (range){{-1, -1, -1, 0}, {-1, -1, -1, -1}};
             inner.range[n->level - inner.first] = g->ranges[n->c];
             inner.inside = n->level - inner.first + 1;
-            node inside[2] = { n->a, n->b };
+            node inside[2] = {n->a, n->b};
             loads_below(v, inside, n->b ? 2 : 1, &inner);
         }
     }
     give(&g->arena->allocator, w.nodes);
 }
 
-void graph_loads(graph *g, node root, space s, void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside),
-                 void *ctx)
+void graph_loads(graph *g, node root, space s,
+                 void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside), void *ctx)
 {
-    static const uint16_t of_space[SPACES] = { [SPACE_X] = DEP_X, [SPACE_V] = DEP_V, [SPACE_A] = DEP_A, [SPACE_DX] = DEP_D,
-                                               [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A };
-    visit_loads v = { g, s, of_space[s], visit, ctx };
-    loads_below(&v, &root, 1, &(nest){ .first = MAX_LEVELS });
+    static const uint16_t of_space[SPACES] = {
+        [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
+        [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
+    visit_loads v = {g, s, of_space[s], visit, ctx};
+    loads_below(&v, &root, 1, &(nest){.first = MAX_LEVELS});
 }

@@ -7,10 +7,13 @@
 /* Operands of a node, 0 … 3 of them (a SUM: body and, if it has one, condition). */
 int graph_operands(const graph_node *, node out[3]);
 
-/* The nodes that the roots reach, operands first; g->place[n] is then the position of n. Only through nodes that depend on
- * something in `deps` (0: through all), and into the bodies of sums only if `into_sums`. One walk at a time: a new walk overwrites
- * `place`. Free `nodes` with give. False: no memory, and the arena is marked failed. */
-typedef struct graph_walk { node *nodes; uint32_t count, capacity; } graph_walk;
+/* The nodes that the roots reach, operands first; g->place[n] is then the position of n. Only through nodes that
+ * depend on something in `deps` (0: through all), and into the bodies of sums only if `into_sums`. One walk at a
+ * time: a new walk overwrites `place`. Free `nodes` with give. False: no memory, and the arena is marked failed. */
+typedef struct graph_walk {
+    node *nodes;
+    uint32_t count, capacity;
+} graph_walk;
 bool graph_order(graph *, const node *roots, size_t count, unsigned deps, bool into_sums, graph_walk *);
 /* Restores `place` for this walk after another one. */
 void graph_order_again(graph *, const graph_walk *);

@@ -6,11 +6,9 @@
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
 
-
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
 {
-    if (count < *capacity || p->failed)
-        return at;
+    if (count < *capacity || p->failed) return at;
     uint32_t wanted = *capacity ? *capacity * 2 : 32;
     void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
@@ -41,22 +39,24 @@ uint32_t plan_home(const plan *p, unsigned deps, uint32_t region)
         region = r->parent;
         r = &p->regions.at[region];
     }
-    if (r->level >= 0)
-        return region;
+    if (r->level >= 0) return region;
     return deps & (DEP_TIME | DEP_STATE | DEP_D) ? AT_RUN : AT_BIND;
 }
 
 static uint32_t new_region(plan *p, uint32_t parent, int level)
 {
-    if (!ROOM(p, p->regions))
-        return NONE;
+    if (!ROOM(p, p->regions)) return NONE;
     uint32_t k = p->regions.count++;
-    p->regions.at[k] = (plan_region){ .parent = parent, .first_child = NONE, .next = NONE, .level = (int8_t)level, .wide_at = NONE,
-                                      .outputs = NONE, .sums = NONE };
+    p->regions.at[k] = (plan_region){.parent = parent,
+                                     .first_child = NONE,
+                                     .next = NONE,
+                                     .level = (int8_t)level,
+                                     .wide_at = NONE,
+                                     .outputs = NONE,
+                                     .sums = NONE};
     if (parent != NONE) {
         uint32_t *link = &p->regions.at[parent].first_child;
-        while (*link != NONE)
-            link = &p->regions.at[*link].next;
+        while (*link != NONE) link = &p->regions.at[*link].next;
         *link = k;
     }
     return k;
@@ -79,13 +79,12 @@ static uint32_t nest_of(plan *p, const output *o)
     for (int d = 0; d < o->loops; d++) {
         bool innermost = d == o->loops - 1;
         uint32_t k = p->regions.at[parent].first_child;
-        while (k != NONE && !(same_range(&p->regions.at[k].range, &o->loop[d]) && !p->regions.at[k].sum
-                              && p->regions.at[k].innermost == innermost))
+        while (k != NONE && !(same_range(&p->regions.at[k].range, &o->loop[d]) && !p->regions.at[k].sum &&
+                              p->regions.at[k].innermost == innermost))
             k = p->regions.at[k].next;
         if (k == NONE) {
             k = new_region(p, parent, d);
-            if (k == NONE)
-                return NONE;
+            if (k == NONE) return NONE;
             p->regions.at[k].range = o->loop[d];
             p->regions.at[k].innermost = innermost;
         }
@@ -99,14 +98,12 @@ static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t ho
 {
     range r = p->g->ranges[n->c];
     uint32_t k = p->regions.at[home].first_child;
-    while (k != NONE && !(p->regions.at[k].sum && p->regions.at[k].level == n->level && p->regions.at[k].rank == rank
-                          && same_range(&p->regions.at[k].range, &r)))
+    while (k != NONE && !(p->regions.at[k].sum && p->regions.at[k].level == n->level && p->regions.at[k].rank == rank &&
+                          same_range(&p->regions.at[k].range, &r)))
         k = p->regions.at[k].next;
-    if (k != NONE)
-        return k;
+    if (k != NONE) return k;
     k = new_region(p, home, n->level);
-    if (k == NONE)
-        return NONE;
+    if (k == NONE) return NONE;
     p->regions.at[k].range = r;
     p->regions.at[k].rank = rank;
     p->regions.at[k].sum = true;
@@ -126,8 +123,7 @@ static uint32_t slot_of(const plan *p, node n, uint32_t region)
     uint32_t k = (uint32_t)(h >> 32) & (p->table_size - 1);
     while (p->table[k]) {
         const plan_item *i = &p->items.at[p->table[k] - 1];
-        if (i->n == n && i->region == region)
-            break;
+        if (i->n == n && i->region == region) break;
         k = (k + 1) & (p->table_size - 1);
     }
     return k;
@@ -143,32 +139,36 @@ static bool grow_table(plan *p)
 {
     uint32_t *old = p->table, old_size = p->table_size, size = old_size ? old_size * 2 : 64;
     uint32_t *table = take(p->hooks, size, sizeof *table);
-    if (!table)
-        return p->failed = true, false;
+    if (!table) return p->failed = true, false;
     p->table = table;
     p->table_size = size;
     for (uint32_t k = 0; k < old_size; k++)
-        if (old[k])
-            table[slot_of(p, p->items.at[old[k] - 1].n, p->items.at[old[k] - 1].region)] = old[k];
+        if (old[k]) table[slot_of(p, p->items.at[old[k] - 1].n, p->items.at[old[k] - 1].region)] = old[k];
     give(p->hooks, old);
     return true;
 }
 
 static uint32_t new_item(plan *p, node n, uint32_t region)
 {
-    if (!ROOM(p, p->items))
-        return NONE;
+    if (!ROOM(p, p->items)) return NONE;
     uint32_t k = p->items.count++;
-    p->items.at[k] = (plan_item){ .n = n, .region = region, .key = n, .rank = p->rank[n], .sum = NONE, .inside = NONE,
-                                  .next_sum = NONE, .outputs = NONE, .reg = NONE, .total = NONE };
+    p->items.at[k] = (plan_item){.n = n,
+                                 .region = region,
+                                 .key = n,
+                                 .rank = p->rank[n],
+                                 .sum = NONE,
+                                 .inside = NONE,
+                                 .next_sum = NONE,
+                                 .outputs = NONE,
+                                 .reg = NONE,
+                                 .total = NONE};
     return k;
 }
 
 static void need(plan *p, node n, uint32_t region)
 {
     for (int half = 0; half < 2; half++) {
-        if (!ROOM(p, p->stack))
-            return;
+        if (!ROOM(p, p->stack)) return;
         p->stack.at[p->stack.count++] = half ? region : n;
     }
 }
@@ -179,8 +179,7 @@ static void enter_sum(plan *p, uint32_t item)
     graph_node n = p->g->nodes[p->items.at[item].n];
     uint32_t inside = loop_of(p, &n, p->items.at[item].rank, p->items.at[item].region);
     uint32_t update = inside == NONE ? NONE : new_item(p, n.a, inside);
-    if (update == NONE)
-        return;
+    if (update == NONE) return;
     p->items.at[item].inside = inside;
     p->items.at[item].next_sum = p->regions.at[inside].sums;
     p->regions.at[inside].sums = item;
@@ -193,8 +192,7 @@ static void enter_sum(plan *p, uint32_t item)
     }
     graph_node how = p->g->nodes[n.a];
     need(p, how.b, inside);
-    if (how.op != OP_ADD)
-        need(p, how.a, inside);
+    if (how.op != OP_ADD) need(p, how.a, inside);
 }
 
 static void gather(plan *p)
@@ -204,22 +202,18 @@ static void gather(plan *p)
         node n = p->stack.at[p->stack.count - 2];
         p->stack.count -= 2;
         uint32_t home = plan_home(p, p->g->nodes[n].deps, region);
-        if (p->items.count * 2 >= p->table_size && !grow_table(p))
-            return;
+        if (p->items.count * 2 >= p->table_size && !grow_table(p)) return;
         uint32_t slot = slot_of(p, n, home);
-        if (p->table[slot])
-            continue;
+        if (p->table[slot]) continue;
         uint32_t item = new_item(p, n, home);
-        if (item == NONE)
-            return;
+        if (item == NONE) return;
         p->table[slot] = item + 1;
         if (p->g->nodes[n].op == OP_SUM) {
             enter_sum(p, item);
         } else {
             node operand[3];
             int arity = graph_operands(&p->g->nodes[n], operand);
-            for (int k = 0; k < arity; k++)
-                need(p, operand[k], home);
+            for (int k = 0; k < arity; k++) need(p, operand[k], home);
         }
     }
 }
@@ -228,14 +222,13 @@ static bool place_output(plan *p, uint32_t k)
 {
     const output *o = &p->program->outputs[k];
     uint32_t region = nest_of(p, o);
-    if (region == NONE)
-        return false;
+    if (region == NONE) return false;
     need(p, o->value, region);
     gather(p);
-    if (p->failed)
-        return false;
+    if (p->failed) return false;
     uint32_t home = plan_home(p, p->g->nodes[o->value].deps, region);
-    uint32_t *list = home == region ? &p->items.at[plan_find(p, o->value, home)].outputs : &p->regions.at[region].outputs;
+    uint32_t *list =
+        home == region ? &p->items.at[plan_find(p, o->value, home)].outputs : &p->regions.at[region].outputs;
     p->next_output[k] = *list;
     *list = k;
     return true;
@@ -258,10 +251,8 @@ static bool before(const plan *p, uint32_t i, uint32_t j)
 static void sift(const plan *p, uint32_t *v, uint32_t root, uint32_t count)
 {
     for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
-        if (child + 1 < count && before(p, v[child], v[child + 1]))
-            child++;
-        if (!before(p, v[root], v[child]))
-            return;
+        if (child + 1 < count && before(p, v[child], v[child + 1])) child++;
+        if (!before(p, v[root], v[child])) return;
         uint32_t swap = v[root];
         v[root] = v[child];
         v[child] = swap;
@@ -272,12 +263,9 @@ static void sift(const plan *p, uint32_t *v, uint32_t root, uint32_t count)
 static bool sort_items(plan *p)
 {
     uint32_t count = p->items.count, *v = p->order = take(p->hooks, count, sizeof *v);
-    if (!v)
-        return p->failed = true, false;
-    for (uint32_t k = 0; k < count; k++)
-        v[k] = k;
-    for (uint32_t k = count / 2; k-- > 0;)
-        sift(p, v, k, count);
+    if (!v) return p->failed = true, false;
+    for (uint32_t k = 0; k < count; k++) v[k] = k;
+    for (uint32_t k = count / 2; k-- > 0;) sift(p, v, k, count);
     for (uint32_t k = count; k-- > 1;) {
         uint32_t swap = v[0];
         v[0] = v[k];
@@ -286,8 +274,7 @@ static bool sort_items(plan *p)
     }
     for (uint32_t k = 0; k < count; k++) {
         plan_region *r = &p->regions.at[p->items.at[v[k]].region];
-        if (!r->item_count++)
-            r->items = k;
+        if (!r->item_count++) r->items = k;
     }
     return true;
 }
@@ -299,8 +286,7 @@ static bool rank_nodes(plan *p)
         node operand[3];
         uint32_t rank = 0;
         for (int k = graph_operands(&p->g->nodes[n], operand); k-- > 0;)
-            if (p->rank[operand[k]] > rank)
-                rank = p->rank[operand[k]];
+            if (p->rank[operand[k]] > rank) rank = p->rank[operand[k]];
         p->rank[n] = rank + (p->g->nodes[n].op == OP_SUM);
     }
     return p->rank != NULL;
@@ -313,8 +299,7 @@ static void choose_lanes(plan *p)
         plan_region *r = &p->regions.at[k];
         r->wide_at = p->regions.at[r->parent].wide_at;
         r->wide = p->blocks && !r->serial && r->wide_at == NONE && (r->sum ? !r->holds_sums : r->innermost);
-        if (r->wide)
-            r->wide_at = k;
+        if (r->wide) r->wide_at = k;
     }
 }
 
@@ -326,11 +311,10 @@ bool plan_is_block(const plan *p, node n, uint32_t home)
 
 bool plan_create(plan *p, arena *a, const program *program, bool blocks)
 {
-    *p = (plan){ .hooks = &a->allocator, .g = program->graph, .program = program, .blocks = blocks };
+    *p = (plan){.hooks = &a->allocator, .g = program->graph, .program = program, .blocks = blocks};
     p->next_output = take(p->hooks, program->count, sizeof *p->next_output);
     bool ok = p->next_output && rank_nodes(p) && new_region(p, NONE, -1) != NONE && new_region(p, AT_BIND, -1) != NONE;
-    for (size_t k = 0; ok && k < program->count; k++)
-        ok = place_output(p, (uint32_t)k);
+    for (size_t k = 0; ok && k < program->count; k++) ok = place_output(p, (uint32_t)k);
     ok = ok && !p->failed && sort_items(p);
     if (ok)
         choose_lanes(p);

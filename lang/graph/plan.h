@@ -10,33 +10,37 @@
 #include "lang/graph/graph.h"
 
 enum { AT_BIND = 0, AT_RUN = 1 };
-#define NONE UINT32_MAX          /* no region, no item, no output */
-#define LIST(T) struct { T *at; uint32_t count, capacity; }
+#define NONE UINT32_MAX /* no region, no item, no output */
+#define LIST(T)                   \
+    struct {                      \
+        T *at;                    \
+        uint32_t count, capacity; \
+    }
 
 typedef struct plan_region {
-    uint32_t parent, first_child, next;  /* family loops and sums inside, in the order they were met */
-    int8_t level;                        /* -1: no loop */
+    uint32_t parent, first_child, next; /* family loops and sums inside, in the order they were met */
+    int8_t level;                       /* -1: no loop */
     bool sum, serial, holds_sums, innermost;
-    bool wide;                           /* its index runs along the lanes */
-    uint32_t wide_at;                    /* the wide region on the path to here, itself included; NONE */
+    bool wide;        /* its index runs along the lanes */
+    uint32_t wide_at; /* the wide region on the path to here, itself included; NONE */
     range range;
     uint32_t rank;
-    uint32_t items, item_count;          /* in plan.order */
-    uint32_t outputs;                    /* outputs whose value is computed further out */
-    uint32_t sums;                       /* items of region `parent` that this loop totals */
-    uint32_t begin, end;                 /* tape_code.c: its instructions LOOP and NEXT */
+    uint32_t items, item_count; /* in plan.order */
+    uint32_t outputs;           /* outputs whose value is computed further out */
+    uint32_t sums;              /* items of region `parent` that this loop totals */
+    uint32_t begin, end;        /* tape_code.c: its instructions LOOP and NEXT */
 } plan_region;
 
 typedef struct plan_item {
     node n;
     uint32_t region;
-    uint32_t key;                        /* order within a rank: the node, but after what it needs */
-    uint32_t rank;                       /* how many sums have to be finished before it */
-    uint32_t sum;                        /* NONE, or the item of the SUM whose total this one updates */
-    uint32_t inside;                     /* SUM: the region of its loop */
-    uint32_t next_sum;                   /* SUM: the next one in the same loop */
-    uint32_t outputs;                    /* outputs written as soon as it is known */
-    uint32_t reg, total;                 /* the writer's; of a SUM, reg is NONE until its loop is written */
+    uint32_t key;        /* order within a rank: the node, but after what it needs */
+    uint32_t rank;       /* how many sums have to be finished before it */
+    uint32_t sum;        /* NONE, or the item of the SUM whose total this one updates */
+    uint32_t inside;     /* SUM: the region of its loop */
+    uint32_t next_sum;   /* SUM: the next one in the same loop */
+    uint32_t outputs;    /* outputs written as soon as it is known */
+    uint32_t reg, total; /* the writer's; of a SUM, reg is NONE until its loop is written */
 } plan_item;
 
 typedef struct plan {
@@ -46,23 +50,25 @@ typedef struct plan {
     bool blocks, failed;
     LIST(plan_region) regions;
     LIST(plan_item) items;
-    LIST(uint32_t) stack;                /* pairs: node, region */
-    uint32_t *order;                     /* items by region, rank, key */
-    uint32_t *rank;                      /* by node */
+    LIST(uint32_t) stack; /* pairs: node, region */
+    uint32_t *order;      /* items by region, rank, key */
+    uint32_t *rank;       /* by node */
     uint32_t *next_output;
-    uint32_t *table; uint32_t table_size; /* (region, node) → item + 1 */
+    uint32_t *table;
+    uint32_t table_size; /* (region, node) → item + 1 */
 } plan;
 
 /* Room for one more at the end of a list; plan.failed where there is none. */
-#define ROOM(p, list) \
-    ((list).at = plan_room(p, (list).at, (list).count, &(list).capacity, sizeof *(list).at), (list).count < (list).capacity)
+#define ROOM(p, list)                                                                        \
+    ((list).at = plan_room(p, (list).at, (list).count, &(list).capacity, sizeof *(list).at), \
+     (list).count < (list).capacity)
 void *plan_room(plan *, void *at, uint32_t count, uint32_t *capacity, size_t size);
 
 bool plan_create(plan *, arena *, const program *, bool blocks);
 void plan_release(plan *);
 /* The region in which something with these dependences is computed when `region` needs it. */
 uint32_t plan_home(const plan *, unsigned deps, uint32_t region);
-uint32_t plan_find(const plan *, node, uint32_t home);       /* the item, or NONE */
+uint32_t plan_find(const plan *, node, uint32_t home); /* the item, or NONE */
 bool plan_is_block(const plan *, node, uint32_t home);
 
 #endif

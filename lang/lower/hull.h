@@ -8,8 +8,8 @@
 bool hull_find(model *, model_state *);
 /* Raises the cells [first, last] of a map over the hull to `as`; with `once` it complains where a cell is marked
  * already. */
-bool hull_mark(model *, const model_state *, const statement *, const int64_t first[],
-               const int64_t last[], uint8_t *map, uint8_t as, bool once);
+bool hull_mark(model *, const model_state *, const statement *, const int64_t first[], const int64_t last[],
+               uint8_t *map, uint8_t as, bool once);
 /* Complains that a line has not as many indices as its state; returns false. */
 bool hull_indices_wrong(model *, const model_state *, span at);
 

@@ -26,21 +26,20 @@ node lower_scalar(lowering *l, const tree *t, const char *what)
 static bool equal_shapes(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb, const char *sign)
 {
     char x[80], y[80], p[40], q[40];
-    if (!want_number(l, va, a) || !want_number(l, vb, b))
-        return false;
-    if (va.count == vb.count)
-        return true;
-    COMPLAIN(l, t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y), shape_name(va, p), shape_name(vb, q));
+    if (!want_number(l, va, a) || !want_number(l, vb, b)) return false;
+    if (va.count == vb.count) return true;
+    COMPLAIN(l, t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y),
+             shape_name(va, p), shape_name(vb, q));
     if (!va.count || !vb.count)
-        HINT(l, "nothing is made a vector silently: write a vector (…, …), or take the length |%s| or a component", va.count ? x : y);
+        HINT(l, "nothing is made a vector silently: write a vector (…, …), or take the length |%s| or a component",
+             va.count ? x : y);
     return false;
 }
 
 static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     bool add = t->kind == TREE_ADD;
-    if (!equal_shapes(l, t, a, va, b, vb, add ? "+" : "-"))
-        return wrong(l);
+    if (!equal_shapes(l, t, a, va, b, vb, add ? "+" : "-")) return wrong(l);
     value v = vector(l, va.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = binary(l, add ? OP_ADD : OP_SUB, va.item[k], vb.item[k]);
@@ -50,8 +49,7 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
-    if (!want_number(l, va, a) || !want_number(l, vb, b))
-        return wrong(l);
+    if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
     if (va.count && vb.count) {
         COMPLAIN(l, t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, a->at, x), quote(l, b->at, y), x, y);
@@ -60,10 +58,12 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
     if (t->blank_product) {
         const tree *name = a->kind == TREE_MULTIPLY ? a->item[1] : a;
         symbol s = symbols_find(l->model, name->name);
-        if (s.state && !lower_find_index(l, name->name) && !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS))) {
+        if (s.state && !lower_find_index(l, name->name) &&
+            !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS))) {
             quote(l, name->at, x);
             quote(l, b->at, y);
-            source_complain(&l->model->source, MOTUS_SYNTAX, (span){t->at.text, name->at.from, b->at.to}, "%s %s: a product or an initial value?", x, y);
+            source_complain(&l->model->source, MOTUS_SYNTAX, (span){t->at.text, name->at.from, b->at.to},
+                            "%s %s: a product or an initial value?", x, y);
             HINT(l, "write %s*%s for the product, %s%s for the initial value", x, y, x, y);
             return wrong(l);
         }
@@ -77,28 +77,24 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
 static value lower_quotient(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80];
-    if (!want_number(l, va, a) || !want_number(l, vb, b))
-        return wrong(l);
+    if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
     if (vb.count) {
         COMPLAIN(l, t->at, "nothing can be divided by a vector");
         HINT(l, "divide by its length |%s|, or by a component", quote(l, b->at, x));
         return wrong(l);
     }
-    if (!va.count)
-        return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
+    if (!va.count) return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
     /* v/s is v*(1/s), so it divides once */
     node once = binary(l, OP_DIV, graph_const(l->model->graph, 1), vb.item[0]);
     value v = vector(l, va.count);
-    for (int k = 0; k < v.count; k++)
-        v.item[k] = binary(l, OP_MUL, va.item[k], once);
+    for (int k = 0; k < v.count; k++) v.item[k] = binary(l, OP_MUL, va.item[k], once);
     return v;
 }
 
 static node dot(lowering *l, value a, value b)
 {
     value products = vector(l, a.count);
-    for (int k = 0; k < products.count; k++)
-        products.item[k] = binary(l, OP_MUL, a.item[k], b.item[k]);
+    for (int k = 0; k < products.count; k++) products.item[k] = binary(l, OP_MUL, a.item[k], b.item[k]);
     return graph_total(l->model->graph, products.item, (size_t)products.count);
 }
 
@@ -110,8 +106,7 @@ static bool literal_exponent(const tree *t, int *n)
         sign = -1;
         t = t->item[0];
     }
-    if (t->kind != TREE_NUMBER || t->number != floor(t->number) || t->number > 64)
-        return false;
+    if (t->kind != TREE_NUMBER || t->number != floor(t->number) || t->number > 64) return false;
     *n = sign * (int)t->number;
     return true;
 }
@@ -127,8 +122,7 @@ static node norm_power(lowering *l, value of, int n)
         node root = graph_op(g, OP_SQRT, d, 0, 0);
         p = m >= 2 ? binary(l, OP_MUL, p, root) : root;
     }
-    if (m == 0)
-        return graph_const(g, 1);
+    if (m == 0) return graph_const(g, 1);
     return n < 0 ? binary(l, OP_DIV, graph_const(g, 1), p) : p;
 }
 
@@ -148,21 +142,17 @@ static value lower_power(lowering *l, const tree *t)
     bool literal = literal_exponent(exponent, &n);
     if (literal && base->kind == TREE_NORM) {
         value of = lower_expression(l, base->item[0]);
-        if (failed(l))
-            return wrong(l);
-        if (of.count)
-            return scalar(l, norm_power(l, of, n));
+        if (failed(l)) return wrong(l);
+        if (of.count) return scalar(l, norm_power(l, of, n));
     }
     value b = lower_expression(l, base);
-    if (!want_number(l, b, base))
-        return wrong(l);
+    if (!want_number(l, b, base)) return wrong(l);
     if (b.count) {
         COMPLAIN(l, t->at, "a vector has no powers");
         HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, base->at, x), x, x);
         return wrong(l);
     }
-    if (literal)
-        return scalar(l, graph_power(l->model->graph, b.item[0], n));
+    if (literal) return scalar(l, graph_power(l->model->graph, b.item[0], n));
     node e = lower_scalar(l, exponent, "an exponent");
     return failed(l) ? wrong(l) : scalar(l, binary(l, OP_POW, b.item[0], e));
 }
@@ -174,8 +164,7 @@ static value lower_call(lowering *l, const tree *t)
     char shape[40], x[80];
     for (uint32_t i = 0; i < n && i < 3; i++) {
         v[i] = lower_expression(l, t->item[i]);
-        if (failed(l))
-            return wrong(l);
+        if (failed(l)) return wrong(l);
     }
     if (t->operation == CALL_IF) {
         if (!v[0].boolean) {
@@ -183,8 +172,7 @@ static value lower_call(lowering *l, const tree *t)
             HINT(l, "write if(x > 0, …, …)");
             return wrong(l);
         }
-        if (!equal_shapes(l, t, t->item[1], v[1], t->item[2], v[2], "or"))
-            return wrong(l);
+        if (!equal_shapes(l, t, t->item[1], v[1], t->item[2], v[2], "or")) return wrong(l);
         value r = vector(l, v[1].count);
         for (int k = 0; k < (r.count ? r.count : 1); k++)
             r.item[k] = graph_op(l->model->graph, OP_SELECT, v[0].item[0], v[1].item[k], v[2].item[k]);
@@ -193,22 +181,18 @@ static value lower_call(lowering *l, const tree *t)
     if (t->operation == CALL_DOT || t->operation == CALL_CROSS) {
         bool cross = t->operation == CALL_CROSS;
         for (int i = 0; i < 2; i++)
-            if (!want_number(l, v[i], t->item[i]))
-                return wrong(l);
+            if (!want_number(l, v[i], t->item[i])) return wrong(l);
         if (v[0].count == 0 || v[0].count != v[1].count || (cross && v[0].count > 3)) {
             char other[40];
-            COMPLAIN(l, t->at, "%s takes two vectors of %s, not %s and %s", t->name, cross ? "length 3 (or 2)" : "equal length",
-                     shape_name(v[0], shape), shape_name(v[1], other));
+            COMPLAIN(l, t->at, "%s takes two vectors of %s, not %s and %s", t->name,
+                     cross ? "length 3 (or 2)" : "equal length", shape_name(v[0], shape), shape_name(v[1], other));
             return wrong(l);
         }
-        if (!cross)
-            return scalar(l, dot(l, v[0], v[1]));
+        if (!cross) return scalar(l, dot(l, v[0], v[1]));
         const node *a = v[0].item, *b = v[1].item;
-        if (v[0].count == 2)
-            return scalar(l, area(l, a, b, 0, 1));
+        if (v[0].count == 2) return scalar(l, area(l, a, b, 0, 1));
         value r = vector(l, 3);
-        for (int k = 0; k < 3; k++)
-            r.item[k] = area(l, a, b, (k + 1) % 3, (k + 2) % 3);
+        for (int k = 0; k < 3; k++) r.item[k] = area(l, a, b, (k + 1) % 3, (k + 2) % 3);
         return r;
     }
     if (t->operation == OP_MIN || t->operation == OP_MAX) {
@@ -220,8 +204,7 @@ static value lower_call(lowering *l, const tree *t)
     for (uint32_t i = 0; i < n; i++)
         if (v[i].count || v[i].boolean) {
             COMPLAIN(l, t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(v[i], shape));
-            if (v[i].count)
-                HINT(l, "its length is |%s|, a component %s.x", quote(l, t->item[i]->at, x), x);
+            if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, t->item[i]->at, x), x);
             return wrong(l);
         }
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
@@ -234,31 +217,33 @@ static value lower_sum(lowering *l, const tree *t)
     range ranges[MAX_DIMS];
     graph *g = l->model->graph;
     if (l->levels + (int)t->loop_count > MAX_LEVELS) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "sums and families are nested more than %d deep", MAX_LEVELS);
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "sums and families are nested more than %d deep",
+                        MAX_LEVELS);
         return wrong(l);
     }
     for (uint32_t k = 0; k < t->loop_count; k++) {
         int64_t low, high;
-        if (!lower_range(&inner, &t->loops[k], &ranges[k], &low, &high) || !lower_add_index(&inner, &t->loops[k], inner.levels, low, high))
+        if (!lower_range(&inner, &t->loops[k], &ranges[k], &low, &high) ||
+            !lower_add_index(&inner, &t->loops[k], inner.levels, low, high))
             return wrong(l);
         inner.levels++;
         inner.terms *= high >= low ? (double)(high - low + 1) : 1;
     }
     if (inner.terms > MODEL_TERMS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "%.3g terms are more than the %.0e that an evaluation may take", inner.terms,
-                        MODEL_TERMS_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+                        "%.3g terms are more than the %.0e that an evaluation may take", inner.terms, MODEL_TERMS_MAX);
         return wrong(l);
     }
     if (l->place == PLACE_CONSTANT && (l->model->constant_terms += inner.terms) > MODEL_CONSTANT_TERMS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+                        "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
         return wrong(l);
     }
     node mask = 0;
-    bool masked = false, never = false;              /* never: a condition is the constant false, so the sum is empty */
+    bool masked = false, never = false; /* never: a condition is the constant false, so the sum is empty */
     for (uint32_t i = 0; i + 1 < t->count; i++) {
         value c = lower_expression(&inner, t->item[i]);
-        if (failed(l))
-            return wrong(l);
+        if (failed(l)) return wrong(l);
         if (!c.boolean) {
             COMPLAIN(l, t->item[i]->at, "a condition is due here, such as j != i");
             return wrong(l);
@@ -268,8 +253,7 @@ static value lower_sum(lowering *l, const tree *t)
         never |= mask == 0;
     }
     value body = lower_expression(&inner, t->item[t->count - 1]);
-    if (!want_number(l, body, t->item[t->count - 1]))
-        return wrong(l);
+    if (!want_number(l, body, t->item[t->count - 1])) return wrong(l);
     value v = vector(l, body.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         node n = body.item[k];
@@ -297,12 +281,12 @@ static value lower_truth(lowering *l, const tree *t)
 static value lower_vector(lowering *l, const tree *t)
 {
     if (t->count > MODEL_COMPONENTS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "a vector has at most %d components", MODEL_COMPONENTS_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "a vector has at most %d components",
+                        MODEL_COMPONENTS_MAX);
         return wrong(l);
     }
     value v = vector(l, (int)t->count);
-    for (uint32_t i = 0; i < t->count && !failed(l); i++)
-        v.item[i] = lower_scalar(l, t->item[i], "a component");
+    for (uint32_t i = 0; i < t->count && !failed(l); i++) v.item[i] = lower_scalar(l, t->item[i], "a component");
     return v;
 }
 
@@ -311,16 +295,16 @@ static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
     if (t->kind == TREE_AND || t->kind == TREE_OR) {
-        if (!left.boolean)
-            COMPLAIN(l, a->at, "and, or, not join conditions, such as x > 0");
+        if (!left.boolean) COMPLAIN(l, a->at, "and, or, not join conditions, such as x > 0");
         value right = lower_truth(l, b);
-        return failed(l) ? wrong(l) : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
+        return failed(l) ? wrong(l)
+                         : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
     value right = lower_expression(l, b);
-    if (failed(l))
-        return wrong(l);
+    if (failed(l)) return wrong(l);
     switch (t->kind) {
-    case TREE_ADD: case TREE_SUBTRACT: return lower_sum_of_two(l, t, a, left, b, right);
+    case TREE_ADD:
+    case TREE_SUBTRACT: return lower_sum_of_two(l, t, a, left, b, right);
     case TREE_MULTIPLY: return lower_product(l, t, a, left, b, right);
     default: return lower_quotient(l, t, a, left, b, right);
     }
@@ -328,7 +312,8 @@ static value lower_right(lowering *l, const tree *t, value left)
 
 static bool operator_kind(tree_kind kind)
 {
-    return kind == TREE_ADD || kind == TREE_SUBTRACT || kind == TREE_MULTIPLY || kind == TREE_DIVIDE || kind == TREE_AND || kind == TREE_OR;
+    return kind == TREE_ADD || kind == TREE_SUBTRACT || kind == TREE_MULTIPLY || kind == TREE_DIVIDE ||
+           kind == TREE_AND || kind == TREE_OR;
 }
 
 /* a op b op c …: collects the operators down the left side, then lowers them from the innermost outward. */
@@ -336,17 +321,13 @@ static value lower_chain(lowering *l, const tree *t)
 {
     size_t depth = 0;
     const tree *leaf = t;
-    for (; operator_kind(leaf->kind); leaf = leaf->item[0])
-        depth++;
+    for (; operator_kind(leaf->kind); leaf = leaf->item[0]) depth++;
     const tree **chain = arena_room(l->model->arena, depth * sizeof *chain);
-    if (!chain)
-        return wrong(l);
+    if (!chain) return wrong(l);
     size_t n = depth;
-    for (const tree *c = t; n > 0; c = c->item[0])
-        chain[--n] = c;
+    for (const tree *c = t; n > 0; c = c->item[0]) chain[--n] = c;
     value v = lower_expression(l, leaf);
-    for (size_t i = 0; i < depth && !failed(l); i++)
-        v = lower_right(l, chain[i], v);
+    for (size_t i = 0; i < depth && !failed(l); i++) v = lower_right(l, chain[i], v);
     return v;
 }
 
@@ -358,7 +339,8 @@ static value lower_any(lowering *l, const tree *t)
         return wrong(l);
     }
     if (++l->model->lowered > MODEL_LOWERED_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "the quantities use one another too often: more than %u steps to read the model",
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+                        "the quantities use one another too often: more than %u steps to read the model",
                         MODEL_LOWERED_MAX);
         return wrong(l);
     }
@@ -371,15 +353,14 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:
         v = lower_expression(l, t->item[0]);
-        if (!want_number(l, v, t->item[0]))
-            return wrong(l);
+        if (!want_number(l, v, t->item[0])) return wrong(l);
         value r = vector(l, v.count);
-        for (int k = 0; k < (r.count ? r.count : 1); k++)
-            r.item[k] = graph_op(g, OP_NEG, v.item[k], 0, 0);
+        for (int k = 0; k < (r.count ? r.count : 1); k++) r.item[k] = graph_op(g, OP_NEG, v.item[k], 0, 0);
         return r;
     case TREE_POWER: return lower_power(l, t);
     case TREE_COMPARE: {
-        node a = lower_scalar(l, t->item[0], "a side of a comparison"), b = lower_scalar(l, t->item[1], "a side of a comparison");
+        node a = lower_scalar(l, t->item[0], "a side of a comparison"),
+             b = lower_scalar(l, t->item[1], "a side of a comparison");
         return failed(l) ? wrong(l) : condition(l, binary(l, (operation)t->operation, a, b));
     }
     case TREE_NOT:
@@ -393,8 +374,7 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);
     case TREE_NORM:
         v = lower_expression(l, t->item[0]);
-        if (!want_number(l, v, t->item[0]))
-            return wrong(l);
+        if (!want_number(l, v, t->item[0])) return wrong(l);
         return scalar(l, v.count ? graph_op(g, OP_SQRT, dot(l, v, v), 0, 0) : graph_op(g, OP_ABS, v.item[0], 0, 0));
     case TREE_SUM: return lower_sum(l, t);
     default: return lower_chain(l, t);
@@ -405,7 +385,8 @@ value lower_expression(lowering *l, const tree *t)
 {
     model *m = l->model;
     if (m->depth == MODEL_DEPTH_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, t->at, "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, t->at,
+                        "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
         source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
         return wrong(l);
     }

@@ -12,7 +12,7 @@
 
 typedef struct value {
     node *item;
-    int count;                       /* 0: a scalar, item[0] */
+    int count; /* 0: a scalar, item[0] */
     bool boolean;
 } value;
 
@@ -20,7 +20,7 @@ typedef struct value {
 typedef struct index_name {
     const char *name;
     subscript at;
-    node constant;                   /* the int slot of `at` as a node; 0 if it has none */
+    node constant; /* the int slot of `at` as a node; 0 if it has none */
     node number;
     int64_t first, last;
 } index_name;
@@ -30,11 +30,11 @@ typedef enum lower_place { PLACE_CONSTANT, PLACE_EXACT, PLACE_EQUATION, PLACE_BO
 typedef struct lowering {
     model *model;
     lower_place place;
-    const char *what;                /* "a parameter", "an initial value", "a boundary line": for messages */
+    const char *what; /* "a parameter", "an initial value", "a boundary line": for messages */
     index_name names[2 * MAX_LEVELS];
     int name_count, levels;
-    int64_t low[MAX_LEVELS], high[MAX_LEVELS];       /* the range of each level */
-    double terms;                    /* how often the expression is evaluated in one evaluation of the model */
+    int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* the range of each level */
+    double terms; /* how often the expression is evaluated in one evaluation of the model */
     int chain;
 } lowering;
 

@@ -11,16 +11,15 @@
 const index_name *lower_find_index(const lowering *l, const char *name)
 {
     for (int i = l->name_count - 1; i >= 0; i--)
-        if (!strcmp(l->names[i].name, name))
-            return &l->names[i];
+        if (!strcmp(l->names[i].name, name)) return &l->names[i];
     return NULL;
 }
 
-typedef struct affine {              /* an index expression in its parts */
+typedef struct affine { /* an index expression in its parts */
     const index_name *name;
     int64_t literal;
     node constant;
-    bool wrapped;                    /* mod(inner, modulus) + literal */
+    bool wrapped; /* mod(inner, modulus) + literal */
     subscript inner;
     int64_t modulus;
 } affine;
@@ -39,12 +38,10 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
         return;
     }
     int64_t low, high;
-    if (!lower_subscript(l, t->item[0], &a->inner, &low, &high))
-        return;
+    if (!lower_subscript(l, t->item[0], &a->inner, &low, &high)) return;
     node n = lower_scalar(l, t->item[1], "the second argument of mod");
     int slot = failed(l) ? -1 : evaluate_int(l->model, n, t->item[1]->at, &a->modulus);
-    if (slot < 0)
-        return;
+    if (slot < 0) return;
     if (a->modulus < 1) {
         COMPLAIN(l, t->item[1]->at, "an index wraps around at least 1 place, not %lld", (long long)a->modulus);
         return;
@@ -64,8 +61,7 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
 static void take_constant(lowering *l, const tree *t, int sign, affine *a)
 {
     node n = lower_scalar(l, t, "an index");
-    if (failed(l))
-        return;
+    if (failed(l)) return;
     unsigned deps = graph_deps(l->model->graph, n);
     if (deps & (DEP_LEVELS | DEP_TIME | DEP_STATE | DEP_D)) {
         if (deps & DEP_LEVELS)
@@ -107,10 +103,10 @@ static void take_apart(lowering *l, const tree *t, int sign, affine *a)
             t = t->item[0];
             continue;
         }
-        const index_name *name = t->kind == TREE_NAME && t->index_count == 0 && t->primes == 0 ? lower_find_index(l, t->name) : NULL;
+        const index_name *name =
+            t->kind == TREE_NAME && t->index_count == 0 && t->primes == 0 ? lower_find_index(l, t->name) : NULL;
         if (name) {
-            if (sign < 0 || a->name || a->wrapped)
-                not_affine(l, t);
+            if (sign < 0 || a->name || a->wrapped) not_affine(l, t);
             a->name = name;
         } else if (t->kind == TREE_CALL && t->operation == OP_MOD) {
             take_mod(l, t, sign, a);
@@ -127,8 +123,7 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     *out = (subscript){.level = -1, .slot = -1, .modulus = -1};
     *first = *last = 0;
     take_apart(l, t, 1, &a);
-    if (failed(l))
-        return false;
+    if (failed(l)) return false;
     if (a.wrapped) {
         if (a.literal != 1 || a.constant) {
             COMPLAIN(l, t->at, "indices count from 1: a wrapped index is mod(…, N) + 1");
@@ -154,14 +149,12 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     if (a.constant) {
         int64_t value;
         int slot = evaluate_int(l->model, a.constant, t->at, &value);
-        if (slot < 0)
-            return false;
+        if (slot < 0) return false;
         out->slot = (int16_t)slot;
         shift += value;
-        if (a.name && a.name->constant) {            /* first and last contain it already */
+        if (a.name && a.name->constant) { /* first and last contain it already */
             int64_t before;
-            if (evaluate_int(l->model, a.name->constant, t->at, &before) < 0)
-                return false;
+            if (evaluate_int(l->model, a.name->constant, t->at, &before) < 0) return false;
             shift -= before;
         }
     }
@@ -184,12 +177,16 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
     }
     symbol s = symbols_find(l->model, loop->name);
     if (s.state || s.definition) {
-        source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index besides", loop->name);
+        source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index besides",
+                        loop->name);
         HINT(l, "take another letter for the index");
         return false;
     }
     index_name *n = &l->names[l->name_count++];
-    *n = (index_name){.name = loop->name, .at = {.level = (int8_t)level, .slot = -1, .modulus = -1}, .first = first, .last = last,
+    *n = (index_name){.name = loop->name,
+                      .at = {.level = (int8_t)level, .slot = -1, .modulus = -1},
+                      .first = first,
+                      .last = last,
                       .number = graph_index(l->model->graph, level)};
     l->low[level] = first;
     l->high[level] = last;
@@ -200,7 +197,8 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
 bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_t *high)
 {
     int64_t first_high, last_low;
-    if (!lower_subscript(l, loop->first, &out->first, low, &first_high) || !lower_subscript(l, loop->last, &out->last, &last_low, high))
+    if (!lower_subscript(l, loop->first, &out->first, low, &first_high) ||
+        !lower_subscript(l, loop->last, &out->last, &last_low, high))
         return false;
     if (out->first.modulus >= 0 || out->last.modulus >= 0) {
         COMPLAIN(l, loop->at, "the bounds of an index are not wrapped");
@@ -218,15 +216,15 @@ bool lower_target(lowering *l, const statement *s, output *out)
         const tree *t = s->index[d];
         int which = -1;
         for (uint32_t k = 0; k < s->loop_count && t->kind == TREE_NAME && !t->primes && !t->index_count; k++)
-            if (!strcmp(s->loops[k].name, t->name))
-                which = (int)k;
+            if (!strcmp(s->loops[k].name, t->name)) which = (int)k;
         if (which >= 0 && used[which]) {
             COMPLAIN(l, t->at, "the index %s stands twice on the left side", t->name);
             return false;
         }
         if (which < 0) {
             int64_t first, last;
-            if (t->kind == TREE_NAME && !symbols_find(l->model, t->name).definition && !symbols_find(l->model, t->name).state) {
+            if (t->kind == TREE_NAME && !symbols_find(l->model, t->name).definition &&
+                !symbols_find(l->model, t->name).state) {
                 source_complain(&l->model->source, MOTUS_NAME, t->at, "where does %s range?", t->name);
                 HINT(l, "add: for %s = 1..N", t->name);
                 return false;
@@ -238,8 +236,7 @@ bool lower_target(lowering *l, const statement *s, output *out)
                     HINT(l, "write %s[%s] … and shift the bounds", s->name, s->loops[k].name);
                     return false;
                 }
-            if (!lower_subscript(l, t, &out->to.at[d], &first, &last))
-                return false;
+            if (!lower_subscript(l, t, &out->to.at[d], &first, &last)) return false;
             continue;
         }
         used[which] = true;
@@ -247,22 +244,22 @@ bool lower_target(lowering *l, const statement *s, output *out)
         int64_t low, high;
         lowering plain;
         lower_start(&plain, l->model, PLACE_CONSTANT, "a bound");
-        if (!lower_range(&plain, &s->loops[which], &r, &low, &high))
-            return false;
+        if (!lower_range(&plain, &s->loops[which], &r, &low, &high)) return false;
         if (low > high) {
-            source_complain(&l->model->source, MOTUS_ARGUMENT, s->loops[which].at, "the index %s runs over nothing: from %lld to %lld",
-                            s->loops[which].name, (long long)low, (long long)high);
+            source_complain(&l->model->source, MOTUS_ARGUMENT, s->loops[which].at,
+                            "the index %s runs over nothing: from %lld to %lld", s->loops[which].name, (long long)low,
+                            (long long)high);
             return false;
         }
         if ((double)high - (double)low >= MODEL_NUMBERS_MAX) {
-            source_complain(&l->model->source, MOTUS_LIMIT, s->loops[which].at, "%.0f places are more than the %d that fit",
-                            (double)high - (double)low + 1, MODEL_NUMBERS_MAX);
+            source_complain(&l->model->source, MOTUS_LIMIT, s->loops[which].at,
+                            "%.0f places are more than the %d that fit", (double)high - (double)low + 1,
+                            MODEL_NUMBERS_MAX);
             return false;
         }
         out->loop[out->loops] = r;
         out->to.at[d] = (subscript){.level = (int8_t)out->loops, .slot = -1, .modulus = -1};
-        if (!lower_add_index(l, &s->loops[which], out->loops, low, high))
-            return false;
+        if (!lower_add_index(l, &s->loops[which], out->loops, low, high)) return false;
         l->terms *= (double)(high - low + 1);
         out->loops++;
     }
@@ -274,7 +271,8 @@ bool lower_target(lowering *l, const statement *s, output *out)
             return false;
         }
     if (l->terms > MODEL_NUMBERS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, s->at, "%.0f places are more than the %d that fit", l->terms, MODEL_NUMBERS_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, s->at, "%.0f places are more than the %d that fit", l->terms,
+                        MODEL_NUMBERS_MAX);
         return false;
     }
     return !failed(l);

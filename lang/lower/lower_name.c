@@ -29,8 +29,7 @@ static bool subscripts(lowering *l, const tree *t, int dims, reference *r, int64
 {
     r->dims = (uint8_t)dims;
     for (int d = 0; d < dims; d++)
-        if (!lower_subscript(l, t->item[d], &r->at[d], &low[d], &high[d]))
-            return false;
+        if (!lower_subscript(l, t->item[d], &r->at[d], &low[d], &high[d])) return false;
     return true;
 }
 
@@ -49,49 +48,47 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
             at[d] = low[d] < s->first[d] ? low[d] : high[d];
         }
     }
-    if (empty)
-        return true;
+    if (empty) return true;
     while (!outside) {
         size_t offset = 0;
         for (int d = 0; d < s->dims; d++)
             offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
-        if (!s->owner[offset] || (derivative && s->owner[offset] != 1))
-            break;
+        if (!s->owner[offset] || (derivative && s->owner[offset] != 1)) break;
         int d = s->dims - 1;
         while (d >= 0 && ++at[d] > high[d]) {
             at[d] = low[d];
             d--;
         }
-        if (d < 0)
-            return true;
+        if (d < 0) return true;
     }
     char index[80] = "";
     size_t n = 0;
     for (int d = 0; d < s->dims && n < sizeof index; d++)
         n += (size_t)snprintf(index + n, sizeof index - n, "%s%lld", d ? "," : "", (long long)at[d]);
     if (derivative && !outside) {
-        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s]%s is used here, but has no equation", s->name, index, s->order == 2 ? "''" : "'");
+        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s]%s is used here, but has no equation", s->name,
+                        index, s->order == 2 ? "''" : "'");
         HINT(l, "a boundary line says where it is, not how it is driven");
         return false;
     }
-    source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s] is used here, but has neither an equation nor a boundary line", s->name, index);
+    source_complain(&l->model->source, MOTUS_NAME, t->at,
+                    "%s[%s] is used here, but has neither an equation nor a boundary line", s->name, index);
     HINT(l, "add a boundary line: %s[%s] = 0; or wrap the index: mod(i, N) + 1", s->name, index);
     return false;
 }
 
 value lower_component(lowering *l, value v, const tree *number, const tree *whole)
 {
-    if (failed(l))
-        return v;
+    if (failed(l)) return v;
     char shape[40], text[80];
     if (v.count == 0 || v.boolean) {
-        COMPLAIN(l, whole->at, "%s is %s and has no components", quote(l, whole->item ? whole->item[0]->at : whole->at, text), shape_name(v, shape));
+        COMPLAIN(l, whole->at, "%s is %s and has no components",
+                 quote(l, whole->item ? whole->item[0]->at : whole->at, text), shape_name(v, shape));
         return v;
     }
     node n = lower_scalar(l, number, "the number of a component");
     double k;
-    if (failed(l) || !evaluate_number(l->model, n, number->at, NULL, &k))
-        return v;
+    if (failed(l) || !evaluate_number(l->model, n, number->at, NULL, &k)) return v;
     if (k != floor(k) || k < 1 || k > v.count) {
         COMPLAIN(l, number->at, "this vector has the components 1 to %d, not %g", v.count, k);
         return v;
@@ -122,18 +119,17 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);
         return wrong(l);
     }
-    if (!start_state(l->model, s))
-        return wrong(l);
+    if (!start_state(l->model, s)) return wrong(l);
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
     bool select = s->dims == 0 && t->index_count == 1 && s->components > 0;
     if (!select && (int)t->index_count != s->dims) {
         if (s->dims == 0)
-            COMPLAIN(l, t->at, "%s is one %s, not a family with an index", s->name, s->components ? "vector" : "number");
+            COMPLAIN(l, t->at, "%s is one %s, not a family with an index", s->name,
+                     s->components ? "vector" : "number");
         else
             COMPLAIN(l, t->at, "%s is a family and needs %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
-        if (s->dims == 1)
-            HINT(l, "write %s[i]; a sum over all: sum(i = 1..N: …)", s->name);
+        if (s->dims == 1) HINT(l, "write %s[i]; a sum over all: sum(i = 1..N: …)", s->name);
         return wrong(l);
     }
     if (select && t->primes) {
@@ -159,12 +155,13 @@ static value lower_list(lowering *l, const tree *t, model_definition *d)
     }
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
-    if (!subscripts(l, t, d->dims, &r, low, high))
-        return wrong(l);
+    if (!subscripts(l, t, d->dims, &r, low, high)) return wrong(l);
     for (int k = 0; k < d->dims; k++)
         if (low[k] <= high[k] && (low[k] < d->first[k] || high[k] > d->last[k])) {
-            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at, "%s[%lld] is used here, but %s has the places %lld to %lld", d->name,
-                            (long long)(low[k] < d->first[k] ? low[k] : high[k]), d->name, (long long)d->first[k], (long long)d->last[k]);
+            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at,
+                            "%s[%lld] is used here, but %s has the places %lld to %lld", d->name,
+                            (long long)(low[k] < d->first[k] ? low[k] : high[k]), d->name, (long long)d->first[k],
+                            (long long)d->last[k]);
             return wrong(l);
         }
     return load(l, d->array, d->components, &r);
@@ -188,18 +185,20 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
     for (int k = 0; k < d->dims; k++) {
         index_name *n = &inner.names[inner.name_count];
         *n = (index_name){0};
-        if (!lower_subscript(l, t->item[k], &n->at, &n->first, &n->last))
-            return wrong(l);
+        if (!lower_subscript(l, t->item[k], &n->at, &n->first, &n->last)) return wrong(l);
         if (n->first <= n->last && (n->first < d->first[k] || n->last > d->last[k])) {
-            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at, "%s[%lld] is used here, but %s is defined for %lld to %lld", d->name,
-                            (long long)(n->first < d->first[k] ? n->first : n->last), d->name, (long long)d->first[k], (long long)d->last[k]);
+            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at,
+                            "%s[%lld] is used here, but %s is defined for %lld to %lld", d->name,
+                            (long long)(n->first < d->first[k] ? n->first : n->last), d->name, (long long)d->first[k],
+                            (long long)d->last[k]);
             return wrong(l);
         }
         graph *g = l->model->graph;
         n->constant = n->at.slot >= 0 ? l->model->int_nodes[n->at.slot] : 0;
         n->number = n->at.level >= 0 ? graph_index(g, n->at.level) : graph_const(g, 0);
         if (n->at.literal)
-            n->number = n->at.level >= 0 || n->constant ? binary(l, OP_ADD, n->number, graph_const(g, n->at.literal)) : graph_const(g, n->at.literal);
+            n->number = n->at.level >= 0 || n->constant ? binary(l, OP_ADD, n->number, graph_const(g, n->at.literal))
+                                                        : graph_const(g, n->at.literal);
         if (n->constant)
             n->number = n->at.level >= 0 || n->at.literal ? binary(l, OP_ADD, n->number, n->constant) : n->constant;
         if (n->at.modulus >= 0) {
@@ -233,12 +232,12 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         return wrong(l);
     }
     if (l->chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "definitions use one another more than %d deep", MODEL_CHAIN_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "definitions use one another more than %d deep",
+                        MODEL_CHAIN_MAX);
         return wrong(l);
     }
     if (d->kind != DEFINED_PARAMETER && d->statement->loop_count > 0) {
-        if (!resolve_definition(l->model, d))
-            return wrong(l);
+        if (!resolve_definition(l->model, d)) return wrong(l);
         return lower_quantity_family(l, t, d);
     }
     /* A quantity is lowered where it is used, because the place of its use decides what it may depend on. */
@@ -249,10 +248,8 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         if (!d->known)
             d->known = arena_take(l->model->arena, (PLACE_QUANTITY + 1) * (MAX_LEVELS + 1) * sizeof *d->known);
         value **known = &d->known[(int)l->place * (MAX_LEVELS + 1) + l->levels];
-        if (failed(l))
-            return wrong(l);
-        if (*known)
-            return t->index_count == 1 ? lower_component(l, **known, t->item[0], t) : **known;
+        if (failed(l)) return wrong(l);
+        if (*known) return t->index_count == 1 ? lower_component(l, **known, t->item[0], t) : **known;
         if (d->dims) {
             COMPLAIN(l, d->statement->at, "a quantity with an index ranges over it");
             HINT(l, "add: for i = 1..N");
@@ -266,10 +263,8 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         *known = keep;
         return t->index_count == 1 && !failed(l) ? lower_component(l, v, t->item[0], t) : v;
     }
-    if (!resolve_definition(l->model, d))
-        return wrong(l);
-    if (d->list)
-        return lower_list(l, t, d);
+    if (!resolve_definition(l->model, d)) return wrong(l);
+    if (d->list) return lower_list(l, t, d);
     value v = vector(l, d->components);
     for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
         v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
@@ -284,15 +279,12 @@ value lower_name(lowering *l, const tree *t)
 {
     const index_name *index = lower_find_index(l, t->name);
     if (index) {
-        if (t->primes || t->index_count)
-            COMPLAIN(l, t->at, "%s is an index: it takes no primes and no index", t->name);
+        if (t->primes || t->index_count) COMPLAIN(l, t->at, "%s is an index: it takes no primes and no index", t->name);
         return scalar(l, index->number);
     }
     if (!strcmp(t->name, "t") || !strcmp(t->name, "pi")) {
-        if (t->primes || t->index_count)
-            COMPLAIN(l, t->at, "%s takes no primes and no index", t->name);
-        if (t->name[0] == 'p')
-            return scalar(l, graph_const(l->model->graph, 3.14159265358979323846));
+        if (t->primes || t->index_count) COMPLAIN(l, t->at, "%s takes no primes and no index", t->name);
+        if (t->name[0] == 'p') return scalar(l, graph_const(l->model->graph, 3.14159265358979323846));
         if (l->place == PLACE_CONSTANT) {
             COMPLAIN(l, t->at, "%s is constant and cannot depend on the time t", l->what);
             return wrong(l);
@@ -300,21 +292,15 @@ value lower_name(lowering *l, const tree *t)
         return scalar(l, graph_time(l->model->graph));
     }
     symbol s = symbols_find(l->model, t->name);
-    if (s.state)
-        return lower_state(l, t, s.state);
-    if (s.definition)
-        return lower_definition(l, t, s.definition);
+    if (s.state) return lower_state(l, t, s.state);
+    if (s.definition) return lower_definition(l, t, s.definition);
     source_complain(&l->model->source, MOTUS_NAME, t->at, "%s is not defined", t->name);
     const char *names[2 * MAX_LEVELS];
-    for (int i = 0; i < l->name_count; i++)
-        names[i] = l->names[i].name;
+    for (int i = 0; i < l->name_count; i++) names[i] = l->names[i].name;
     size_t n = strlen(t->name);
-    if (n == 2 && t->name[0] == 'd')
-        HINT(l, "derivatives are written with primes: %s'", t->name + 1);
-    if (!strcmp(t->name, "e"))
-        HINT(l, "for the exponential write exp(…)");
-    if (!strcmp(t->name, "ln"))
-        HINT(l, "the natural logarithm is log(…)");
+    if (n == 2 && t->name[0] == 'd') HINT(l, "derivatives are written with primes: %s'", t->name + 1);
+    if (!strcmp(t->name, "e")) HINT(l, "for the exponential write exp(…)");
+    if (!strcmp(t->name, "ln")) HINT(l, "the natural logarithm is log(…)");
     symbols_suggest(l->model, t->name, names, (uint32_t)l->name_count);
     return wrong(l);
 }
@@ -330,7 +316,8 @@ value lower_initial(lowering *l, const tree *t)
         if (!strcmp(name->name, "ln")) {
             source_complain(&l->model->source, MOTUS_NAME, at, "ln is not a function");
             HINT(l, "the natural logarithm is log(…)");
-        } else if (s.definition || lower_find_index(l, name->name) || !strcmp(name->name, "t") || !strcmp(name->name, "pi")) {
+        } else if (s.definition || lower_find_index(l, name->name) || !strcmp(name->name, "t") ||
+                   !strcmp(name->name, "pi")) {
             source_complain(&l->model->source, MOTUS_SYNTAX, at, "%s is not a function", name->name);
             quote(l, bracket->at, b);
             if (bracket->bracketed)
@@ -341,30 +328,31 @@ value lower_initial(lowering *l, const tree *t)
             source_complain(&l->model->source, MOTUS_NAME, at, "%s is neither a function nor defined", name->name);
             if (bracket->kind == TREE_NAME && !strcmp(bracket->name, "t"))
                 HINT(l, "define it by %s = …, which may use t, and write %s alone", name->name, name->name);
-            static const char *const functions[] = {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log",
-                                                    "sqrt", "cbrt", "hypot", "abs", "min", "max", "floor", "mod", "sign", "erf", "dot", "cross",
-                                                    "if", "sum"};
+            static const char *const functions[] = {"sin",   "cos",  "tan",   "asin", "acos",  "atan", "atan2",
+                                                    "sinh",  "cosh", "tanh",  "exp",  "log",   "sqrt", "cbrt",
+                                                    "hypot", "abs",  "min",   "max",  "floor", "mod",  "sign",
+                                                    "erf",   "dot",  "cross", "if",   "sum"};
             symbols_suggest(l->model, name->name, functions, sizeof functions / sizeof *functions);
         }
         return wrong(l);
     }
     if (name->primes >= s.state->order) {
-        COMPLAIN(l, t->at, "%s at the start follows from its equation; it is not an initial value", quote(l, name->at, a));
+        COMPLAIN(l, t->at, "%s at the start follows from its equation; it is not an initial value",
+                 quote(l, name->at, a));
         return wrong(l);
     }
     lowering inner = *l;
     inner.place = PLACE_QUANTITY;
     node n = lower_scalar(&inner, bracket, "the start");
-    if (failed(l))
-        return wrong(l);
+    if (failed(l)) return wrong(l);
     if (graph_deps(l->model->graph, n) & (DEP_TIME | DEP_STATE | DEP_LEVELS)) {
         COMPLAIN(l, t->at, "%s is a state, not a function", name->name);
-        HINT(l, "write %s for its value now, %s*(…) for a product; motion that depends on the past is not Newton's", name->name, name->name);
+        HINT(l, "write %s for its value now, %s*(…) for a product; motion that depends on the past is not Newton's",
+             name->name, name->name);
         return wrong(l);
     }
     double at;
-    if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, bracket->at, "the start", &at))
-        return wrong(l);
+    if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, bracket->at, "the start", &at)) return wrong(l);
     if (at != l->model->start) {
         COMPLAIN(l, t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
         HINT(l, "for a product write %s*(…)", name->name);
@@ -377,7 +365,8 @@ value lower_initial(lowering *l, const tree *t)
         return wrong(l);
     }
     if (!hull_find(l->model, s.state) || !subscripts(l, name, s.state->dims, &r, low, high) ||
-        (s.state->dims && !covered(l, s.state, name, low, high)) || !start_cells(l->model, s.state, name->primes, low, high))
+        (s.state->dims && !covered(l, s.state, name, low, high)) ||
+        !start_cells(l->model, s.state, name->primes, low, high))
         return wrong(l);
     return load(l, s.state->start_array[name->primes], s.state->components, &r);
 }

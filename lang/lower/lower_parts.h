@@ -7,11 +7,14 @@
 #include <stdio.h>
 
 #define COMPLAIN(l, at, ...) (source_complain(&(l)->model->source, MOTUS_SHAPE, (at), __VA_ARGS__))
-#define HINT(l, ...) (source_hint(&(l)->model->source, __VA_ARGS__))
+#define HINT(l, ...)         (source_hint(&(l)->model->source, __VA_ARGS__))
 
 static inline bool failed(const lowering *l) { return source_failed(&l->model->source) || l->model->graph->too_large; }
 
-static inline const char *quote(const lowering *l, span at, char out[80]) { return source_excerpt(&l->model->source, at, out, 80); }
+static inline const char *quote(const lowering *l, span at, char out[80])
+{
+    return source_excerpt(&l->model->source, at, out, 80);
+}
 
 static inline value scalar(lowering *l, node n)
 {
@@ -45,18 +48,15 @@ static inline node binary(lowering *l, operation op, node a, node b) { return gr
 
 static inline const char *shape_name(value v, char out[40])
 {
-    if (v.boolean)
-        return "a condition";
-    if (v.count == 0)
-        return "a number";
+    if (v.boolean) return "a condition";
+    if (v.count == 0) return "a number";
     snprintf(out, 40, "a vector of length %d", v.count);
     return out;
 }
 
 static inline bool want_number(lowering *l, value v, const tree *t)
 {
-    if (!v.boolean || failed(l))
-        return !failed(l);
+    if (!v.boolean || failed(l)) return !failed(l);
     COMPLAIN(l, t->at, "a condition stands here where a number is due");
     HINT(l, "write if(condition, 1, 0)");
     return false;

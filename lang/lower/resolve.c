@@ -28,10 +28,10 @@ static bool resolve_plain(model *m, model_definition *d)
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
     value v = lower_expression(&l, d->statement->value);
     int n = v.count ? v.count : 1;
-    if (failed(m))
-        return false;
+    if (failed(m)) return false;
     if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, d->statement->value->at, "a parameter is a number, a vector or a list, not a condition");
+        source_complain(&m->source, MOTUS_SHAPE, d->statement->value->at,
+                        "a parameter is a number, a vector or a list, not a condition");
         return false;
     }
     d->components = v.count;
@@ -41,12 +41,10 @@ static bool resolve_plain(model *m, model_definition *d)
         return false;
     }
     double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-    if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n))
-        return false;
+    if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
     memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
     for (int k = 0; k < n; k++)
-        if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k))
-            return false;
+        if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
     m->scalar_used += (uint32_t)n;
     return true;
 }
@@ -59,14 +57,13 @@ static bool resolve_list(model *m, model_definition *d)
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
     value *item = arena_room(m->arena, (size_t)n * sizeof *item);
-    if (!item)
-        return false;
+    if (!item) return false;
     for (int i = 0; i < n; i++) {
         item[i] = lower_expression(&l, list->item[i]);
-        if (failed(m))
-            return false;
+        if (failed(m)) return false;
         if (item[i].boolean || item[i].count != item[0].count) {
-            source_complain(&m->source, MOTUS_SHAPE, list->item[i]->at, "the entries of a list are all numbers, or all vectors of one length");
+            source_complain(&m->source, MOTUS_SHAPE, list->item[i]->at,
+                            "the entries of a list are all numbers, or all vectors of one length");
             return false;
         }
     }
@@ -78,19 +75,15 @@ static bool resolve_list(model *m, model_definition *d)
     int parts = d->components ? d->components : 1;
     size_t base;
     uint16_t at;
-    if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at))
-        return false;
+    if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
     d->array = at;
     node *column = arena_room(m->arena, (size_t)n * sizeof *column);
-    if (!column)
-        return false;
+    if (!column) return false;
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
-        for (int i = 0; i < n; i++)
-            column[i] = item[i].item[k];
+        for (int i = 0; i < n; i++) column[i] = item[i].item[k];
         double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-        if (!out || !evaluate_nodes(m, column, n, out) || !finite_values(m, d, out, (size_t)n))
-            return false;
+        if (!out || !evaluate_nodes(m, column, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
         memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);
     }
     for (int i = 0; i < n; i++) {
@@ -106,8 +99,7 @@ static bool resolve_family(model *m, model_definition *d)
     lowering l;
     output o = {0};
     lower_start(&l, m, d->kind == DEFINED_PARAMETER ? PLACE_CONSTANT : PLACE_QUANTITY, "a parameter");
-    if (!lower_target(&l, d->statement, &o))
-        return false;
+    if (!lower_target(&l, d->statement, &o)) return false;
     if (o.loops == 0 || o.loops != o.to.dims) {
         source_complain(&m->source, MOTUS_SHAPE, d->statement->at, "%s[…] needs an index that runs", d->name);
         source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
@@ -115,23 +107,21 @@ static bool resolve_family(model *m, model_definition *d)
     }
     lower_extent(m, &l, &o, d->first, d->last);
     d->dims = o.to.dims;
-    if (d->kind != DEFINED_PARAMETER)
-        return true;                 /* each use lowers its expression (lower_name.c) */
+    if (d->kind != DEFINED_PARAMETER) return true; /* each use lowers its expression (lower_name.c) */
     value v = lower_expression(&l, d->statement->value);
-    if (failed(m))
-        return false;
+    if (failed(m)) return false;
     int parts = v.count ? v.count : 1;
     d->list = true;
     d->components = v.count;
     array probe;
     size_t hull = graph_shape(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
     if (hull * (size_t)parts > MODEL_LIST_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "%zu numbers are more than the %d that fit", hull * (size_t)parts, MODEL_LIST_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "%zu numbers are more than the %d that fit",
+                        hull * (size_t)parts, MODEL_LIST_MAX);
         return false;
     }
     uint16_t at;
-    if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at))
-        return false;
+    if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
     d->array = at;
     for (int k = 0; k < parts; k++)
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
@@ -148,10 +138,8 @@ static bool circle(model *m, const model_definition *d)
 
 bool resolve_definition(model *m, model_definition *d)
 {
-    if (d->progress == 2)
-        return true;
-    if (d->progress == 1)
-        return circle(m, d);
+    if (d->progress == 2) return true;
+    if (d->progress == 1) return circle(m, d);
     d->progress = 1;
     const statement *s = d->statement;
     bool ok;
@@ -174,8 +162,7 @@ bool resolve_constant(model *m, const tree *t, const char *what, double *out)
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, what);
     node n = lower_scalar(&l, t, what);
-    if (failed(m) || !evaluate_number(m, n, t->at, what, out))
-        return false;
+    if (failed(m) || !evaluate_number(m, n, t->at, what, out)) return false;
     if (!isfinite(*out)) {
         source_complain(&m->source, MOTUS_ARGUMENT, t->at, "%s is not a finite number", what);
         return false;
@@ -185,34 +172,29 @@ bool resolve_constant(model *m, const tree *t, const char *what, double *out)
 
 bool resolve_start_time(model *m)
 {
-    if (m->start_known)
-        return true;
+    if (m->start_known) return true;
     bool any = false;
     span where = {0, 0, 0};
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
         bool from = s->kind == STATEMENT_FROM;
-        if (!from && s->kind != STATEMENT_START)
-            continue;
+        if (!from && s->kind != STATEMENT_START) continue;
         double at;
         const tree *t = from ? s->value : s->start_at;
-        m->start_known = true;       /* an initial value in this expression is then compared with NaN */
-        if (!any)
-            m->start = NAN;
-        if (!resolve_constant(m, t, "the start", &at))
-            return false;
+        m->start_known = true; /* an initial value in this expression is then compared with NaN */
+        if (!any) m->start = NAN;
+        if (!resolve_constant(m, t, "the start", &at)) return false;
         if (any && at != m->start) {
-            source_complain(&m->source, MOTUS_ARGUMENT, t->at, "the start is %g here, but %g in line %d", at, m->start, source_line(&m->source, where));
+            source_complain(&m->source, MOTUS_ARGUMENT, t->at, "the start is %g here, but %g in line %d", at, m->start,
+                            source_line(&m->source, where));
             source_hint(&m->source, "all states start at one time");
             return false;
         }
-        if (!any)
-            where = t->at;
+        if (!any) where = t->at;
         m->start = at;
         any = true;
     }
-    if (!any)
-        m->start = 0;
+    if (!any) m->start = 0;
     m->start_known = true;
     return !failed(m);
 }

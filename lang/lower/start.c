@@ -28,7 +28,8 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
     s->shaped = true;
     s->components = components;
     if ((double)s->hull * parts > MODEL_NUMBERS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name, (double)s->hull * parts, MODEL_NUMBERS_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name,
+                        (double)s->hull * parts, MODEL_NUMBERS_MAX);
         return false;
     }
     for (int d = 0; d < s->order; d++) {
@@ -47,10 +48,8 @@ static bool run_line(model *m, model_state *s, const statement *one, const outpu
     size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
     int64_t at;
     bool known = o->loops == 0;
-    for (int k = 0; k < (v.count ? v.count : 1); k++)
-        known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
-    if (!known)
-        return evaluate_into_pool(m, o, v.item, v.count ? v.count : 1, base, s->first, s->last, s->hull);
+    for (int k = 0; k < (v.count ? v.count : 1); k++) known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
+    if (!known) return evaluate_into_pool(m, o, v.item, v.count ? v.count : 1, base, s->first, s->last, s->hull);
     for (int d = 0; d < s->dims; d++) {
         at = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
         cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at - s->first[d]);
@@ -64,17 +63,15 @@ static bool run_line(model *m, model_state *s, const statement *one, const outpu
 static bool line_value(model *m, model_state *s, const statement *one, lowering *l, output *o, value *v)
 {
     lower_start(l, m, PLACE_CONSTANT, "an initial value");
-    if (!lower_target(l, one, o))
-        return false;
+    if (!lower_target(l, one, o)) return false;
     *v = lower_expression(l, one->value);
-    if (failed(m))
-        return false;
+    if (failed(m)) return false;
     if (v->boolean || (s->shaped && v->count != s->components)) {
         char now[40], before[40];
         snprintf(now, sizeof now, v->count ? "a vector of length %d" : "a number", v->count);
         snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
-        source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s%s at the start is %s here, but %s before", s->name, one->primes ? "'" : "",
-                        v->boolean ? "a condition" : now, before);
+        source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s%s at the start is %s here, but %s before", s->name,
+                        one->primes ? "'" : "", v->boolean ? "a condition" : now, before);
         return false;
     }
     return s->shaped || give_shape(m, s, one, v->count);
@@ -86,50 +83,44 @@ static bool run_start(model *m, model_state *s, const statement *one, const outp
     const uint8_t *map = s->start_map[one->primes];
     size_t base = m->arrays[s->start_array[one->primes]].base, parts = (size_t)(v.count ? v.count : 1), kept = 0;
     double *keep = NULL;
-    for (size_t i = 0; one->loop_count > 0 && i < s->hull; i++)
-        kept += map[i] > rank;
-    if (kept && !(keep = arena_room(m->arena, kept * parts * sizeof *keep)))
-        return false;
+    for (size_t i = 0; one->loop_count > 0 && i < s->hull; i++) kept += map[i] > rank;
+    if (kept && !(keep = arena_room(m->arena, kept * parts * sizeof *keep))) return false;
     for (size_t i = 0, n = 0; n < kept * parts; i++)
-        for (size_t k = 0; k < parts && map[i] > rank; k++)
-            keep[n++] = m->pool[base + k * s->hull + i];
-    if (!run_line(m, s, one, o, v))
-        return false;
+        for (size_t k = 0; k < parts && map[i] > rank; k++) keep[n++] = m->pool[base + k * s->hull + i];
+    if (!run_line(m, s, one, o, v)) return false;
     for (size_t i = 0, n = 0; n < kept * parts; i++)
-        for (size_t k = 0; k < parts && map[i] > rank; k++)
-            m->pool[base + k * s->hull + i] = keep[n++];
+        for (size_t k = 0; k < parts && map[i] > rank; k++) m->pool[base + k * s->hull + i] = keep[n++];
     return true;
 }
 
 /* Computes one line, x(0) = …, x'(0) = … or x[i](0) = … for …, once. */
 static bool start_line(model *m, model_state *s, statement *one)
 {
-    if (one->progress == 2)
-        return true;
+    if (one->progress == 2) return true;
     if (one->progress == 1) {
         source_complain(&m->source, MOTUS_NAME, one->at, "this initial value depends on itself, in a circle");
         return false;
     }
     if (m->start_depth == MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "initial values use one another more than %d deep", MODEL_CHAIN_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, one->at, "initial values use one another more than %d deep",
+                        MODEL_CHAIN_MAX);
         return false;
     }
-    if ((int)one->index_count != s->dims)
-        return hull_indices_wrong(m, s, one->at);
+    if ((int)one->index_count != s->dims) return hull_indices_wrong(m, s, one->at);
     one->progress = 1;
     m->start_depth++;
     lowering l;
     output o = {0};
     value v;
-    if (!line_value(m, s, one, &l, &o, &v))
-        return false;
+    if (!line_value(m, s, one, &l, &o, &v)) return false;
     m->start_depth--;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     lower_extent(m, &l, &o, first, last);
     size_t cell = 0;
     for (int d = 0; d < s->dims; d++) {
         if (first[d] < s->first[d] || last[d] > s->last[d]) {
-            source_complain(&m->source, MOTUS_NAME, one->at, "%s has an initial value at index %lld, but no equation there", s->name,
+            source_complain(&m->source, MOTUS_NAME, one->at,
+                            "%s has an initial value at index %lld, but no equation there", s->name,
                             (long long)(first[d] < s->first[d] ? first[d] : last[d]));
             return false;
         }
@@ -138,33 +129,28 @@ static bool start_line(model *m, model_state *s, statement *one)
     uint8_t *map = s->start_map[one->primes];
     uint8_t rank = one->at.text > 0 ? START_OF_SET : one->loop_count > 0 ? START_OF_FAMILY : START_OF_CELL;
     one->progress = 2;
-    if (rank == START_OF_CELL && map[cell] == START_OF_SET)
-        return true;
+    if (rank == START_OF_CELL && map[cell] == START_OF_SET) return true;
     if (rank == START_OF_CELL && map[cell] == START_OF_CELL) {
-        source_complain(&m->source, MOTUS_NAME, one->at, "%s%s at the start is given twice", s->name, one->primes ? "'" : "");
+        source_complain(&m->source, MOTUS_NAME, one->at, "%s%s at the start is given twice", s->name,
+                        one->primes ? "'" : "");
         return false;
     }
-    if (!run_start(m, s, one, &o, v, rank))
+    if (!run_start(m, s, one, &o, v, rank)) return false;
+    if (!vary_record(m, &o, v.item, v.count ? v.count : 1, m->arrays[s->start_array[one->primes]].base, s->dims,
+                     s->first, s->last, s->hull, map, rank, &s->log_array[one->primes]))
         return false;
-    if (!vary_record(m, &o, v.item, v.count ? v.count : 1, m->arrays[s->start_array[one->primes]].base, s->dims, s->first, s->last, s->hull, map, rank,
-                     &s->log_array[one->primes]))
-        return false;
-    if (s->dims > 0)
-        return hull_mark(m, s, one, first, last, map, rank, false);
+    if (s->dims > 0) return hull_mark(m, s, one, first, last, map, rank, false);
     map[0] = rank;
     return true;
 }
 
 static bool start_maps(model *m, model_state *s)
 {
-    if (!resolve_start_time(m) || !hull_find(m, s))
-        return false;
+    if (!resolve_start_time(m) || !hull_find(m, s)) return false;
     for (int primes = 0; primes < s->order; primes++) {
-        if (s->start_map[primes])
-            continue;
+        if (s->start_map[primes]) continue;
         s->start_map[primes] = arena_room(m->arena, s->hull);
-        if (!s->start_map[primes])
-            return false;
+        if (!s->start_map[primes]) return false;
         memset(s->start_map[primes], 0, s->hull);
     }
     return true;
@@ -176,7 +162,8 @@ static bool start_lines(model *m, model_state *s, int primes, bool cells)
     for (int pass = 0; pass <= (int)cells; pass++)
         for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
             statement *one = &m->statements.item[i - 1];
-            if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == pass && !start_line(m, s, one))
+            if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == pass &&
+                !start_line(m, s, one))
                 return false;
         }
     return true;
@@ -187,29 +174,28 @@ static bool start_missing(model *m, const model_state *s, int primes, size_t cel
     char name[MOTUS_NAME_MAX + 64];
     model_state_name(s, cell, -1, primes, name, sizeof name);
     source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
-    source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name, primes ? "'" : "", m->start);
+    source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name,
+                primes ? "'" : "", m->start);
     return false;
 }
 
 /* Fills in start_own, once: otherwise every use of a cell would search all lines. */
 static bool own_lines(model *m, model_state *s, int primes)
 {
-    if (s->start_own[primes])
-        return true;
+    if (s->start_own[primes]) return true;
     s->start_own[primes] = arena_room(m->arena, s->hull * sizeof *s->start_own[primes]);
-    if (!s->start_own[primes])
-        return false;
+    if (!s->start_own[primes]) return false;
     memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
         const statement *one = &m->statements.item[i - 1];
         lowering l;
         output o = {0};
         int64_t first[MAX_DIMS], last[MAX_DIMS];
-        if (one->kind != STATEMENT_START || one->primes != primes || one->loop_count > 0 || (int)one->index_count != s->dims)
+        if (one->kind != STATEMENT_START || one->primes != primes || one->loop_count > 0 ||
+            (int)one->index_count != s->dims)
             continue;
         lower_start(&l, m, PLACE_CONSTANT, "an index");
-        if (!lower_target(&l, one, &o))
-            return false;
+        if (!lower_target(&l, one, &o)) return false;
         lower_extent(m, &l, &o, first, last);
         size_t cell = 0;
         bool inside = true;
@@ -217,39 +203,32 @@ static bool own_lines(model *m, model_state *s, int primes)
             inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
             cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(first[d] - s->first[d]);
         }
-        if (inside)
-            s->start_own[primes][cell] = i;
+        if (inside) s->start_own[primes][cell] = i;
     }
     return true;
 }
 
 bool start_cells(model *m, model_state *s, int primes, const int64_t low[], const int64_t high[])
 {
-    if (s->start_done)
-        return true;
-    if (!start_maps(m, s))
-        return false;
+    if (s->start_done) return true;
+    if (!start_maps(m, s)) return false;
     size_t cell = 0;
     bool single = true;
     for (int d = 0; d < s->dims; d++) {
         single &= low[d] == high[d];
         cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(low[d] - s->first[d]);
     }
-    if (!single)
-        return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
+    if (!single) return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
     for (uint32_t i = m->source.count > 1 ? s->line : 0; i; i = m->statements.item[i - 1].next) {
-        statement *one = &m->statements.item[i - 1];         /* families of --set, but not one that is being computed */
-        if (one->kind == STATEMENT_START && one->primes == primes && one->at.text > 0 && one->loop_count > 0 && one->progress == 0 &&
-            !start_line(m, s, one))
+        statement *one = &m->statements.item[i - 1]; /* families of --set, but not one that is being computed */
+        if (one->kind == STATEMENT_START && one->primes == primes && one->at.text > 0 && one->loop_count > 0 &&
+            one->progress == 0 && !start_line(m, s, one))
             return false;
     }
-    if (s->start_map[primes][cell] == START_OF_SET)
-        return true;
-    if (!own_lines(m, s, primes))
-        return false;
+    if (s->start_map[primes][cell] == START_OF_SET) return true;
+    if (!own_lines(m, s, primes)) return false;
     uint32_t own = s->start_own[primes][cell];
-    if (own ? !start_line(m, s, &m->statements.item[own - 1]) : !start_lines(m, s, primes, false))
-        return false;
+    if (own ? !start_line(m, s, &m->statements.item[own - 1]) : !start_lines(m, s, primes, false)) return false;
     return s->start_map[primes][cell] != 0 || start_missing(m, s, primes, cell);
 }
 
@@ -258,8 +237,7 @@ static span start_span(const model *m, const model_state *s, int primes, bool ow
 {
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
         const statement *one = &m->statements.item[i - 1];
-        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own)
-            return one->at;
+        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own) return one->at;
     }
     return s->at;
 }
@@ -271,8 +249,7 @@ static bool check_start(model *m, model_state *s, int primes)
     size_t base = m->arrays[s->start_array[primes]].base, parts = (size_t)(s->components ? s->components : 1);
     for (size_t i = 0; i < s->cells.count; i++) {
         size_t cell = s->cells.offset ? s->cells.offset[i] : i;
-        if (!map[cell])
-            return start_missing(m, s, primes, cell);
+        if (!map[cell]) return start_missing(m, s, primes, cell);
         for (size_t k = 0; k < parts; k++)
             if (!isfinite(m->pool[base + k * s->hull + cell])) {
                 model_state_name(s, cell, s->components ? (int)k : -1, primes, name, sizeof name);
@@ -287,22 +264,20 @@ static bool check_start(model *m, model_state *s, int primes)
 
 bool start_state(model *m, model_state *s)
 {
-    if (s->start_done)
-        return true;
-    if (!start_maps(m, s))
-        return false;
+    if (s->start_done) return true;
+    if (!start_maps(m, s)) return false;
     for (int primes = 0; primes < s->order; primes++) {
-        if (!start_lines(m, s, primes, true))
-            return false;
+        if (!start_lines(m, s, primes, true)) return false;
         if (!s->shaped) {
-            source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s%s(%g) is missing", s->name, s->dims ? "[…]" : "", m->start);
-            source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name, s->dims ? "[i]" : "", m->start, s->name);
+            source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s%s(%g) is missing", s->name,
+                            s->dims ? "[…]" : "", m->start);
+            source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name,
+                        s->dims ? "[i]" : "", m->start, s->name);
             return false;
         }
     }
     for (int primes = 0; primes < s->order; primes++)
-        if (!check_start(m, s, primes))
-            return false;
+        if (!check_start(m, s, primes)) return false;
     s->start_done = true;
     return true;
 }

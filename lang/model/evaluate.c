@@ -9,13 +9,11 @@
 
 bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, double *const base[SPACES])
 {
-    if (source_failed(&m->source))
-        return false;
+    if (source_failed(&m->source)) return false;
     program *p = program_create(m->graph, outputs, count);
     tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(m->arena, p);
     binding b = {m->arrays, m->ints, m->pool};
-    if (!tp || source_failed(&m->source) || !tape_bind(tp, &b))
-        return false;
+    if (!tp || source_failed(&m->source) || !tape_bind(tp, &b)) return false;
     tape_run(tp, t, base);
     return true;
 }
@@ -26,8 +24,7 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     uint32_t arrays = m->array_count;
     uint16_t at;
     output *o = arena_room(m->arena, (size_t)parts * sizeof *o);
-    if (!o || !model_take_arrays(m, parts, &at))
-        return false;
+    if (!o || !model_take_arrays(m, parts, &at)) return false;
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
         o[k] = *target;
@@ -36,39 +33,37 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     }
     double *spaces[SPACES] = {[SPACE_OUT] = m->pool};
     bool ok = evaluate_outputs(m, o, (size_t)parts, 0, spaces);
-    m->array_count = arrays;         /* only this call needs them */
+    m->array_count = arrays; /* only this call needs them */
     return ok;
 }
 
 bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
 {
     bool literal = true;
-    for (int k = 0; k < count; k++)
-        literal &= graph_at(m->graph, nodes[k])->op == OP_CONST;
+    for (int k = 0; k < count; k++) literal &= graph_at(m->graph, nodes[k])->op == OP_CONST;
     if (literal) {
-        for (int k = 0; k < count; k++)
-            out[k] = graph_at(m->graph, nodes[k])->value;
+        for (int k = 0; k < count; k++) out[k] = graph_at(m->graph, nodes[k])->value;
         return true;
     }
     uint32_t arrays = m->array_count;
     uint16_t first;
     output *o = arena_room(m->arena, (size_t)count * sizeof *o);
-    if (!o || !model_take_arrays(m, count, &first))
-        return false;
+    if (!o || !model_take_arrays(m, count, &first)) return false;
     for (int k = 0; k < count; k++) {
         graph_shape(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
         o[k] = (output){.value = nodes[k], .to = {.array = (uint16_t)(first + k)}};
     }
     double *base[SPACES] = {[SPACE_OUT] = out};
     bool ok = evaluate_outputs(m, o, (size_t)count, 0, base);
-    m->array_count = arrays;         /* only this call needs them */
+    m->array_count = arrays; /* only this call needs them */
     return ok;
 }
 
 static bool constant_node(model *m, node n, span at)
 {
     if (graph_deps(m->graph, n) & (DEP_TIME | DEP_STATE | DEP_LEVELS | DEP_D)) {
-        source_complain(&m->source, MOTUS_SHAPE, at, "this must be constant: it cannot depend on a state, on time or on an index");
+        source_complain(&m->source, MOTUS_SHAPE, at,
+                        "this must be constant: it cannot depend on a state, on time or on an index");
         return false;
     }
     return true;
@@ -76,8 +71,7 @@ static bool constant_node(model *m, node n, span at)
 
 bool evaluate_number(model *m, node n, span at, const char *what, double *value)
 {
-    if (source_failed(&m->source) || !constant_node(m, n, at) || !evaluate_nodes(m, &n, 1, value))
-        return false;
+    if (source_failed(&m->source) || !constant_node(m, n, at) || !evaluate_nodes(m, &n, 1, value)) return false;
     vary_freeze(m, n, what);
     return !source_failed(&m->source);
 }
@@ -90,8 +84,7 @@ int evaluate_int(model *m, node n, span at, int64_t *value)
             return (int)i;
         }
     double v;
-    if (!evaluate_number(m, n, at, NULL, &v))
-        return -1;
+    if (!evaluate_number(m, n, at, NULL, &v)) return -1;
     if (fabs(v) > 1e9) {
         source_complain(&m->source, MOTUS_LIMIT, at, "a bound of an index is at most 1e9, and this is %g", v);
         return -1;
@@ -108,8 +101,7 @@ int evaluate_int(model *m, node n, span at, int64_t *value)
         uint32_t room = m->int_capacity ? 2 * m->int_capacity : 32;
         int64_t *ints = arena_grow(m->arena, m->ints, m->int_capacity * sizeof *ints, room * sizeof *ints);
         node *nodes = arena_grow(m->arena, m->int_nodes, m->int_capacity * sizeof *nodes, room * sizeof *nodes);
-        if (!ints || !nodes)
-            return -1;
+        if (!ints || !nodes) return -1;
         m->ints = ints;
         m->int_nodes = nodes;
         m->int_capacity = room;

@@ -10,7 +10,7 @@ bool evaluate_outputs(model *, const output *, size_t count, double t, double *c
  * other from `base` on. */
 bool evaluate_into_pool(model *, const output *target, const node *values, int parts, size_t base,
                         const int64_t first[], const int64_t last[], size_t hull);
-bool evaluate_nodes(model *, const node *, int count, double *out);        /* constants */
+bool evaluate_nodes(model *, const node *, int count, double *out); /* constants */
 /* Evaluates a constant that decides more than numbers, and logs that (vary_record.h). It complains where the node is
  * not constant. what: "step", "the start", …, or NULL for a size or an index; the text must outlive the model. */
 bool evaluate_number(model *, node, span at, const char *what, double *value);

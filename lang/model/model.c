@@ -14,9 +14,9 @@ void model_state_name(const model_state *s, size_t cell, int component, bool pri
         cell /= extent;
     }
     for (int d = 0; d < s->dims && n < size; d++)
-        n += (size_t)snprintf(out + n, size - n, "%s%lld%s", d ? "," : "[", (long long)at[d], d == s->dims - 1 ? "]" : "");
-    if (prime && n < size)
-        n += (size_t)snprintf(out + n, size - n, "'");
+        n += (size_t)snprintf(out + n, size - n, "%s%lld%s", d ? "," : "[", (long long)at[d],
+                              d == s->dims - 1 ? "]" : "");
+    if (prime && n < size) n += (size_t)snprintf(out + n, size - n, "'");
     if (s->components && component >= 0 && n < size) {
         if (s->components <= 3)
             snprintf(out + n, size - n, ".%c", "xyz"[component]);
@@ -31,8 +31,7 @@ void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
     for (uint32_t i = 0; i < m->state_count; i++) {
         const model_state *s = &m->states[i];
         size_t n = s->hull * (size_t)(s->components ? s->components : 1);
-        if ((!in_v && s->order == 1) || k < s->base || k >= s->base + n)
-            continue;
+        if ((!in_v && s->order == 1) || k < s->base || k >= s->base + n) continue;
         model_state_name(s, (k - s->base) % s->hull, (int)((k - s->base) / s->hull), in_v && s->order == 2, out, size);
         return;
     }
@@ -44,17 +43,14 @@ static size_t name_index(const model *m, const subscript *s, char *out, size_t s
 {
     static const char letters[MAX_LEVELS + 1] = "ijklpqrs";
     size_t n = 0;
-    if (s->modulus >= 0)
-        n += (size_t)snprintf(out + n, size - n, "mod(");
+    if (s->modulus >= 0) n += (size_t)snprintf(out + n, size - n, "mod(");
     int64_t shift = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-    if (s->level >= 0)
-        n += (size_t)snprintf(out + n, size - n, "%c", letters[s->level]);
+    if (s->level >= 0) n += (size_t)snprintf(out + n, size - n, "%c", letters[s->level]);
     if (s->level < 0)
         n += (size_t)snprintf(out + n, size - n, "%lld", (long long)shift);
     else if (shift)
         n += (size_t)snprintf(out + n, size - n, "%+lld", (long long)shift);
-    if (s->modulus >= 0)
-        n += (size_t)snprintf(out + n, size - n, ", %lld)+1", (long long)m->ints[s->modulus]);
+    if (s->modulus >= 0) n += (size_t)snprintf(out + n, size - n, ", %lld)+1", (long long)m->ints[s->modulus]);
     return n;
 }
 
@@ -64,8 +60,7 @@ static void name_parameter(const model *m, uint32_t slot, char *out, size_t size
     for (uint32_t i = 0; i < m->definition_count; i++) {
         const model_definition *d = &m->definitions[i];
         int parts = d->components ? d->components : 1;
-        if (d->kind != DEFINED_PARAMETER || d->list || slot < d->slot || slot >= d->slot + (uint32_t)parts)
-            continue;
+        if (d->kind != DEFINED_PARAMETER || d->list || slot < d->slot || slot >= d->slot + (uint32_t)parts) continue;
         if (!d->components)
             snprintf(out, size, "%s", d->name);
         else if (d->components <= 3)
@@ -85,8 +80,7 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
         int parts = s->components ? s->components : 1;
         for (int b = 0; b < 3; b++) {
             int k = (int)r->array - (m->block[b] + s->array);
-            if (k < 0 || k >= parts || r->array >= m->block[b] + m->block_size)
-                continue;
+            if (k < 0 || k >= parts || r->array >= m->block[b] + m->block_size) continue;
             name = s->name;
             component = k;
             components = s->components;
@@ -95,8 +89,7 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
         }
         for (int d = 0; d < s->order; d++) {
             int k = (int)r->array - s->start_array[d];
-            if (k < 0 || k >= parts)
-                continue;
+            if (k < 0 || k >= parts) continue;
             name = s->name;
             component = k;
             components = s->components;
@@ -107,8 +100,7 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
     for (uint32_t i = 0; i < m->definition_count; i++) {
         const model_definition *d = &m->definitions[i];
         int k = (int)r->array - d->array, parts = d->components ? d->components : 1;
-        if (!d->list || k < 0 || k >= parts)
-            continue;
+        if (!d->list || k < 0 || k >= parts) continue;
         name = d->name;
         component = k;
         components = d->components;
@@ -117,11 +109,9 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
     for (int d = 0; d < r->dims && n_ + 40 < size; d++) {
         n_ += (size_t)snprintf(out + n_, size - n_, "%s", d ? "," : "[");
         n_ += name_index(m, &r->at[d], out + n_, size - n_);
-        if (d == r->dims - 1)
-            n_ += (size_t)snprintf(out + n_, size - n_, "]");
+        if (d == r->dims - 1) n_ += (size_t)snprintf(out + n_, size - n_, "]");
     }
-    if (n_ < size)
-        n_ += (size_t)snprintf(out + n_, size - n_, "%s%s", primes, tail);
+    if (n_ < size) n_ += (size_t)snprintf(out + n_, size - n_, "%s%s", primes, tail);
     if (components && n_ < size) {
         if (components <= 3)
             snprintf(out + n_, size - n_, ".%c", "xyz"[component]);
@@ -149,13 +139,11 @@ void model_print(const model *m, node n, char *out, size_t size)
 
 bool model_equation(const model *m, size_t k, char *out, size_t size)
 {
-    if (k >= m->accel_count)
-        return false;
+    if (k >= m->accel_count) return false;
     const output *o = &m->accel[k];
     char left[MOTUS_NAME_MAX + 96];
     name_reference(m, &o->to, left, sizeof left);
     size_t n = (size_t)snprintf(out, size, "%s = ", left);
-    if (n < size)
-        model_print(m, o->value, out + n, size - n);
+    if (n < size) model_print(m, o->value, out + n, size - n);
     return true;
 }

@@ -13,67 +13,78 @@
 #include "lang/tree/tree.h"
 
 enum {
-    MODEL_NUMBERS_MAX = 50000000,    /* state, all components and boundary cells */
-    MODEL_LIST_MAX = 50000000,       /* numbers in parameters' lists and families */
-    MODEL_COMPONENTS_MAX = 4096,     /* length of a vector */
-    MODEL_CHAIN_MAX = 400,           /* definitions that use one another, one behind the other */
-    MODEL_DEPTH_MAX = 2000           /* brackets and definitions within one another, together: it bounds the C stack */
+    MODEL_NUMBERS_MAX = 50000000, /* state, all components and boundary cells */
+    MODEL_LIST_MAX = 50000000,    /* numbers in parameters' lists and families */
+    MODEL_COMPONENTS_MAX = 4096,  /* length of a vector */
+    MODEL_CHAIN_MAX = 400,        /* definitions that use one another, one behind the other */
+    MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
-#define MODEL_LOWERED_MAX 50000000u  /* trees lowered; a quantity counts at every use */
-#define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
+#define MODEL_LOWERED_MAX        50000000u /* trees lowered; a quantity counts at every use */
+#define MODEL_TERMS_MAX          1e11      /* of nested sums and families, per evaluation */
 #define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together, which are computed while the model is read */
 
-typedef struct model_cells {         /* the cells of a family that have an equation, in the order of their indices */
+typedef struct model_cells { /* the cells of a family that have an equation, in the order of their indices */
     size_t count;
-    uint32_t *offset;                /* place within the hull; NULL: 0 … count-1 */
+    uint32_t *offset; /* place within the hull; NULL: 0 … count-1 */
 } model_cells;
 
 typedef struct model_state {
     const char *name;
     span at;
-    int order;                       /* 2 or 1 */
-    int components;                  /* 0: scalar */
+    int order;      /* 2 or 1 */
+    int components; /* 0: scalar */
     int dims;
-    int64_t first[MAX_DIMS], last[MAX_DIMS];         /* hull of equations and boundary lines */
-    int64_t eq_first[MAX_DIMS], eq_last[MAX_DIMS];   /* hull of equations */
-    size_t hull;                     /* cells in the hull */
+    int64_t first[MAX_DIMS], last[MAX_DIMS];       /* hull of equations and boundary lines */
+    int64_t eq_first[MAX_DIMS], eq_last[MAX_DIMS]; /* hull of equations */
+    size_t hull;                                   /* cells in the hull */
     model_cells cells;
-    uint8_t *owner;                  /* per hull cell: 0 none, 1 equation, 2 boundary; NULL for a scalar */
-    size_t base;                     /* of component 0 in x (order 2) and v */
-    uint16_t array;                  /* number within a block of state arrays, component 0 */
-    uint16_t start_array[2];         /* POOL arrays of x(0) and x'(0), component 0 */
-    uint32_t line, last_line;        /* 1 + number of the first and last statement about it */
+    uint8_t *owner;           /* per hull cell: 0 none, 1 equation, 2 boundary; NULL for a scalar */
+    size_t base;              /* of component 0 in x (order 2) and v */
+    uint16_t array;           /* number within a block of state arrays, component 0 */
+    uint16_t start_array[2];  /* POOL arrays of x(0) and x'(0), component 0 */
+    uint32_t line, last_line; /* 1 + number of the first and last statement about it */
     uint8_t progress;
-    bool shaped, start_done;         /* its components are known; all its initial values are */
-    uint16_t log_array[2];           /* vary_record.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
-    uint8_t *start_map[2];           /* per hull cell: the kind of line that gave x(0), x'(0), 0 none */
-    uint32_t *start_own[2];          /* per hull cell: 1 + number of the line about it alone, 0 none; or NULL */
+    bool shaped, start_done; /* its components are known; all its initial values are */
+    uint16_t log_array[2];   /* vary_record.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
+    uint8_t *start_map[2];   /* per hull cell: the kind of line that gave x(0), x'(0), 0 none */
+    uint32_t *start_own[2];  /* per hull cell: 1 + number of the line about it alone, 0 none; or NULL */
 } model_state;
 
 /* What was computed from parameters while the model was read: see vary_record.h. */
 typedef struct vary_entry vary_entry;
 typedef struct vary_log {
-    vary_entry *entries; uint32_t count, room;
-    struct vary_frozen { node n; const char *what; } *frozen; uint32_t frozen_count, frozen_room;
-    uint16_t scalars;                /* 1 + the array over all scalar slots, 0 none */
+    vary_entry *entries;
+    uint32_t count, room;
+    struct vary_frozen {
+        node n;
+        const char *what;
+    } * frozen;
+    uint32_t frozen_count, frozen_room;
+    uint16_t scalars; /* 1 + the array over all scalar slots, 0 none */
 } vary_log;
 
-typedef enum definition_kind { DEFINED_UNKNOWN, DEFINED_PARAMETER, DEFINED_QUANTITY, DEFINED_INVARIANT } definition_kind;
+typedef enum definition_kind {
+    DEFINED_UNKNOWN,
+    DEFINED_PARAMETER,
+    DEFINED_QUANTITY,
+    DEFINED_INVARIANT
+} definition_kind;
 
 typedef struct model_definition {
     const char *name;
     const statement *statement;
     definition_kind kind;
-    uint8_t progress;                /* 0 not computed, 1 being computed (met again, it uses itself), 2 done */
-    int components;                  /* 0: scalar */
-    bool list;                       /* list or family: an array over indices */
+    uint8_t progress; /* 0 not computed, 1 being computed (met again, it uses itself), 2 done */
+    int components;   /* 0: scalar */
+    bool list;        /* list or family: an array over indices */
     int dims;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
-    uint16_t log_array;              /* vary_record.h: 1 + its array over the pool, 0 none */
-    uint32_t slot;                   /* parameter without indices: its first pool slot */
-    uint16_t array;                  /* list: POOL array of component 0; quantity or invariant: OUT array */
-    struct value **known;            /* quantity without indices: its nodes, by place and level of use */
-    output *outputs; size_t output_count;            /* quantity, invariant: into OUT from 0 */
+    uint16_t log_array;   /* vary_record.h: 1 + its array over the pool, 0 none */
+    uint32_t slot;        /* parameter without indices: its first pool slot */
+    uint16_t array;       /* list: POOL array of component 0; quantity or invariant: OUT array */
+    struct value **known; /* quantity without indices: its nodes, by place and level of use */
+    output *outputs;
+    size_t output_count; /* quantity, invariant: into OUT from 0 */
     size_t numbers;
 } model_definition;
 
@@ -84,31 +95,41 @@ typedef struct model {
     source source;
     statements statements;
     graph *graph;
-    array *arrays; uint32_t array_count, array_capacity;
-    int64_t *ints; node *int_nodes; uint32_t int_count, int_capacity;
-    double *pool; size_t pool_count, pool_capacity;
-    uint32_t scalar_slots, scalar_used;      /* pool slots [0, scalar_slots) are for scalars and vectors */
+    array *arrays;
+    uint32_t array_count, array_capacity;
+    int64_t *ints;
+    node *int_nodes;
+    uint32_t int_count, int_capacity;
+    double *pool;
+    size_t pool_count, pool_capacity;
+    uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
 
     vary_log log;
-    uint8_t *overridden;             /* vary.h: per place of the pool, 1: set, whatever its line says; NULL: none is */
-    struct exact_check *check;       /* analysis.c: of the exact line; NULL: there is none */
-    double constant_terms;           /* of sums in constants so far */
-    int depth;                       /* expressions within expressions, at present */
-    int start_depth;                 /* initial values that use one another, at present */
-    uint64_t lowered;                /* trees lowered so far, which bounds the cost of quantities of quantities */
-    model_state *states; uint32_t state_count;
-    model_definition *definitions; uint32_t definition_count;
-    uint32_t *symbols; uint32_t symbol_size;         /* hash table: name → state or definition */
-    uint16_t block[5], block_size;   /* array numbers of the X, V, A, DX, DV blocks */
+    uint8_t *overridden;       /* vary.h: per place of the pool, 1: set, whatever its line says; NULL: none is */
+    struct exact_check *check; /* analysis.c: of the exact line; NULL: there is none */
+    double constant_terms;     /* of sums in constants so far */
+    int depth;                 /* expressions within expressions, at present */
+    int start_depth;           /* initial values that use one another, at present */
+    uint64_t lowered;          /* trees lowered so far, which bounds the cost of quantities of quantities */
+    model_state *states;
+    uint32_t state_count;
+    model_definition *definitions;
+    uint32_t definition_count;
+    uint32_t *symbols;
+    uint32_t symbol_size;          /* hash table: name → state or definition */
+    uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */
     size_t nx, nv;
     double *x0, *v0;
 
-    output *accel; size_t accel_count;
-    output *boundary; size_t boundary_count;         /* into X and V */
-    bool driven;                     /* a boundary line depends on t */
-    output *exact; size_t exact_count;               /* into X and V */
+    output *accel;
+    size_t accel_count;
+    output *boundary;
+    size_t boundary_count; /* into X and V */
+    bool driven;           /* a boundary line depends on t */
+    output *exact;
+    size_t exact_count; /* into X and V */
     bool exact_given, exact_recognised;
-    traits traits;                   /* gyroscopic and gradient are found on demand (machine/) */
+    traits traits; /* gyroscopic and gradient are found on demand (machine/) */
 
     double start, step, until, every_time;
     bool start_known;

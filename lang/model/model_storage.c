@@ -9,8 +9,7 @@ bool model_take_numbers(model *m, size_t count, size_t *first)
     if (m->pool_count + count > m->pool_capacity) {
         size_t room = m->pool_capacity + m->pool_capacity / 2 + count + 64;
         double *more = arena_grow(m->arena, m->pool, m->pool_capacity * sizeof *more, room * sizeof *more);
-        if (!more)
-            return false;
+        if (!more) return false;
         memset(more + m->pool_capacity, 0, (room - m->pool_capacity) * sizeof *more);
         m->pool = more;
         m->pool_capacity = room;
@@ -30,8 +29,7 @@ bool model_take_arrays(model *m, int count, uint16_t *first)
     if (need > m->array_capacity) {
         uint32_t room = need + 64 + m->array_capacity / 2;
         array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
-        if (!more)
-            return false;
+        if (!more) return false;
         m->arrays = more;
         m->array_capacity = room;
     }

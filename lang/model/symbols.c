@@ -10,8 +10,7 @@
 static uint32_t hash(const char *name)
 {
     uint32_t h = 2166136261u;
-    for (; *name; name++)
-        h = (h ^ (unsigned char)*name) * 16777619u;
+    for (; *name; name++) h = (h ^ (unsigned char)*name) * 16777619u;
     return h;
 }
 
@@ -24,16 +23,14 @@ static const char *name_of(const model *m, uint32_t entry)
 static uint32_t *place(const model *m, const char *name)
 {
     uint32_t i = hash(name) & (m->symbol_size - 1);
-    while (m->symbols[i] && strcmp(name_of(m, m->symbols[i] - 1), name))
-        i = (i + 1) & (m->symbol_size - 1);
+    while (m->symbols[i] && strcmp(name_of(m, m->symbols[i] - 1), name)) i = (i + 1) & (m->symbol_size - 1);
     return &m->symbols[i];
 }
 
 symbol symbols_find(const model *m, const char *name)
 {
     uint32_t entry = *place(m, name);
-    if (!entry)
-        return (symbol){0};
+    if (!entry) return (symbol){0};
     entry--;
     return entry & 1 ? (symbol){.state = &m->states[entry / 2]} : (symbol){.definition = &m->definitions[entry / 2]};
 }
@@ -47,8 +44,7 @@ void symbols_enter(model *m, const char *name, symbol s)
 static bool known(const model *m, const char *name, const char *const *more, uint32_t more_count)
 {
     for (uint32_t i = 0; i < more_count; i++)
-        if (!strcmp(name, more[i]))
-            return true;
+        if (!strcmp(name, more[i])) return true;
     symbol s = symbols_find(m, name);
     return s.state || s.definition || !strcmp(name, "t") || !strcmp(name, "pi");
 }
@@ -58,8 +54,7 @@ static bool product_of_two(model *m, const char *name, const char *const *more, 
 {
     char left[MOTUS_NAME_MAX];
     for (size_t n = 1; name[n]; n++) {
-        if (((unsigned char)name[n] & 0xC0) == 0x80)
-            continue;                /* within a character */
+        if (((unsigned char)name[n] & 0xC0) == 0x80) continue; /* within a character */
         snprintf(left, sizeof left, "%.*s", (int)n, name);
         if (known(m, left, more, more_count) && known(m, name + n, more, more_count)) {
             source_hint(&m->source, "%s is one name; for the product write %s %s", name, left, name + n);
@@ -74,11 +69,10 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
     const char *best = NULL;
     int least = 7;
     for (uint32_t i = 0; i < more_count + m->state_count + m->definition_count; i++) {
-        const char *other = i < more_count ? more[i]
+        const char *other = i < more_count                    ? more[i]
                             : i - more_count < m->state_count ? m->states[i - more_count].name
                                                               : m->definitions[i - more_count - m->state_count].name;
-        if (near_nearer(name, other, &least))
-            best = other;
+        if (near_nearer(name, other, &least)) best = other;
     }
     char codes[64];
     if (best && near_look_alike(name, best, codes, sizeof codes))

@@ -5,7 +5,10 @@
 #include "lang/model/model.h"
 
 /* One of them; neither where the name is unknown. */
-typedef struct symbol { model_state *state; model_definition *definition; } symbol;
+typedef struct symbol {
+    model_state *state;
+    model_definition *definition;
+} symbol;
 
 symbol symbols_find(const model *, const char *name);
 /* Adds a name that is not in the table yet. */

@@ -11,7 +11,7 @@ struct vary {
     uint8_t *affected;
     vary_active *active;
     uint32_t active_count;
-    double *kept;                    /* copies of cells that an entry overwrites though other lines set them */
+    double *kept; /* copies of cells that an entry overwrites though other lines set them */
 };
 
 /* ---- what is affected ---- */
@@ -30,16 +30,14 @@ static void mark_nodes(const vary *v, uint8_t *changed)
             changed[n] = graph_marked(&g->arrays[g->references[m->a].array], v->affected);
         else if (m->op == OP_SUM)
             changed[n] = changed[m->a] | (m->b ? changed[m->b] : 0);
-        for (int i = 0; i < arity; i++)
-            changed[n] |= changed[i == 0 ? m->a : i == 1 ? m->b : m->c];
+        for (int i = 0; i < arity; i++) changed[n] |= changed[i == 0 ? m->a : i == 1 ? m->b : m->c];
     }
 }
 
 static bool entry_changes(const vary_entry *e, const uint8_t *changed)
 {
     for (int k = 0; k < e->parts; k++)
-        if (changed[e->outputs[k].value])
-            return true;
+        if (changed[e->outputs[k].value]) return true;
     return false;
 }
 
@@ -69,10 +67,8 @@ static bool overridden(const model *m, const vary_entry *e)
 
 bool vary_override(model *m, size_t first, size_t count, bool yes)
 {
-    if (!m->overridden)
-        m->overridden = arena_room(m->arena, m->pool_count + 1);
-    if (!m->overridden)
-        return false;
+    if (!m->overridden) m->overridden = arena_room(m->arena, m->pool_count + 1);
+    if (!m->overridden) return false;
     memset(m->overridden + first, yes, count);
     return true;
 }
@@ -84,12 +80,10 @@ static void follow(vary *v, uint8_t *changed)
     const vary_log *log = &v->model->log;
     mark_nodes(v, changed);
     for (uint32_t k = 0; k < log->count; k++) {
-        if (overridden(v->model, &log->entries[k]) || !entry_changes(&log->entries[k], changed))
-            continue;
+        if (overridden(v->model, &log->entries[k]) || !entry_changes(&log->entries[k], changed)) continue;
         mark_places(v, &log->entries[k]);
         mark_nodes(v, changed);
-        if (v->active)
-            v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
+        if (v->active) v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
     }
 }
 
@@ -100,16 +94,14 @@ bool vary_decides(const model *m, size_t first, size_t count, const motus_alloca
     const size_t nodes = m->graph->count;
     uint8_t *room = take(allocator, m->pool_count + nodes + 2, 1);
     *what = NULL;
-    if (!room)
-        return false;
+    if (!room) return false;
     uint8_t *changed = room + m->pool_count + 1;
     vary v = {.model = (model *)m, .affected = room};
     memset(room + first, 1, count);
     follow(&v, changed);
     for (uint32_t k = 0; k < m->log.frozen_count; k++) {
         const struct vary_frozen *f = &m->log.frozen[k];
-        if (changed[f->n] && !*what)
-            *what = decision(f);
+        if (changed[f->n] && !*what) *what = decision(f);
     }
     give(allocator, room);
     return true;
@@ -120,24 +112,24 @@ static motus_status refuse(const model *m, const uint8_t *changed, bool own_step
     for (uint32_t k = 0; k < m->log.frozen_count; k++) {
         const struct vary_frozen *f = &m->log.frozen[k];
         bool step = f->what && !strcmp(f->what, "step"), until = f->what && !strcmp(f->what, "until");
-        if (!changed[f->n] || (step && own_step) || (until && own_until))
-            continue;
-        fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories", step || until ? "the " : "",
-             until ? "end" : decision(f));
-        if (step || until)
-            hint(err, "give a step and an end of its own: --step and --until");
+        if (!changed[f->n] || (step && own_step) || (until && own_until)) continue;
+        fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories",
+             step || until ? "the " : "", until ? "end" : decision(f));
+        if (step || until) hint(err, "give a step and an end of its own: --step and --until");
         return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;
 }
 
-motus_status vary_create(model *m, const size_t *places, size_t count, bool own_step, bool own_until, vary **out, motus_error *err)
+motus_status vary_create(model *m, const size_t *places, size_t count, bool own_step, bool own_until, vary **out,
+                         motus_error *err)
 {
     arena *a = m->arena;
     vary *v = arena_take(a, sizeof *v);
-    if (a->failed)
-        return fail(err, MOTUS_MEMORY, "no memory for what varies");
-    *v = (vary){.model = m, .count = count, .places = arena_room(a, (count + 1) * sizeof *places),
+    if (a->failed) return fail(err, MOTUS_MEMORY, "no memory for what varies");
+    *v = (vary){.model = m,
+                .count = count,
+                .places = arena_room(a, (count + 1) * sizeof *places),
                 .affected = arena_room(a, m->pool_count + 1),
                 .active = arena_room(a, (m->log.count + 1) * sizeof *v->active)};
     size_t nodes = m->graph->count;
@@ -153,20 +145,17 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     size_t largest = 0;
     for (uint32_t k = 0; k < v->active_count; k++) {
         const vary_entry *e = v->active[k].entry;
-        if (e->map && e->hull * (size_t)e->parts > largest)
-            largest = e->hull * (size_t)e->parts;
+        if (e->map && e->hull * (size_t)e->parts > largest) largest = e->hull * (size_t)e->parts;
     }
     motus_status status = refuse(m, changed, own_step, own_until, err);
-    if (status != MOTUS_OK)
-        return status;
+    if (status != MOTUS_OK) return status;
     for (uint32_t k = 0; k < v->active_count; k++) {
         vary_active *e = &v->active[k];
         e->program = program_create(m->graph, e->entry->outputs, (size_t)e->entry->parts);
         e->tape = e->program && !a->failed ? tape_create(a, e->program) : NULL;
     }
     v->kept = arena_room(a, (largest + 1) * sizeof *v->kept);
-    if (a->failed)
-        return fail(err, MOTUS_MEMORY, "no memory for what varies");
+    if (a->failed) return fail(err, MOTUS_MEMORY, "no memory for what varies");
     *out = v;
     return MOTUS_OK;
 }
@@ -175,8 +164,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
 
 static void put_values(const vary *v, const double *values)
 {
-    for (size_t k = 0; k < v->count; k++)
-        v->model->pool[v->places[k]] = values[k];
+    for (size_t k = 0; k < v->count; k++) v->model->pool[v->places[k]] = values[k];
 }
 
 bool vary_apply(vary *v, const double *values)
@@ -188,15 +176,12 @@ bool vary_apply(vary *v, const double *values)
     for (uint32_t k = 0; k < v->active_count; k++) {
         const vary_entry *e = v->active[k].entry;
         const size_t all = e->map ? e->hull * (size_t)e->parts : 0;
-        if (overridden(m, e))
-            continue;
+        if (overridden(m, e)) continue;
         memcpy(v->kept, m->pool + e->base, all * sizeof(double));
-        if (!tape_bind(v->active[k].tape, &b))
-            return false;
+        if (!tape_bind(v->active[k].tape, &b)) return false;
         tape_run(v->active[k].tape, 0, base);
         for (size_t i = 0; i < all; i++)
-            if (e->map[i % e->hull] > e->rank)
-                m->pool[e->base + i] = v->kept[i];
+            if (e->map[i % e->hull] > e->rank) m->pool[e->base + i] = v->kept[i];
         put_values(v, values);
     }
     model_start_state(m);

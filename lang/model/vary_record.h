@@ -5,17 +5,19 @@
 
 #include "lang/model/model.h"
 
-struct vary_entry {                  /* outputs that were evaluated into the pool, as SPACE_OUT arrays over it */
+struct vary_entry { /* outputs that were evaluated into the pool, as SPACE_OUT arrays over it */
     output *outputs;
     int parts;
-    size_t base, hull;               /* the places: parts × hull of them from base on */
-    const uint8_t *map; uint8_t rank;        /* cells with map > rank keep their value; NULL: none */
+    size_t base, hull; /* the places: parts × hull of them from base on */
+    const uint8_t *map;
+    uint8_t rank; /* cells with map > rank keep their value; NULL: none */
 };
 
 /* Logs an evaluation, if it depends on parameters. target: subscripts and loops; `array` keeps 1 + the number of the
  * first SPACE_OUT array of this shape. False: no memory. */
-bool vary_record(model *, const output *target, const node *values, int parts, size_t base, int dims, const int64_t first[], const int64_t last[], size_t hull,
-                 const uint8_t *map, uint8_t rank, uint16_t *array);
+bool vary_record(model *, const output *target, const node *values, int parts, size_t base, int dims,
+                 const int64_t first[], const int64_t last[], size_t hull, const uint8_t *map, uint8_t rank,
+                 uint16_t *array);
 bool vary_record_scalar(model *, node, uint32_t slot);
 /* Logs that a node decides `what`, as in evaluate_number. */
 void vary_freeze(model *, node, const char *what);

@@ -12,8 +12,7 @@
 static node seed_velocity(graph *g, node leaf, void *shift)
 {
     const graph_node *n = graph_at(g, leaf);
-    if (n->op != OP_LOAD || g->arrays[g->references[n->a].array].space != SPACE_V)
-        return 0;
+    if (n->op != OP_LOAD || g->arrays[g->references[n->a].array].space != SPACE_V) return 0;
     return graph_seed_direction(g, leaf, shift);
 }
 
@@ -21,8 +20,13 @@ static void read_traits(model *m)
 {
     graph *g = m->graph;
     traits *t = &m->traits;
-    *t = (traits){.linear_v = true, .constant_jv = true, .affine = true, .constant = true, .smooth = true,
-                  .companions = m->nv > m->nx, .time = m->driven};
+    *t = (traits){.linear_v = true,
+                  .constant_jv = true,
+                  .affine = true,
+                  .constant = true,
+                  .smooth = true,
+                  .companions = m->nv > m->nx,
+                  .time = m->driven};
     graph_shift shift = {(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)};
     for (size_t i = 0; i < m->accel_count; i++) {
         node n = m->accel[i].value;
@@ -34,7 +38,8 @@ static void read_traits(model *m)
         t->affine &= graph_degree(g, n, DEP_V | DEP_X) <= 1;
         t->smooth &= !graph_kink(g, n);
         if (deps & DEP_V)
-            t->constant_jv &= !(graph_deps(g, graph_derivative(g, n, seed_velocity, &shift)) & (DEP_V | DEP_X | DEP_TIME));
+            t->constant_jv &=
+                !(graph_deps(g, graph_derivative(g, n, seed_velocity, &shift)) & (DEP_V | DEP_X | DEP_TIME));
     }
     t->constant &= !m->driven;
     t->constant_jv &= t->linear_v;
@@ -46,15 +51,15 @@ static bool recognise_constant(model *m)
 {
     graph *g = m->graph;
     m->exact = arena_room(m->arena, 2 * m->accel_count * sizeof *m->exact);
-    if (!m->exact)
-        return false;
+    if (!m->exact) return false;
     node tau = graph_op(g, OP_SUB, graph_time(g), graph_const(g, m->start), 0);
     for (size_t i = 0; i < m->accel_count; i++) {
         output o = m->accel[i];
         uint16_t number = (uint16_t)(o.to.array - m->block[BLOCK_A]);
         const model_state *s = NULL;
         for (uint32_t k = 0; k < m->state_count; k++)
-            if (number >= m->states[k].array && number < m->states[k].array + (m->states[k].components ? m->states[k].components : 1))
+            if (number >= m->states[k].array &&
+                number < m->states[k].array + (m->states[k].components ? m->states[k].components : 1))
                 s = &m->states[k];
         reference at = o.to;
         at.array = (uint16_t)(s->start_array[0] + number - s->array);
@@ -84,17 +89,16 @@ enum { SAMPLES = 16 };
 static const statement *exact_line(const model *m)
 {
     for (uint32_t i = 0; i < m->statements.count; i++)
-        if (m->statements.item[i].kind == STATEMENT_EXACT)
-            return &m->statements.item[i];
+        if (m->statements.item[i].kind == STATEMENT_EXACT) return &m->statements.item[i];
     return NULL;
 }
 
 /* Finds the first place where two arrays of the state's numbers differ. */
-static bool differs(const model *m, const double *a, const double *b, size_t n, bool in_v, const double *scale, char *name, size_t size, size_t *where)
+static bool differs(const model *m, const double *a, const double *b, size_t n, bool in_v, const double *scale,
+                    char *name, size_t size, size_t *where)
 {
     for (size_t k = 0; k < n; k++) {
-        if (fabs(a[k] - b[k]) <= SAME * scale[k])
-            continue;
+        if (fabs(a[k] - b[k]) <= SAME * scale[k]) continue;
         *where = k;
         model_name(m, in_v, k, name, size);
         return true;
@@ -103,7 +107,10 @@ static bool differs(const model *m, const double *a, const double *b, size_t n, 
 }
 
 /* What the check computes: the motion, the boundary where there is one, the motion's acceleration, the force. */
-struct exact_check { tape *motion, *boundary, *second, *force; double *work; };
+struct exact_check {
+    tape *motion, *boundary, *second, *force;
+    double *work;
+};
 
 static tape *tape_of(model *m, const output *outputs, size_t count)
 {
@@ -116,8 +123,7 @@ static bool make_check(model *m)
     graph *g = m->graph;
     struct exact_check *c = arena_take(m->arena, sizeof *c);
     output *second = arena_room(m->arena, (m->exact_count + 1) * sizeof *second);
-    if (!second || m->arena->failed)
-        return false;
+    if (!second || m->arena->failed) return false;
     size_t count = 0;
     for (size_t i = 0; i < m->exact_count; i++)
         if (m->arrays[m->exact[i].to.array].space == SPACE_V) {
@@ -140,18 +146,15 @@ static bool bind_check(const model *m)
     tape *const tapes[] = {m->check->motion, m->check->boundary, m->check->second, m->check->force};
     const binding b = {m->arrays, m->ints, m->pool};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
-        if (tapes[k] && !tape_bind(tapes[k], &b))
-            return false;
+        if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     return true;
 }
 
 static bool verify_exact(model *m)
 {
     const size_t n = m->nv + 1;
-    if (!m->check && !make_check(m))
-        return false;
-    if (!bind_check(m))
-        return false;
+    if (!m->check && !make_check(m)) return false;
+    if (!bind_check(m)) return false;
     const struct exact_check *c = m->check;
     double *x = c->work, *v = x + n, *a = v + n, *e = a + n, *scale = e + n;
     const statement *line = exact_line(m);
@@ -164,44 +167,41 @@ static bool verify_exact(model *m)
         memcpy(v, m->v0, m->nv * sizeof *v);
         memset(a, 0, n * sizeof *a);
         memset(e, 0, n * sizeof *e);
-        double *motion[SPACES] = {[SPACE_X] = x, [SPACE_V] = v}, *truth[SPACES] = {[SPACE_A] = e}, *force[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
+        double *motion[SPACES] = {[SPACE_X] = x, [SPACE_V] = v}, *truth[SPACES] = {[SPACE_A] = e},
+               *force[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
         tape_run(c->motion, t, motion);
         if (k == 0) {
             double big = 0;
-            for (size_t i = 0; i < m->nx; i++)
-                big = fmax(big, fmax(fabs(m->x0[i]), fabs(x[i])));
-            for (size_t i = 0; i < n; i++)
-                scale[i] = big;
+            for (size_t i = 0; i < m->nx; i++) big = fmax(big, fmax(fabs(m->x0[i]), fabs(x[i])));
+            for (size_t i = 0; i < n; i++) scale[i] = big;
             bool off = differs(m, x, m->x0, m->nx, false, scale, name, sizeof name, &where);
             double is = off ? x[where] : 0, due = off ? m->x0[where] : 0;
             if (!off) {
-                for (size_t i = 0; i < m->nv; i++)
-                    big = fmax(big, fmax(fabs(m->v0[i]), fabs(v[i])));
-                for (size_t i = 0; i < n; i++)
-                    scale[i] = big;
+                for (size_t i = 0; i < m->nv; i++) big = fmax(big, fmax(fabs(m->v0[i]), fabs(v[i])));
+                for (size_t i = 0; i < n; i++) scale[i] = big;
                 off = differs(m, v, m->v0, m->nv, true, scale, name, sizeof name, &where);
                 is = off ? v[where] : 0;
                 due = off ? m->v0[where] : 0;
             }
             if (off) {
-                source_complain(&m->source, MOTUS_ARGUMENT, line->at, "the exact motion does not meet the initial value: %s is %.6g at the start, not %.6g",
+                source_complain(&m->source, MOTUS_ARGUMENT, line->at,
+                                "the exact motion does not meet the initial value: %s is %.6g at the start, not %.6g",
                                 name, is, due);
                 return false;
             }
         }
-        if (c->boundary)
-            tape_run(c->boundary, t, motion);
+        if (c->boundary) tape_run(c->boundary, t, motion);
         tape_run(c->second, t, truth);
         tape_run(c->force, t, force);
         double big = 0;
-        for (size_t i = 0; i < m->nv; i++)
-            big = fmax(big, fabs(a[i]) + fabs(e[i]) + 1e-8 * fabs(v[i]));
-        for (size_t i = 0; i < n; i++)
-            scale[i] = big;
+        for (size_t i = 0; i < m->nv; i++) big = fmax(big, fabs(a[i]) + fabs(e[i]) + 1e-8 * fabs(v[i]));
+        for (size_t i = 0; i < n; i++) scale[i] = big;
         if (differs(m, e, a, m->nv, true, scale, name, sizeof name, &where)) {
             size_t end = strlen(name);
-            source_complain(&m->source, MOTUS_ARGUMENT, line->at, "the exact motion does not obey the equation: at t = %.6g %s is %.6g, but the force gives %.6g",
-                            t, end && name[end - 1] == '\'' ? strcat(name, "'") : name, e[where], a[where]);
+            source_complain(
+                &m->source, MOTUS_ARGUMENT, line->at,
+                "the exact motion does not obey the equation: at t = %.6g %s is %.6g, but the force gives %.6g", t,
+                end && name[end - 1] == '\'' ? strcat(name, "'") : name, e[where], a[where]);
             source_hint(&m->source, "correct the exact line, or leave it out");
             return false;
         }
@@ -211,13 +211,12 @@ static bool verify_exact(model *m)
 
 motus_status analysis_exact(model *m, motus_error *err)
 {
-    if (!m->check)
-        return MOTUS_OK;
+    if (!m->check) return MOTUS_OK;
     m->source.error = err;
     const bool good = verify_exact(m);
     const motus_status status = good ? MOTUS_OK : m->source.failed ? m->source.status : MOTUS_MEMORY;
     m->source.error = NULL;
-    m->source.failed = false;        /* the model is sound; the numbers are not those of its exact line */
+    m->source.failed = false; /* the model is sound; the numbers are not those of its exact line */
     return status;
 }
 

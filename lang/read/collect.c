@@ -24,14 +24,15 @@ static bool add_state(model *m, const statement *s)
         return true;
     }
     if (state->order != s->primes) {
-        source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has an equation for %s%s and another for %s%s", s->name, s->name,
-                        state->order == 2 ? "''" : "'", s->name, s->primes == 2 ? "''" : "'");
+        source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has an equation for %s%s and another for %s%s", s->name,
+                        s->name, state->order == 2 ? "''" : "'", s->name, s->primes == 2 ? "''" : "'");
         source_hint(&m->source, "one of them follows from the other: remove it");
     } else if (state->dims == 0) {
         twice(m, s, state->at);
     } else if (state->dims != (int)s->index_count) {
-        source_complain(&m->source, MOTUS_SHAPE, s->name_at, "%s has %d ind%s in line %d, but %u here", s->name, state->dims,
-                        state->dims == 1 ? "ex" : "ices", source_line(&m->source, state->at), s->index_count);
+        source_complain(&m->source, MOTUS_SHAPE, s->name_at, "%s has %d ind%s in line %d, but %u here", s->name,
+                        state->dims, state->dims == 1 ? "ex" : "ices", source_line(&m->source, state->at),
+                        s->index_count);
     }
     return !source_failed(&m->source);
 }
@@ -40,10 +41,10 @@ static bool add_definition(model *m, const statement *s)
 {
     symbol known = symbols_find(m, s->name);
     if (known.state) {
-        if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION)
-            return true;             /* a boundary line */
-        source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has an equation of motion in line %d and cannot be defined besides",
-                        s->name, source_line(&m->source, known.state->at));
+        if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION) return true; /* a boundary line */
+        source_complain(&m->source, MOTUS_NAME, s->name_at,
+                        "%s has an equation of motion in line %d and cannot be defined besides", s->name,
+                        source_line(&m->source, known.state->at));
         return false;
     }
     if (known.definition) {
@@ -51,7 +52,9 @@ static bool add_definition(model *m, const statement *s)
         return false;
     }
     model_definition *d = &m->definitions[m->definition_count++];
-    *d = (model_definition){.name = s->name, .statement = s, .dims = (int)s->index_count,
+    *d = (model_definition){.name = s->name,
+                            .statement = s,
+                            .dims = (int)s->index_count,
                             .kind = s->kind == STATEMENT_INVARIANT ? DEFINED_INVARIANT : DEFINED_UNKNOWN};
     symbols_enter(m, s->name, (symbol){.definition = d});
     return true;
@@ -63,8 +66,7 @@ static bool replace(model *m, uint32_t text)
     statements set = {0};
     source *s = &m->source;
     span all = {text, 0, s->texts[text].length};
-    if (!parse_text(s, text, &set))
-        return false;
+    if (!parse_text(s, text, &set)) return false;
     if (set.count != 1) {
         source_complain(s, MOTUS_SYNTAX, all, "a setting is one definition");
         source_hint(s, "write --set F=0.2 or --set \"x(0)=1\"");
@@ -78,7 +80,8 @@ static bool replace(model *m, uint32_t text)
     }
     for (uint32_t i = 0; one->kind == STATEMENT_DEFINITION && i < m->statements.count; i++)
         if (m->statements.item[i].kind == STATEMENT_EQUATION && !strcmp(m->statements.item[i].name, one->name)) {
-            source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s has an equation of motion and cannot be set", one->name);
+            source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s has an equation of motion and cannot be set",
+                            one->name);
             source_hint(s, "its initial values can: %s%s(0) = …", one->name, one->index_count ? "[…]" : "");
             return false;
         }
@@ -86,12 +89,11 @@ static bool replace(model *m, uint32_t text)
     for (uint32_t i = 0; i < m->statements.count; i++) {
         statement *old = &m->statements.item[i];
         bool same = old->kind == one->kind && !strcmp(old->name, one->name);
-        if (one->kind == STATEMENT_START)
-            same = same && old->primes == one->primes && one->index_count == 0;     /* x[3](0) is an additional line, before the model's */
+        if (one->kind == STATEMENT_START) /* x[3](0) is an additional line, before the model's */
+            same = same && old->primes == one->primes && one->index_count == 0;
         else
             same = same && old->index_count == one->index_count;
-        if (same && found++)
-            continue;                /* it replaces the first and removes the others */
+        if (same && found++) continue; /* it replaces the first and removes the others */
         if (same) {
             tree *replaced = old->replaced ? old->replaced : old->value;
             span stood = old->replaced ? old->stood : old->at;
@@ -102,13 +104,11 @@ static bool replace(model *m, uint32_t text)
         m->statements.item[kept++] = *old;
     }
     m->statements.count = kept;
-    if (found)
-        return true;
+    if (found) return true;
     if (one->kind == STATEMENT_START) {
         statement *item = arena_grow(m->arena, m->statements.item, m->statements.count * sizeof *item,
                                      (m->statements.count + 1) * sizeof *item);
-        if (!item)
-            return false;
+        if (!item) return false;
         item[m->statements.count] = *one;
         m->statements.item = item;
         m->statements.capacity = ++m->statements.count;
@@ -116,8 +116,7 @@ static bool replace(model *m, uint32_t text)
     }
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
-        if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name))
-            continue;
+        if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name)) continue;
         source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s can only be set as a whole", one->name);
         if (old->value->kind == TREE_LIST)
             source_hint(s, "write %s = [1, 2, …]", one->name);
@@ -138,36 +137,29 @@ static bool replace(model *m, uint32_t text)
 
 bool collect_all(model *m, const motus_text_def *def)
 {
-    if (!parse_text(&m->source, 0, &m->statements))
-        return false;
+    if (!parse_text(&m->source, 0, &m->statements)) return false;
     for (uint32_t i = 0; i < def->set_count; i++)
-        if (!replace(m, i + 1))
-            return false;
+        if (!replace(m, i + 1)) return false;
     uint32_t n = m->statements.count;
     m->symbol_size = 16;
-    while (m->symbol_size < 4 * n)
-        m->symbol_size *= 2;
+    while (m->symbol_size < 4 * n) m->symbol_size *= 2;
     m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
     m->states = arena_room(m->arena, (n + 1) * sizeof *m->states);
     m->definitions = arena_room(m->arena, (n + 1) * sizeof *m->definitions);
-    if (!m->symbols || !m->states || !m->definitions)
-        return false;
+    if (!m->symbols || !m->states || !m->definitions) return false;
     memset(m->symbols, 0, m->symbol_size * sizeof *m->symbols);
     for (uint32_t i = 0; i < n; i++)
-        if (m->statements.item[i].kind == STATEMENT_EQUATION && !add_state(m, &m->statements.item[i]))
-            return false;
+        if (m->statements.item[i].kind == STATEMENT_EQUATION && !add_state(m, &m->statements.item[i])) return false;
     for (uint32_t i = 0; i < n; i++) {
         const statement *s = &m->statements.item[i];
-        if ((s->kind == STATEMENT_DEFINITION || s->kind == STATEMENT_INVARIANT) && !add_definition(m, s))
-            return false;
+        if ((s->kind == STATEMENT_DEFINITION || s->kind == STATEMENT_INVARIANT) && !add_definition(m, s)) return false;
     }
     for (uint32_t i = 0; i < n; i++) {
         statement *s = &m->statements.item[i];
         bool about = s->kind == STATEMENT_EQUATION || s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT ||
                      (s->kind == STATEMENT_DEFINITION && s->index_count > 0);
         model_state *state = about ? symbols_find(m, s->name).state : NULL;
-        if (!state)
-            continue;
+        if (!state) continue;
         if (state->last_line)
             m->statements.item[state->last_line - 1].next = i + 1;
         else

@@ -9,15 +9,17 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef struct outputs { output **item; size_t *count, room; } outputs;
+typedef struct outputs {
+    output **item;
+    size_t *count, room;
+} outputs;
 
 static bool add(model *m, outputs *o, const output *one)
 {
     if (*o->count == o->room) {
         size_t room = o->room ? 2 * o->room : 16;
         output *more = arena_grow(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
-        if (!more)
-            return false;
+        if (!more) return false;
         *o->item = more;
         o->room = room;
     }
@@ -27,16 +29,13 @@ static bool add(model *m, outputs *o, const output *one)
 
 static bool same_shape(model *m, const statement *s, const model_state *state, value v, const char *what)
 {
-    if (!v.boolean && v.count == state->components)
-        return true;
+    if (!v.boolean && v.count == state->components) return true;
     char is[48] = "a condition", due[48] = "a number";
-    if (!v.boolean)
-        snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
-    if (state->components)
-        snprintf(due, sizeof due, "a vector of length %d", state->components);
-    source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is %s, but %s is %s by its initial value", what, is, state->name, due);
-    if (v.count)
-        source_hint(&m->source, "write %s(%g) = (…) for a vector", state->name, m->start);
+    if (!v.boolean) snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
+    if (state->components) snprintf(due, sizeof due, "a vector of length %d", state->components);
+    source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
+                    state->name, due);
+    if (v.count) source_hint(&m->source, "write %s(%g) = (…) for a vector", state->name, m->start);
     return false;
 }
 
@@ -46,23 +45,22 @@ static bool equation(model *m, const statement *s, outputs *into)
     lowering l;
     output o = {0};
     lower_start(&l, m, PLACE_EQUATION, "an equation");
-    if (!lower_target(&l, s, &o))
-        return false;
+    if (!lower_target(&l, s, &o)) return false;
     value v = lower_expression(&l, s->value);
     if (m->graph->too_large)
-        source_complain(&m->source, MOTUS_LIMIT, s->at, "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
-    if (source_failed(&m->source) || !same_shape(m, s, state, v, "the right side"))
-        return false;
+        source_complain(&m->source, MOTUS_LIMIT, s->at,
+                        "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
+    if (source_failed(&m->source) || !same_shape(m, s, state, v, "the right side")) return false;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];
         if (graph_deps(m->graph, o.value) & DEP_A) {
-            source_complain(&m->source, MOTUS_SHAPE, s->value->at, "an equation cannot use a quantity that contains an acceleration");
+            source_complain(&m->source, MOTUS_SHAPE, s->value->at,
+                            "an equation cannot use a quantity that contains an acceleration");
             source_hint(&m->source, "solve the equations for the highest derivatives");
             return false;
         }
         o.to.array = (uint16_t)(m->block[BLOCK_A] + state->array + k);
-        if (!add(m, into, &o))
-            return false;
+        if (!add(m, into, &o)) return false;
     }
     return true;
 }
@@ -74,26 +72,19 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     lowering l;
     output o = {0};
     lower_start(&l, m, place, what);
-    if ((int)s->index_count != state->dims) {
-        return hull_indices_wrong(m, state, s->at);
-    }
-    if (!lower_target(&l, s, &o))
-        return false;
+    if ((int)s->index_count != state->dims) { return hull_indices_wrong(m, state, s->at); }
+    if (!lower_target(&l, s, &o)) return false;
     value v = lower_expression(&l, s->value);
-    if (source_failed(&m->source) || !same_shape(m, s, state, v, what))
-        return false;
+    if (source_failed(&m->source) || !same_shape(m, s, state, v, what)) return false;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         *timed |= (graph_deps(m->graph, v.item[k]) & DEP_TIME) != 0;
         o.value = v.item[k];
         o.to.array = (uint16_t)(m->block[state->order == 2 ? BLOCK_X : BLOCK_V] + state->array + k);
-        if (!add(m, into, &o))
-            return false;
-        if (state->order == 1)
-            continue;
+        if (!add(m, into, &o)) return false;
+        if (state->order == 1) continue;
         o.value = graph_derivative(m->graph, v.item[k], graph_seed_time, NULL);
         o.to.array = (uint16_t)(m->block[BLOCK_V] + state->array + k);
-        if (!add(m, into, &o))
-            return false;
+        if (!add(m, into, &o)) return false;
     }
     return true;
 }
@@ -104,16 +95,14 @@ static bool looked_at(model *m, model_definition *d)
     output o = {0};
     const statement *s = d->statement;
     lower_start(&l, m, PLACE_QUANTITY, d->kind == DEFINED_INVARIANT ? "an invariant" : "a quantity");
-    if (!lower_target(&l, s, &o))
-        return false;
+    if (!lower_target(&l, s, &o)) return false;
     if (o.loops != o.to.dims) {
         source_complain(&m->source, MOTUS_SHAPE, s->at, "%s[…] needs an index that runs", d->name);
         return false;
     }
-    d->progress = 1;                 /* met again, it uses itself */
+    d->progress = 1; /* met again, it uses itself */
     value v = lower_expression(&l, s->value);
-    if (source_failed(&m->source))
-        return false;
+    if (source_failed(&m->source)) return false;
     d->progress = 2;
     if (v.boolean) {
         source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is a condition, not a number", d->name);
@@ -133,12 +122,12 @@ static bool looked_at(model *m, model_definition *d)
     }
     d->numbers = hull * (size_t)parts;
     if (d->numbers > MODEL_NUMBERS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name, d->numbers, MODEL_NUMBERS_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name,
+                        d->numbers, MODEL_NUMBERS_MAX);
         return false;
     }
     d->outputs = arena_room(m->arena, (size_t)parts * sizeof *d->outputs);
-    if (!d->outputs || !model_take_arrays(m, parts, &d->array))
-        return false;
+    if (!d->outputs || !model_take_arrays(m, parts, &d->array)) return false;
     for (int k = 0; k < parts; k++) {
         shape.base = hull * (size_t)k;
         m->arrays[d->array + k] = shape;
@@ -158,12 +147,10 @@ static bool exact_complete(model *m)
         size_t cells = 0;
         const statement *line = NULL;
         for (uint32_t k = s->line; k; k = m->statements.item[k - 1].next)
-            if (m->statements.item[k - 1].kind == STATEMENT_EXACT)
-                line = &m->statements.item[k - 1];
+            if (m->statements.item[k - 1].kind == STATEMENT_EXACT) line = &m->statements.item[k - 1];
         for (size_t k = 0; k < m->exact_count; k++) {
             const output *o = &m->exact[k];
-            if (o->to.array != m->block[s->order == 2 ? BLOCK_X : BLOCK_V] + s->array)
-                continue;
+            if (o->to.array != m->block[s->order == 2 ? BLOCK_X : BLOCK_V] + s->array) continue;
             size_t n = 1;
             for (int d = 0; d < o->loops; d++) {
                 const range *r = &o->loop[d];
@@ -172,12 +159,13 @@ static bool exact_complete(model *m)
             }
             cells += n;
         }
-        if (cells == s->cells.count)
-            continue;
+        if (cells == s->cells.count) continue;
         if (!line)
-            source_complain(&m->source, MOTUS_NAME, s->at, "the exact motion of %s is missing: other states have one", s->name);
+            source_complain(&m->source, MOTUS_NAME, s->at, "the exact motion of %s is missing: other states have one",
+                            s->name);
         else
-            source_complain(&m->source, MOTUS_NAME, line->at, "the exact motion of %s is given for %zu of %zu places", s->name, cells, s->cells.count);
+            source_complain(&m->source, MOTUS_NAME, line->at, "the exact motion of %s is given for %zu of %zu places",
+                            s->name, cells, s->cells.count);
         return false;
     }
     return true;
@@ -185,7 +173,8 @@ static bool exact_complete(model *m)
 
 bool equations_all(model *m)
 {
-    outputs accel = {&m->accel, &m->accel_count, 0}, boundary = {&m->boundary, &m->boundary_count, 0}, exact = {&m->exact, &m->exact_count, 0};
+    outputs accel = {&m->accel, &m->accel_count, 0}, boundary = {&m->boundary, &m->boundary_count, 0},
+            exact = {&m->exact, &m->exact_count, 0};
     bool timed = false;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
@@ -196,16 +185,13 @@ bool equations_all(model *m)
             ok = given_motion(m, s, PLACE_BOUNDARY, "a boundary line", &boundary, &m->driven);
         else if (s->kind == STATEMENT_EXACT)
             ok = given_motion(m, s, PLACE_EXACT, "an exact motion", &exact, &timed);
-        if (!ok)
-            return false;
+        if (!ok) return false;
     }
     for (uint32_t i = 0; i < m->definition_count; i++)
-        if (m->definitions[i].kind != DEFINED_PARAMETER && !looked_at(m, &m->definitions[i]))
-            return false;
+        if (m->definitions[i].kind != DEFINED_PARAMETER && !looked_at(m, &m->definitions[i])) return false;
     if (m->exact_count > 0) {
         m->exact_given = true;
-        if (!exact_complete(m))
-            return false;
+        if (!exact_complete(m)) return false;
     }
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     return m->boundary_count == 0 || evaluate_outputs(m, m->boundary, m->boundary_count, m->start, base);

@@ -10,31 +10,30 @@ bool layout_all(model *m)
     for (int order = 2; order >= 1; order--) {
         for (uint32_t i = 0; i < m->state_count; i++) {
             model_state *s = &m->states[i];
-            if (s->order != order)
-                continue;
+            if (s->order != order) continue;
             s->base = total;
             s->array = (uint16_t)parts;
             total += s->hull * (size_t)(s->components ? s->components : 1);
             parts += (uint32_t)(s->components ? s->components : 1);
             if (total > MODEL_NUMBERS_MAX) {
-                source_complain(&m->source, MOTUS_LIMIT, s->at, "the states have more than the %d numbers that fit", MODEL_NUMBERS_MAX);
+                source_complain(&m->source, MOTUS_LIMIT, s->at, "the states have more than the %d numbers that fit",
+                                MODEL_NUMBERS_MAX);
                 return false;
             }
             if (parts > UINT16_MAX / 8) {
-                source_complain(&m->source, MOTUS_LIMIT, s->at, "more than %d variables and components", UINT16_MAX / 8);
+                source_complain(&m->source, MOTUS_LIMIT, s->at, "more than %d variables and components",
+                                UINT16_MAX / 8);
                 source_hint(&m->source, "a family, x[i]'' = … for i = 1..N, is one variable however large N is");
                 return false;
             }
         }
-        if (order == 2)
-            m->nx = total;
+        if (order == 2) m->nx = total;
     }
     m->nv = total;
     m->block_size = (uint16_t)parts;
     static const space spaces[5] = {SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV};
     for (int b = 0; b < 5; b++) {
-        if (!model_take_arrays(m, (int)parts, &m->block[b]))
-            return false;
+        if (!model_take_arrays(m, (int)parts, &m->block[b])) return false;
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];
             for (int k = 0; k < (s->components ? s->components : 1); k++)
@@ -44,8 +43,7 @@ bool layout_all(model *m)
     }
     m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
     m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
-    if (!m->x0 || !m->v0)
-        return false;
+    if (!m->x0 || !m->v0) return false;
     memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);
     memset(m->v0, 0, (m->nv + 1) * sizeof *m->v0);
     model_start_state(m);

@@ -16,14 +16,11 @@ static bool constants(model *m)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
             m->scalar_slots += m->source.texts[t].bytes[i] == ',' ? 2 : 0;
     size_t first;
-    if (!model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m))
-        return false;
+    if (!model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
     for (uint32_t i = 0; i < m->definition_count; i++)
-        if (!resolve_definition(m, &m->definitions[i]))
-            return false;
+        if (!resolve_definition(m, &m->definitions[i])) return false;
     for (uint32_t i = 0; i < m->state_count; i++)
-        if (!start_state(m, &m->states[i]))
-            return false;
+        if (!start_state(m, &m->states[i])) return false;
     return true;
 }
 
@@ -31,33 +28,29 @@ static motus_status build(model *m, const motus_text_def *def)
 {
     if (collect_all(m, def) && classify_all(m) && constants(m) && settings_all(m) && layout_all(m) && equations_all(m))
         analysis_all(m);
-    if (m->source.failed)
-        return m->source.status;
-    if (m->arena->failed)
-        return MOTUS_MEMORY;
+    if (m->source.failed) return m->source.status;
+    if (m->arena->failed) return MOTUS_MEMORY;
     if (m->graph->too_large)
-        return fail(m->source.error, MOTUS_LIMIT, "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
+        return fail(m->source.error, MOTUS_LIMIT, "the model's expressions are too large: more than %d operations",
+                    GRAPH_NODES_MAX);
     return MOTUS_OK;
 }
 
 motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_error *err)
 {
     *out = NULL;
-    if (!def->text)
-        return fail(err, MOTUS_ARGUMENT, "the definition has no text");
+    if (!def->text) return fail(err, MOTUS_ARGUMENT, "the definition has no text");
     size_t length = def->length == SIZE_MAX ? strlen(def->text) : def->length;
     if (length > SOURCE_BYTES_MAX)
         return fail(err, MOTUS_LIMIT, "the model has %zu bytes; at most %d are read", length, SOURCE_BYTES_MAX);
     model *m = arena_room(a, sizeof *m);
-    if (!m)
-        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    if (!m) return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(m, 0, sizeof *m);
     m->arena = a;
     m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count)};
     m->source.texts = arena_room(a, (1 + def->set_count) * sizeof *m->source.texts);
     m->graph = graph_create(a);
-    if (!m->source.texts || !m->graph || a->failed)
-        return fail(err, MOTUS_MEMORY, "no memory for the model");
+    if (!m->source.texts || !m->graph || a->failed) return fail(err, MOTUS_MEMORY, "no memory for the model");
     m->source.texts[0] = (struct source_text){def->text, (uint32_t)length, def->file};
     for (size_t i = 0; i < def->set_count; i++) {
         size_t n = strlen(def->set[i]);
@@ -66,9 +59,8 @@ motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_
         m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "--set"};
     }
     motus_status status = build(m, def);
-    if (status != MOTUS_OK)
-        return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
-    m->source.error = NULL;          /* it is the caller's and does not outlive this call */
+    if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
+    m->source.error = NULL; /* it is the caller's and does not outlive this call */
     *out = m;
     return MOTUS_OK;
 }

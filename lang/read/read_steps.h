@@ -5,11 +5,11 @@
 
 #include "lang/model/model.h"
 
-bool collect_all(model *, const motus_text_def *);     /* statements, with those of --set; the symbol table */
-bool classify_all(model *);                            /* parameters and quantities; initial values without a state */
-bool settings_all(model *);                            /* method, step, until … */
-bool layout_all(model *);                              /* places of the states in x and v */
-bool equations_all(model *);                           /* outputs over the graph */
-void analysis_all(model *);                            /* traits of the equations; may complain too */
+bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
+bool classify_all(model *);                        /* parameters and quantities; initial values without a state */
+bool settings_all(model *);                        /* method, step, until … */
+bool layout_all(model *);                          /* places of the states in x and v */
+bool equations_all(model *);                       /* outputs over the graph */
+void analysis_all(model *);                        /* traits of the equations; may complain too */
 
 #endif

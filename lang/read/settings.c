@@ -11,8 +11,7 @@ bool settings_all(model *m)
     m->step = m->until = m->every_time = NAN;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
-        if (s->kind < STATEMENT_METHOD)
-            continue;
+        if (s->kind < STATEMENT_METHOD) continue;
         if (seen[s->kind]) {
             source_complain(&m->source, MOTUS_NAME, s->at, "%s is set twice", s->name);
             return false;
@@ -23,8 +22,7 @@ bool settings_all(model *m)
             continue;
         }
         double v;
-        if (!resolve_constant(m, s->value, s->name, &v))
-            return false;
+        if (!resolve_constant(m, s->value, s->name, &v)) return false;
         bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY;
         if (positive && !(v > 0)) {
             source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "%s is positive, not %g", s->name, v);

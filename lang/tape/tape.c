@@ -1,15 +1,18 @@
 /* The interpreter: a program's code, bound to memory and run.
  *
- * Invariant: the bits of a run depend on the program and the numbers alone, not on the width of a block, nor on the instruction set, nor on
- * whether blocks are used at all; so all of these are chosen freely, by size and by what the processor has.
+ * Invariant: the bits of a run depend on the program and the numbers alone, not on the width of a block, nor on the
+ * instruction set, nor on whether blocks are used at all; so all of these are chosen freely, by size and by what the
+ * processor has.
  */
 #include "lang/tape/tape_isa.h"
 
 enum {
-    BLOCK_BYTES = 24 << 10,          /* what all blocks together may take: most of a 32 KiB L1 cache, the state needs some too */
+    /* what all blocks together may take: most of a 32 KiB L1 cache, the state needs some too */
+    BLOCK_BYTES = 24 << 10,
     WIDEST = 1024,
-    PAD = 8,                         /* doubles between blocks: blocks a power of two apart would fight for the same cache sets */
-    FEW_LANES = 1                    /* up to here calling a kernel costs more than it saves */
+    /* doubles between blocks: blocks a power of two apart would fight for the same cache sets */
+    PAD = 8,
+    FEW_LANES = 1 /* up to here calling a kernel costs more than it saves */
 };
 
 struct tape {
@@ -17,8 +20,8 @@ struct tape {
     const program *program;
     tape_choice choice;
     const tape_machine *machine;
-    code *with_blocks, *scalar;      /* the latter only once it is wanted */
-    code *memory_for;                /* the code that registers were taken for */
+    code *with_blocks, *scalar; /* the latter only once it is wanted */
+    code *memory_for;           /* the code that registers were taken for */
     binding binding;
     frame frame;
 };
@@ -28,29 +31,21 @@ struct tape {
 #if defined(__x86_64__)
 static bool runs_avx512(void)
 {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")
-        && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
 
-static bool runs_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
+static bool runs_avx2(void) { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 
 const tape_machine *tape_machine_at(int k)
 {
     __builtin_cpu_init();
-    if (runs_avx512() && k-- == 0)
-        return &tape_run_avx512;
-    if (runs_avx2() && k-- == 0)
-        return &tape_run_avx2;
+    if (runs_avx512() && k-- == 0) return &tape_run_avx512;
+    if (runs_avx2() && k-- == 0) return &tape_run_avx2;
     return k == 0 ? &tape_run_base : NULL;
 }
 #else
-const tape_machine *tape_machine_at(int k)
-{
-    return k == 0 ? &tape_run_base : NULL;
-}
+const tape_machine *tape_machine_at(int k) { return k == 0 ? &tape_run_base : NULL; }
 #endif
 
 static const tape_machine *machine_named(const char *name)
@@ -58,10 +53,8 @@ static const tape_machine *machine_named(const char *name)
     const tape_machine *m = NULL;
     for (int k = 0; name && (m = tape_machine_at(k)); k++) {
         const char *p = m->name, *q = name;
-        while (*p && *p == *q)
-            p++, q++;
-        if (*p == *q)
-            return m;
+        while (*p && *p == *q) p++, q++;
+        if (*p == *q) return m;
     }
     return tape_machine_at(0);
 }
@@ -71,17 +64,13 @@ static const tape_machine *machine_named(const char *name)
 tape *tape_create_as(arena *a, const program *program, const tape_choice *choice)
 {
     tape *t = arena_take(a, sizeof *t);
-    if (a->failed)
-        return NULL;
-    *t = (tape){ .arena = a, .program = program, .choice = *choice, .machine = machine_named(choice->machine) };
+    if (a->failed) return NULL;
+    *t = (tape){.arena = a, .program = program, .choice = *choice, .machine = machine_named(choice->machine)};
     t->with_blocks = tape_code_create(a, program, choice->blocks != 0);
     return t->with_blocks ? t : NULL;
 }
 
-tape *tape_create(arena *a, const program *program)
-{
-    return tape_create_as(a, program, &(tape_choice){ .blocks = -1 });
-}
+tape *tape_create(arena *a, const program *program) { return tape_create_as(a, program, &(tape_choice){.blocks = -1}); }
 
 /* Binding --------------------------------------------------------------------------------------------------------- */
 
@@ -100,14 +89,13 @@ static void bind_site(site *s, const binding *b)
             s->wrap[s->wraps].add = fixed;
             s->wrap[s->wraps].modulus = modulus;
             s->wrap[s->wraps++].step = step;
-            fixed = 1;               /* 1 + (base mod modulus) */
+            fixed = 1; /* 1 + (base mod modulus) */
         } else if (at->level >= 0) {
             s->level[s->terms] = at->level;
             s->step[s->terms++] = step;
         }
         s->offset += (fixed - m->first[d]) * step;
-        if (s->lanes >= 0 && at->level == s->lanes)
-            s->lane_step += step;
+        if (s->lanes >= 0 && at->level == s->lanes) s->lane_step += step;
     }
 }
 
@@ -117,13 +105,11 @@ static int64_t most_lanes(const code *c, const binding *b)
     int64_t most = 0;
     for (uint32_t k = 0; k < c->loop_count; k++) {
         const loop *l = &c->loops[k];
-        if (l->kind == LOOP_SERIAL)
-            continue;
-        if (l->range.first.level >= 0 || l->range.last.level >= 0)
-            return INT64_MAX;
-        int64_t lanes = subscript_value(&l->range.last, NULL, b->ints) - subscript_value(&l->range.first, NULL, b->ints) + 1;
-        if (lanes > most)
-            most = lanes;
+        if (l->kind == LOOP_SERIAL) continue;
+        if (l->range.first.level >= 0 || l->range.last.level >= 0) return INT64_MAX;
+        int64_t lanes =
+            subscript_value(&l->range.last, NULL, b->ints) - subscript_value(&l->range.first, NULL, b->ints) + 1;
+        if (lanes > most) most = lanes;
     }
     return most;
 }
@@ -141,10 +127,8 @@ static bool take_registers(tape *t, const code *c)
     f->scalars = arena_room(t->arena, c->scalars * sizeof *f->scalars);
     f->pointers = arena_room(t->arena, (size_t)(c->blocks + c->pointers + 1) * sizeof *f->pointers);
     double *blocks = c->blocks ? arena_room(t->arena, c->blocks * stride * sizeof *blocks) : NULL;
-    if (!f->scalars || !f->pointers || (c->blocks && !blocks))
-        return false;
-    for (uint32_t k = 0; k < c->blocks; k++)
-        f->pointers[k] = blocks + k * stride;
+    if (!f->scalars || !f->pointers || (c->blocks && !blocks)) return false;
+    for (uint32_t k = 0; k < c->blocks; k++) f->pointers[k] = blocks + k * stride;
     return true;
 }
 
@@ -153,15 +137,12 @@ bool tape_bind(tape *t, const binding *b)
     t->binding = *b;
     code *c = t->with_blocks;
     if (t->choice.blocks < 0 && c->blocks + c->pointers && most_lanes(c, b) <= FEW_LANES) {
-        if (!t->scalar)
-            t->scalar = tape_code_create(t->arena, t->program, false);
+        if (!t->scalar) t->scalar = tape_code_create(t->arena, t->program, false);
         c = t->scalar;
     }
-    if (!c || (t->memory_for != c && !take_registers(t, c)))
-        return false;
+    if (!c || (t->memory_for != c && !take_registers(t, c))) return false;
     t->memory_for = c;
-    for (uint32_t k = 0; k < c->site_count; k++)
-        bind_site(&c->sites[k], b);
+    for (uint32_t k = 0; k < c->site_count; k++) bind_site(&c->sites[k], b);
     frame *f = &t->frame;
     f->code = c;
     f->binding = &t->binding;

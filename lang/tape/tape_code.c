@@ -1,7 +1,7 @@
 /* Writing the plan out as instructions.
  *
- * Invariant: instructions are written in the order they run, loops nested by position; until the end registers are virtual, each made by
- * one instruction, and afterwards they are the numbers that tape_registers.c chose.
+ * Invariant: instructions are written in the order they run, loops nested by position; until the end registers are
+ * virtual, each made by one instruction, and afterwards they are the numbers that tape_registers.c chose.
  */
 #include "lang/tape/tape_code.h"
 
@@ -19,7 +19,7 @@ typedef struct writer {
     LIST(loop) loops;
     LIST(total) totals;
     LIST(double) constants;
-    uint32_t region;                 /* being written */
+    uint32_t region; /* being written */
     uint32_t bind_count;
 } writer;
 
@@ -27,24 +27,25 @@ typedef struct writer {
 
 static uint32_t fresh(writer *w, register_kind kind)
 {
-    if (!ROOM(&w->plan, w->registers))
-        return 0;
-    w->registers.at[w->registers.count] = (virtual_register){ .kind = (uint8_t)kind, .first = w->text.count, .last = w->text.count,
-                                                              .region = w->region, .until = NONE, .memory = NONE };
+    if (!ROOM(&w->plan, w->registers)) return 0;
+    w->registers.at[w->registers.count] = (virtual_register){.kind = (uint8_t)kind,
+                                                             .first = w->text.count,
+                                                             .last = w->text.count,
+                                                             .region = w->region,
+                                                             .until = NONE,
+                                                             .memory = NONE};
     return w->registers.count++;
 }
 
-/* Read by the next instruction. A loop between the making and the reading reads it again and again: it lives to the loop's end. */
+/* Read by the next instruction. A loop between the making and the reading reads it again and again: it lives to the
+ * loop's end. */
 static void reads(writer *w, uint32_t reg)
 {
-    if (w->plan.failed)
-        return;
+    if (w->plan.failed) return;
     virtual_register *v = &w->registers.at[reg];
     v->last = w->text.count;
-    for (uint32_t up = w->region; up != v->region; up = w->plan.regions.at[up].parent)
-        v->until = up;
-    if (v->memory != NONE)
-        reads(w, v->memory);
+    for (uint32_t up = w->region; up != v->region; up = w->plan.regions.at[up].parent) v->until = up;
+    if (v->memory != NONE) reads(w, v->memory);
 }
 
 static bool is_block(const writer *w, uint32_t reg)
@@ -54,8 +55,7 @@ static bool is_block(const writer *w, uint32_t reg)
 
 static void put(writer *w, uint16_t code, uint16_t kernel, instruction fields, int registers)
 {
-    if (!ROOM(&w->plan, w->text) || !ROOM(&w->plan, w->fields))
-        return;
+    if (!ROOM(&w->plan, w->text) || !ROOM(&w->plan, w->fields)) return;
     fields.code = code;
     fields.kernel = kernel;
     if (registers & A) reads(w, fields.a);
@@ -69,17 +69,15 @@ static void put(writer *w, uint16_t code, uint16_t kernel, instruction fields, i
 static void operate(writer *w, operation op, uint32_t r, const uint32_t operand[3])
 {
     int arity = operation_at(op)->arity, mask = 0;
-    for (int k = 0; k < arity; k++)
-        mask |= is_block(w, operand[k]) << k;
+    for (int k = 0; k < arity; k++) mask |= is_block(w, operand[k]) << k;
     put(w, mask ? CODE_BLOCK : (uint16_t)op, mask ? (uint16_t)(op * 8 + mask) : 0,
-        (instruction){ .r = r, .a = operand[0], .b = operand[1], .c = operand[2] },
+        (instruction){.r = r, .a = operand[0], .b = operand[1], .c = operand[2]},
         R | A | (arity > 1 ? B : 0) | (arity > 2 ? C : 0));
 }
 
 static uint32_t operand(writer *w, node n)
 {
-    if (w->plan.failed)
-        return 0;
+    if (w->plan.failed) return 0;
     uint32_t home = plan_home(&w->plan, w->plan.g->nodes[n].deps, w->region);
     return w->plan.items.at[plan_find(&w->plan, n, home)].reg;
 }
@@ -87,10 +85,9 @@ static uint32_t operand(writer *w, node n)
 /* A scalar in every lane, where an instruction wants lanes. */
 static uint32_t in_lanes(writer *w, uint32_t reg)
 {
-    if (is_block(w, reg))
-        return reg;
+    if (is_block(w, reg)) return reg;
     uint32_t r = fresh(w, BLOCK_REGISTER);
-    put(w, CODE_FILL, 0, (instruction){ .r = r, .a = reg }, R | A);
+    put(w, CODE_FILL, 0, (instruction){.r = r, .a = reg}, R | A);
     return r;
 }
 
@@ -99,10 +96,10 @@ static uint32_t in_lanes(writer *w, uint32_t reg)
 static uint32_t site_at(writer *w, const reference *ref, bool lanes)
 {
     const plan_region *r = &w->plan.regions.at[w->region];
-    if (!ROOM(&w->plan, w->sites))
-        return 0;
-    w->sites.at[w->sites.count] = (site){ .ref = *ref, .lanes = lanes ? w->plan.regions.at[r->wide_at].level : -1,
-                                          .space = (uint8_t)w->plan.g->arrays[ref->array].space };
+    if (!ROOM(&w->plan, w->sites)) return 0;
+    w->sites.at[w->sites.count] = (site){.ref = *ref,
+                                         .lanes = lanes ? w->plan.regions.at[r->wide_at].level : -1,
+                                         .space = (uint8_t)w->plan.g->arrays[ref->array].space};
     return w->sites.count++;
 }
 
@@ -110,8 +107,7 @@ static uint32_t site_at(writer *w, const reference *ref, bool lanes)
 static bool contiguous(const reference *ref, int level)
 {
     for (int d = 0; d < ref->dims - 1; d++)
-        if (ref->at[d].level == level)
-            return false;
+        if (ref->at[d].level == level) return false;
     return ref->dims && ref->at[ref->dims - 1].level == level && ref->at[ref->dims - 1].modulus < 0;
 }
 
@@ -119,8 +115,7 @@ static bool contiguous(const reference *ref, int level)
 static bool fixed(const reference *ref)
 {
     for (int d = 0; d < ref->dims; d++)
-        if (ref->at[d].level >= 0 || ref->at[d].modulus >= 0)
-            return false;
+        if (ref->at[d].level >= 0 || ref->at[d].modulus >= 0) return false;
     return true;
 }
 
@@ -131,22 +126,20 @@ static uint32_t load(writer *w, node n, bool lanes)
     if (!lanes) {
         bool pool = w->plan.g->arrays[ref->array].space == SPACE_POOL;
         uint32_t r = fresh(w, SCALAR_REGISTER);
-        put(w, fixed(ref) && !pool ? CODE_FETCH_FIXED : CODE_FETCH, 0, (instruction){ .r = r, .a = s }, R);
+        put(w, fixed(ref) && !pool ? CODE_FETCH_FIXED : CODE_FETCH, 0, (instruction){.r = r, .a = s}, R);
         return r;
     }
     uint32_t r = fresh(w, POINTER_REGISTER), memory = NONE;
     if (!contiguous(ref, w->plan.regions.at[w->plan.regions.at[w->region].wide_at].level))
         memory = fresh(w, BLOCK_REGISTER);
-    put(w, CODE_VIEW, 0, (instruction){ .r = r, .a = s, .b = memory }, memory == NONE ? R : R | B);
-    if (!w->plan.failed)
-        w->registers.at[r].memory = memory;
+    put(w, CODE_VIEW, 0, (instruction){.r = r, .a = s, .b = memory}, memory == NONE ? R : R | B);
+    if (!w->plan.failed) w->registers.at[r].memory = memory;
     return r;
 }
 
 static bool can_target(const writer *w, const plan_item *item)
 {
-    if (item->outputs == NONE || item->region != w->region)
-        return false;
+    if (item->outputs == NONE || item->region != w->region) return false;
     uint32_t wide = w->plan.regions.at[w->region].wide_at;
     return contiguous(&w->plan.program->outputs[item->outputs].to, w->plan.regions.at[wide].level);
 }
@@ -157,7 +150,11 @@ static void write_outputs(writer *w, uint32_t first, uint32_t (*value)(writer *,
         const output *o = &w->plan.program->outputs[k];
         bool lanes = w->plan.regions.at[w->region].wide;
         uint32_t reg = value(w, o->value);
-        put(w, lanes ? CODE_WRITE : fixed(&o->to) ? CODE_PUT_FIXED : CODE_PUT, 0, (instruction){ .a = reg, .b = site_at(w, &o->to, lanes) }, A);
+        put(w,
+            lanes           ? CODE_WRITE
+            : fixed(&o->to) ? CODE_PUT_FIXED
+                            : CODE_PUT,
+            0, (instruction){.a = reg, .b = site_at(w, &o->to, lanes)}, A);
     }
 }
 
@@ -166,17 +163,16 @@ static void write_outputs(writer *w, uint32_t first, uint32_t (*value)(writer *,
 static uint32_t constant(writer *w, double value)
 {
     uint32_t r = fresh(w, SCALAR_REGISTER);
-    if (!ROOM(&w->plan, w->constants))
-        return r;
+    if (!ROOM(&w->plan, w->constants)) return r;
     w->constants.at[w->constants.count] = value;
-    put(w, CODE_CONST, 0, (instruction){ .r = r, .a = w->constants.count++ }, R);
+    put(w, CODE_CONST, 0, (instruction){.r = r, .a = w->constants.count++}, R);
     return r;
 }
 
 static uint32_t simple(writer *w, uint16_t code, register_kind kind, uint32_t a)
 {
     uint32_t r = fresh(w, kind);
-    put(w, code, 0, (instruction){ .r = r, .a = a }, R);
+    put(w, code, 0, (instruction){.r = r, .a = a}, R);
     return r;
 }
 
@@ -190,17 +186,20 @@ static void write_item(writer *w, uint32_t k)
     case OP_CONST: item->reg = constant(w, n->value); break;
     case OP_TIME: item->reg = simple(w, CODE_TIME, SCALAR_REGISTER, 0); break;
     case OP_PARAM: item->reg = simple(w, CODE_PARAM, SCALAR_REGISTER, n->a); break;
-    case OP_INDEX: item->reg = lanes ? simple(w, CODE_IOTA, BLOCK_REGISTER, n->level) : simple(w, CODE_INDEX, SCALAR_REGISTER, n->level); break;
+    case OP_INDEX:
+        item->reg =
+            lanes ? simple(w, CODE_IOTA, BLOCK_REGISTER, n->level) : simple(w, CODE_INDEX, SCALAR_REGISTER, n->level);
+        break;
     case OP_LOAD: item->reg = load(w, item->n, lanes); break;
-    case OP_SUM: break;              /* its loop has made it */
+    case OP_SUM: break; /* its loop has made it */
     default: {
         int arity = operation_at(n->op)->arity;
-        uint32_t from[3] = { operand(w, n->a), arity > 1 ? operand(w, n->b) : 0, arity > 2 ? operand(w, n->c) : 0 };
+        uint32_t from[3] = {operand(w, n->a), arity > 1 ? operand(w, n->b) : 0, arity > 2 ? operand(w, n->c) : 0};
         bool target = lanes && can_target(w, item);
         item->reg = fresh(w, !lanes ? SCALAR_REGISTER : target ? POINTER_REGISTER : BLOCK_REGISTER);
         if (target) {
             const output *o = &w->plan.program->outputs[outputs];
-            put(w, CODE_TARGET, 0, (instruction){ .r = item->reg, .a = site_at(w, &o->to, true) }, R);
+            put(w, CODE_TARGET, 0, (instruction){.r = item->reg, .a = site_at(w, &o->to, true)}, R);
             outputs = w->plan.next_output[outputs];
         }
         operate(w, n->op, item->reg, from);
@@ -219,22 +218,21 @@ static void write_update(writer *w, const plan_item *update)
     bool fused = how->op != OP_ADD;
     uint32_t p = operand(w, fused ? how->a : how->b), q = fused ? operand(w, how->b) : 0;
     uint32_t condition = sum->b ? operand(w, sum->b) : NONE;
-    if (w->plan.failed)
-        return;
+    if (w->plan.failed) return;
     if (w->plan.regions.at[w->region].wide) {
-        instruction i = { .r = item->total, .a = in_lanes(w, p), .b = fused ? in_lanes(w, q) : NONE,
-                          .c = condition == NONE ? NONE : in_lanes(w, condition) };
+        instruction i = {.r = item->total,
+                         .a = in_lanes(w, p),
+                         .b = fused ? in_lanes(w, q) : NONE,
+                         .c = condition == NONE ? NONE : in_lanes(w, condition)};
         put(w, CODE_TERMS, how->op, i, A | (fused ? B : 0) | (condition == NONE ? 0 : C));
         return;
     }
     total t = w->totals.at[item->total];
-    uint32_t from[3] = { fused ? p : t.current, fused ? q : p, fused ? t.current : 0 };
+    uint32_t from[3] = {fused ? p : t.current, fused ? q : p, fused ? t.current : 0};
     uint32_t r = t.current;
-    if (condition != NONE)
-        r = fresh(w, t.block || is_block(w, condition) ? BLOCK_REGISTER : SCALAR_REGISTER);
+    if (condition != NONE) r = fresh(w, t.block || is_block(w, condition) ? BLOCK_REGISTER : SCALAR_REGISTER);
     operate(w, how->op, r, from);
-    if (condition != NONE)
-        operate(w, OP_SELECT, t.current, (uint32_t[]){ condition, r, t.current });
+    if (condition != NONE) operate(w, OP_SELECT, t.current, (uint32_t[]){condition, r, t.current});
 }
 
 static void new_total(writer *w, plan_item *item, bool terms)
@@ -242,19 +240,15 @@ static void new_total(writer *w, plan_item *item, bool terms)
     bool block = plan_is_block(&w->plan, item->n, item->region);
     register_kind kind = block ? BLOCK_REGISTER : SCALAR_REGISTER;
     uint32_t inside = item->inside;
-    total t = { .block = block, .current = NONE };
+    total t = {.block = block, .current = NONE};
     item->reg = t.part[0] = fresh(w, kind);
-    uint32_t made[PARTS + 1] = { t.part[0] }, count = 1;
-    w->region = inside;              /* the partials belong to the loop */
-    for (int k = 1; k < PARTS; k++)
-        made[count++] = t.part[k] = fresh(w, kind);
-    if (!terms)
-        made[count++] = t.current = fresh(w, block ? POINTER_REGISTER : SCALAR_REGISTER);
+    uint32_t made[PARTS + 1] = {t.part[0]}, count = 1;
+    w->region = inside; /* the partials belong to the loop */
+    for (int k = 1; k < PARTS; k++) made[count++] = t.part[k] = fresh(w, kind);
+    if (!terms) made[count++] = t.current = fresh(w, block ? POINTER_REGISTER : SCALAR_REGISTER);
     w->region = item->region;
-    if (w->plan.failed || !ROOM(&w->plan, w->totals))
-        return;
-    for (uint32_t k = 0; k < count; k++)
-        w->registers.at[made[k]].until = inside;
+    if (w->plan.failed || !ROOM(&w->plan, w->totals)) return;
+    for (uint32_t k = 0; k < count; k++) w->registers.at[made[k]].until = inside;
     item->total = w->totals.count;
     w->totals.at[w->totals.count++] = t;
 }
@@ -264,21 +258,24 @@ static void write_region(writer *, uint32_t);
 static void write_loop(writer *w, uint32_t region)
 {
     plan_region *r = &w->plan.regions.at[region];
-    loop l = { .kind = !r->wide ? LOOP_SERIAL : r->sum ? LOOP_TERMS : LOOP_CELLS, .level = (uint8_t)r->level, .range = r->range,
-               .first_total = w->totals.count };
+    loop l = {.kind = !r->wide ? LOOP_SERIAL
+                      : r->sum ? LOOP_TERMS
+                               : LOOP_CELLS,
+              .level = (uint8_t)r->level,
+              .range = r->range,
+              .first_total = w->totals.count};
     for (uint32_t k = r->sums; k != NONE; k = w->plan.items.at[k].next_sum)
         new_total(w, &w->plan.items.at[k], l.kind == LOOP_TERMS);
-    if (w->plan.failed || !ROOM(&w->plan, w->loops))
-        return;
+    if (w->plan.failed || !ROOM(&w->plan, w->loops)) return;
     uint32_t number = w->loops.count++, around = w->region;
     l.total_count = w->totals.count - l.first_total;
     l.body = w->text.count + 1;
     r->begin = w->text.count;
-    put(w, CODE_LOOP, 0, (instruction){ .a = number }, 0);
+    put(w, CODE_LOOP, 0, (instruction){.a = number}, 0);
     write_region(w, region);
     w->region = around;
     r->end = l.end = w->text.count;
-    put(w, CODE_NEXT, 0, (instruction){ .a = number }, 0);
+    put(w, CODE_NEXT, 0, (instruction){.a = number}, 0);
     w->loops.at[number] = l;
 }
 
@@ -291,16 +288,14 @@ static void write_region(writer *w, uint32_t region)
     for (uint32_t k = 0; k < r->item_count && !w->plan.failed; k++) {
         uint32_t item = w->plan.order[r->items + k];
         const plan_item *i = &w->plan.items.at[item];
-        if (i->inside != NONE && i->reg == NONE)
-            write_loop(w, i->inside);
+        if (i->inside != NONE && i->reg == NONE) write_loop(w, i->inside);
         if (i->sum != NONE)
             write_update(w, i);
         else
             write_item(w, item);
     }
     for (uint32_t k = r->first_child; k != NONE && !w->plan.failed; k = w->plan.regions.at[k].next)
-        if (!w->plan.regions.at[k].sum && region != AT_BIND)
-            write_loop(w, k);
+        if (!w->plan.regions.at[k].sum && region != AT_BIND) write_loop(w, k);
 }
 
 /* The end --------------------------------------------------------------------------------------------------------- */
@@ -327,10 +322,8 @@ static void number_all(writer *w, const uint32_t counts[REGISTER_KINDS])
     }
     for (uint32_t k = 0; k < w->totals.count; k++) {
         total *t = &w->totals.at[k];
-        for (int j = 0; j < PARTS; j++)
-            t->part[j] = numbered(w, counts, t->part[j]);
-        if (t->current != NONE)
-            t->current = numbered(w, counts, t->current);
+        for (int j = 0; j < PARTS; j++) t->part[j] = numbered(w, counts, t->part[j]);
+        if (t->current != NONE) t->current = numbered(w, counts, t->current);
     }
 }
 
@@ -339,7 +332,7 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
     for (uint32_t k = 0; k < w->registers.count; k++) {
         virtual_register *v = &w->registers.at[k];
         if (v->until == AT_RUN)
-            v->last = w->text.count + 1;     /* made at bind, read at every evaluation: never given up */
+            v->last = w->text.count + 1; /* made at bind, read at every evaluation: never given up */
         else if (v->until != NONE && w->plan.regions.at[v->until].end > v->last)
             v->last = w->plan.regions.at[v->until].end;
     }
@@ -348,42 +341,44 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
 
 static void *kept(arena *a, const void *rows, size_t count, size_t size)
 {
-    if (!count)
-        return arena_take(a, size);
+    if (!count) return arena_take(a, size);
     void *copy = arena_take(a, count * size);
-    if (copy && !a->failed)
-        memcpy(copy, rows, count * size);
+    if (copy && !a->failed) memcpy(copy, rows, count * size);
     return copy;
 }
 
 static code *finish(writer *w, arena *a)
 {
     uint32_t counts[REGISTER_KINDS];
-    if (w->plan.failed || !assign(w, counts))
-        return a->failed = true, NULL;
+    if (w->plan.failed || !assign(w, counts)) return a->failed = true, NULL;
     number_all(w, counts);
     code *c = arena_take(a, sizeof *c);
-    *c = (code){ .count = w->text.count, .bind_count = w->bind_count, .site_count = w->sites.count, .loop_count = w->loops.count,
-                 .total_count = w->totals.count,
-                 .scalars = counts[SCALAR_REGISTER] + 1, .blocks = counts[BLOCK_REGISTER], .pointers = counts[POINTER_REGISTER],
-                 .instructions = kept(a, w->text.at, w->text.count, sizeof *w->text.at),
-                 .sites = kept(a, w->sites.at, w->sites.count, sizeof *w->sites.at),
-                 .loops = kept(a, w->loops.at, w->loops.count, sizeof *w->loops.at),
-                 .totals = kept(a, w->totals.at, w->totals.count, sizeof *w->totals.at),
-                 .constants = kept(a, w->constants.at, w->constants.count, sizeof *w->constants.at) };
+    *c = (code){.count = w->text.count,
+                .bind_count = w->bind_count,
+                .site_count = w->sites.count,
+                .loop_count = w->loops.count,
+                .total_count = w->totals.count,
+                .scalars = counts[SCALAR_REGISTER] + 1,
+                .blocks = counts[BLOCK_REGISTER],
+                .pointers = counts[POINTER_REGISTER],
+                .instructions = kept(a, w->text.at, w->text.count, sizeof *w->text.at),
+                .sites = kept(a, w->sites.at, w->sites.count, sizeof *w->sites.at),
+                .loops = kept(a, w->loops.at, w->loops.count, sizeof *w->loops.at),
+                .totals = kept(a, w->totals.at, w->totals.count, sizeof *w->totals.at),
+                .constants = kept(a, w->constants.at, w->constants.count, sizeof *w->constants.at)};
     return a->failed ? NULL : c;
 }
 
 code *tape_code_create(arena *a, const program *program, bool with_blocks)
 {
-    writer w = { .region = AT_BIND };
+    writer w = {.region = AT_BIND};
     code *c = NULL;
     if (plan_create(&w.plan, a, program, with_blocks)) {
         write_region(&w, AT_BIND);
-        put(&w, CODE_END, 0, (instruction){ 0 }, 0);
+        put(&w, CODE_END, 0, (instruction){0}, 0);
         w.bind_count = w.text.count;
         write_region(&w, AT_RUN);
-        put(&w, CODE_END, 0, (instruction){ 0 }, 0);
+        put(&w, CODE_END, 0, (instruction){0}, 0);
         c = finish(&w, a);
     }
     give(w.plan.hooks, w.registers.at);

@@ -1,12 +1,13 @@
-/* Files that are compiled once for each instruction set; ISA is its name. On x86-64 all three are linked and one is chosen at start;
- * elsewhere `base` alone is built, and may be built for whatever the machine has.
+/* Files that are compiled once for each instruction set; ISA is its name. On x86-64 all three are linked and one is
+ * chosen at start; elsewhere `base` alone is built, and may be built for whatever the machine has.
  *
  *     -DISA=base                            nothing assumed; fma is the C library's
  *     -DISA=avx2     -mavx2 -mfma
  *     -DISA=avx512   -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512
  *
- * and for all: -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math. The last two let loops become vector code and leave every
- * value as it is. What is static here stays inside its object, so no instruction set leaks into another.
+ * and for all: -O3 -ffp-contract=off -fno-math-errno -fno-trapping-math. The last two let loops become vector code
+ * and leave every value as it is. What is static here stays inside its object, so no instruction set leaks into
+ * another.
  */
 #ifndef LANG_TAPE_TAPE_ISA_H
 #define LANG_TAPE_TAPE_ISA_H
@@ -20,14 +21,14 @@
 #ifndef ISA
 #define ISA base
 #endif
-#define JOIN_(a, b) a##b
-#define JOIN(a, b) JOIN_(a, b)
-#define TEXT_(a) #a
-#define TEXT(a) TEXT_(a)
+#define JOIN_(a, b)  a##b
+#define JOIN(a, b)   JOIN_(a, b)
+#define TEXT_(a)     #a
+#define TEXT(a)      TEXT_(a)
 #define OF_ISA(name) JOIN(name, ISA)
 
-/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy of them all that
- * operation.c has. The bits are the same. */
+/* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy
+ * of them all that operation.c has. The bits are the same. */
 #ifdef ONE_COPY
 #define CALLED(id, value) operation_value(OP_##id, a, b, 0)
 #else
@@ -35,7 +36,9 @@
 #endif
 
 #define EACH_TAPE_MACHINE(X) X(avx512) X(avx2) X(base)
-#define X(isa) extern const tape_machine tape_run_##isa; extern block_kernel *const tape_kernels_##isa[OPERATIONS * 8];
+#define X(isa)                                \
+    extern const tape_machine tape_run_##isa; \
+    extern block_kernel *const tape_kernels_##isa[OPERATIONS * 8];
 EACH_TAPE_MACHINE(X)
 #undef X
 

@@ -1,23 +1,22 @@
 /* Registers by linear scan: each virtual register gets the first number that is free while it lives.
  *
- * Invariant: two registers of a kind that live at the same instruction have different numbers, except that what an instruction makes may
- * take the place of what it reads last: kernels go lane by lane and scalars are read before they are written.
+ * Invariant: two registers of a kind that live at the same instruction have different numbers, except that what an
+ * instruction makes may take the place of what it reads last: kernels go lane by lane and scalars are read before
+ * they are written.
  */
 #include "lang/tape/tape_code.h"
 
 bool tape_registers_assign(const motus_allocator *hooks, virtual_register *v, uint32_t count, uint32_t instructions,
                            uint32_t counts[REGISTER_KINDS])
 {
-    /* ending[k]: the list of registers whose last reader is instruction k; idle[kind]: the numbers that are free, last freed first,
-     * because that one is still in the cache. */
+    /* ending[k]: the list of registers whose last reader is instruction k; idle[kind]: the numbers that are free,
+     * last freed first, because that one is still in the cache. */
     uint32_t *ending = take(hooks, (size_t)instructions + 2, sizeof *ending);
     uint32_t *idle = take(hooks, (size_t)REGISTER_KINDS * count, sizeof *idle);
-    uint32_t idle_count[REGISTER_KINDS] = { 0 };
+    uint32_t idle_count[REGISTER_KINDS] = {0};
     bool ok = ending && idle;
-    for (int kind = 0; kind < REGISTER_KINDS; kind++)
-        counts[kind] = 0;
-    for (uint32_t k = 0; ok && k < instructions + 2; k++)
-        ending[k] = NONE;
+    for (int kind = 0; kind < REGISTER_KINDS; kind++) counts[kind] = 0;
+    for (uint32_t k = 0; ok && k < instructions + 2; k++) ending[k] = NONE;
     uint32_t released = 0;
     for (uint32_t i = 0; ok && i < count; i++) {
         for (; released <= v[i].first; released++)
@@ -25,8 +24,7 @@ bool tape_registers_assign(const motus_allocator *hooks, virtual_register *v, ui
                 idle[v[j].kind * count + idle_count[v[j].kind]++] = v[j].number;
         uint32_t kind = v[i].kind;
         v[i].number = idle_count[kind] ? idle[kind * count + --idle_count[kind]] : counts[kind]++;
-        if (v[i].last <= v[i].first)
-            v[i].last = v[i].first + 1;      /* made and never read: it is still written */
+        if (v[i].last <= v[i].first) v[i].last = v[i].first + 1; /* made and never read: it is still written */
         if (v[i].last <= instructions) {
             v[i].next = ending[v[i].last];
             ending[v[i].last] = i;

@@ -10,8 +10,7 @@ void lex_start(lexer *l, source *s, uint32_t text)
 {
     *l = (lexer){.source = s, .text = text};
     const struct source_text *t = &s->texts[text];
-    if (t->length >= 3 && memcmp(t->bytes, "\xEF\xBB\xBF", 3) == 0)
-        l->at = 3;                   /* a byte order mark */
+    if (t->length >= 3 && memcmp(t->bytes, "\xEF\xBB\xBF", 3) == 0) l->at = 3; /* a byte order mark */
 }
 
 /* The character at `at`; 0 bytes long where the bytes are not UTF-8. */
@@ -26,15 +25,14 @@ static uint32_t decode(const char *bytes, uint32_t length, uint32_t at, uint32_t
 static bool letter(uint32_t c)
 {
     static const uint32_t not_letters[][2] = {
-        {0x80, 0xA9}, {0xAB, 0xB4}, {0xB6, 0xB9}, {0xBB, 0xBF}, {0xD7, 0xD7}, {0xF7, 0xF7}, {0x300, 0x36F}, {0x37E, 0x37E},
-        {0x387, 0x387}, {0x1680, 0x1680}, {0x180E, 0x180E}, {0x2000, 0x20FF}, {0x2190, 0x2BFF}, {0x2E00, 0x2E7F},
-        {0x3000, 0x3004}, {0x3008, 0x3020}, {0x3030, 0x3030}, {0xE000, 0xF8FF}, {0xFE00, 0xFE6F}, {0xFEFF, 0xFF20},
+        {0x80, 0xA9},     {0xAB, 0xB4},     {0xB6, 0xB9},     {0xBB, 0xBF},       {0xD7, 0xD7},
+        {0xF7, 0xF7},     {0x300, 0x36F},   {0x37E, 0x37E},   {0x387, 0x387},     {0x1680, 0x1680},
+        {0x180E, 0x180E}, {0x2000, 0x20FF}, {0x2190, 0x2BFF}, {0x2E00, 0x2E7F},   {0x3000, 0x3004},
+        {0x3008, 0x3020}, {0x3030, 0x3030}, {0xE000, 0xF8FF}, {0xFE00, 0xFE6F},   {0xFEFF, 0xFF20},
         {0xFF3B, 0xFF40}, {0xFF5B, 0xFF65}, {0xFFE0, 0xFFFF}, {0x1F000, 0x1FAFF}, {0xE0000, 0x10FFFF}};
-    if (c < 0x80)
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    if (c < 0x80) return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
     for (size_t i = 0; i < sizeof not_letters / sizeof *not_letters; i++)
-        if (c >= not_letters[i][0] && c <= not_letters[i][1])
-            return false;
+        if (c >= not_letters[i][0] && c <= not_letters[i][1]) return false;
     return true;
 }
 
@@ -64,26 +62,23 @@ static token lex_number(lexer *l, bool blank)
 {
     const char *b = l->source->texts[l->text].bytes;
     uint32_t n = l->source->texts[l->text].length, from = l->at;
-    while (digit(b, n, l->at))
-        l->at++;
+    while (digit(b, n, l->at)) l->at++;
     if (l->at < n && b[l->at] == '.' && !(l->at + 1 < n && b[l->at + 1] == '.')) {
         if (!digit(b, n, l->at + 1)) {
             span at = {l->text, from, l->at + 1};
             source_complain(l->source, MOTUS_SYNTAX, at, "a number cannot end with a point");
-            source_hint(l->source, "write %.*s or %.*s.0", (int)(l->at - from), b + from, (int)(l->at - from), b + from);
+            source_hint(l->source, "write %.*s or %.*s.0", (int)(l->at - from), b + from, (int)(l->at - from),
+                        b + from);
             return stop(l, from);
         }
         l->at++;
-        while (digit(b, n, l->at))
-            l->at++;
+        while (digit(b, n, l->at)) l->at++;
     }
     if (l->at < n && (b[l->at] == 'e' || b[l->at] == 'E')) {
         uint32_t e = l->at + 1;
-        if (e < n && (b[e] == '+' || b[e] == '-'))
-            e++;
+        if (e < n && (b[e] == '+' || b[e] == '-')) e++;
         if (digit(b, n, e)) {
-            while (digit(b, n, e))
-                e++;
+            while (digit(b, n, e)) e++;
             l->at = e;
         }
     }
@@ -105,8 +100,7 @@ static token lex_name(lexer *l, bool blank)
 {
     const char *b = l->source->texts[l->text].bytes;
     uint32_t n = l->source->texts[l->text].length, from = l->at, size, c;
-    while (l->at < n && (c = decode(b, n, l->at, &size), size > 0) && name_part(c))
-        l->at += size;
+    while (l->at < n && (c = decode(b, n, l->at, &size), size > 0) && name_part(c)) l->at += size;
     token t = make(l, TOKEN_NAME, from, blank);
     if (l->at - from >= MOTUS_NAME_MAX) {
         source_complain(l->source, MOTUS_LIMIT, t.at, "a name has at most %d bytes", MOTUS_NAME_MAX - 1);
@@ -115,7 +109,10 @@ static token lex_name(lexer *l, bool blank)
     return t;
 }
 
-static int prime_of(uint32_t c) { return c == '\'' || c == 0x2032 || c == 0x2019 ? 1 : c == 0x2033 || c == '"' ? 2 : c == 0x2034 ? 3 : 0; }
+static int prime_of(uint32_t c)
+{
+    return c == '\'' || c == 0x2032 || c == 0x2019 ? 1 : c == 0x2033 || c == '"' ? 2 : c == 0x2034 ? 3 : 0;
+}
 
 static token lex_primes(lexer *l, bool blank)
 {
@@ -151,7 +148,8 @@ static bool bracket(lexer *l, char c, uint32_t from)
         if (l->closer[--l->depth] != c) {
             span open = {l->text, l->opened[l->depth], l->opened[l->depth] + 1};
             source_complain(l->source, MOTUS_SYNTAX, at, "%c expected here, for the %c in line %d, but there is %c",
-                            l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, open), c);
+                            l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, open),
+                            c);
             return false;
         }
     }
@@ -163,7 +161,8 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     source *s = l->source;
     span at = {l->text, from, from + (size ? size : 1)};
     if (size == 0) {
-        source_complain(s, MOTUS_SYNTAX, at, "this byte (0x%02X) is not UTF-8 text", (unsigned char)s->texts[l->text].bytes[from]);
+        source_complain(s, MOTUS_SYNTAX, at, "this byte (0x%02X) is not UTF-8 text",
+                        (unsigned char)s->texts[l->text].bytes[from]);
         source_hint(s, "save the model as UTF-8");
     } else if (c < 0x20 || c == 0x7F) {
         source_complain(s, MOTUS_SYNTAX, at, "a control character (U+%04X) stands here", c);
@@ -219,8 +218,7 @@ token lex_next(lexer *l)
     uint32_t n = s->texts[l->text].length;
     bool blank = l->at == 0;
     for (;;) {
-        if (source_failed(s))
-            return stop(l, l->at);
+        if (source_failed(s)) return stop(l, l->at);
         if (l->at >= n) {
             if (l->depth > 0) {
                 span open = {l->text, l->opened[l->depth - 1], l->opened[l->depth - 1] + 1};
@@ -233,30 +231,26 @@ token lex_next(lexer *l)
         if (c == ' ' || c == '\t' || c == '\r') {
             l->at++;
         } else if (c == '#') {
-            while (l->at < n && b[l->at] != '\n')
-                l->at++;
+            while (l->at < n && b[l->at] != '\n') l->at++;
         } else if (c == '\n') {
             l->at++;
-            if (l->depth == 0)
-                return make(l, TOKEN_NEWLINE, l->at - 1, true);
+            if (l->depth == 0) return make(l, TOKEN_NEWLINE, l->at - 1, true);
         } else if (l->at + 1 < n && (unsigned char)c == 0xC2 && (unsigned char)b[l->at + 1] == 0xA0) {
-            l->at += 2;              /* a no-break space, as word processors leave it */
+            l->at += 2; /* a no-break space, as word processors leave it */
         } else {
             break;
         }
         blank = true;
     }
     uint32_t from = l->at, size, c = decode(b, n, from, &size);
-    if (size == 0)
-        return wrong_character(l, from, 0, 0);
-    if (c >= '0' && c <= '9')
-        return lex_number(l, blank);
-    if (letter(c))
-        return lex_name(l, blank);
-    if (prime_of(c))
-        return lex_primes(l, blank);
-    static const struct { char text[3]; token_kind kind; } pairs[] = {
-        {"..", TOKEN_DOTS}, {"<=", TOKEN_LE}, {">=", TOKEN_GE}, {"==", TOKEN_EQ}, {"!=", TOKEN_NE}};
+    if (size == 0) return wrong_character(l, from, 0, 0);
+    if (c >= '0' && c <= '9') return lex_number(l, blank);
+    if (letter(c)) return lex_name(l, blank);
+    if (prime_of(c)) return lex_primes(l, blank);
+    static const struct {
+        char text[3];
+        token_kind kind;
+    } pairs[] = {{"..", TOKEN_DOTS}, {"<=", TOKEN_LE}, {">=", TOKEN_GE}, {"==", TOKEN_EQ}, {"!=", TOKEN_NE}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         if (from + 1 < n && b[from] == pairs[i].text[0] && b[from + 1] == pairs[i].text[1]) {
             l->at += 2;
@@ -267,9 +261,10 @@ token lex_next(lexer *l)
         l->at += size;
         return make(l, relation, from, blank);
     }
-    if (c == 0x2212)                 /* the typographic minus */
+    if (c == 0x2212) /* the typographic minus */
         c = '-';
-    if (c == '.' && digit(b, n, from + 1) && (blank || from == 0 || !(b[from - 1] == ')' || b[from - 1] == ']' || b[from - 1] == '\''))) {
+    if (c == '.' && digit(b, n, from + 1) &&
+        (blank || from == 0 || !(b[from - 1] == ')' || b[from - 1] == ']' || b[from - 1] == '\''))) {
         span at = {l->text, from, from + 2};
         source_complain(s, MOTUS_SYNTAX, at, "a number needs a digit before the point");
         source_hint(s, "write 0.%c", b[from + 1]);
@@ -277,8 +272,7 @@ token lex_next(lexer *l)
     }
     if (c > 0 && c < 0x80 && strchr("+-*/^()[]|,.=<>:", (int)c)) {
         l->at += size;
-        if (!bracket(l, (char)c, from))
-            return stop(l, from);
+        if (!bracket(l, (char)c, from)) return stop(l, from);
         token t = make(l, TOKEN_CHARACTER, from, blank);
         t.character = (char)c;
         return t;

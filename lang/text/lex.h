@@ -5,17 +5,24 @@
 #include "lang/text/source.h"
 
 typedef enum token_kind {
-    TOKEN_END, TOKEN_NEWLINE, TOKEN_NUMBER, TOKEN_NAME, TOKEN_PRIMES,
-    TOKEN_DOTS,                                       /* .. */
-    TOKEN_LE, TOKEN_GE, TOKEN_EQ, TOKEN_NE,           /* <= >= == != */
-    TOKEN_CHARACTER                                   /* + - * / ^ ( ) [ ] | , . = < > : by `character` */
+    TOKEN_END,
+    TOKEN_NEWLINE,
+    TOKEN_NUMBER,
+    TOKEN_NAME,
+    TOKEN_PRIMES,
+    TOKEN_DOTS, /* .. */
+    TOKEN_LE,
+    TOKEN_GE,
+    TOKEN_EQ,
+    TOKEN_NE,       /* <= >= == != */
+    TOKEN_CHARACTER /* + - * / ^ ( ) [ ] | , . = < > : by `character` */
 } token_kind;
 
 typedef struct token {
     token_kind kind;
     char character;
-    bool blank;                      /* blanks (or a line end) stand before it */
-    int primes;                      /* PRIMES: 1, 2, 3 … */
+    bool blank; /* blanks (or a line end) stand before it */
+    int primes; /* PRIMES: 1, 2, 3 … */
     double number;
     span at;
 } token;
@@ -23,7 +30,7 @@ typedef struct token {
 typedef struct lexer {
     source *source;
     uint32_t text, at;
-    int depth;                       /* of ( and [: line ends inside do not count */
+    int depth; /* of ( and [: line ends inside do not count */
     uint32_t opened[SOURCE_NESTING_MAX];
     char closer[SOURCE_NESTING_MAX];
 } lexer;

@@ -22,7 +22,8 @@ int source_line(source *s, span at)
     return s->known.line;
 }
 
-/* Copies characters [from, to) of a line so that a terminal can show them: control characters become '?', tabs blanks. */
+/* Copies characters [from, to) of a line so that a terminal can show them: control characters become '?', tabs
+ * blanks. */
 static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uint32_t to)
 {
     size_t n = 0;
@@ -35,8 +36,7 @@ static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uin
         else
             out[n++] = (char)c;
     }
-    while (n > 0 && n + 6 >= size && continues((unsigned char)out[n]))
-        n--;
+    while (n > 0 && n + 6 >= size && continues((unsigned char)out[n])) n--;
     out[n] = 0;
     return n;
 }
@@ -47,35 +47,27 @@ static void point(source *s, span at, motus_error *e)
     const struct source_text *text = &s->texts[at.text];
     enum { ROOM = 160 };
     uint32_t begin = at.from < text->length ? at.from : text->length, end = begin;
-    while (begin > 0 && text->bytes[begin - 1] != '\n')
-        begin--;
+    while (begin > 0 && text->bytes[begin - 1] != '\n') begin--;
     int column = 1;
-    for (uint32_t i = begin; i < at.from && i < text->length; i++)
-        column += !continues((unsigned char)text->bytes[i]);
-    while (end < text->length && text->bytes[end] != '\n')
-        end++;
-    if (end > begin && text->bytes[end - 1] == '\r')
-        end--;
+    for (uint32_t i = begin; i < at.from && i < text->length; i++) column += !continues((unsigned char)text->bytes[i]);
+    while (end < text->length && text->bytes[end] != '\n') end++;
+    if (end > begin && text->bytes[end - 1] == '\r') end--;
     if (at.from > begin + ROOM / 2 && end - begin > ROOM) {
         begin = at.from - ROOM / 2;
-        while (begin > 0 && continues((unsigned char)text->bytes[begin]))
-            begin--;
+        while (begin > 0 && continues((unsigned char)text->bytes[begin])) begin--;
     }
     if (end - begin > ROOM) {
         end = begin + ROOM;
-        while (end > begin && continues((unsigned char)text->bytes[end]))
-            end--;
+        while (end > begin && continues((unsigned char)text->bytes[end])) end--;
     }
     show(e->source, sizeof e->source, text->bytes, begin, end);
     size_t n = 0;
     for (uint32_t i = begin; i < at.from && i < text->length && n + 2 < sizeof e->caret; i++)
-        if (!continues((unsigned char)text->bytes[i]))
-            e->caret[n++] = ' ';
+        if (!continues((unsigned char)text->bytes[i])) e->caret[n++] = ' ';
     uint32_t to = at.to > at.from ? at.to : at.from + 1;
     bool any = false;
     for (uint32_t i = at.from; (i < to && i < end && n + 1 < sizeof e->caret) || !any; i++) {
-        if (i >= end || !continues((unsigned char)text->bytes[i]))
-            e->caret[n++] = '^';
+        if (i >= end || !continues((unsigned char)text->bytes[i])) e->caret[n++] = '^';
         any = true;
     }
     e->caret[n] = 0;
@@ -86,26 +78,23 @@ static void point(source *s, span at, motus_error *e)
 
 void source_complain(source *s, motus_status status, span at, const char *format, ...)
 {
-    if (source_failed(s))            /* want of memory is no fault of the text */
+    if (source_failed(s)) /* want of memory is no fault of the text */
         return;
     s->failed = true;
     s->status = status;
-    if (!s->error)
-        return;
+    if (!s->error) return;
     char message[MOTUS_TEXT_MAX];
     va_list list;
     va_start(list, format);
     vsnprintf(message, sizeof message, format, list);
     va_end(list);
     fail(s->error, status, "%s", message);
-    if (at.text < s->count)
-        point(s, at, s->error);
+    if (at.text < s->count) point(s, at, s->error);
 }
 
 void source_hint(source *s, const char *format, ...)
 {
-    if (!s->error || s->error->hint[0])
-        return;
+    if (!s->error || s->error->hint[0]) return;
     char text[MOTUS_TEXT_MAX];
     va_list list;
     va_start(list, format);
@@ -123,16 +112,13 @@ const char *source_excerpt(const source *s, span at, char *out, size_t size)
     } else {
         size_t half = size / 2 - 4;
         uint32_t left = from + (uint32_t)half, right = to - (uint32_t)half;
-        while (left > from && continues((unsigned char)bytes[left]))
-            left--;
-        while (right < to && continues((unsigned char)bytes[right]))
-            right++;
+        while (left > from && continues((unsigned char)bytes[left])) left--;
+        while (right < to && continues((unsigned char)bytes[right])) right++;
         size_t n = show(out, size, bytes, from, left);
         n += (size_t)snprintf(out + n, size - n, "…");
         show(out + n, size - n, bytes, right, to);
     }
     for (char *p = out; *p; p++)
-        if (*p == '\n')
-            *p = ' ';
+        if (*p == '\n') *p = ' ';
     return out;
 }

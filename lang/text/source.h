@@ -9,28 +9,37 @@
 #include "lang/base/arena.h"
 
 enum {
-    SOURCE_BYTES_MAX = 16 << 20,     /* a model's text */
-    SOURCE_NESTING_MAX = 256,        /* brackets within brackets */
+    SOURCE_BYTES_MAX = 16 << 20, /* a model's text */
+    SOURCE_NESTING_MAX = 256,    /* brackets within brackets */
     SOURCE_STATEMENTS_MAX = 1 << 20
 };
 
-typedef struct span { uint32_t text, from, to; } span;     /* bytes [from, to) of text number `text` */
+typedef struct span {
+    uint32_t text, from, to;
+} span; /* bytes [from, to) of text number `text` */
 
 /* The model's text is text 0; each --set is a text of its own. */
 typedef struct source {
     arena *arena;
     motus_error *error;
-    struct source_text { const char *bytes; uint32_t length; const char *name; } *texts;
+    struct source_text {
+        const char *bytes;
+        uint32_t length;
+        const char *name;
+    } * texts;
     uint32_t count;
-    motus_status status;             /* of the first complaint */
+    motus_status status; /* of the first complaint */
     bool failed;
-    struct { uint32_t text, at; int line; } known;   /* cache: the last place whose line was counted */
+    struct {
+        uint32_t text, at;
+        int line;
+    } known; /* cache: the last place whose line was counted */
 } source;
 
-bool source_failed(const source *);  /* a complaint, or no memory */
+bool source_failed(const source *); /* a complaint, or no memory */
 void source_complain(source *, motus_status, span at, const char *format, ...) __attribute__((format(printf, 4, 5)));
 void source_hint(source *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-int source_line(source *, span at);                             /* 1-based */
+int source_line(source *, span at); /* 1-based */
 /* The bytes of a span, shortened in the middle to fit `out`, newlines as blanks. */
 const char *source_excerpt(const source *, span at, char *out, size_t size);
 

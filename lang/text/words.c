@@ -7,31 +7,32 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct { const char *name; int operation; } functions[] = {
-    {"sin", OP_SIN}, {"cos", OP_COS}, {"tan", OP_TAN}, {"asin", OP_ASIN}, {"acos", OP_ACOS}, {"atan", OP_ATAN}, {"atan2", OP_ATAN2},
-    {"sinh", OP_SINH}, {"cosh", OP_COSH}, {"tanh", OP_TANH}, {"exp", OP_EXP}, {"log", OP_LOG}, {"sqrt", OP_SQRT}, {"cbrt", OP_CBRT},
-    {"hypot", OP_HYPOT}, {"abs", OP_ABS}, {"min", OP_MIN}, {"max", OP_MAX}, {"floor", OP_FLOOR}, {"mod", OP_MOD}, {"sign", OP_SIGN},
-    {"erf", OP_ERF}, {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}};
+static const struct {
+    const char *name;
+    int operation;
+} functions[] = {{"sin", OP_SIN},   {"cos", OP_COS},     {"tan", OP_TAN},   {"asin", OP_ASIN},     {"acos", OP_ACOS},
+                 {"atan", OP_ATAN}, {"atan2", OP_ATAN2}, {"sinh", OP_SINH}, {"cosh", OP_COSH},     {"tanh", OP_TANH},
+                 {"exp", OP_EXP},   {"log", OP_LOG},     {"sqrt", OP_SQRT}, {"cbrt", OP_CBRT},     {"hypot", OP_HYPOT},
+                 {"abs", OP_ABS},   {"min", OP_MIN},     {"max", OP_MAX},   {"floor", OP_FLOOR},   {"mod", OP_MOD},
+                 {"sign", OP_SIGN}, {"erf", OP_ERF},     {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}};
 
-static const char *const statements_words[] = {"method", "step", "tolerance", "from", "until", "every", "exact", "invariant", "when"};
+static const char *const statements_words[] = {"method", "step",  "tolerance", "from", "until",
+                                               "every",  "exact", "invariant", "when"};
 static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"};
 
 int words_function(const char *name)
 {
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (!strcmp(functions[i].name, name))
-            return functions[i].operation;
+        if (!strcmp(functions[i].name, name)) return functions[i].operation;
     return -1;
 }
 
 bool words_reserved(const char *name)
 {
     for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
-        if (!strcmp(statements_words[i], name))
-            return true;
+        if (!strcmp(statements_words[i], name)) return true;
     for (size_t i = 0; i < sizeof other_words / sizeof *other_words; i++)
-        if (!strcmp(other_words[i], name))
-            return true;
+        if (!strcmp(other_words[i], name)) return true;
     return false;
 }
 

@@ -8,7 +8,7 @@
 /* Functions that the graph has no operation for; their numbers are larger than those of all operations. */
 enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF };
 
-int words_function(const char *name);        /* operation, CALL_… or -1 */
+int words_function(const char *name); /* operation, CALL_… or -1 */
 bool words_reserved(const char *name);
 
 /* The statement that a mistaken word may be meant for; false: none. */

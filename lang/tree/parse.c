@@ -39,8 +39,7 @@ bool parse_loop(parser *p, loop *l)
     advance(p);
     skip_lines(p);
     l->first = parse_inside(p);
-    if (failed(p))
-        return false;
+    if (failed(p)) return false;
     if (p->token.kind != TOKEN_DOTS) {
         unexpected(p, ".. between the bounds of the index");
         HINT(p, "write %s = 1..N", l->name);
@@ -56,8 +55,7 @@ bool parse_loop(parser *p, loop *l)
 void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l)
 {
     loop *more = arena_grow(p->arena, *loops, *count * sizeof *more, (*count + 1) * sizeof *more);
-    if (!more)
-        return;
+    if (!more) return;
     *loops = more;
     more[(*count)++] = *l;
 }
@@ -65,11 +63,9 @@ void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l)
 /* Whether a loop begins here: a name, then "=" (not "=="). */
 static bool at_loop(parser *p)
 {
-    if (p->token.kind != TOKEN_NAME)
-        return false;
+    if (p->token.kind != TOKEN_NAME) return false;
     lexer ahead = p->lexer;
-    if (source_failed(p->source))
-        return false;
+    if (source_failed(p->source)) return false;
     token next = lex_next(&ahead);
     return next.kind == TOKEN_CHARACTER && next.character == '=';
 }
@@ -79,7 +75,7 @@ static tree *parse_sum(parser *p, span name)
 {
     tree *t = grow(p, TREE_SUM, name);
     do {
-        advance(p);                  /* the bracket or the comma */
+        advance(p); /* the bracket or the comma */
         skip_lines(p);
         if (at_loop(p)) {
             loop l = {0};
@@ -91,8 +87,7 @@ static tree *parse_sum(parser *p, span name)
                 source_complain(p->source, MOTUS_LIMIT, p->token.at, "a sum has at most %d indices", MAX_DIMS);
                 return t;
             }
-            if (!parse_loop(p, &l))
-                return t;
+            if (!parse_loop(p, &l)) return t;
             parse_add_loop(p, &t->loops, &t->loop_count, &l);
         } else {
             if (t->loop_count == 0) {
@@ -102,8 +97,7 @@ static tree *parse_sum(parser *p, span name)
             }
             add_item(p, t, parse_inside(p));
         }
-        if (failed(p))
-            return t;
+        if (failed(p)) return t;
     } while (is(p, ','));
     if (!is(p, ':')) {
         unexpected(p, ": before what is summed");
@@ -120,9 +114,14 @@ static tree *parse_sum(parser *p, span name)
 static int arity(int operation)
 {
     switch (operation) {
-    case OP_ATAN2: case OP_HYPOT: case OP_MOD: case CALL_DOT: case CALL_CROSS: return 2;
+    case OP_ATAN2:
+    case OP_HYPOT:
+    case OP_MOD:
+    case CALL_DOT:
+    case CALL_CROSS: return 2;
     case CALL_IF: return 3;
-    case OP_MIN: case OP_MAX: return -2;     /* two or more */
+    case OP_MIN:
+    case OP_MAX: return -2; /* two or more */
     default: return 1;
     }
 }
@@ -133,8 +132,7 @@ static tree *parse_call(parser *p, span name)
     const char *text = copy_name(p, name);
     int operation = words_function(text);
     char argument[80];
-    if (failed(p))
-        return nothing(p);
+    if (failed(p)) return nothing(p);
     if (!is(p, '(')) {
         if (is(p, '^')) {
             lexer ahead = p->lexer;
@@ -152,26 +150,22 @@ static tree *parse_call(parser *p, span name)
         }
         return nothing(p);
     }
-    if (!strcmp(text, "sum"))
-        return parse_sum(p, name);
+    if (!strcmp(text, "sum")) return parse_sum(p, name);
     tree *t = grow(p, TREE_CALL, name);
     t->operation = operation;
     t->name = text;
     do {
         advance(p);
         add_item(p, t, parse_inside(p));
-        if (failed(p))
-            return t;
+        if (failed(p)) return t;
     } while (is(p, ','));
     t->at.to = p->token.at.to;
-    if (!expect(p, ')', "or a comma"))
-        return t;
+    if (!expect(p, ')', "or a comma")) return t;
     int wanted = arity(operation);
     if (wanted < 0 ? t->count < (uint32_t)-wanted : t->count != (uint32_t)wanted) {
-        COMPLAIN(p, t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "", wanted < 0 ? -wanted : wanted,
-                 wanted == 1 ? "" : "s", t->count);
-        if (operation == CALL_IF)
-            HINT(p, "write if(condition, value if true, value if false)");
+        COMPLAIN(p, t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
+                 wanted < 0 ? -wanted : wanted, wanted == 1 ? "" : "s", t->count);
+        if (operation == CALL_IF) HINT(p, "write if(condition, value if true, value if false)");
     }
     return t;
 }
@@ -182,14 +176,12 @@ void parse_index(parser *p, tree *t)
     do {
         advance(p);
         add_item(p, t, parse_inside(p));
-        if (failed(p))
-            return;
+        if (failed(p)) return;
     } while (is(p, ','));
     t->index_count = t->count;
     t->at.to = p->token.at.to;
     expect(p, ']', "after the index");
-    if (t->index_count > MAX_DIMS)
-        source_complain(p->source, MOTUS_LIMIT, t->at, "at most %d indices", MAX_DIMS);
+    if (t->index_count > MAX_DIMS) source_complain(p->source, MOTUS_LIMIT, t->at, "at most %d indices", MAX_DIMS);
 }
 
 static tree *component(parser *p, tree *of, tree *number, span at)
@@ -211,7 +203,8 @@ static tree *parse_components(parser *p, tree *t)
                 if (p->token.kind == TOKEN_END || p->token.kind == TOKEN_NEWLINE || p->token.blank)
                     COMPLAIN(p, p->last.at, "a point stands alone here");
                 else
-                    COMPLAIN(p, p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s", quote(p, p->token.at, text));
+                    COMPLAIN(p, p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s",
+                             quote(p, p->token.at, text));
                 return t;
             }
             tree *number = grow(p, TREE_NUMBER, p->token.at);
@@ -222,8 +215,7 @@ static tree *parse_components(parser *p, tree *t)
             advance(p);
             tree *number = parse_inside(p);
             t = component(p, t, number, p->token.at);
-            if (!expect(p, ']', "after the number of a component"))
-                return t;
+            if (!expect(p, ']', "after the number of a component")) return t;
         } else if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow a name or its index, before the component");
             HINT(p, "write r'.x");
@@ -241,10 +233,8 @@ static tree *parse_name(parser *p)
     tree *t = grow(p, TREE_NAME, p->token.at);
     t->name = copy_name(p, p->token.at);
     advance(p);
-    if (is(p, '[') && !p->token.blank)
-        parse_index(p, t);
-    if (failed(p))
-        return t;
+    if (is(p, '[') && !p->token.blank) parse_index(p, t);
+    if (failed(p)) return t;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
         t->primes = p->token.primes;
         t->at.to = p->token.at.to;
@@ -263,11 +253,11 @@ static tree *parse_name(parser *p)
         add_item(p, start, t);
         advance(p);
         add_item(p, start, parse_inside(p));
-        if (failed(p))
-            return start;
+        if (failed(p)) return start;
         if (is(p, ',')) {
             COMPLAIN(p, t->at, "%s is not a function", t->name);
-            HINT(p, "the functions are sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt cbrt hypot abs min max floor mod sign erf dot cross if sum");
+            HINT(p, "the functions are sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt cbrt hypot abs min "
+                    "max floor mod sign erf dot cross if sum");
             return start;
         }
         start->at.to = p->token.at.to;
@@ -289,8 +279,7 @@ static tree *parse_bracket(parser *p)
     do {
         advance(p);
         tree *item = parse_inside(p);
-        if (failed(p))
-            return item;
+        if (failed(p)) return item;
         if (!t) {
             t = item;
         } else {
@@ -301,12 +290,10 @@ static tree *parse_bracket(parser *p)
             add_item(p, vector, item);
         }
     } while (is(p, ','));
-    if (vector)
-        t = vector;
+    if (vector) t = vector;
     t->at = (span){at.text, at.from, p->token.at.to};
     t->bracketed = true;
-    if (!expect(p, ')', "or a comma"))
-        return t;
+    if (!expect(p, ')', "or a comma")) return t;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
         COMPLAIN(p, p->token.at, "a prime follows a name, not a bracket");
         HINT(p, "write the derivative out");
@@ -322,8 +309,7 @@ static tree *parse_list(parser *p)
     do {
         advance(p);
         add_item(p, t, parse_inside(p));
-        if (failed(p))
-            return t;
+        if (failed(p)) return t;
     } while (is(p, ','));
     t->at.to = p->token.at.to;
     expect(p, ']', "or a comma, in the list");
@@ -336,13 +322,11 @@ static tree *parse_norm(parser *p)
     tree *t = grow(p, TREE_NORM, p->token.at);
     advance(p);
     p->bars++;
-    if (!deeper(p))
-        return t;
+    if (!deeper(p)) return t;
     add_item(p, t, parse_or(p));
     p->depth--;
     p->bars--;
-    if (failed(p))
-        return t;
+    if (failed(p)) return t;
     t->at.to = p->token.at.to;
     if (!is(p, '|')) {
         COMPLAIN(p, t->at, "this | is never closed");
@@ -356,8 +340,7 @@ static tree *parse_norm(parser *p)
 /* factor = NUMBER | name | call | bracket | list | norm */
 static tree *parse_factor(parser *p)
 {
-    if (failed(p))
-        return nothing(p);
+    if (failed(p)) return nothing(p);
     if (p->token.kind == TOKEN_NUMBER) {
         tree *t = grow(p, TREE_NUMBER, p->token.at);
         t->number = p->token.number;
@@ -378,24 +361,18 @@ static tree *parse_factor(parser *p)
             return failed(p) ? t : parse_components(p, t);
         }
         if (words_reserved(text) && strcmp(text, "t") && strcmp(text, "pi")) {
-            if (left_open(p))
-                return nothing(p);
+            if (left_open(p)) return nothing(p);
             COMPLAIN(p, at, "%s is a word of the language and cannot stand here", text);
-            if (!strcmp(text, "for"))
-                HINT(p, "something is missing before it");
+            if (!strcmp(text, "for")) HINT(p, "something is missing before it");
             return nothing(p);
         }
         return parse_name(p);
     }
-    if (is(p, '('))
-        return parse_bracket(p);
-    if (is(p, '['))
-        return parse_list(p);
-    if (is(p, '|'))
-        return parse_norm(p);
+    if (is(p, '(')) return parse_bracket(p);
+    if (is(p, '[')) return parse_list(p);
+    if (is(p, '|')) return parse_norm(p);
     unexpected(p, "a value");
-    if (is(p, '.'))
-        HINT(p, "a number needs a digit before the point: 0.5");
+    if (is(p, '.')) HINT(p, "a number needs a digit before the point: 0.5");
     return nothing(p);
 }
 
@@ -403,20 +380,16 @@ static tree *parse_factor(parser *p)
 static tree *parse_power(parser *p)
 {
     tree *base = parse_factor(p);
-    if (failed(p) || !is(p, '^'))
-        return base;
+    if (failed(p) || !is(p, '^')) return base;
     advance(p);
     skip_lines(p);
     bool minus = is(p, '-');
     span sign = p->token.at;
-    if (minus || is(p, '+'))
-        advance(p);
-    if (!deeper(p))
-        return base;
+    if (minus || is(p, '+')) advance(p);
+    if (!deeper(p)) return base;
     tree *exponent = parse_power(p);
     p->depth--;
-    if (failed(p))
-        return base;
+    if (failed(p)) return base;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
         COMPLAIN(p, p->token.at, "a prime follows a name, not a power");
         HINT(p, "write the derivative out");
@@ -436,11 +409,11 @@ static bool juxtaposes(const parser *p)
     if (p->token.kind == TOKEN_NAME) {
         static const char *const words[] = {"and", "or", "not", "for", "steps"};
         for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-            if (word(p, words[i]))
-                return false;
+            if (word(p, words[i])) return false;
         return true;
     }
-    return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) || p->token.kind == TOKEN_NUMBER;
+    return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) ||
+           p->token.kind == TOKEN_NUMBER;
 }
 
 /* Complains about products that juxtaposition cannot write: x 2, 2 3, (a)2. */
@@ -469,7 +442,7 @@ static bool wrong_juxtaposition(parser *p, const tree *left)
 static tree *parse_product(parser *p)
 {
     tree *t = parse_power(p);
-    bool divided = false;            /* t ends with "/ power" */
+    bool divided = false; /* t ends with "/ power" */
     tree *numerator = NULL, *divisor = NULL;
     while (!failed(p)) {
         bool times = is(p, '*'), over = is(p, '/');
@@ -483,11 +456,9 @@ static tree *parse_product(parser *p)
             }
             bool minus = is(p, '-');
             span at = p->token.at;
-            if (minus)
-                advance(p);
+            if (minus) advance(p);
             tree *right = parse_power(p);
-            if (failed(p))
-                return t;
+            if (failed(p)) return t;
             if (minus) {
                 tree *negative = grow(p, TREE_NEGATE, (span){at.text, at.from, right->at.to});
                 add_item(p, negative, right);
@@ -499,17 +470,16 @@ static tree *parse_product(parser *p)
             divided = over;
         } else if (juxtaposes(p)) {
             tree *previous = divided ? divisor : t->kind == TREE_MULTIPLY && !t->bracketed ? t->item[1] : t;
-            if (wrong_juxtaposition(p, previous))
-                return t;
+            if (wrong_juxtaposition(p, previous)) return t;
             bool blank = p->token.blank, opens = is(p, '(');
             tree *right = parse_power(p);
-            if (failed(p))
-                return t;
+            if (failed(p)) return t;
             if (divided) {
                 char a[80], b[80], c[80];
                 span at = {t->at.text, divisor->at.from, right->at.to};
                 COMPLAIN(p, at, "it is not clear what is divided by what");
-                HINT(p, "write (%s/%s) %s or %s/(%s %s)", quote(p, numerator->at, a), quote(p, divisor->at, b), quote(p, right->at, c), a, b, c);
+                HINT(p, "write (%s/%s) %s or %s/(%s %s)", quote(p, numerator->at, a), quote(p, divisor->at, b),
+                     quote(p, right->at, c), a, b, c);
                 return t;
             }
             bool named = previous->kind == TREE_NAME && !previous->bracketed;
@@ -537,8 +507,7 @@ static tree *parse_terms(parser *p)
             return nothing(p);
         }
         t = parse_product(p);
-        if (failed(p))
-            return t;
+        if (failed(p)) return t;
         if (minus) {
             tree *negative = grow(p, TREE_NEGATE, (span){at.text, at.from, t->at.to});
             add_item(p, negative, t);
@@ -557,8 +526,7 @@ static tree *parse_terms(parser *p)
             return t;
         }
         tree *right = parse_product(p);
-        if (failed(p))
-            return t;
+        if (failed(p)) return t;
         t = two(p, kind, t, right);
     }
     return t;
@@ -580,17 +548,16 @@ static tree *parse_comparison(parser *p)
 {
     tree *t = parse_terms(p);
     int operation = failed(p) ? -1 : relation(p);
-    if (operation < 0)
-        return t;
+    if (operation < 0) return t;
     advance(p);
     skip_lines(p);
     tree *right = parse_terms(p);
-    if (failed(p))
-        return t;
+    if (failed(p)) return t;
     char a[80], b[80];
     if (relation(p) >= 0) {
         COMPLAIN(p, p->token.at, "comparisons are not chained");
-        HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, t->at, a), quote(p, right->at, b), b);
+        HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, t->at, a), quote(p, right->at, b),
+             b);
         return t;
     }
     t = two(p, TREE_COMPARE, t, right);
@@ -601,13 +568,11 @@ static tree *parse_comparison(parser *p)
 /* not = "not" not | comparison */
 static tree *parse_not(parser *p)
 {
-    if (!word(p, "not"))
-        return parse_comparison(p);
+    if (!word(p, "not")) return parse_comparison(p);
     tree *t = grow(p, TREE_NOT, p->token.at);
     advance(p);
     skip_lines(p);
-    if (!deeper(p))
-        return t;
+    if (!deeper(p)) return t;
     tree *of = parse_not(p);
     p->depth--;
     add_item(p, t, of);
@@ -630,8 +595,7 @@ static tree *parse_and(parser *p)
 /* or = and { "or" and } */
 tree *parse_or(parser *p)
 {
-    if (!deeper(p))
-        return nothing(p);
+    if (!deeper(p)) return nothing(p);
     tree *t = parse_and(p);
     while (!failed(p) && word(p, "or")) {
         advance(p);

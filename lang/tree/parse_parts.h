@@ -14,8 +14,8 @@ typedef struct parser {
     lexer lexer;
     source *source;
     arena *arena;
-    token token, last;               /* the one to be read, and the one before it */
-    int bars;                        /* | opened in the present bracket and not yet closed [7] */
+    token token, last; /* the one to be read, and the one before it */
+    int bars;          /* | opened in the present bracket and not yet closed [7] */
     int depth;
 } parser;
 
@@ -33,8 +33,7 @@ static inline bool is(const parser *p, char c) { return p->token.kind == TOKEN_C
 
 static inline void skip_lines(parser *p)
 {
-    while (p->token.kind == TOKEN_NEWLINE)
-        advance(p);
+    while (p->token.kind == TOKEN_NEWLINE) advance(p);
 }
 
 static inline bool spelled(const parser *p, const token *t, const char *word)
@@ -60,14 +59,12 @@ static inline tree *grow(parser *p, tree_kind kind, span at)
 
 static inline void add_item(parser *p, tree *t, tree *item)
 {
-    if (failed(p))
-        return;
+    if (failed(p)) return;
     bool power_of_two = t->count >= ITEMS_FIRST && (t->count & (t->count - 1)) == 0;
     if (t->count == 0 || power_of_two) {
         size_t room = t->count == 0 ? ITEMS_FIRST : 2 * (size_t)t->count;
         tree **more = arena_grow(p->arena, t->item, t->count * sizeof *more, room * sizeof *more);
-        if (!more)
-            return;
+        if (!more) return;
         t->item = more;
     }
     t->item[t->count++] = item;
@@ -84,14 +81,16 @@ static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
 static inline tree *nothing(parser *p) { return grow(p, TREE_NUMBER, p->token.at); }
 
 #define COMPLAIN(p, at, ...) (source_complain((p)->source, MOTUS_SYNTAX, (at), __VA_ARGS__))
-#define HINT(p, ...) (source_hint((p)->source, __VA_ARGS__))
+#define HINT(p, ...)         (source_hint((p)->source, __VA_ARGS__))
 
-static inline const char *quote(const parser *p, span at, char out[80]) { return source_excerpt(p->source, at, out, 80); }
+static inline const char *quote(const parser *p, span at, char out[80])
+{
+    return source_excerpt(p->source, at, out, 80);
+}
 
 static inline bool deeper(parser *p)
 {
-    if (++p->depth <= DEPTH_MAX)
-        return true;
+    if (++p->depth <= DEPTH_MAX) return true;
     source_complain(p->source, MOTUS_LIMIT, p->token.at, "the expression is nested too deeply");
     HINT(p, "give parts of it names of their own");
     return false;
@@ -111,12 +110,10 @@ static inline void unexpected(parser *p, const char *wanted)
  * bracket, if there is one. */
 static inline bool left_open(parser *p)
 {
-    if (p->lexer.depth == 0 || failed(p))
-        return false;
+    if (p->lexer.depth == 0 || failed(p)) return false;
     uint32_t from = p->lexer.opened[p->lexer.depth - 1];
     span open = {p->token.at.text, from, from + 1};
-    if (source_line(p->source, open) == source_line(p->source, p->token.at))
-        return false;
+    if (source_line(p->source, open) == source_line(p->source, p->token.at)) return false;
     char closer = p->lexer.closer[p->lexer.depth - 1];
     COMPLAIN(p, open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
     HINT(p, "add the missing %c", closer);

@@ -5,8 +5,7 @@
 /* for = "for" loop { "," loop } */
 static void parse_for(parser *p, statement *s)
 {
-    if (!word(p, "for"))
-        return;
+    if (!word(p, "for")) return;
     do {
         advance(p);
         skip_lines(p);
@@ -15,8 +14,7 @@ static void parse_for(parser *p, statement *s)
             source_complain(p->source, MOTUS_LIMIT, p->token.at, "at most %d indices", MAX_DIMS);
             return;
         }
-        if (!parse_loop(p, &l))
-            return;
+        if (!parse_loop(p, &l)) return;
         parse_add_loop(p, &s->loops, &s->loop_count, &l);
     } while (is(p, ',') && !failed(p));
 }
@@ -24,16 +22,15 @@ static void parse_for(parser *p, statement *s)
 /* `line` is where the statement begins. */
 static void end_of_statement(parser *p, int line)
 {
-    if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END)
-        return;
+    if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END) return;
     char text[80], before[80];
     if (is(p, ',') && p->last.kind == TOKEN_NUMBER) {
         lexer ahead = p->lexer;
         token next = lex_next(&ahead);
         COMPLAIN(p, p->token.at, "the statement ends before this comma");
         if (next.kind == TOKEN_NUMBER)
-            HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)", quote(p, p->last.at, before),
-                 quote(p, next.at, text), before, text);
+            HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)",
+                 quote(p, p->last.at, before), quote(p, next.at, text), before, text);
         return;
     }
     if (is(p, '=')) {
@@ -44,8 +41,7 @@ static void end_of_statement(parser *p, int line)
         return;
     }
     COMPLAIN(p, p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
-    if (p->token.kind == TOKEN_NAME)
-        HINT(p, "one statement a line");
+    if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line");
 }
 
 static void parse_value(parser *p, statement *s)
@@ -72,11 +68,9 @@ static void parse_method(parser *p, statement *s)
 {
     const struct source_text *text = &p->source->texts[p->lexer.text];
     uint32_t from = p->last.at.to, to = from;
-    while (to < text->length && text->bytes[to] != '\n' && text->bytes[to] != '#')
-        to++;
+    while (to < text->length && text->bytes[to] != '\n' && text->bytes[to] != '#') to++;
     uint32_t end = to;
-    while (from < end && (text->bytes[from] == ' ' || text->bytes[from] == '\t'))
-        from++;
+    while (from < end && (text->bytes[from] == ' ' || text->bytes[from] == '\t')) from++;
     while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
         end--;
     s->at = (span){p->lexer.text, from, end};
@@ -115,20 +109,15 @@ static void parse_setting(parser *p, statement *s)
 /* Hints for usual ways to write a derivative that the language does not have. */
 static bool parse_leibniz(parser *p, const statement *s)
 {
-    if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^')))
-        return false;
+    if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^'))) return false;
     const struct source_text *text = &p->source->texts[s->at.text];
     uint32_t end = s->name_at.from;
-    while (end < text->length && text->bytes[end] != '=' && text->bytes[end] != '\n')
-        end++;
+    while (end < text->length && text->bytes[end] != '=' && text->bytes[end] != '\n') end++;
     bool second = false;
-    for (uint32_t i = s->name_at.from; i < end; i++)
-        second |= text->bytes[i] == '2';
+    for (uint32_t i = s->name_at.from; i < end; i++) second |= text->bytes[i] == '2';
     const char *x = s->name + 1;
-    while (*x == '2' || *x == '^')
-        x++;
-    if (!*x)
-        x = "x";
+    while (*x == '2' || *x == '^') x++;
+    if (!*x) x = "x";
     COMPLAIN(p, ((span){s->at.text, s->name_at.from, end}), "derivatives are written with primes");
     HINT(p, "write %s%s = …", x, second ? "''" : "'");
     return true;
@@ -142,8 +131,7 @@ static void parse_left(parser *p, statement *s)
         token next = is(p, '/') ? lex_next(&ahead) : p->token;
         bool slashes = is(p, '/') && next.kind == TOKEN_CHARACTER && (next.character == '/' || next.character == '*');
         unexpected(p, "a statement");
-        if (slashes)
-            HINT(p, "a comment begins with #");
+        if (slashes) HINT(p, "a comment begins with #");
         if (is(p, '+') || is(p, '-') || is(p, '*') || is(p, '/'))
             HINT(p, "a line goes on in the next where it ends with an operator, or inside a bracket");
         if (p->token.kind == TOKEN_NUMBER || is(p, '('))
@@ -162,15 +150,13 @@ static void parse_left(parser *p, statement *s)
         return;
     }
     advance(p);
-    if (parse_leibniz(p, s))
-        return;
+    if (parse_leibniz(p, s)) return;
     if (is(p, '[') && !p->token.blank) {
         parse_index(p, &name);
         s->index = name.item;
         s->index_count = name.index_count;
     }
-    if (failed(p))
-        return;
+    if (failed(p)) return;
     if (p->token.kind == TOKEN_PRIMES) {
         s->primes = p->token.primes;
         if (s->primes > 2) {
@@ -189,13 +175,13 @@ static void parse_left(parser *p, statement *s)
         }
         advance(p);
         s->start_at = parse_inside(p);
-        if (!expect(p, ')', "after the start"))
-            return;
+        if (!expect(p, ')', "after the start")) return;
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
             if (s->start_at->kind == TREE_NAME)
-                HINT(p, "write %s%s = …; that it depends on t is understood", s->name, p->token.primes == 1 ? "'" : "''");
+                HINT(p, "write %s%s = …; that it depends on t is understood", s->name,
+                     p->token.primes == 1 ? "'" : "''");
             else
                 HINT(p, "write %s'(0) = …", s->name);
             return;
@@ -206,8 +192,7 @@ static void parse_left(parser *p, statement *s)
         }
     }
     s->at.to = p->last.at.to;
-    if (is(p, '='))
-        return;
+    if (is(p, '=')) return;
     if (is(p, '.')) {
         COMPLAIN(p, p->token.at, "a component cannot be given alone");
         HINT(p, "give the whole vector: %s = (…, …)", s->name);
@@ -215,8 +200,7 @@ static void parse_left(parser *p, statement *s)
         COMPLAIN(p, p->token.at, "the left side of an equation is the highest derivative alone");
         HINT(p, "solve for it: %s%s = …", s->name, s->primes == 2 ? "''" : "'");
     } else if (p->token.kind == TOKEN_NAME || is(p, '*')) {
-        if (is(p, '*'))
-            advance(p);
+        if (is(p, '*')) advance(p);
         lexer ahead = p->lexer;
         token next = lex_next(&ahead);
         char text[80];
@@ -227,8 +211,7 @@ static void parse_left(parser *p, statement *s)
         } else if (p->token.kind == TOKEN_NAME) {
             unexpected(p, "=");
             char near[80];
-            if (words_nearest_statement(s->name, near, sizeof near))
-                HINT(p, "did you mean %s?", near);
+            if (words_nearest_statement(s->name, near, sizeof near)) HINT(p, "did you mean %s?", near);
         } else {
             unexpected(p, "=");
         }
@@ -243,7 +226,10 @@ static void parse_left(parser *p, statement *s)
 static void parse_statement(parser *p, statement *s)
 {
     s->at = p->token.at;
-    static const struct { const char *word; statement_kind kind; } settings[] = {
+    static const struct {
+        const char *word;
+        statement_kind kind;
+    } settings[] = {
         {"step", STATEMENT_STEP}, {"from", STATEMENT_FROM}, {"until", STATEMENT_UNTIL}, {"every", STATEMENT_EVERY}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (word(p, settings[i].word)) {
@@ -272,17 +258,14 @@ static void parse_statement(parser *p, statement *s)
         return;
     }
     bool exact = word(p, "exact"), invariant = word(p, "invariant");
-    if (exact || invariant)
-        advance(p);
+    if (exact || invariant) advance(p);
     parse_left(p, s);
-    if (failed(p))
-        return;
+    if (failed(p)) return;
     if (exact || invariant) {
         const char *what = exact ? "exact" : "invariant";
         if (s->kind != STATEMENT_DEFINITION) {
             COMPLAIN(p, s->at, "behind %s stands a name alone", what);
-            if (exact)
-                HINT(p, "write: exact %s = …; its velocity is its derivative", s->name);
+            if (exact) HINT(p, "write: exact %s = …; its velocity is its derivative", s->name);
             return;
         }
         s->kind = exact ? STATEMENT_EXACT : STATEMENT_INVARIANT;
@@ -297,8 +280,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
     advance(&p);
     for (;;) {
         skip_lines(&p);
-        if (failed(&p) || p.token.kind == TOKEN_END)
-            return !failed(&p);
+        if (failed(&p) || p.token.kind == TOKEN_END) return !failed(&p);
         if (all->count == SOURCE_STATEMENTS_MAX) {
             source_complain(s, MOTUS_LIMIT, p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);
             return false;
@@ -306,16 +288,14 @@ bool parse_text(source *s, uint32_t text, statements *all)
         if (all->count == all->capacity) {
             uint32_t room = all->capacity ? 2 * all->capacity : 32;
             statement *more = arena_grow(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
-            if (!more)
-                return false;
+            if (!more) return false;
             all->item = more;
             all->capacity = room;
         }
         statement *one = &all->item[all->count];
         *one = (statement){0};
         parse_statement(&p, one);
-        if (failed(&p))
-            return false;
+        if (failed(&p)) return false;
         all->count++;
         if (p.token.kind != TOKEN_NEWLINE && p.token.kind != TOKEN_END) {
             unexpected(&p, "the end of the line");

@@ -6,20 +6,33 @@
 #include "lang/text/words.h"
 
 typedef enum tree_kind {
-    TREE_NUMBER,                     /* number */
-    TREE_NAME,                       /* name, item[0 … index_count) its indices, primes */
-    TREE_START,                      /* x(0), r'(0), x[i](0): a TREE_NAME glued to a bracket: item[0] the name, item[1] the bracket */
-    TREE_CALL,                       /* operation, or one of the calls below; items are the arguments */
-    TREE_NEGATE, TREE_ADD, TREE_SUBTRACT, TREE_MULTIPLY, TREE_DIVIDE, TREE_POWER,
-    TREE_COMPARE,                    /* operation: OP_LT … OP_NE */
-    TREE_AND, TREE_OR, TREE_NOT,
-    TREE_VECTOR, TREE_LIST,
-    TREE_COMPONENT,                  /* item[0] of which, item[1] the 1-based number (x, y, z are numbers already) */
-    TREE_NORM,                       /* |item[0]| */
-    TREE_SUM                         /* loops, items: conditions, then the body last */
+    TREE_NUMBER, /* number */
+    TREE_NAME,   /* name, item[0 … index_count) its indices, primes */
+    /* x(0), r'(0), x[i](0): a TREE_NAME glued to a bracket: item[0] the name, item[1] the bracket */
+    TREE_START,
+    TREE_CALL, /* operation, or one of the calls below; items are the arguments */
+    TREE_NEGATE,
+    TREE_ADD,
+    TREE_SUBTRACT,
+    TREE_MULTIPLY,
+    TREE_DIVIDE,
+    TREE_POWER,
+    TREE_COMPARE, /* operation: OP_LT … OP_NE */
+    TREE_AND,
+    TREE_OR,
+    TREE_NOT,
+    TREE_VECTOR,
+    TREE_LIST,
+    TREE_COMPONENT, /* item[0] of which, item[1] the 1-based number (x, y, z are numbers already) */
+    TREE_NORM,      /* |item[0]| */
+    TREE_SUM        /* loops, items: conditions, then the body last */
 } tree_kind;
 
-typedef struct loop { const char *name; struct tree *first, *last; span at; } loop;
+typedef struct loop {
+    const char *name;
+    struct tree *first, *last;
+    span at;
+} loop;
 
 typedef struct tree {
     tree_kind kind;
@@ -27,40 +40,50 @@ typedef struct tree {
     const char *name;
     double number;
     int primes, operation;
-    bool bracketed;                  /* stood in ( ) of its own */
-    bool blank_product;              /* MULTIPLY: a name and a bracket with a blank between, f (x) */
+    bool bracketed;     /* stood in ( ) of its own */
+    bool blank_product; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
     uint32_t count, index_count;
     struct tree **item;
-    loop *loops; uint32_t loop_count;
+    loop *loops;
+    uint32_t loop_count;
 } tree;
 
 typedef enum statement_kind {
-    STATEMENT_DEFINITION,            /* name[indices] = value: parameter, quantity, boundary line */
-    STATEMENT_EQUATION,              /* name[indices]' or '' = value */
-    STATEMENT_START,                 /* name[indices]'(at) = value */
-    STATEMENT_EXACT, STATEMENT_INVARIANT,
-    STATEMENT_METHOD,                /* text */
-    STATEMENT_STEP, STATEMENT_FROM, STATEMENT_UNTIL, STATEMENT_EVERY
+    STATEMENT_DEFINITION, /* name[indices] = value: parameter, quantity, boundary line */
+    STATEMENT_EQUATION,   /* name[indices]' or '' = value */
+    STATEMENT_START,      /* name[indices]'(at) = value */
+    STATEMENT_EXACT,
+    STATEMENT_INVARIANT,
+    STATEMENT_METHOD, /* text */
+    STATEMENT_STEP,
+    STATEMENT_FROM,
+    STATEMENT_UNTIL,
+    STATEMENT_EVERY
 } statement_kind;
 
 typedef struct statement {
     statement_kind kind;
-    span at, name_at, value_at;      /* value_at: the right side, without the indices' ranges */
+    span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
     const char *name;
-    tree **index; uint32_t index_count;
+    tree **index;
+    uint32_t index_count;
     int primes;
-    tree *start_at;                  /* START: the c of x(c) */
-    tree *value;                     /* the right side, or the setting's expression */
-    bool steps;                      /* every n steps */
-    const char *text;                /* METHOD */
-    loop *loops; uint32_t loop_count;
-    tree *replaced;                  /* by --set: the model's expression that it replaces, */
-    span stood;                      /*   and the place of that statement */
-    uint8_t progress;                /* START: 0 not computed, 1 being computed (met again, it uses itself), 2 done */
-    uint32_t next;                   /* 1 + number of the next line about the same state; 0: none */
+    tree *start_at;   /* START: the c of x(c) */
+    tree *value;      /* the right side, or the setting's expression */
+    bool steps;       /* every n steps */
+    const char *text; /* METHOD */
+    loop *loops;
+    uint32_t loop_count;
+    tree *replaced;   /* by --set: the model's expression that it replaces, */
+    span stood;       /*   and the place of that statement */
+    uint8_t progress; /* START: 0 not computed, 1 being computed (met again, it uses itself), 2 done */
+    uint32_t next;    /* 1 + number of the next line about the same state; 0: none */
 } statement;
 
-typedef struct statements { statement *item; uint32_t count, capacity; } statements;
+typedef struct statements {
+    statement *item;
+    uint32_t count, capacity;
+} statements;
 
 /* Parses text number `text` and appends its statements. False: complained or no memory. */
 bool parse_text(source *, uint32_t text, statements *);

@@ -33,12 +33,13 @@ static void ranges(typesetter *p, const statement *s)
 {
     for (uint32_t i = 0; i < s->loop_count; i++) {
         const loop *l = &s->loops[i];
-        double more = l->first->kind == TREE_NUMBER && l->last->kind == TREE_NUMBER ? l->last->number - l->first->number : 2;
-        typeset_tag(p, i ? "<mtext>&#xA0;and&#xA0;</mtext>" : "<mspace width=\"2em\"/><mrow class=\"for\"><mtext>for&#xA0;</mtext>");
+        double more =
+            l->first->kind == TREE_NUMBER && l->last->kind == TREE_NUMBER ? l->last->number - l->first->number : 2;
+        typeset_tag(p, i ? "<mtext>&#xA0;and&#xA0;</mtext>"
+                         : "<mspace width=\"2em\"/><mrow class=\"for\"><mtext>for&#xA0;</mtext>");
         typeset_range(p, l, more == 0 ? NULL : more == 1 ? "<mo>,</mo>" : "<mo>,</mo><mi>…</mi><mo>,</mo>", 0);
     }
-    if (s->loop_count)
-        typeset_tag(p, "</mrow>");
+    if (s->loop_count) typeset_tag(p, "</mrow>");
 }
 
 static void setting(typesetter *p, const statement *s)
@@ -46,14 +47,11 @@ static void setting(typesetter *p, const statement *s)
     typeset_put(p, "<mtext>");
     typeset_plain(p, s->name);
     typeset_put(p, "&#xA0;");
-    if (s->kind == STATEMENT_METHOD)
-        typeset_plain(p, s->text);
+    if (s->kind == STATEMENT_METHOD) typeset_plain(p, s->text);
     typeset_put(p, "</mtext>");
-    if (s->kind == STATEMENT_METHOD)
-        return;
+    if (s->kind == STATEMENT_METHOD) return;
     typeset_then(p, s->value, 0);
-    if (s->steps)
-        typeset_sign(p, "<mtext>&#xA0;steps</mtext>");
+    if (s->steps) typeset_sign(p, "<mtext>&#xA0;steps</mtext>");
 }
 
 char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
@@ -61,9 +59,15 @@ char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
     typesetter p = {.model = m, .allocator = a};
     const statement *s = &m->statements.item[k];
     /* The left side is an expression as well: a name, or its value at a time, which of an exact motion is t. */
-    tree name = {.kind = TREE_NAME, .name = s->name, .primes = s->primes, .item = s->index, .count = s->index_count, .index_count = s->index_count};
+    tree name = {.kind = TREE_NAME,
+                 .name = s->name,
+                 .primes = s->primes,
+                 .item = s->index,
+                 .count = s->index_count,
+                 .index_count = s->index_count};
     tree time = {.kind = TREE_NAME, .name = "t"};
-    tree start = {.kind = TREE_START, .item = (tree *[]){&name, s->kind == STATEMENT_EXACT ? &time : s->start_at}, .count = 2};
+    tree start = {
+        .kind = TREE_START, .item = (tree *[]){&name, s->kind == STATEMENT_EXACT ? &time : s->start_at}, .count = 2};
     typeset_put(&p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
     if (s->kind >= STATEMENT_METHOD) {
         setting(&p, s);

@@ -5,25 +5,24 @@
 static bool tall(const tree *t, int *patience)
 {
     for (;; t = t->item[0]) {
-        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*patience < 0)
-            return true;
-        if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_START || t->kind == TREE_COMPONENT)
-            return false;
+        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*patience < 0) return true;
+        if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_START || t->kind == TREE_COMPONENT) return false;
         for (uint32_t i = 1; i < t->count && t->kind != TREE_POWER; i++)
-            if (tall(t->item[i], patience))
-                return true;
+            if (tall(t->item[i], patience)) return true;
     }
 }
 
 /* Fences stretch only about what is tall: fonts draw those that could stretch with more room about them. */
-static const char *const open_fence[][2] = {{"<mrow><mo stretchy=\"false\">(</mo>", "<mrow><mo>(</mo>"},
-                                            {"<mrow><mo stretchy=\"false\">[</mo>", "<mrow><mo>[</mo>"},
-                                            {"<mrow><mo form=\"prefix\" stretchy=\"false\">|</mo>", "<mrow><mo form=\"prefix\">|</mo>"},
-                                            {"<mrow><mo stretchy=\"false\">⌊</mo>", "<mrow><mo>⌊</mo>"}};
-static const char *const close_fence[][2] = {{"<mo stretchy=\"false\">)</mo></mrow>", "<mo>)</mo></mrow>"},
-                                             {"<mo stretchy=\"false\">]</mo></mrow>", "<mo>]</mo></mrow>"},
-                                             {"<mo form=\"postfix\" stretchy=\"false\">|</mo></mrow>", "<mo form=\"postfix\">|</mo></mrow>"},
-                                             {"<mo stretchy=\"false\">⌋</mo></mrow>", "<mo>⌋</mo></mrow>"}};
+static const char *const open_fence[][2] = {
+    {"<mrow><mo stretchy=\"false\">(</mo>", "<mrow><mo>(</mo>"},
+    {"<mrow><mo stretchy=\"false\">[</mo>", "<mrow><mo>[</mo>"},
+    {"<mrow><mo form=\"prefix\" stretchy=\"false\">|</mo>", "<mrow><mo form=\"prefix\">|</mo>"},
+    {"<mrow><mo stretchy=\"false\">⌊</mo>", "<mrow><mo>⌊</mo>"}};
+static const char *const close_fence[][2] = {
+    {"<mo stretchy=\"false\">)</mo></mrow>", "<mo>)</mo></mrow>"},
+    {"<mo stretchy=\"false\">]</mo></mrow>", "<mo>]</mo></mrow>"},
+    {"<mo form=\"postfix\" stretchy=\"false\">|</mo></mrow>", "<mo form=\"postfix\">|</mo></mrow>"},
+    {"<mo stretchy=\"false\">⌋</mo></mrow>", "<mo>⌋</mo></mrow>"}};
 
 /* The items of a tree, or one that is no item of it. */
 static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, const tree *itself, place at)
@@ -34,8 +33,7 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
         stretch = tall(item ? item[i] : itself, &patience);
     typeset_tag(p, open_fence[f][stretch]);
     for (uint32_t i = 0; i < count; i++) {
-        if (i)
-            typeset_sign(p, "<mo>,</mo>");
+        if (i) typeset_sign(p, "<mo>,</mo>");
         if (cut && i == TYPESET_ITEMS_MAX - 2) {
             typeset_sign(p, "<mi>…</mi><mo>,</mo>");
             i = count - 1;
@@ -58,8 +56,7 @@ void typeset_cases(typesetter *p, const tree *t, place at)
         typeset_tag(p, "</mtd><mtd><mtext>if&#xA0;</mtext>");
         typeset_then(p, t->item[0], place_inside(at));
         typeset_tag(p, "</mtd></mtr>");
-        if (++rows == TYPESET_ITEMS_MAX || !typeset_calls(t->item[2], CALL_IF))
-            break;
+        if (++rows == TYPESET_ITEMS_MAX || !typeset_calls(t->item[2], CALL_IF)) break;
     }
     typeset_tag(p, "<mtr><mtd>");
     typeset_then(p, t->item[2], place_inside(at));

@@ -12,9 +12,21 @@
 
 #include <string.h>
 
-/* From loosest to tightest. A quotient is a fraction, which needs no brackets in a product; in small print it is a/b, which does. */
+/* From loosest to tightest. A quotient is a fraction, which needs no brackets in a product; in small print it is a/b,
+ * which does. */
 typedef enum tight {
-    TIGHT_OR, TIGHT_AND, TIGHT_NOT, TIGHT_COMPARE, TIGHT_MOD, TIGHT_SUM, TIGHT_MINUS, TIGHT_DOT, TIGHT_SLASH, TIGHT_PRODUCT, TIGHT_POWER, TIGHT_ATOM
+    TIGHT_OR,
+    TIGHT_AND,
+    TIGHT_NOT,
+    TIGHT_COMPARE,
+    TIGHT_MOD,
+    TIGHT_SUM,
+    TIGHT_MINUS,
+    TIGHT_DOT,
+    TIGHT_SLASH,
+    TIGHT_PRODUCT,
+    TIGHT_POWER,
+    TIGHT_ATOM
 } tight;
 
 /* What an expression finds where it stands, in one word (a struct would be passed through memory in WebAssembly):
@@ -27,8 +39,17 @@ typedef enum tight {
  *     level    expressions about it, in the bits from PLACE_LEVEL on
  */
 typedef uint32_t place;
-enum { PLACE_TIGHT = 0xF, FOLLOW_NOTHING = 0, FOLLOW_TERM = 0x10, FOLLOW_FACTOR = 0x20, PLACE_FOLLOW = 0x30, PLACE_WHOLE = 0x40, PLACE_SMALL = 0x80,
-       PLACE_CHAIN = 0x100, PLACE_LEVEL = 0x10000 };
+enum {
+    PLACE_TIGHT = 0xF,
+    FOLLOW_NOTHING = 0,
+    FOLLOW_TERM = 0x10,
+    FOLLOW_FACTOR = 0x20,
+    PLACE_FOLLOW = 0x30,
+    PLACE_WHOLE = 0x40,
+    PLACE_SMALL = 0x80,
+    PLACE_CHAIN = 0x100,
+    PLACE_LEVEL = 0x10000
+};
 
 /* A row of its own: in brackets, under a root … */
 static inline place place_inside(place at) { return ((at & PLACE_SMALL) | (at & ~0xFFFFu)) + PLACE_LEVEL; }
@@ -41,23 +62,28 @@ static inline place place_last(place at, tight t) { return place_inside(at) | t 
 
 typedef enum task_kind {
     TASK_TREE,
-    TASK_NAME,                       /* a name without its subscript; TASK_TAIL: its subscript, without the name */
+    TASK_NAME, /* a name without its subscript; TASK_TAIL: its subscript, without the name */
     TASK_TAIL,
-    TASK_TAG,                        /* text that opens and closes elements: written whatever has been cut */
-    TASK_SIGN                        /* text that is left out together with the expressions about it */
+    TASK_TAG, /* text that opens and closes elements: written whatever has been cut */
+    TASK_SIGN /* text that is left out together with the expressions about it */
 } task_kind;
 
 typedef struct task {
     task_kind kind;
     place place;
-    union { const tree *tree; const char *text; };
+    union {
+        const tree *tree;
+        const char *text;
+    };
 } task;
 
 typedef struct typesetter {
     const model *model;
     const motus_allocator *allocator;
-    char *text; size_t length, room;
-    task *tasks; uint32_t count, capacity;
+    char *text;
+    size_t length, room;
+    task *tasks;
+    uint32_t count, capacity;
     bool full, failed;
 } typesetter;
 
@@ -66,10 +92,10 @@ void typeset_put(typesetter *, const char *text);
 void typeset_name(typesetter *, const char *name);
 void typeset_tail(typesetter *, const char *name);
 bool typeset_has_tail(const char *name);
-bool typeset_is_word(const char *name);          /* set upright: touches its neighbours in a product */
+bool typeset_is_word(const char *name); /* set upright: touches its neighbours in a product */
 void typeset_number(typesetter *, const tree *);
 bool typeset_has_exponent(const source *, const tree *);
-void typeset_plain(typesetter *, const char *text);        /* of the model: escaped */
+void typeset_plain(typesetter *, const char *text); /* of the model: escaped */
 
 /* typeset_task.c: pushes a task */
 void typeset_tag(typesetter *, const char *);
@@ -84,14 +110,19 @@ void typeset_items(typesetter *, fence, const tree *, place);
 void typeset_itself(typesetter *, fence, const tree *, place);
 void typeset_cases(typesetter *, const tree *, place);
 /* typeset_script.c: what is written as a name with signs about it: x, x_i, x_max″, r_y, x(0) */
-typedef struct head { const tree *name, *component, *start; } head;
+typedef struct head {
+    const tree *name, *component, *start;
+} head;
 bool typeset_head(const tree *, head *);
 void typeset_scripted(typesetter *, const head *, const tree *power, place);
 void typeset_component(typesetter *, const tree *, place);
-void typeset_range(typesetter *, const loop *, const char *between, place);   /* between NULL: without the last */
+void typeset_range(typesetter *, const loop *, const char *between, place); /* between NULL: without the last */
 
 #define TYPESET_APPLY "<mo>&#x2061;</mo>"
 
-static inline bool typeset_calls(const tree *t, int operation) { return t->kind == TREE_CALL && t->operation == operation; }
+static inline bool typeset_calls(const tree *t, int operation)
+{
+    return t->kind == TREE_CALL && t->operation == operation;
+}
 
 #endif

@@ -1,4 +1,5 @@
-/* Names of a typeset statement with what belongs to them: subscripts, primes, the time of a value; and indices that run. See typeset_parts.h. */
+/* Names of a typeset statement with what belongs to them: subscripts, primes, the time of a value; and indices that
+ * run. See typeset_parts.h. */
 #include "lang/typeset/typeset_parts.h"
 
 bool typeset_head(const tree *t, head *h)
@@ -29,41 +30,33 @@ static void subscripts(typesetter *p, const head *h, uint32_t parts, place at)
 {
     place in = parts == 1 ? place_script(at) : place_inside(at) | PLACE_SMALL;
     uint32_t done = 0;
-    if (parts > 1)
-        typeset_tag(p, "<mrow>");
+    if (parts > 1) typeset_tag(p, "<mrow>");
     if (typeset_has_tail(h->name->name)) {
         typeset_word(p, TASK_TAIL, h->name->name);
         done++;
     }
     for (uint32_t i = 0; i < h->name->index_count; i++) {
-        if (done++)
-            typeset_sign(p, "<mo>,</mo>");
+        if (done++) typeset_sign(p, "<mo>,</mo>");
         typeset_then(p, h->name->item[i], in);
     }
     if (h->component) {
-        if (done)
-            typeset_sign(p, "<mo>,</mo>");
+        if (done) typeset_sign(p, "<mo>,</mo>");
         const char *letter = component_letter(&p->model->source, h->component);
         if (letter)
             typeset_word(p, TASK_NAME, letter);
         else
             typeset_then(p, h->component, in);
     }
-    if (parts > 1)
-        typeset_tag(p, "</mrow>");
+    if (parts > 1) typeset_tag(p, "</mrow>");
 }
 
 static void superscripts(typesetter *p, int primes, const tree *power, place at)
 {
     bool both = primes && power;
-    if (both)
-        typeset_tag(p, "<mrow>");
-    if (primes)
-        typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">′′</mo>");
-    if (power)
-        typeset_then(p, power, both ? place_inside(at) | PLACE_SMALL : place_script(at));
-    if (both)
-        typeset_tag(p, "</mrow>");
+    if (both) typeset_tag(p, "<mrow>");
+    if (primes) typeset_tag(p, primes == 1 ? "<mo class=\"prime\">′</mo>" : "<mo class=\"prime\">′′</mo>");
+    if (power) typeset_then(p, power, both ? place_inside(at) | PLACE_SMALL : place_script(at));
+    if (both) typeset_tag(p, "</mrow>");
 }
 
 /* Primes and an exponent share the superscript, x′², and a value at a time is raised as a whole, x(0)². */
@@ -72,17 +65,14 @@ void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
     uint32_t parts = (uint32_t)typeset_has_tail(h->name->name) + h->name->index_count + (h->component != NULL);
     const tree *own_power = h->start ? NULL : power;
     int scripts = 2 * (parts > 0) + (h->name->primes || own_power);
-    static const char *const open[] = {"", "<msup>", "<msub>", "<msubsup>"}, *const close[] = {"", "</msup>", "</msub>", "</msubsup>"};
-    if (h->start && power)
-        typeset_tag(p, "<msup>");
-    if (h->start)
-        typeset_tag(p, "<mrow>");
+    static const char *const open[] = {"", "<msup>", "<msub>", "<msubsup>"}, *const close[] = {"", "</msup>", "</msub>",
+                                                                                               "</msubsup>"};
+    if (h->start && power) typeset_tag(p, "<msup>");
+    if (h->start) typeset_tag(p, "<mrow>");
     typeset_tag(p, open[scripts]);
     typeset_word(p, TASK_NAME, h->name->name);
-    if (parts)
-        subscripts(p, h, parts, at);
-    if (scripts & 1)
-        superscripts(p, h->name->primes, own_power, at);
+    if (parts) subscripts(p, h, parts, at);
+    if (scripts & 1) superscripts(p, h->name->primes, own_power, at);
     typeset_tag(p, close[scripts]);
     if (h->start) {
         typeset_tag(p, TYPESET_APPLY);
@@ -112,13 +102,11 @@ void typeset_range(typesetter *p, const loop *l, const char *between, place at)
     bool tail = typeset_has_tail(l->name);
     typeset_tag(p, tail ? "<msub>" : "");
     typeset_word(p, TASK_NAME, l->name);
-    if (tail)
-        typeset_word(p, TASK_TAIL, l->name);
+    if (tail) typeset_word(p, TASK_TAIL, l->name);
     typeset_tag(p, tail ? "</msub>" : "");
     typeset_sign(p, "<mo>=</mo>");
     typeset_then(p, l->first, place_inside(at));
-    if (!between)
-        return;
+    if (!between) return;
     typeset_sign(p, between);
     typeset_then(p, l->last, place_inside(at));
 }

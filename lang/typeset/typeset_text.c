@@ -8,8 +8,7 @@
 
 static void put(typesetter *p, const char *text, size_t length)
 {
-    if (p->failed)
-        return;
+    if (p->failed) return;
     if (length >= p->room - p->length) {
         size_t room = 2 * p->room + length + 1024;
         char *more = take_more(p->allocator, p->text, p->length, room, 1);
@@ -78,7 +77,7 @@ static size_t split(const char *name, const char **tail)
             break;
     *tail = name + (n < line || line == length ? n : line + 1);
     unsigned char first = (unsigned char)**tail;
-    bool marked = first == 0xCC || first == 0xCD;    /* a mark (U+0300 …) would sit on the end of a tag */
+    bool marked = first == 0xCC || first == 0xCD; /* a mark (U+0300 …) would sit on the end of a tag */
     if (n == 0 || marked || (line < length && !name[line + 1])) {
         *tail = name + length;
         return length;
@@ -87,14 +86,15 @@ static size_t split(const char *name, const char **tail)
 }
 
 static const char *const greek[] = {
-    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi", "omicron", "pi", "rho",
-    "", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"};
+    "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta", "theta",   "iota", "kappa", "lambda", "mu",   "nu",
+    "xi",    "omicron", "pi",    "rho",   "",        "sigma", "tau", "upsilon", "phi",  "chi",   "psi",    "omega"};
 
 /* The letter that is spelled out: U+03B1 + its number, or the capital 32 before it; 0: none is. */
 static unsigned letter(const char *name, size_t length)
 {
     for (unsigned i = 0; i < sizeof greek / sizeof *greek; i++)
-        if (length > 1 && strlen(greek[i]) == length && !memcmp(greek[i] + 1, name + 1, length - 1) && (greek[i][0] | 0x20) == (name[0] | 0x20))
+        if (length > 1 && strlen(greek[i]) == length && !memcmp(greek[i] + 1, name + 1, length - 1) &&
+            (greek[i][0] | 0x20) == (name[0] | 0x20))
             return 0x3B1 + i - (name[0] & 0x20 ? 0 : 0x20);
     return 0;
 }
@@ -127,8 +127,7 @@ bool typeset_is_word(const char *name)
 {
     const char *tail;
     size_t length = split(name, &tail), letters = 0;
-    for (size_t i = 0; i < length; i++)
-        letters += ((unsigned char)name[i] & 0xC0) != 0x80;
+    for (size_t i = 0; i < length; i++) letters += ((unsigned char)name[i] & 0xC0) != 0x80;
     return letters > 1 && !letter(name, length);
 }
 
@@ -161,22 +160,18 @@ static const char *spelling(const source *s, const tree *t, size_t *length)
     const char *at = s->texts[t->at.text].bytes + t->at.from, *end = s->texts[t->at.text].bytes + t->at.to;
     while (at < end && !digit(*at)) {
         if (*at == '#')
-            while (at < end && *at != '\n')
-                at++;
+            while (at < end && *at != '\n') at++;
         else
             at++;
     }
     size_t n = 0, left = (size_t)(end - at);
-    while (n < left && digit(at[n]))
-        n++;
+    while (n < left && digit(at[n])) n++;
     if (n + 1 < left && at[n] == '.' && digit(at[n + 1]))
-        for (n++; n < left && digit(at[n]);)
-            n++;
+        for (n++; n < left && digit(at[n]);) n++;
     if (n + 1 < left && (at[n] == 'e' || at[n] == 'E')) {
         size_t e = n + 1 + (at[n + 1] == '-' || at[n + 1] == '+');
         if (e < left && digit(at[e]))
-            for (n = e; n < left && digit(at[n]);)
-                n++;
+            for (n = e; n < left && digit(at[n]);) n++;
     }
     *length = n;
     return at;
@@ -185,8 +180,7 @@ static const char *spelling(const source *s, const tree *t, size_t *length)
 static size_t mantissa(const char *spelled, size_t length)
 {
     for (size_t i = 0; i < length; i++)
-        if (spelled[i] == 'e' || spelled[i] == 'E')
-            return i;
+        if (spelled[i] == 'e' || spelled[i] == 'E') return i;
     return length;
 }
 
@@ -201,8 +195,7 @@ static void digits(typesetter *p, const char *text, size_t length)
 {
     typeset_put(p, "<mn>");
     escaped(p, text, length < TYPESET_DIGITS_MAX ? length : TYPESET_DIGITS_MAX);
-    if (length > TYPESET_DIGITS_MAX)
-        typeset_put(p, "…");
+    if (length > TYPESET_DIGITS_MAX) typeset_put(p, "…");
     typeset_put(p, "</mn>");
 }
 
@@ -220,12 +213,9 @@ void typeset_number(typesetter *p, const tree *t)
     typeset_put(p, "<mo>×</mo><msup><mn>10</mn>");
     bool minus = spelled[++n] == '-';
     n += minus || spelled[n] == '+';
-    while (n + 1 < length && spelled[n] == '0')
-        n++;
-    if (minus)
-        typeset_put(p, "<mrow><mo form=\"prefix\">−</mo>");
+    while (n + 1 < length && spelled[n] == '0') n++;
+    if (minus) typeset_put(p, "<mrow><mo form=\"prefix\">−</mo>");
     digits(p, spelled + n, length - n);
-    if (minus)
-        typeset_put(p, "</mrow>");
+    if (minus) typeset_put(p, "</mrow>");
     typeset_put(p, "</msup></mrow>");
 }

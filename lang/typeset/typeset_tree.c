@@ -1,21 +1,27 @@
 /* Expressions of a typeset statement. See typeset_parts.h.
  *
- * Brackets stand where the meaning needs them, whether the text had them or not: a fraction, a root, bars and raised exponents show by
- * themselves what they hold.
+ * Brackets stand where the meaning needs them, whether the text had them or not: a fraction, a root, bars and raised
+ * exponents show by themselves what they hold.
  */
 #include "lang/typeset/typeset_parts.h"
 
 #include "lang/model/symbols.h"
 
-/* Shapes ------------------------------------------------------------------------------------------------------------- */
+/* Shapes ----------------------------------------------------------------------------------------------------------- */
 
 /* Functions whose name is written; the others have a shape. */
 static const char *function_name(const tree *t)
 {
-    if (t->kind != TREE_CALL)
-        return NULL;
+    if (t->kind != TREE_CALL) return NULL;
     switch (t->operation) {
-    case OP_SQRT: case OP_CBRT: case OP_ABS: case OP_FLOOR: case OP_MOD: case CALL_DOT: case CALL_CROSS: case CALL_IF: return NULL;
+    case OP_SQRT:
+    case OP_CBRT:
+    case OP_ABS:
+    case OP_FLOOR:
+    case OP_MOD:
+    case CALL_DOT:
+    case CALL_CROSS:
+    case CALL_IF: return NULL;
     case OP_ASIN: return "arcsin";
     case OP_ACOS: return "arccos";
     case OP_ATAN: return "arctan";
@@ -29,8 +35,8 @@ static const char *function_name(const tree *t)
 static bool raised_function(const tree *power)
 {
     const tree *exponent = power->item[1];
-    return function_name(power->item[0]) && power->item[0]->count == 1 && exponent->kind == TREE_NUMBER && exponent->number >= 2 &&
-           exponent->number < 100 && exponent->number == (int)exponent->number;
+    return function_name(power->item[0]) && power->item[0]->count == 1 && exponent->kind == TREE_NUMBER &&
+           exponent->number >= 2 && exponent->number < 100 && exponent->number == (int)exponent->number;
 }
 
 static tight tight_of(const typesetter *p, const tree *t, bool small)
@@ -40,15 +46,19 @@ static tight tight_of(const typesetter *p, const tree *t, bool small)
     case TREE_AND: return TIGHT_AND;
     case TREE_NOT: return TIGHT_NOT;
     case TREE_COMPARE: return TIGHT_COMPARE;
-    case TREE_ADD: case TREE_SUBTRACT: return TIGHT_SUM;
+    case TREE_ADD:
+    case TREE_SUBTRACT: return TIGHT_SUM;
     case TREE_NEGATE: return TIGHT_MINUS;
     case TREE_MULTIPLY: return TIGHT_PRODUCT;
     case TREE_DIVIDE: return small ? TIGHT_SLASH : TIGHT_POWER;
-    case TREE_POWER: case TREE_SUM: return TIGHT_POWER;
+    case TREE_POWER:
+    case TREE_SUM: return TIGHT_POWER;
     case TREE_NUMBER: return typeset_has_exponent(&p->model->source, t) ? TIGHT_POWER : TIGHT_ATOM;
     case TREE_CALL:
-        return t->operation == OP_MOD ? TIGHT_MOD : t->operation == CALL_DOT || t->operation == CALL_CROSS ? TIGHT_DOT
-               : t->operation == CALL_IF || function_name(t) ? TIGHT_POWER : TIGHT_ATOM;
+        return t->operation == OP_MOD                                   ? TIGHT_MOD
+               : t->operation == CALL_DOT || t->operation == CALL_CROSS ? TIGHT_DOT
+               : t->operation == CALL_IF || function_name(t)            ? TIGHT_POWER
+                                                                        : TIGHT_ATOM;
     default: return TIGHT_ATOM;
     }
 }
@@ -57,27 +67,33 @@ static tight tight_of(const typesetter *p, const tree *t, bool small)
 static bool single(const tree *t, bool small)
 {
     switch (t->kind) {
-    case TREE_NUMBER: case TREE_NAME: case TREE_START: case TREE_VECTOR: case TREE_LIST: case TREE_COMPONENT: case TREE_NORM: return true;
+    case TREE_NUMBER:
+    case TREE_NAME:
+    case TREE_START:
+    case TREE_VECTOR:
+    case TREE_LIST:
+    case TREE_COMPONENT:
+    case TREE_NORM: return true;
     case TREE_DIVIDE: return !small;
     case TREE_POWER: return !raised_function(t);
-    case TREE_CALL: return !function_name(t) && t->operation != OP_MOD && t->operation != CALL_DOT && t->operation != CALL_CROSS;
+    case TREE_CALL:
+        return !function_name(t) && t->operation != OP_MOD && t->operation != CALL_DOT && t->operation != CALL_CROSS;
     default: return false;
     }
 }
 
-/* Products ------------------------------------------------------------------------------------------------------------- */
+/* Products --------------------------------------------------------------------------------------------------------- */
 
 static bool digit_first(const tree *t)
 {
-    while (t->kind == TREE_POWER || t->kind == TREE_MULTIPLY || t->kind == TREE_DIVIDE)
-        t = t->item[0];
+    while (t->kind == TREE_POWER || t->kind == TREE_MULTIPLY || t->kind == TREE_DIVIDE) t = t->item[0];
     return t->kind == TREE_NUMBER;
 }
 
 static bool barred(const tree *t) { return t->kind == TREE_NORM || typeset_calls(t, OP_ABS); }
 
-/* A number after a factor wants a dot; so does a fraction of numbers after a number, which would be read as 2½, and a bracket after a
- * state, which would be read as its value at that time. Words want a little room, and so do bars. */
+/* A number after a factor wants a dot; so does a fraction of numbers after a number, which would be read as 2½, and a
+ * bracket after a state, which would be read as its value at that time. Words want a little room, and so do bars. */
 static void times(typesetter *p, const tree *a, const tree *b, place at)
 {
     head h;
@@ -89,16 +105,18 @@ static void times(typesetter *p, const tree *a, const tree *b, place at)
         word |= typeset_is_word(h.name->name);
     }
     dot |= (brackets && state) || (b->kind == TREE_VECTOR && before->kind != TREE_NUMBER);
-    word |= !brackets && ((typeset_head(first, &h) && typeset_is_word(h.name->name)) || (barred(before) && barred(first)));
+    word |=
+        !brackets && ((typeset_head(first, &h) && typeset_is_word(h.name->name)) || (barred(before) && barred(first)));
     typeset_sign(p, dot ? "<mo>⋅</mo>" : word ? "<mo>&#x2062;</mo><mspace width=\"0.17em\"/>" : "<mo>&#x2062;</mo>");
 }
 
-/* Chains of one operator: trees lean left, and may be as long as the text is. --------------------------------------------------- */
+/* Chains of one operator: trees lean left, and may be as long as the text is. -------------------------------------- */
 
 static int chain_of(tree_kind kind)
 {
     switch (kind) {
-    case TREE_ADD: case TREE_SUBTRACT: return 1;
+    case TREE_ADD:
+    case TREE_SUBTRACT: return 1;
     case TREE_MULTIPLY: return 2;
     case TREE_AND: return 3;
     case TREE_OR: return 4;
@@ -109,16 +127,14 @@ static int chain_of(tree_kind kind)
 /* Where a chain is too long, its beginning with an ellipsis behind it. */
 static bool shortened(typesetter *p, const tree *t, place at)
 {
-    static const char *const rest[] = {"", "<mo>+</mo><mi>⋯</mi>", "<mi>⋯</mi>", "<mtext>&#xA0;and&#xA0;</mtext><mi>⋯</mi>",
+    static const char *const rest[] = {"", "<mo>+</mo><mi>⋯</mi>", "<mi>⋯</mi>",
+                                       "<mtext>&#xA0;and&#xA0;</mtext><mi>⋯</mi>",
                                        "<mtext>&#xA0;or&#xA0;</mtext><mi>⋯</mi>"};
     int chain = chain_of(t->kind);
     size_t terms = 0;
-    for (const tree *u = t; chain_of(u->kind) == chain; u = u->item[0])
-        terms++;
-    if (terms <= TYPESET_TERMS_MAX)
-        return false;
-    for (; terms > TYPESET_TERMS_MAX; terms--)
-        t = t->item[0];
+    for (const tree *u = t; chain_of(u->kind) == chain; u = u->item[0]) terms++;
+    if (terms <= TYPESET_TERMS_MAX) return false;
+    for (; terms > TYPESET_TERMS_MAX; terms--) t = t->item[0];
     typeset_then(p, t, (at & ~(uint32_t)PLACE_FOLLOW) | PLACE_CHAIN | FOLLOW_FACTOR);
     typeset_sign(p, rest[chain]);
     return true;
@@ -184,7 +200,10 @@ static void call(typesetter *p, const tree *t, place at)
         return;
     case OP_ABS: typeset_items(p, FENCE_BARS, t, at); return;
     case OP_FLOOR: typeset_items(p, FENCE_FLOOR, t, at); return;
-    case OP_MOD: infix(p, t, at, TIGHT_PRODUCT, FOLLOW_FACTOR, "<mo lspace=\"0.22em\" rspace=\"0.22em\">mod</mo>", TIGHT_PRODUCT); return;
+    case OP_MOD:
+        infix(p, t, at, TIGHT_PRODUCT, FOLLOW_FACTOR, "<mo lspace=\"0.22em\" rspace=\"0.22em\">mod</mo>",
+              TIGHT_PRODUCT);
+        return;
     case CALL_DOT: infix(p, t, at, TIGHT_POWER, FOLLOW_FACTOR, "<mo>⋅</mo>", TIGHT_POWER); return;
     case CALL_CROSS: infix(p, t, at, TIGHT_POWER, FOLLOW_FACTOR, "<mo>×</mo>", TIGHT_POWER); return;
     case CALL_IF: typeset_cases(p, t, at); return;
@@ -223,13 +242,15 @@ static void quotient(typesetter *p, const tree *t, place at)
 
 static void unbracketed(typesetter *p, const tree *t, place at)
 {
-    static const char *const relations[] = {"<mo>&lt;</mo>", "<mo>≤</mo>", "<mo>&gt;</mo>", "<mo>≥</mo>", "<mo>=</mo>", "<mo>≠</mo>"};
+    static const char *const relations[] = {"<mo>&lt;</mo>", "<mo>≤</mo>", "<mo>&gt;</mo>",
+                                            "<mo>≥</mo>",    "<mo>=</mo>", "<mo>≠</mo>"};
     head h;
-    if (chain_of(t->kind) && !(at & PLACE_CHAIN) && shortened(p, t, at))
-        return;
+    if (chain_of(t->kind) && !(at & PLACE_CHAIN) && shortened(p, t, at)) return;
     switch (t->kind) {
     case TREE_NUMBER: typeset_number(p, t); return;
-    case TREE_NAME: case TREE_START: case TREE_COMPONENT:
+    case TREE_NAME:
+    case TREE_START:
+    case TREE_COMPONENT:
         if (typeset_head(t, &h))
             typeset_scripted(p, &h, NULL, at);
         else
@@ -268,7 +289,8 @@ void typeset_tree(typesetter *p, const tree *t, place at)
         return;
     }
     uint32_t follow = at & PLACE_FOLLOW;
-    bool swallows = (t->kind == TREE_SUM && follow == FOLLOW_FACTOR) || (typeset_calls(t, CALL_IF) && follow != FOLLOW_NOTHING);
+    bool swallows =
+        (t->kind == TREE_SUM && follow == FOLLOW_FACTOR) || (typeset_calls(t, CALL_IF) && follow != FOLLOW_NOTHING);
     if (tight_of(p, t, at & PLACE_SMALL) < (at & PLACE_TIGHT) || swallows) {
         typeset_itself(p, FENCE_ROUND, t, at);
     } else if (at & PLACE_WHOLE && !single(t, at & PLACE_SMALL)) {

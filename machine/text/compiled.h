@@ -1,19 +1,23 @@
-/* The text of a compiled model that joins the generated acceleration to the texts of step/; compiled_run.h or lanes.h comes last.
+/* The text of a compiled model that joins the generated acceleration to the texts of step/; compiled_run.h or lanes.h
+ * comes last.
  *
- * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), work.h, host.h with their
- * vocabulary, the functions and operations that the model uses, `compiled_force`, and `compiled_boundary` where the boundary is driven.
+ * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), work.h, host.h
+ * with their vocabulary, the functions and operations that the model uses, `compiled_force`, and `compiled_boundary`
+ * where the boundary is driven.
  *
- * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in w->table. They are the
- * values that one evaluation would compute.
+ * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in
+ * w->table. They are the values that one evaluation would compute.
  */
-#define BOUNDARY(host, t, x, v, a) compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
-#if WINDOWED                         /* pass.h: of all outer indices, and of those that are the workspace's turn */
+#define BOUNDARY(host, t, x, v, a) \
+    compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
+#if WINDOWED /* pass.h: of all outer indices, and of those that are the workspace's turn */
 static void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
 static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *a);
 #define FORCE(host, t, T, x, v, a) pass_all(host, t, T, x, v, a)
 #define FORCE_OF(w, t, T, x, v, a) pass_force(w, t, T, x, v, a)
 #else
-#define FORCE(host, t, T, x, v, a) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
+#define FORCE(host, t, T, x, v, a) \
+    compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0)
 #define FORCE_OF(w, t, T, x, v, a) FORCE(w->host, t, T, x, v, a)
 #endif
 
@@ -56,7 +60,10 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
 }
 
 #if TERMS
-static inline const clock *compiled_table(const work *w, int moment) { return w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS; }
+static inline const clock *compiled_table(const work *w, int moment)
+{
+    return w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS;
+}
 
 /* Within a step there always is a table. */
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
@@ -70,7 +77,8 @@ static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
     return accel_with(w, time_now(w), compiled_table(w, 0), x, v, a);
 }
 
-/* The table of LANES_OF_TIME steps from number `n` on. It is given time and step alone, so that a workspace may stay in registers. */
+/* The table of LANES_OF_TIME steps from number `n` on. It is given time and step alone, so that a workspace may stay
+ * in registers. */
 static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n)
 {
     const work clockwork = {.t0 = t0, .h = h}, *w = &clockwork;
@@ -86,9 +94,11 @@ static inline void compiled_fill_some(const compiled_host *host, clock t0, clock
 }
 
 /* Of `count` steps, and as many more as fill a vector. */
-__attribute__((noinline)) static void compiled_fill(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n, whole count)
+__attribute__((noinline)) static void compiled_fill(const compiled_host *host, clock t0, clock h, clock *restrict table,
+                                                    whole n, whole count)
 {
-    for (whole k = 0; k < count; k += LANES_OF_TIME) compiled_fill_some(host, t0, h, table + k * MOMENTS * TERMS, n + k);
+    for (whole k = 0; k < count; k += LANES_OF_TIME)
+        compiled_fill_some(host, t0, h, table + k * MOMENTS * TERMS, n + k);
 }
 #endif
 
@@ -99,7 +109,8 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 #ifndef GROUPS
 /* One equation in v alone: its diagonal, where it is constant, is fetched once. */
 #define ONE_SLOPE (FACT(w, solves) == 1 && !FACT(w, solves_x))
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
+static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
+                               real *v)
 {
     const compiled_host *host = w->host;
     if (!ONE_SLOPE) return host->factor(w, where, s, ax, av, t, x, v);
@@ -111,8 +122,10 @@ static inline int solve_factor(work *w, truth *where, int s, const clock *ax, co
 }
 static inline void solve_back(work *w, real *r)
 {
-    if (ONE_SLOPE && w->diagonal) EACHV(k) r[k] /= w->diagonal[k];
-    else w->host->back(w, r);
+    if (ONE_SLOPE && w->diagonal)
+        EACHV(k) r[k] /= w->diagonal[k];
+    else
+        w->host->back(w, r);
 }
 static inline void solve_apply(work *w, clock c, const real *y, real *out) { w->host->apply(w, c, y, out); }
 #endif

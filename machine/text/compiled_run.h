@@ -1,11 +1,13 @@
 /* The last text of a compiled model of one trajectory: what the library's stepper calls.
  *
- * Invariant: the library's workspace is copied, run and copied back. Where the system is SMALL its
- * arrays are copied too, so that the compiler may keep them in registers, and the copy is looked at for infinities once in SPAN steps: what
- * is not finite stays so. Then, or when a step fails, the library's own loop takes these steps again, from the state that it still has.
+ * Invariant: the library's workspace is copied, run and copied back. Where the system is SMALL its arrays are copied
+ * too, so that the compiler may keep them in registers, and the copy is looked at for infinities once in SPAN steps:
+ * what is not finite stays so. Then, or when a step fails, the library's own loop takes these steps again, from the
+ * state that it still has.
  */
 #if TERMS
-/* LANES_OF_TIME steps at a time, the table of the next ones before them: the processor fills it while it waits for the motion. */
+/* LANES_OF_TIME steps at a time, the table of the next ones before them: the processor fills it while it waits for
+ * the motion. */
 static inline int compiled_steps(work *w, whole steps)
 {
     enum { HALF = LANES_OF_TIME * MOMENTS * TERMS };
@@ -29,12 +31,13 @@ static inline int compiled_steps(work *w, whole steps)
 #define compiled_steps advance_run
 #endif
 
-#if SMALL                        /* a workspace that no call sees can live in registers, and what the plan says is known everywhere */
+/* a workspace that no call sees can live in registers, and what the plan says is known everywhere */
+#if SMALL
 __attribute__((flatten))
 #endif
 int motus_run(work *given, whole steps)
 {
-    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 };      /* the stride that the library's solver expects */
+    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 }; /* the stride that the library's solver expects */
     for (whole some; steps > 0; steps -= some) {
         work local = *given, *w = &local;
         w->diagonal = NULL;
@@ -52,19 +55,22 @@ int motus_run(work *given, whole steps)
         work_move(w, given, NUMBERS);
         if (compiled_steps(w, some) || !advance_finite(w)) return given->host->run(given, some);
         work_move(given, w, NUMBERS);
-        given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = w->fresh;
+        given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations,
+        given->fresh = w->fresh;
 #if FACT_carried
-        given->t = w->t, given->lost = w->lost, given->h = w->h, given->next = w->next, given->refused = w->refused, given->stalled = w->stalled;
+        given->t = w->t, given->lost = w->lost, given->h = w->h, given->next = w->next, given->refused = w->refused,
+        given->stalled = w->stalled;
 #endif
 #else
         some = steps;
         int bad = STEP_OK;
 #if LOCAL
         window_open(w);
-        if (!w->check) tiled_run(w, steps);
+        if (!w->check)
+            tiled_run(w, steps);
         else
 #endif
-        bad = compiled_steps(w, steps);
+            bad = compiled_steps(w, steps);
         *given = local;
         if (bad) return bad;
 #endif
@@ -72,10 +78,7 @@ int motus_run(work *given, whole steps)
     return STEP_OK;
 }
 
-void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a)
-{
-    compiled_evaluate(host, t, x, v, a);
-}
+void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a) { compiled_evaluate(host, t, x, v, a); }
 
 void motus_bind(const double *pool, const int64_t *q, double *u)
 {

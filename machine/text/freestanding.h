@@ -1,5 +1,6 @@
-/* The first text of a compiled model: what the other texts would have from C's headers, in the compiler's own words, because reading the
- * headers takes a compiler longer than compiling a small model. GCC and clang have these words on every target.
+/* The first text of a compiled model: what the other texts would have from C's headers, in the compiler's own words,
+ * because reading the headers takes a compiler longer than compiling a small model. GCC and clang have these words on
+ * every target.
  */
 typedef __SIZE_TYPE__ size_t;
 typedef __INT64_TYPE__ int64_t;
@@ -7,17 +8,17 @@ typedef __UINT64_TYPE__ uint64_t;
 #define bool _Bool
 #define true 1
 #define false 0
-#define NULL ((void *)0)
+#define NULL        ((void *)0)
 #define DBL_EPSILON __DBL_EPSILON__
-#define INFINITY __builtin_inff()
-#define NAN __builtin_nanf("")
-#define fma __builtin_fma
-#define sqrt __builtin_sqrt
-#define fabs __builtin_fabs
-#define floor __builtin_floor
-#define fmod __builtin_fmod
-#define copysign __builtin_copysign
-#define signbit __builtin_signbit
+#define INFINITY    __builtin_inff()
+#define NAN         __builtin_nanf("")
+#define fma         __builtin_fma
+#define sqrt        __builtin_sqrt
+#define fabs        __builtin_fabs
+#define floor       __builtin_floor
+#define fmod        __builtin_fmod
+#define copysign    __builtin_copysign
+#define signbit     __builtin_signbit
 /* Before a loop whose turns are known in number: it is written out. */
 #ifdef __clang__
 #define WRITTEN_OUT _Pragma("clang loop unroll(full)")

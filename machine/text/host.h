@@ -5,16 +5,19 @@
 struct compiled_host {
     const double *pool, *u;
     const int64_t *q;
-    real *own, *bound;               /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
+    /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
+    real *own, *bound;
     struct solving *solving;         /* of lanes: their linear systems, and which of them */
     real *lost;                      /*   could not be solved */
-    int (*run)(work *, whole steps);                       /* the library's own loop */
+    int (*run)(work *, whole steps); /* the library's own loop */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
-    const real *(*diagonal)(const work *);                   /* the factored matrix, where it is that and stays so; else NULL */
-    const struct tiling *tiling;     /* of families whose outer indices can be taken apart; NULL */
-    struct parallel_crew *crew;      /* and its parallel_by */
-    void (*parallel)(struct parallel_crew *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);
+    /* the factored matrix, where it is that and stays so; else NULL */
+    const real *(*diagonal)(const work *);
+    const struct tiling *tiling; /* of families whose outer indices can be taken apart; NULL */
+    struct parallel_crew *crew;  /* and its parallel_by */
+    void (*parallel)(struct parallel_crew *, int threads, size_t items,
+                     void (*body)(void *ctx, size_t item, int thread), void *ctx);
 };
 typedef struct compiled_host compiled_host;

@@ -1,10 +1,13 @@
-/* Lanes along an index: a loop over the cells of a family, or over the terms of a sum, takes WIDTH values of its index at a time.
+/* Lanes along an index: a loop over the cells of a family, or over the terms of a sum, takes WIDTH values of its
+ * index at a time.
  *
- * Invariant: lane l is the l-th of them, and sees the operations that it would see alone. What is left of the loop is taken one by one.
+ * Invariant: lane l is the l-th of them, and sees the operations that it would see alone. What is left of the loop is
+ * taken one by one.
  */
-typedef reals reals_anywhere __attribute__((aligned(8)));      /* GCC and clang let a vector alias its elements */
+typedef reals reals_anywhere __attribute__((aligned(8))); /* GCC and clang let a vector alias its elements */
 
-/* Keeps a vector in a register. Compilers like to read memory again for every use of a value; here that is what bounds the speed. */
+/* Keeps a vector in a register. Compilers like to read memory again for every use of a value; here that is what
+ * bounds the speed. */
 #if (defined __AVX512F__ && WIDTH == 8)
 #define INDEX_KEEP(x) __asm__("" : "+v"(x))
 #elif (defined __AVX__ && WIDTH == 4) || (defined __SSE2__ && WIDTH == 2)

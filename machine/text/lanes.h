@@ -1,9 +1,9 @@
 /* The last text of a compiled model in lanes: a block of trajectories starts, goes on, is looked at.
  *
- * Before it stand lanes_start, lanes_bind and lanes_looks, written for the model, and EVERY_GROUP(DO), DO(0) DO(1) … for the groups of a block.
- * Invariant: a lane never sees another; what a block needs between two calls lies in its job. In between a block of a small model lives in
- * registers and the first cache: each group takes its whole step, and the processor overlaps the groups, whose chains of operations are
- * strangers to one another.
+ * Before it stand lanes_start, lanes_bind and lanes_looks, written for the model, and EVERY_GROUP(DO), DO(0) DO(1) …
+ * for the groups of a block. Invariant: a lane never sees another; what a block needs between two calls lies in its
+ * job. In between a block of a small model lives in registers and the first cache: each group takes its whole step,
+ * and the processor overlaps the groups, whose chains of operations are strangers to one another.
  */
 void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_bind(pool, q, u); }
 
@@ -38,14 +38,16 @@ static inline void lanes_load(work *w, const real *carry)
 {
     real *list[CARRY_MAX];
     int count = family_carry(w, list);
-    for (int i = 0; i < count; i++) EACHV(k) list[i][k] = carry[(size_t)i * FACT(w, nv) + k];
+    for (int i = 0; i < count; i++)
+        EACHV(k) list[i][k] = carry[(size_t)i * FACT(w, nv) + k];
 }
 
 static inline void lanes_store(work *w, real *carry)
 {
     real *list[CARRY_MAX];
     int count = family_carry(w, list);
-    for (int i = 0; i < count; i++) EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = list[i][k];
+    for (int i = 0; i < count; i++)
+        EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = list[i][k];
 }
 
 /* From the values that vary to the state at the start. */
@@ -71,7 +73,8 @@ void motus_lanes_set(const lanes_job *job)
     const work *w = job->plan;
     for (size_t group = 0; group < GROUPS; group++) {
         real *carry = job->carry + group * CARRIED * FACT(w, nv);
-        for (int i = 0; i < CARRIED; i++) EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = (real){0};
+        for (int i = 0; i < CARRIED; i++)
+            EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = (real){0};
         EACH(k) carry[k] = job->x[group * FACT(w, nx) + k];
         EACHV(k) carry[FACT(w, nv) + k] = job->v[group * FACT(w, nv) + k];
     }
@@ -82,17 +85,17 @@ void motus_lanes_set(const lanes_job *job)
 
 /* A workspace of one group in memory, after n steps. */
 #if LANES_LOCAL
-#define LANES_WORKSPACE(w, host, n_)                                                    \
-    work w##_ = *job->plan, *w = &w##_;                                                  \
-    real room[ARRAYS * NUMBERS];                                                        \
-    w->stride = NUMBERS, w->n = (n_), w->table = job->table, w->first = job->first;     \
-    lanes_place(w, host, room);                                                         \
+#define LANES_WORKSPACE(w, host, n_)                                                \
+    work w##_ = *job->plan, *w = &w##_;                                             \
+    real room[ARRAYS * NUMBERS];                                                    \
+    w->stride = NUMBERS, w->n = (n_), w->table = job->table, w->first = job->first; \
+    lanes_place(w, host, room);                                                     \
     lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
 #else
-#define LANES_WORKSPACE(w, host, n_)                                                    \
-    work w##_ = *job->plan, *w = &w##_;                                                  \
-    w->n = (n_), w->table = job->table, w->first = job->first;                          \
-    lanes_place(w, host, job->room + group * ARRAYS * w->stride);                       \
+#define LANES_WORKSPACE(w, host, n_)                              \
+    work w##_ = *job->plan, *w = &w##_;                           \
+    w->n = (n_), w->table = job->table, w->first = job->first;    \
+    lanes_place(w, host, job->room + group * ARRAYS * w->stride); \
     lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
 #endif
 
@@ -109,15 +112,22 @@ void motus_lanes_first(const lanes_job *job)
 }
 
 /* What is recorded of a state: `all` of it, or what has to be seen on the way. */
-static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first, bool all, size_t group)
+static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first,
+                              bool all, size_t group)
 {
-    WRITTEN_OUT_RECORDS for (size_t i = 0; i < RECORDS; i++) {
+    WRITTEN_OUT_RECORDS for (size_t i = 0; i < RECORDS; i++)
+    {
         const lanes_record *r = &the_records[i];
         if (!all && r->how == REDUCE_FINAL) continue;
-        const real value = r->from == LANES_X ? x[r->element] : r->from == LANES_V ? v[r->element] : r->from == LANES_OUT ? out[r->element] : MANY(t);
+        const real value = r->from == LANES_X     ? x[r->element]
+                           : r->from == LANES_V   ? v[r->element]
+                           : r->from == LANES_OUT ? out[r->element]
+                                                  : MANY(t);
         real *kept = job->kept + (group * RECORDS + i) * REDUCE_KEPT;
-        if (first) reduce_first(kept, value, MANY(t));
-        else reduce_next(kept, r->how, value, MANY(t));
+        if (first)
+            reduce_first(kept, value, MANY(t));
+        else
+            reduce_next(kept, r->how, value, MANY(t));
     }
 }
 
@@ -127,7 +137,7 @@ static inline void lanes_see(const lanes_job *job, work *w, const compiled_host 
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
     real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
     advance_sync(w, x, v, (real *)0);
-    if (t != time_now(w)) refresh_at(w, t, x, v);         /* the end is `until`, whatever t0 + n h comes to */
+    if (t != time_now(w)) refresh_at(w, t, x, v); /* the end is `until`, whatever t0 + n h comes to */
     if (a) accel(w, t, x, v, a);
     lanes_looks(host, t, x, v, a, out);
 }
@@ -141,7 +151,8 @@ void motus_lanes_look(const lanes_job *job)
         LANES_WORKSPACE(w, &host, job->plan->n);
         lanes_see(job, w, &host, t, group);
         if (job->record_count)
-            lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t, job->first_look, true, group);
+            lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv),
+                       job->out + group * job->out_size, t, job->first_look, true, group);
     }
 }
 
@@ -150,7 +161,8 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 {
 #if SEES_VELOCITY
     lanes_see(job, w, host, t, group);
-    lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t, false, false, group);
+    lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t,
+               false, false, group);
 #else
     (void)host;
     lanes_keep(job, w->x, w->v, (real *)0, t, false, false, group);
@@ -163,17 +175,27 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 #define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
 #endif
 #define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g);
-#define LANES_LOAD(g) lanes_place(w, &host_##g, room_##g); lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_STEP(g) lanes_place(w, &host_##g, room_##g); w->fresh = fresh; family_step(w);
-#define LANES_LOOK(g) lanes_place(w, &host_##g, room_##g); w->fresh = false; lanes_look_within(job, w, &host_##g, time_now(w), g);
-#define LANES_STORE(g) lanes_place(w, &host_##g, room_##g); lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_LOAD(g)                    \
+    lanes_place(w, &host_##g, room_##g); \
+    lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_STEP(g)                    \
+    lanes_place(w, &host_##g, room_##g); \
+    w->fresh = fresh;                    \
+    family_step(w);
+#define LANES_LOOK(g)                    \
+    lanes_place(w, &host_##g, room_##g); \
+    w->fresh = false;                    \
+    lanes_look_within(job, w, &host_##g, time_now(w), g);
+#define LANES_STORE(g)                   \
+    lanes_place(w, &host_##g, room_##g); \
+    lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
 
 /* `steps` more, not the first one, and a look after every `every` of them; every = 0: none. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     work local = *job->plan, *w = &local;
     clock scaled[CONSTANTS + 1];
-    bool fresh = false;              /* the accelerations of all groups are known, because somebody looked */
+    bool fresh = false; /* the accelerations of all groups are known, because somebody looked */
 #if LANES_LOCAL
     w->stride = NUMBERS;
 #endif

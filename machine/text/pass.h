@@ -1,17 +1,23 @@
-/* The acceleration of a model whose outer indices can be taken apart: of a window, or of all of them by several threads; and the pass of a model of
- * neighbours, which makes acceleration, kick and drift one sweep over memory.
+/* The acceleration of a model whose outer indices can be taken apart: of a window, or of all of them by several
+ * threads; and the pass of a model of neighbours, which makes acceleration, kick and drift one sweep over memory.
  *
- * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that differs.
+ * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that
+ * differs.
  */
-/* Functions of their own, so that their loops have all registers, and whether there is a pass is known when they are compiled. */
-#define PASS_WINDOW(...) compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, &(window_put){__VA_ARGS__})
+/* Functions of their own, so that their loops have all registers, and whether there is a pass is known when they are
+ * compiled. */
+#define PASS_WINDOW(...)                                                                                             \
+    compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, \
+                   &(window_put){__VA_ARGS__})
 
-__attribute__((noinline, flatten)) static void pass_keep(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at)
+__attribute__((noinline, flatten)) static void pass_keep(const compiled_host *host, clock t, const clock *T, real *x,
+                                                         real *v, real *a, const window *at)
 {
     PASS_WINDOW(.pass = false);
 }
 
-/* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as well. */
+/* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as
+ * well. */
 static void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
 {
     const tiling *in = host->tiling;
@@ -27,11 +33,13 @@ __attribute__((noinline)) static void pass_still(const work *w, real *x, real *v
     const tiling *in = w->host->tiling;
     for (int p = 0; p < in->parts; p++) {
         const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
-        size_t low = 0, high = in->stills;                        /* the first stretch that ends behind `begin` */
+        size_t low = 0, high = in->stills; /* the first stretch that ends behind `begin` */
         while (low < high) {
             const size_t middle = (low + high) / 2;
-            if (in->still[2 * middle + 1] <= begin) low = middle + 1;
-            else high = middle;
+            if (in->still[2 * middle + 1] <= begin)
+                low = middle + 1;
+            else
+                high = middle;
         }
         for (; low < in->stills && in->still[2 * low] < end; low++)
             for (size_t k = in->still[2 * low]; k < in->still[2 * low + 1]; k++)
@@ -48,16 +56,17 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
 }
 
 #if !COMPANIONS
-#define PASS_MOVE(name, twice)                                                                                                                          \
-    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a, const window *at, \
-                                                        const window_put *how)                                                                        \
-    {                                                                                                                                                  \
-        PASS_WINDOW(true, twice, how->b, how->c, how->next, how->ex, how->ev);                                                                          \
+#define PASS_MOVE(name, twice)                                                                                       \
+    __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, \
+                                                        real *v, real *a, const window *at, const window_put *how)   \
+    {                                                                                                                \
+        PASS_WINDOW(true, twice, how->b, how->c, how->next, how->ex, how->ev);                                       \
     }
 PASS_MOVE(pass_move, false)
 PASS_MOVE(pass_move_twice, true)
 
-/* Stage i: v += b a, x += c v; and the drift that the next step begins with, where it begins with one and is in the same tile. */
+/* Stage i: v += b a, x += c v; and the drift that the next step begins with, where it begins with one and is in the
+ * same tile. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
 __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 {
@@ -74,8 +83,10 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
     w->evaluations++;
     window_move(w, w->host->tiling->pass);
     pass_still(w, x, w->v, next, &move);
-    if (twice) pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
-    else pass_move(w->host, t, T, x, w->v, next, &w->window, &move);
+    if (twice)
+        pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
+    else
+        pass_move(w->host, t, T, x, w->v, next, &w->window, &move);
     w->moved += twice ? 2 : 1;
     w->x = next;
     w->a = x;
@@ -84,7 +95,13 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 
 #else
 
-typedef struct pass_job { const compiled_host *host; clock t; const clock *T; real *x, *v, *a; size_t tasks; } pass_job;
+typedef struct pass_job {
+    const compiled_host *host;
+    clock t;
+    const clock *T;
+    real *x, *v, *a;
+    size_t tasks;
+} pass_job;
 
 static void pass_task(void *ctx, size_t k, int thread)
 {
@@ -92,11 +109,13 @@ static void pass_task(void *ctx, size_t k, int thread)
     const pass_job *job = ctx;
     const tiling *in = job->host->tiling;
     const whole cells = in->last - in->first + 1, tasks = (whole)job->tasks, i = (whole)k;
-    window part = {.from = i == 0 ? -WINDOW_ALL : in->first + cells * i / tasks, .to = i == tasks - 1 ? WINDOW_ALL : in->first + cells * (i + 1) / tasks};
+    window part = {.from = i == 0 ? -WINDOW_ALL : in->first + cells * i / tasks,
+                   .to = i == tasks - 1 ? WINDOW_ALL : in->first + cells * (i + 1) / tasks};
     pass_keep(job->host, job->t, job->T, job->x, job->v, job->a, &part);
 }
 
-enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };          /* for each thread, to even out; and cells that are worth a task */
+/* for each thread, to even out; and cells that are worth a task */
+enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };
 
 __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {

@@ -10,8 +10,8 @@
  * row meets a velocity term that does work, by an infinity. What is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
-#define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
-#define SOLVE_SIZE ((sizeof(solving) + 63) / 64 * 64)
+#define SOLVE_MATRIX   (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
+#define SOLVE_SIZE     ((sizeof(solving) + 63) / 64 * 64)
 const size_t motus_lanes_solving = SOLVE_SIZE;
 
 static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t group)
@@ -23,10 +23,7 @@ static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t
 }
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
-static inline void solve_stop(work *w, truth where)
-{
-    *w->host->lost = PICK(where, MANY((clock)NAN), *w->host->lost);
-}
+static inline void solve_stop(work *w, truth where) { *w->host->lost = PICK(where, MANY((clock)NAN), *w->host->lost); }
 static inline void solve_spoil(work *w, real *y)
 {
     const real lost = *w->host->lost;
@@ -66,10 +63,12 @@ static inline void solve_swap(real *restrict m, real best, int j)
 static inline truth solve_lu(real *restrict m, real *restrict pivot)
 {
     truth regular = ALWAYS;
-    WRITTEN_OUT for (int j = 0; j < SOLVE_N; j++) {
+    WRITTEN_OUT for (int j = 0; j < SOLVE_N; j++)
+    {
         real *column = m + j * SOLVE_N + j, largest = ABS(column[0]), best = MANY(0.0);
         const int below = SOLVE_LAST(j, SOLVE_LOWER) - j;
-        WRITTEN_OUT for (int i = 1; i <= below; i++) {
+        WRITTEN_OUT for (int i = 1; i <= below; i++)
+        {
             const truth more = ABS(column[i]) > largest;
             largest = PICK(more, ABS(column[i]), largest);
             best = PICK(more, (clock)i, best);
@@ -91,7 +90,8 @@ static inline truth solve_lu(real *restrict m, real *restrict pivot)
 
 static inline void solve_lu_back(const real *restrict m, const real *restrict pivot, real *restrict b)
 {
-    WRITTEN_OUT for (int j = 0; j < SOLVE_N; j++) {
+    WRITTEN_OUT for (int j = 0; j < SOLVE_N; j++)
+    {
         const real *column = m + j * SOLVE_N + j, best = pivot[j];
         const int below = SOLVE_LAST(j, SOLVE_LOWER) - j;
         if (SOME(best != 0))
@@ -103,7 +103,8 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
             }
         WRITTEN_OUT for (int i = 1; i <= below; i++) b[j + i] = FMA(-b[j], column[i], b[j + i]);
     }
-    WRITTEN_OUT for (int j = SOLVE_N - 1; j >= 0; j--) {
+    WRITTEN_OUT for (int j = SOLVE_N - 1; j >= 0; j--)
+    {
         const real *column = m + j * SOLVE_N + j;
         const int above = j < SOLVE_LOWER + SOLVE_UPPER ? j : SOLVE_LOWER + SOLVE_UPPER;
         b[j] /= column[0];
@@ -145,8 +146,10 @@ static inline int solve_factor(work *w, truth *where, int s, const clock *ax, co
 {
     const compiled_host *host = w->host;
     (void)s;
-    if (!SOLVE_CONSTANT) solve_renew(host, host->solving, where, ax, av, t, x, v);
-    else if (!host->solving->factored) solve_once(host, ax, av, t);
+    if (!SOLVE_CONSTANT)
+        solve_renew(host, host->solving, where, ax, av, t, x, v);
+    else if (!host->solving->factored)
+        solve_once(host, ax, av, t);
     return STEP_OK;
 }
 

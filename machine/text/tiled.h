@@ -1,19 +1,23 @@
 /* TILES: several steps of a model of neighbours in one sweep over memory, by as many threads as there are blocks.
  *
- * The outer indices are cut into blocks. In the plane of index and time a block is first advanced over the trapezoid that needs nothing from its
- * neighbours: its inner ends draw in with every pass. Then the seams between blocks, triangles that widen by as much, are filled. Blocks, and
- * after them seams, need nothing of each other, so threads may take them in any order. Within a block the trapezoid is cut
- * into strips that lean to lower indices: strip after strip, every strip all the steps, so a strip's numbers stay in the cache. Whether all
- * are finite at the end is seen while they are there.
+ * The outer indices are cut into blocks. In the plane of index and time a block is first advanced over the trapezoid
+ * that needs nothing from its neighbours: its inner ends draw in with every pass. Then the seams between blocks,
+ * triangles that widen by as much, are filled. Blocks, and after them seams, need nothing of each other, so threads
+ * may take them in any order. Within a block the trapezoid is cut into strips that lean to lower indices: strip after
+ * strip, every strip all the steps, so a strip's numbers stay in the cache. Whether all are finite at the end is seen
+ * while they are there.
  *
- * Invariant: every number sees the operations of the untiled loop in their order, with the same operands. What a step changes besides the
- * numbers (count, copies exchanged) is the same for every tile; it is kept from one of them.
+ * Invariant: every number sees the operations of the untiled loop in their order, with the same operands. What a step
+ * changes besides the numbers (count, copies exchanged) is the same for every tile; it is kept from one of them.
  */
 enum {
-    TILED_STRIP = 24 << 10, TILED_REACH = 192 << 10,       /* bytes that a strip of one step touches, and all its steps */
-    TILED_LINE = 8,                                        /* numbers in a cache line */
-    TILED_BLOCKS = 4,                                      /* for each thread, to even out */
-    TILED_STEPS = TERMS * MOMENTS <= 128 ? 64 : 4          /* in a sweep; what depends on time alone is computed for all of them beforehand */
+    /* bytes that a strip of one step touches, and all its steps */
+    TILED_STRIP = 24 << 10,
+    TILED_REACH = 192 << 10,
+    TILED_LINE = 8,   /* numbers in a cache line */
+    TILED_BLOCKS = 4, /* for each thread, to even out */
+    /* in a sweep; what depends on time alone is computed for all of them beforehand */
+    TILED_STEPS = TERMS * MOMENTS <= 128 ? 64 : 4
 };
 
 typedef struct tiled_job {
@@ -21,14 +25,14 @@ typedef struct tiled_job {
     work end;
     whole steps, strip, block;
     int blocks;
-    bool last, lost;               /* sweep; a number is not finite at its end */
+    bool last, lost; /* sweep; a number is not finite at its end */
 } tiled_job;
 
 __attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)
 {
     for (whole s = 0; s < job->steps; s++) {
         w->window.more = s + 1 < job->steps;
-        (void)advance_step(w);                 /* nothing here can fail: no solver, no callback */
+        (void)advance_step(w); /* nothing here can fail: no solver, no callback */
     }
     if (job->last && !advance_finite(w)) __atomic_store_n(&job->lost, true, __ATOMIC_RELAXED);
 }
@@ -41,7 +45,8 @@ static void tiled_block(void *ctx, size_t block, int thread)
     tiled_job *job = ctx;
     const int k = (int)block;
     const bool lowest = k == 0, highest = k == job->blocks - 1;
-    const whole low = tiled_border(job, k), high = highest ? job->begin->host->tiling->last + 1 : tiled_border(job, k + 1);
+    const whole low = tiled_border(job, k),
+                high = highest ? job->begin->host->tiling->last + 1 : tiled_border(job, k + 1);
     bool last = false;
     for (whole from = low; !last; from += job->strip) {
         last = from + job->strip >= high;
@@ -71,7 +76,8 @@ static inline void tiled_run(work *w, whole steps)
     const compiled_host *host = w->host;
     const tiling *in = host->tiling;
     const whole cells = in->last - in->first + 1, row = (whole)(in->numbers * ARRAYS * sizeof(real));
-    const whole way = (w->stages > 1 ? w->stages : 1) * window_later(in->pass, 2 * in->around);      /* of a window in a step, at most */
+    /* of a window in a step, at most */
+    const whole way = (w->stages > 1 ? w->stages : 1) * window_later(in->pass, 2 * in->around);
     tiled_job job = {.begin = w, .strip = TILED_STRIP / row, .blocks = 1};
     if (job.strip >= TILED_LINE) job.strip -= job.strip % TILED_LINE;
     if (job.strip < 1) job.strip = 1;
@@ -85,7 +91,8 @@ static inline void tiled_run(work *w, whole steps)
         job.steps = window_sooner(most, steps);
         job.last = job.steps == steps;
         if (w->threads > 1)
-            job.blocks = (int)window_later(1, window_sooner(w->threads * TILED_BLOCKS, cells / (4 * way * job.steps + TILED_LINE)));
+            job.blocks = (int)window_later(
+                1, window_sooner(w->threads * TILED_BLOCKS, cells / (4 * way * job.steps + TILED_LINE)));
         job.block = cells / job.blocks;
         if (job.block >= TILED_LINE) job.block -= job.block % TILED_LINE;
 #if TERMS

@@ -5,9 +5,9 @@
  *     PUT(k, value)       what becomes of the acceleration of number k
  *     window_later, window_sooner
  *
- * Why windows of neighbouring steps may overlap in memory, and so why tiles give the same bits: whatever reads beyond its own index reads
- * `reach` indices away, and window_move takes a window out of the reach of what was written before it and of what will be read after it,
- * on the side that is open. tiled.h says which windows there are.
+ * Why windows of neighbouring steps may overlap in memory, and so why tiles give the same bits: whatever reads beyond
+ * its own index reads `reach` indices away, and window_move takes a window out of the reach of what was written
+ * before it and of what will be read after it, on the side that is open. tiled.h says which windows there are.
  */
 static inline whole window_later(whole a, whole b) { return a > b ? a : b; }
 static inline whole window_sooner(whole a, whole b) { return a < b ? a : b; }
@@ -19,12 +19,12 @@ static inline size_t window_place(const tiling_part *p, whole index)
 }
 
 #if LOCAL
-#define WINDOW(k, count)                                                                                                    \
-    for (const tiling_part *p_ = w->host->tiling->part, *end_ = p_ + (count); p_ < end_; p_++)                         \
+#define WINDOW(k, count)                                                                       \
+    for (const tiling_part *p_ = w->host->tiling->part, *end_ = p_ + (count); p_ < end_; p_++) \
         for (size_t k = window_place(p_, w->window.from), to_ = window_place(p_, w->window.to); k < to_; k++)
 #undef EACH
 #undef EACHV
-#define EACH(k) WINDOW(k, w->host->tiling->positions)
+#define EACH(k)  WINDOW(k, w->host->tiling->positions)
 #define EACHV(k) WINDOW(k, w->host->tiling->parts)
 #endif
 
@@ -52,9 +52,14 @@ static inline void window_open(work *w)
     window_meet(&w->window);
 }
 
-/* What PUT does: keeps the acceleration or, in a pass, kicks and drifts at once; the new position goes to another copy of x, which stands where
- * the accelerations would, so that neighbours still find the old one. `twice`: a drift `next`, which the next step begins with, follows. */
-typedef struct window_put { bool pass, twice; clock b, c, next; real *ex, *ev; } window_put;
+/* What PUT does: keeps the acceleration or, in a pass, kicks and drifts at once; the new position goes to another
+ * copy of x, which stands where the accelerations would, so that neighbours still find the old one. `twice`: a drift
+ * `next`, which the next step begins with, follows. */
+typedef struct window_put {
+    bool pass, twice;
+    clock b, c, next;
+    real *ex, *ev;
+} window_put;
 
-#define PUT(k, value) window_keep(move, x, v, a, (size_t)(k), (value))
+#define PUT(k, value)  window_keep(move, x, v, a, (size_t)(k), (value))
 #define PUTS(k, value) window_keep_many(move, x, v, a, (size_t)(k), (value))

@@ -4,10 +4,13 @@
  *
  *     sinh |x| = 2^(k-1) (cosh r (1 - u) + sinh r (1 + u)),    cosh x = 2^(k-1) (cosh r (1 + u) + sinh r (1 - u)),
  *
- * where k = 0 leaves sinh r and cosh r themselves. Invariant: each of the four factors is a pair, so the only rounding of full
- * weight is the last sum. The series are those of exp.
+ * where k = 0 leaves sinh r and cosh r themselves. Invariant: each of the four factors is a pair, so the only
+ * rounding of full weight is the last sum. The series are those of exp.
  */
-typedef struct NAME(hyperbola) { pair even, odd, plus, minus; reals shifted; } NAME(hyperbola);
+typedef struct NAME(hyperbola) {
+    pair even, odd, plus, minus;
+    reals shifted;
+} NAME(hyperbola);
 #define hyperbola NAME(hyperbola)
 
 /* 0 <= x < 2000 */

@@ -1,17 +1,23 @@
 /* asin, acos, atan, atan2.
  *
  *     asin s = s + s^3 P(s^2)        within 9.9e-19 s on |s| <= 1/2; beyond, asin a = pi/2 - 2 asin(sqrt((1 - a)/2))
- *     atan t = t + t^3 Q(t^2)        within 1.3e-18 t on |t| <= sqrt(2) - 1; beyond, atan q = pi/4 + atan((q - 1)/(q + 1))
+ *     atan t = t + t^3 Q(t^2)        within 1.3e-18 t on |t| <= sqrt(2) - 1; beyond, atan q = pi/4 + atan((q - 1)/(q
+ *                                    + 1))
  *
- * Invariant: the roots and quotients that the reductions make are carried as pairs, and so are the multiples of pi/4 that come back.
+ * Invariant: the roots and quotients that the reductions make are carried as pairs, and so are the multiples of pi/4
+ * that come back.
  */
 #define PI_HI 0x1.921fb54442d18p+1
 #define PI_LO 0x1.1a62633145c07p-53
 
-typedef struct NAME(arc) { reals s, s_lo, correction; mask steep; } NAME(arc);
+typedef struct NAME(arc) {
+    reals s, s_lo, correction;
+    mask steep;
+} NAME(arc);
 #define arc NAME(arc)
 
-/* s + s_lo + correction is asin a, or asin(sqrt((1 - a)/2)) where a > 1/2; 0 <= a, and above 1 there is no root: NaN. */
+/* s + s_lo + correction is asin a, or asin(sqrt((1 - a)/2)) where a > 1/2; 0 <= a, and above 1 there is no root:
+ * NaN. */
 INLINE arc NAME(arc_of)(reals a)
 {
     arc y;
@@ -23,10 +29,12 @@ INLINE arc NAME(arc_of)(reals a)
     reals root_lo = FUSED(-root, root, rest) / FUSED(root, REAL(2.0), REAL(0x1p-1000));
     y.s = SELECT(y.steep, root, a);
     y.s_lo = SELECT(y.steep, root_lo, REAL(0.0));
-    reals upper = POLY5(z, z2, z4, 0x1.6178650f68b4ep-7, 0x1.e27f6641a4925p-9, 0x1.64a4dd069d748p-6, -0x1.596cfbf2b2fdap-6,
-                       0x1.0bb7b2f0e90d6p-5);
-    reals series = FUSED(z8, upper, POLY8(z, z2, z4, 0x1.5555555555578p-3, 0x1.333333332df3bp-4, 0x1.6db6db72289dap-5,
-                      0x1.f1c71a8cef866p-6, 0x1.6e8bdfbb0af7fp-6, 0x1.1c49e16d4636ep-6, 0x1.ca20eab934aa9p-7, 0x1.757aa0d824bfdp-7));
+    reals upper = POLY5(z, z2, z4, 0x1.6178650f68b4ep-7, 0x1.e27f6641a4925p-9, 0x1.64a4dd069d748p-6,
+                        -0x1.596cfbf2b2fdap-6, 0x1.0bb7b2f0e90d6p-5);
+    reals series =
+        FUSED(z8, upper,
+              POLY8(z, z2, z4, 0x1.5555555555578p-3, 0x1.333333332df3bp-4, 0x1.6db6db72289dap-5, 0x1.f1c71a8cef866p-6,
+                    0x1.6e8bdfbb0af7fp-6, 0x1.1c49e16d4636ep-6, 0x1.ca20eab934aa9p-7, 0x1.757aa0d824bfdp-7));
     y.correction = FUSED(y.s * z, series, y.s_lo);
     return y;
 }
@@ -44,7 +52,7 @@ INLINE reals NAME(asin)(reals x)
 INLINE reals NAME(acos)(reals x)
 {
     arc y = NAME(arc_of)(ABSOLUTE(x));
-    mask behind = x < REAL(-0.5), ahead = x > REAL(0.5);
+    mask behind = x<REAL(-0.5), ahead = x> REAL(0.5);
     reals times = SELECT(ahead, REAL(2.0), SELECT(behind, REAL(-2.0), REAL(-1.0)));
     reals s = SELECT(y.steep, y.s, x) * times;
     reals from = SELECT(behind, REAL(PI_HI), SELECT(ahead, REAL(0.0), REAL(PI_HI / 2)));
@@ -66,8 +74,10 @@ INLINE pair NAME(atan_ratio)(reals n, reals d)
     reals t_lo = (FUSED(-t, b, a) + FUSED(-t, b_lo, a_lo)) * r;
     reals z = t * t, z2 = z * z, z4 = z2 * z2, z8 = z4 * z4;
     reals upper = POLY3(z, z2, -0x1.9cdbbdb74ec1fp-5, 0x1.37ec879e1846ap-5, -0x1.259c51662d45p-6);
-    reals series = FUSED(z8, upper, POLY8(z, z2, z4, -0x1.555555555553dp-2, 0x1.99999999958b8p-3, -0x1.24924922b0348p-3,
-                      0x1.c71c70e75c419p-4, -0x1.745cf905068d2p-4, 0x1.3b111c10952c2p-4, -0x1.10ebdabd91dabp-4, 0x1.df1147b6816dp-5));
+    reals series =
+        FUSED(z8, upper,
+              POLY8(z, z2, z4, -0x1.555555555553dp-2, 0x1.99999999958b8p-3, -0x1.24924922b0348p-3, 0x1.c71c70e75c419p-4,
+                    -0x1.745cf905068d2p-4, 0x1.3b111c10952c2p-4, -0x1.10ebdabd91dabp-4, 0x1.df1147b6816dp-5));
     pair sum = NAME(sum_ordered)(SELECT(shift, REAL(PI_HI / 4), REAL(0.0)), t);
     sum.lo += FUSED(t * z, series, FUSED(-z, t_lo, t_lo)) + SELECT(shift, REAL(PI_LO / 4), REAL(0.0));
     return sum;

@@ -1,7 +1,7 @@
 /* The functions of the language that are one operation of the machine, or a few.
  *
- * Invariant: f(NaN) is NaN, and no result depends on the sign of a zero that the mathematics does not have. fmod is exact, so every C library
- * has the same one; all else here is made of operations that are rounded correctly.
+ * Invariant: f(NaN) is NaN, and no result depends on the sign of a zero that the mathematics does not have. fmod is
+ * exact, so every C library has the same one; all else here is made of operations that are rounded correctly.
  */
 INLINE reals NAME(sqrt)(reals x) { return SQRT(x); }
 INLINE reals NAME(abs)(reals x) { return ABSOLUTE(x); }
@@ -13,8 +13,8 @@ INLINE reals NAME(floor)(reals x)
     return SELECT(ABSOLUTE(x) < REAL(0x1p52), SELECT(whole > x, whole - REAL(1.0), whole), x);
 }
 
-/* min and max pass a NaN on, whichever side it is on (C's fmin hides it, and with it a divergence); -0 counts as below +0, so that
- * the operands may be exchanged without changing a bit. */
+/* min and max pass a NaN on, whichever side it is on (C's fmin hides it, and with it a divergence); -0 counts as
+ * below +0, so that the operands may be exchanged without changing a bit. */
 INLINE reals NAME(min)(reals x, reals y)
 {
     return SELECT(x < y, x, SELECT(y < x, y, SELECT(x == y, AS_REAL(AS_BITS(x) | AS_BITS(y)), x + y)));
@@ -31,8 +31,8 @@ INLINE reals NAME(sign)(reals x)
     return SELECT(x > REAL(0.0), REAL(1.0), SELECT(x < REAL(0.0), REAL(-1.0), SELECT(x == REAL(0.0), REAL(0.0), x)));
 }
 
-/* The mathematical mod, x - y floor(x/y): its sign is the divisor's, mod(-1, 3) = 2. mod(x, 0) is NaN. The remainder itself is
- * exact; only the shift by y may round, so that mod of a tiny negative x can be y itself. */
+/* The mathematical mod, x - y floor(x/y): its sign is the divisor's, mod(-1, 3) = 2. mod(x, 0) is NaN. The remainder
+ * itself is exact; only the shift by y may round, so that mod of a tiny negative x can be y itself. */
 COLD double NAME(mod_of_one)(double x, double y)
 {
     double r = fmod(x, y);

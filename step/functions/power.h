@@ -1,8 +1,8 @@
 /* pow: log(x) to 2^-65 and y times it, as pairs, then exp.
  *
- * With s = (m - 1)/(m + 1) as in log, s itself a pair, 2 artanh(s) = 2 s + s^3 (2/3 + s^2 L(s^2)) within 2.3e-20 s, 2/3 a pair.
- * Invariant: |y log x| <= 745 where the result is finite, so the error of the logarithm costs at most 2^-55 of the result.
- * Special cases are those of C's annex F.
+ * With s = (m - 1)/(m + 1) as in log, s itself a pair, 2 artanh(s) = 2 s + s^3 (2/3 + s^2 L(s^2)) within 2.3e-20 s,
+ * 2/3 a pair. Invariant: |y log x| <= 745 where the result is finite, so the error of the logarithm costs at most
+ * 2^-55 of the result. Special cases are those of C's annex F.
  */
 INLINE pair NAME(log_pair)(reals x)
 {
@@ -15,8 +15,8 @@ INLINE pair NAME(log_pair)(reals x)
     pair z = NAME(product)(s, s);
     z.lo = FUSED(s + s, s_lo, z.lo);
     reals z2 = z.hi * z.hi, z4 = z2 * z2;
-    reals series = POLY7(z.hi, z2, z4, 0x1.9999999999b3p-2, 0x1.2492492457d7cp-2, 0x1.c71c722d62627p-3, 0x1.745ce9e5071cdp-3,
-                        0x1.3b1eebb364de1p-3, 0x1.0f7ff256f6352p-3, 0x1.0e4255660b319p-3);
+    reals series = POLY7(z.hi, z2, z4, 0x1.9999999999b3p-2, 0x1.2492492457d7cp-2, 0x1.c71c722d62627p-3,
+                         0x1.745ce9e5071cdp-3, 0x1.3b1eebb364de1p-3, 0x1.0f7ff256f6352p-3, 0x1.0e4255660b319p-3);
     pair c = NAME(sum_ordered)(REAL(0x1.5555555555555p-1), z.hi * series);
     c.lo += REAL(0x1.5555555555555p-55);
     pair p = NAME(product)(z.hi, c.hi);

@@ -1,18 +1,22 @@
-/* json_check: says whether a file is exactly one JSON value (RFC 8259), in valid UTF-8, with no key twice in one object.
+/* json_check: says whether a file is exactly one JSON value (RFC 8259), in valid UTF-8, with no key twice in one
+ * object.
  *
- * Stricter than most readers on purpose: no NaN, no leading zeros, no raw control characters, nothing behind the value.
- * Exit status 0: it is; 1: it is not, and the first offence is told with its place.
+ * Stricter than most readers on purpose: no NaN, no leading zeros, no raw control characters, nothing behind the
+ * value. Exit status 0: it is; 1: it is not, and the first offence is told with its place.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct reader { const unsigned char *text; size_t at, length; const char *offence; } reader;
+typedef struct reader {
+    const unsigned char *text;
+    size_t at, length;
+    const char *offence;
+} reader;
 
 static int refuse(reader *r, const char *why)
 {
-    if (!r->offence)
-        r->offence = why;
+    if (!r->offence) r->offence = why;
     return 0;
 }
 
@@ -20,8 +24,7 @@ static int peek(const reader *r) { return r->at < r->length ? r->text[r->at] : -
 
 static void blanks(reader *r)
 {
-    while (peek(r) == ' ' || peek(r) == '\t' || peek(r) == '\n' || peek(r) == '\r')
-        r->at++;
+    while (peek(r) == ' ' || peek(r) == '\t' || peek(r) == '\n' || peek(r) == '\r') r->at++;
 }
 
 static int character(reader *r)
@@ -31,32 +34,28 @@ static int character(reader *r)
     if (c < 0x20 || (c >= 0x80 && c < 0xC2) || c > 0xF4)
         return refuse(r, "a raw control character or a byte that is not UTF-8");
     for (r->at++; more > 0; more--, r->at++) {
-        if ((peek(r) & 0xC0) != 0x80)
-            return refuse(r, "UTF-8 cut short");
+        if ((peek(r) & 0xC0) != 0x80) return refuse(r, "UTF-8 cut short");
         code = code << 6 | ((unsigned)peek(r) & 0x3F);
     }
-    if ((c >= 0xE0 && c < 0xF0 && code < 0x800) || (c >= 0xF0 && (code < 0x10000 || code > 0x10FFFF)) || (code >= 0xD800 && code < 0xE000))
+    if ((c >= 0xE0 && c < 0xF0 && code < 0x800) || (c >= 0xF0 && (code < 0x10000 || code > 0x10FFFF)) ||
+        (code >= 0xD800 && code < 0xE000))
         return refuse(r, "UTF-8 of no character");
     return 1;
 }
 
 static int string(reader *r)
 {
-    if (peek(r) != '"')
-        return refuse(r, "a string is due");
+    if (peek(r) != '"') return refuse(r, "a string is due");
     r->at++;
     while (peek(r) != '"') {
-        if (peek(r) < 0)
-            return refuse(r, "a string without an end");
+        if (peek(r) < 0) return refuse(r, "a string without an end");
         if (peek(r) != '\\') {
-            if (!character(r))
-                return 0;
+            if (!character(r)) return 0;
             continue;
         }
         r->at++;
         int c = peek(r);
-        if (c < 0 || !strchr("\"\\/bfnrtu", c))
-            return refuse(r, "an unknown escape");
+        if (c < 0 || !strchr("\"\\/bfnrtu", c)) return refuse(r, "an unknown escape");
         r->at++;
         for (int i = 0; c == 'u' && i < 4; i++, r->at++)
             if (peek(r) < 0 || !strchr("0123456789abcdefABCDEF", peek(r)))
@@ -69,28 +68,24 @@ static int string(reader *r)
 static int digits(reader *r)
 {
     size_t start = r->at;
-    while (peek(r) >= '0' && peek(r) <= '9')
-        r->at++;
+    while (peek(r) >= '0' && peek(r) <= '9') r->at++;
     return r->at > start ? 1 : refuse(r, "a digit is due");
 }
 
 static int number(reader *r)
 {
-    if (peek(r) == '-')
-        r->at++;
+    if (peek(r) == '-') r->at++;
     if (peek(r) == '0')
         r->at++;
     else if (!digits(r))
         return 0;
     if (peek(r) == '.') {
         r->at++;
-        if (!digits(r))
-            return 0;
+        if (!digits(r)) return 0;
     }
     if (peek(r) == 'e' || peek(r) == 'E') {
         r->at++;
-        if (peek(r) == '+' || peek(r) == '-')
-            r->at++;
+        if (peek(r) == '+' || peek(r) == '-') r->at++;
         return digits(r);
     }
     return 1;
@@ -100,20 +95,20 @@ static int value(reader *r, int depth);
 
 static int object(reader *r, int depth)
 {
-    struct { size_t at, length; } keys[4096];
+    struct {
+        size_t at, length;
+    } keys[4096];
     size_t count = 0;
     r->at++;
     blanks(r);
     for (int first = 1; peek(r) != '}'; first = 0) {
         if (!first) {
-            if (peek(r) != ',')
-                return refuse(r, "a comma or } is due");
+            if (peek(r) != ',') return refuse(r, "a comma or } is due");
             r->at++;
             blanks(r);
         }
         size_t start = r->at;
-        if (!string(r))
-            return 0;
+        if (!string(r)) return 0;
         for (size_t i = 0; i < count; i++)
             if (keys[i].length == r->at - start && memcmp(r->text + keys[i].at, r->text + start, r->at - start) == 0)
                 return refuse(r, "a key stands twice in one object");
@@ -122,11 +117,9 @@ static int object(reader *r, int depth)
             keys[count++].length = r->at - start;
         }
         blanks(r);
-        if (peek(r) != ':')
-            return refuse(r, "a colon is due");
+        if (peek(r) != ':') return refuse(r, "a colon is due");
         r->at++;
-        if (!value(r, depth + 1))
-            return 0;
+        if (!value(r, depth + 1)) return 0;
     }
     r->at++;
     return 1;
@@ -138,12 +131,10 @@ static int list(reader *r, int depth)
     blanks(r);
     for (int first = 1; peek(r) != ']'; first = 0) {
         if (!first) {
-            if (peek(r) != ',')
-                return refuse(r, "a comma or ] is due");
+            if (peek(r) != ',') return refuse(r, "a comma or ] is due");
             r->at++;
         }
-        if (!value(r, depth + 1))
-            return 0;
+        if (!value(r, depth + 1)) return 0;
     }
     r->at++;
     return 1;
@@ -152,16 +143,14 @@ static int list(reader *r, int depth)
 static int word(reader *r, const char *w)
 {
     size_t n = strlen(w);
-    if (r->length - r->at < n || memcmp(r->text + r->at, w, n) != 0)
-        return refuse(r, "this is no JSON value");
+    if (r->length - r->at < n || memcmp(r->text + r->at, w, n) != 0) return refuse(r, "this is no JSON value");
     r->at += n;
     return 1;
 }
 
 static int value(reader *r, int depth)
 {
-    if (depth > 50)
-        return refuse(r, "nested too deeply");
+    if (depth > 50) return refuse(r, "nested too deeply");
     blanks(r);
     int good, c = peek(r);
     switch (c) {
@@ -189,20 +178,17 @@ int main(int argc, char **argv)
     for (size_t got; text && (got = fread(text + length, 1, room - length, file)) > 0;) {
         length += got;
         unsigned char *larger = length == room ? realloc(text, room *= 2) : text;
-        if (!larger)
-            free(text);
+        if (!larger) free(text);
         text = larger;
     }
-    if (argc > 1)
-        fclose(file);
+    if (argc > 1) fclose(file);
     if (!text) {
         fputs("no memory\n", stderr);
         return 1;
     }
     reader r = {text, 0, length, NULL};
     int good = value(&r, 0) && (r.at == r.length || refuse(&r, "something stands behind the value"));
-    if (!good)
-        printf("byte %zu: %s\n", r.at, r.offence);
+    if (!good) printf("byte %zu: %s\n", r.at, r.offence);
     free(text);
     return !good;
 }

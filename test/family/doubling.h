@@ -1,4 +1,5 @@
-/* STEP DOUBLING over the explicit midpoint rule: a step of h beside two of h/2; their distance, over 2² - 1, is the error of the two.
+/* STEP DOUBLING over the explicit midpoint rule: a step of h beside two of h/2; their distance, over 2² - 1, is the
+ * error of the two.
  *
  * A family that exists for a test of the house alone: test/family.sh adds it, and sees that it runs everywhere.
  */
@@ -38,10 +39,13 @@ static void doubling_accept(work *w, mask good)
     EACHV(k) w->v[k] = CHOOSE_WHERE(good, w->vs[2 * w->stride + k], w->v[k]);
 }
 #define doubling_observe state_is_complete
-#define doubling_sync work_sync_main
-#define doubling_carry work_carry_main
-#define doubling_dense dense_hermite
-static inline void doubling_place(work *w, placing *p) { w->xs = work_array(p, 4), w->vs = work_array(p, 4), w->ks = work_array(p, 1); }
+#define doubling_sync    work_sync_main
+#define doubling_carry   work_carry_main
+#define doubling_dense   dense_hermite
+static inline void doubling_place(work *w, placing *p)
+{
+    w->xs = work_array(p, 4), w->vs = work_array(p, 4), w->ks = work_array(p, 1);
+}
 
 #ifdef ROWS
 static void doubling_plan(work *w, const double argument[2], coef *unit, coef *c)
@@ -49,7 +53,7 @@ static void doubling_plan(work *w, const double argument[2], coef *unit, coef *c
     (void)argument, (void)unit;
     w->stages = 1;
     w->order = 2;
-    if (c) c[0] = w->row->tableau.c[0];            /* the tolerance of a step */
+    if (c) c[0] = w->row->tableau.c[0]; /* the tolerance of a step */
 }
 #endif
 #ifdef TRACING
