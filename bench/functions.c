@@ -23,28 +23,30 @@
 #include "lang/base/functions.h"
 #define REGISTER 8
 #else
-#define LANES      8
+#define LANES 8
 #define LANES_PART 4
 #include "step/functions/wide.h"
 #define REGISTER 4
 #endif
-#define LANES      16
+#define LANES 16
 #define LANES_PART REGISTER
 #include "step/functions/wide.h"
 
 enum { COUNT = 1024, ROUNDS = 40, REPEATS = 25 };
 
 /* name, arguments, from, to, second from, to */
-#define EACH_FUNCTION(X)                                                                                      \
-    X(sin, 1, -10, 10, 0, 0)                                                                                  \
-    X(cos, 1, -10, 10, 0, 0)                                                                                  \
-    X(tan, 1, -10, 10, 0, 0)                                                                                  \
-    X(exp, 1, -20, 20, 0, 0)                                                                                  \
-    X(log, 1, 0.01, 100, 0, 0)                                                                                \
-    X(pow, 2, 0.01, 100, -10, 10)                                                                             \
-    X(sinh, 1, -5, 5, 0, 0) X(cosh, 1, -5, 5, 0, 0) X(tanh, 1, -5, 5, 0, 0) X(asin, 1, -1, 1, 0, 0)           \
-        X(acos, 1, -1, 1, 0, 0) X(atan, 1, -5, 5, 0, 0) X(atan2, 2, -5, 5, -5, 5) X(cbrt, 1, -100, 100, 0, 0) \
-            X(hypot, 2, -5, 5, -5, 5) X(erf, 1, -3, 3, 0, 0)
+#define EACH_FUNCTION(X)                                                                              \
+    X(sin, 1, -10, 10, 0, 0)                                                                          \
+    X(cos, 1, -10, 10, 0, 0)                                                                          \
+    X(tan, 1, -10, 10, 0, 0)                                                                          \
+    X(exp, 1, -20, 20, 0, 0)                                                                          \
+    X(log, 1, 0.01, 100, 0, 0)                                                                        \
+    X(pow, 2, 0.01, 100, -10, 10)                                                                     \
+    X(sinh, 1, -5, 5, 0, 0)                                                                           \
+    X(cosh, 1, -5, 5, 0, 0)                                                                           \
+    X(tanh, 1, -5, 5, 0, 0)                                                                           \
+    X(asin, 1, -1, 1, 0, 0) X(acos, 1, -1, 1, 0, 0) X(atan, 1, -5, 5, 0, 0) X(atan2, 2, -5, 5, -5, 5) \
+        X(cbrt, 1, -100, 100, 0, 0) X(hypot, 2, -5, 5, -5, 5) X(erf, 1, -3, 3, 0, 0)
 
 typedef void sweep(double *r, const double *x, const double *y);
 
@@ -70,7 +72,7 @@ static double measure(sweep *f, const double *x, const double *y)
 
 #define CALL_1(f, x, y) f(x)
 #define CALL_2(f, x, y) f(x, y)
-#define KEPT            __attribute__((noinline)) static
+#define KEPT __attribute__((noinline)) static
 
 /* The sum with a vanishing part of the last result makes one call wait for another. */
 #define SCALARS(name, n, ...)                                                                                \
@@ -111,15 +113,15 @@ EACH_FUNCTION(SCALARS)
 EACH_FUNCTION(ALL_VECTORS)
 
 #if defined(HAVE_LIBMVEC) && defined(__AVX512F__)
-#define LIBMVEC_1(name)      extern __m512d _ZGVeN8v_##name(__m512d);
-#define LIBMVEC_2(name)      extern __m512d _ZGVeN8vv_##name(__m512d, __m512d);
-#define LIBMVEC_VECTOR       __m512d
+#define LIBMVEC_1(name) extern __m512d _ZGVeN8v_##name(__m512d);
+#define LIBMVEC_2(name) extern __m512d _ZGVeN8vv_##name(__m512d, __m512d);
+#define LIBMVEC_VECTOR __m512d
 #define LIBMVEC_NAME_1(name) _ZGVeN8v_##name
 #define LIBMVEC_NAME_2(name) _ZGVeN8vv_##name
 #elif defined(HAVE_LIBMVEC) && defined(__AVX2__)
-#define LIBMVEC_1(name)      extern __m256d _ZGVdN4v_##name(__m256d);
-#define LIBMVEC_2(name)      extern __m256d _ZGVdN4vv_##name(__m256d, __m256d);
-#define LIBMVEC_VECTOR       __m256d
+#define LIBMVEC_1(name) extern __m256d _ZGVdN4v_##name(__m256d);
+#define LIBMVEC_2(name) extern __m256d _ZGVdN4vv_##name(__m256d, __m256d);
+#define LIBMVEC_VECTOR __m256d
 #define LIBMVEC_NAME_1(name) _ZGVdN4v_##name
 #define LIBMVEC_NAME_2(name) _ZGVdN4vv_##name
 #endif

@@ -1,14 +1,14 @@
 /* The texts with real = double: one trajectory. The includer has <float.h>, <math.h>, <stddef.h> and <stdint.h>. */
 #define clock motus_clock /* the C library has a function of that name */
-#define real  double
+#define real double
 typedef double clock;
 typedef int64_t whole;
 #define FMA(a, b, c) fma((a), (b), (c))
-#define ABS(x)       fabs(x)
+#define ABS(x) fabs(x)
 /* an infinity or a NaN minus itself is a NaN; unlike isfinite, this becomes vector code */
-#define FINITE(x)    ((x) - (x) == 0)
-#define EPSILON      DBL_EPSILON
+#define FINITE(x) ((x) - (x) == 0)
+#define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26
-#define EACH(k)      for (size_t k = 0; k < FACT(w, nx); k++)
-#define EACHV(k)     for (size_t k = 0; k < FACT(w, nv); k++)
-#define TRACE(w, i)  ((void)(w), (void)(i))
+#define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)
+#define EACHV(k) for (size_t k = 0; k < FACT(w, nv); k++)
+#define TRACE(w, i) ((void)(w), (void)(i))

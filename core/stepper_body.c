@@ -16,9 +16,9 @@
 
 #include "core/stepper_host.h"
 
-#define PASTE(a, b)  a##b
-#define NAMED(isa)   PASTE(stepper_body_, isa)
-#define TEXT(isa)    #isa
+#define PASTE(a, b) a##b
+#define NAMED(isa) PASTE(stepper_body_, isa)
+#define TEXT(isa) #isa
 #define TEXT_OF(isa) TEXT(isa)
 
 const stepper_body NAMED(ISA) = STEPPER_BODY(TEXT_OF(ISA));

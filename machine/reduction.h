@@ -6,8 +6,8 @@
 #include "core/stepper_body.h"
 #include "lang/base/functions.h"
 
-#define LEAST(a, b)             motus_min(a, b)
-#define MOST(a, b)              motus_max(a, b)
+#define LEAST(a, b) motus_min(a, b)
+#define MOST(a, b) motus_max(a, b)
 #define CHOOSE(condition, a, b) ((condition) ? (a) : (b))
 #include "machine/text/reduce.h"
 

@@ -4,9 +4,9 @@
  * Invariant: nothing leads from step to step but their number.
  */
 static int exact_step(work *w) { return (void)w, STEP_OK; }
-#define exact_accept  step_is_final
+#define exact_accept step_is_final
 #define exact_observe state_is_complete
-#define exact_dense   dense_hermite
+#define exact_dense dense_hermite
 
 static int exact_sync(work *w, real *x, real *v)
 {

@@ -102,10 +102,10 @@ static int implicit_step(work *w)
         EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
     return STEP_OK;
 }
-#define implicit_accept  step_is_final
+#define implicit_accept step_is_final
 #define implicit_observe state_is_complete
-#define implicit_sync    work_sync_main
-#define implicit_dense   dense_hermite
+#define implicit_sync work_sync_main
+#define implicit_dense dense_hermite
 
 static int implicit_carry(const work *w, real *list[CARRY_MAX])
 {

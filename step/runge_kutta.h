@@ -32,11 +32,11 @@ static int runge_kutta_step(work *w)
     }
     return STEP_OK;
 }
-#define runge_kutta_accept  step_is_final
+#define runge_kutta_accept step_is_final
 #define runge_kutta_observe state_is_complete
-#define runge_kutta_sync    work_sync_main
-#define runge_kutta_carry   work_carry_main
-#define runge_kutta_dense   dense_hermite
+#define runge_kutta_sync work_sync_main
+#define runge_kutta_carry work_carry_main
+#define runge_kutta_dense dense_hermite
 
 static inline void runge_kutta_place(work *w, placing *p)
 {

@@ -32,9 +32,9 @@
  * takes them by work_reuse, which ends that.
  */
 #ifndef ROW
-#define ROW(w, member)  ((w)->row->member)
+#define ROW(w, member) ((w)->row->member)
 #define FACT(w, member) ((w)->member)
-#define LIVE(w, k)      ((w)->live[k]) /* constant k of the plan is not 0 */
+#define LIVE(w, k) ((w)->live[k]) /* constant k of the plan is not 0 */
 #endif
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
@@ -42,9 +42,9 @@ enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEM
 /* Which trajectories of the workspace something holds for: one, unless real is a vector. */
 #ifndef EVERY
 typedef bool mask;
-#define EVERY                    true
+#define EVERY true
 #define CHOOSE_WHERE(good, a, b) ((good) ? (a) : (b))
-#define NONE(good)               (!(good))
+#define NONE(good) (!(good))
 #endif
 
 /* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is
@@ -52,9 +52,9 @@ typedef bool mask;
  * cannot, SPOIL makes NaN of what they compute, and the others go on. BLAME says which entry of v it was. */
 #ifndef ALWAYS
 typedef bool truth;
-#define ALWAYS            true
+#define ALWAYS true
 #define PICK(where, a, b) ((where) ? (a) : (b))
-#define SOME(where)       (where)
+#define SOME(where) (where)
 #define STOP(w, where, status)      \
     do {                            \
         if (where) return (status); \
@@ -65,7 +65,7 @@ typedef bool truth;
         if (where) (w)->which = (k); \
     } while (0)
 #endif
-#define NEVER      NOT(ALWAYS)
+#define NEVER NOT(ALWAYS)
 #define NOT(where) ((where) == 0)
 
 /* The outer indices that a tile is at, from … to-1, and how they move: tiled.h. Only machines that tile look at it. */
@@ -204,7 +204,7 @@ static inline void time_tick(work *w, mask good)
 
 #ifndef accel_in
 #define accel_in(w, i, x, v, a) accel(w, time_in(w, FACT(w, c)[i]), x, v, a)
-#define accel_now(w, x, v, a)   accel(w, time_now(w), x, v, a)
+#define accel_now(w, x, v, a) accel(w, time_now(w), x, v, a)
 #endif
 
 /* The acceleration at the start of a step, from where it is known already. */

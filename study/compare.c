@@ -13,13 +13,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LOOKS_MAX     2048 /* at the invariants of one run */
-#define REMARKS_MAX   4096
+#define LOOKS_MAX 2048 /* at the invariants of one run */
+#define REMARKS_MAX 4096
 #define NAME_MAX_LONG 128
-#define WORK_TRIES    4 /* to find the step that spends the wanted evaluations */
-#define WORK_CLOSE    0.02
-#define PROBES        5   /* states along the motion at which the equations are asked */
-#define TRUTH_SHARE   0.1 /* of the progress */
+#define WORK_TRIES 4 /* to find the step that spends the wanted evaluations */
+#define WORK_CLOSE 0.02
+#define PROBES 5        /* states along the motion at which the equations are asked */
+#define TRUTH_SHARE 0.1 /* of the progress */
 /* The trend that rounding may explain: each evaluation rounds the state by some ulps at random. */
 #define ROUNDING 8.0
 

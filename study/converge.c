@@ -18,29 +18,29 @@
 #include <stdio.h>
 #include <string.h>
 
-#define INTERVALS    8 /* a power of 2 */
-#define POINTS_MAX   80
-#define POINTS_LEAST 7  /* before anything is concluded */
-#define STEPS_LEAST  32 /* in an interval: taken whatever they cost */
-#define FINE_ORDER   4  /* from here on four steps an octave */
+#define INTERVALS 8 /* a power of 2 */
+#define POINTS_MAX 80
+#define POINTS_LEAST 7 /* before anything is concluded */
+#define STEPS_LEAST 32 /* in an interval: taken whatever they cost */
+#define FINE_ORDER 4   /* from here on four steps an octave */
 /* The bound on the work (study_work) is first 2^18 evaluations of one oscillator per method. A method that is
  * neither at round-off by then nor shows a slope that has come to rest gets EXTENSION times as much. */
-#define WORK          4.7e6
-#define EXTENSION     8
-#define REST          0.03
+#define WORK 4.7e6
+#define EXTENSION 8
+#define REST 0.03
 #define COARSE_ENOUGH 1e-4 /* a row whose coarsest error is larger than this lacks no coarse steps */
 /* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could
  * move, excited or not: more than STIFF_MOST would leave explicit methods no stable step. And where the motion is at
  * its most violent, low orders need very short steps: no more than VIOLENT_MOST of such turns. */
-#define TURNS_MOST    12.0
-#define TURNS_GOOD    8.0
-#define STIFF_MOST    2000.0
-#define VIOLENT_MOST  200.0
-#define SURVEY        64  /* intervals of the look at the whole motion */
-#define SURVEY_PROBES 8   /* states of it whose fastest rate is asked */
-#define SURVEY_TRUST  0.1 /* of the motion's size: a survey less certain tells only of the start */
+#define TURNS_MOST 12.0
+#define TURNS_GOOD 8.0
+#define STIFF_MOST 2000.0
+#define VIOLENT_MOST 200.0
+#define SURVEY 64        /* intervals of the look at the whole motion */
+#define SURVEY_PROBES 8  /* states of it whose fastest rate is asked */
+#define SURVEY_TRUST 0.1 /* of the motion's size: a survey less certain tells only of the start */
 #define REFERENCE_MAX (TRUTH_TEXT_MAX + 320)
-#define TRUTH_SHARE   0.1 /* of the progress */
+#define TRUTH_SHARE 0.1 /* of the progress */
 
 typedef struct row_text {
     char method[MOTUS_NAME_MAX], certificate[MOTUS_TEXT_MAX];

@@ -35,18 +35,18 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define FIT_CEILING     0.1
-#define FIT_PLATEAU     1e-8
-#define FIT_FLAT        0.5
-#define FIT_CLEARANCE   30.0
-#define FIT_WALK        2.0
-#define FIT_STEADY      0.05
+#define FIT_CEILING 0.1
+#define FIT_PLATEAU 1e-8
+#define FIT_FLAT 0.5
+#define FIT_CLEARANCE 30.0
+#define FIT_WALK 2.0
+#define FIT_STEADY 0.05
 #define FIT_STEADY_PART 0.02
-#define FIT_ROUGHNESS   0.5
-#define OCTAVE          1.999 /* 2, but for the rounding of steps */
-#define EXACT_STEPS     8.0
-#define FIT_MARGIN      0.15 /* the certificate's */
-#define FIT_POINTS_MAX  128
+#define FIT_ROUGHNESS 0.5
+#define OCTAVE 1.999 /* 2, but for the rounding of steps */
+#define EXACT_STEPS 8.0
+#define FIT_MARGIN 0.15 /* the certificate's */
+#define FIT_POINTS_MAX 128
 
 fit_result fit_line(const double *x, const double *y, size_t count)
 {

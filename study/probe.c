@@ -6,13 +6,13 @@
 #include "probe.h"
 #include <math.h>
 
-#define RATE_ITERATIONS  32    /* even: the square of an oscillator's Jacobian is -ω² */
-#define RATE_FORGET      8     /* iterations until the fastest direction rules */
-#define RATE_OFFSET      1e-5  /* of the size of the motion: rounding and curvature both stay below 1e-4 */
+#define RATE_ITERATIONS 32     /* even: the square of an oscillator's Jacobian is -ω² */
+#define RATE_FORGET 8          /* iterations until the fastest direction rules */
+#define RATE_OFFSET 1e-5       /* of the size of the motion: rounding and curvature both stay below 1e-4 */
 #define RATE_NUMBERS_MAX 20000 /* beyond that an iteration costs too much for what it tells: fewer of them */
-#define RATE_LEAST       1e-9
-#define PATTERNS         4
-#define PATTERN_OFFSET   0x1p-20
+#define RATE_LEAST 1e-9
+#define PATTERNS 4
+#define PATTERN_OFFSET 0x1p-20
 
 bool probe_acceleration(study *s, double t, const double *y, double *a)
 {

@@ -11,10 +11,10 @@
 #include <string.h>
 
 #define LINE_MAX_BYTES 900
-#define NAMES_SHOWN    6
-#define CLOSE          1e-6  /* relative: a predicted and a measured amount are the same */
-#define FAR            100.0 /* this many times larger is another kind of number */
-#define RETURNED       1e-7  /* of the motion's size: a way back that ends nearer than this did return */
+#define NAMES_SHOWN 6
+#define CLOSE 1e-6    /* relative: a predicted and a measured amount are the same */
+#define FAR 100.0     /* this many times larger is another kind of number */
+#define RETURNED 1e-7 /* of the motion's size: a way back that ends nearer than this did return */
 
 typedef struct sheet {
     char *text;

@@ -11,11 +11,11 @@
 #include <string.h>
 #include <time.h>
 
-#define TELL_SECONDS        0.01 /* between two calls of the progress hook */
+#define TELL_SECONDS 0.01        /* between two calls of the progress hook */
 #define EVALUATION_OVERHEAD 16.0 /* of an evaluation, in numbers */
-#define SOLVE_PASSES        4.0
-#define SOLVE_FLOPS         3e4   /* of elimination that take as long as an evaluation */
-#define STILL               1e-10 /* a group that moves less than this part of its size does not move */
+#define SOLVE_PASSES 4.0
+#define SOLVE_FLOPS 3e4 /* of elimination that take as long as an evaluation */
+#define STILL 1e-10     /* a group that moves less than this part of its size does not move */
 
 double study_seconds(void)
 {

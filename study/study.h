@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 /* Truth and trajectories are looked at about this often; fewer when the states are long. */
-#define STUDY_SAMPLES     100
+#define STUDY_SAMPLES 100
 #define STUDY_NUMBERS_MAX ((size_t)1 << 22) /* in one table of samples: 32 MiB */
 /* Admits every force and needs no solve: asked where runs start, and what the acceleration is. */
 #define STUDY_PLAINEST "explicit-euler"

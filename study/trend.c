@@ -15,10 +15,10 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#define BLOCKS            16
-#define CROSSINGS         6
-#define TREND_ERRORS      4.0
-#define TREND_AGREEMENT   0.9
+#define BLOCKS 16
+#define CROSSINGS 6
+#define TREND_ERRORS 4.0
+#define TREND_AGREEMENT 0.9
 #define TREND_SAMPLES_MIN 8
 
 /* How often the residual goes from well above its line to well below or back. Half of its mean size is well: so

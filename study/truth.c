@@ -14,15 +14,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TRUTH_CANDIDATES   3
-#define TRUTH_ORDERS_BELOW 2  /* candidates are at most this far below the highest admitted order */
-#define TRUTH_LEVELS       24 /* halvings of an interval */
+#define TRUTH_CANDIDATES 3
+#define TRUTH_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
+#define TRUTH_LEVELS 24      /* halvings of an interval */
 /* a difference that stops falling below this is round-off, above it a motion not yet resolved */
 #define TRUTH_SMALL 1e-6
-#define TRUTH_FALL  1.5 /* the least fall per halving that counts as one */
+#define TRUTH_FALL 1.5 /* the least fall per halving that counts as one */
 /* The bound on the work (study_work). About a fifth of a second of a small model; or, where the judged methods
  * themselves work longer, as much as TRUTH_PASSES evaluations for each of their steps. */
-#define TRUTH_WORK   3e7
+#define TRUTH_WORK 3e7
 #define TRUTH_PASSES 32
 
 typedef struct candidate {

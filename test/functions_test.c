@@ -30,7 +30,7 @@
 #define LANES 16
 #include "step/functions/lanes.h"
 #include "lang/base/functions.h"
-#define LANES      32
+#define LANES 32
 #define LANES_PART 4
 #include "step/functions/wide.h"
 
@@ -67,7 +67,7 @@ typedef struct function {
 
 #define CALL_1(f, ...) f(FIRST(__VA_ARGS__, 0))
 #define CALL_2(f, ...) f(__VA_ARGS__)
-#define FIRST(x, ...)  x
+#define FIRST(x, ...) x
 #define LANES_OF(name, n, width)                                                  \
     static void name##_lanes_##width(double *r, const double *x, const double *y) \
     {                                                                             \
@@ -399,9 +399,9 @@ static void test_bits(void **state)
 
 /* Annex F ---------------------------------------------------------------------------------------------------------- */
 
-#define INF  ((double)INFINITY)
+#define INF ((double)INFINITY)
 #define NONE ((double)NAN)
-#define PI   0x1.921fb54442d18p+1
+#define PI 0x1.921fb54442d18p+1
 
 static const struct {
     const char *name;

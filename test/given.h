@@ -17,7 +17,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#define UNUSED   __attribute__((unused))
+#define UNUSED __attribute__((unused))
 #define ROUNDING 0x1p-53 /* of one operation, relative */
 
 UNUSED static void must(motus_status status, const motus_error *err, const char *what)

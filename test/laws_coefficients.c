@@ -10,8 +10,8 @@
 #include "test/laws_proof.h"
 
 typedef quad coef;
-#define methods_table          plain_table
-#define methods_count          plain_count
+#define methods_table plain_table
+#define methods_count plain_count
 #define methods_newmark_damped plain_newmark_damped
 #include "core/methods.c"
 #undef methods_table
@@ -20,16 +20,16 @@ typedef quad coef;
 #undef K
 
 /* sizeof "0.5" is 4: a digit, the point, one decimal, the end; a sign and a second digit make it longer. */
-#define DECIMALS(size, x)    ((int)(size)-3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
+#define DECIMALS(size, x) ((int)(size)-3 - ((x) < 0) - ((x) >= 10 || (x) <= -10))
 #define TENTH(d, bit, power) (((d) & (bit)) ? power : Q(1.0))
 #define TEN_TO_MINUS(d)                                                                          \
     (TENTH(d, 1, Q(1e-1)) * TENTH(d, 2, Q(1e-2)) * TENTH(d, 4, Q(1e-4)) * TENTH(d, 8, Q(1e-8)) * \
      TENTH(d, 16, Q(1e-16)) * TENTH(d, 32, Q(1e-32)))
-#define EXACT_LITERAL(x)       ((x)*1048576 == (quad)(long long)((x)*1048576))
-#define HALF_UNIT(size, x)     (EXACT_LITERAL(x) ? Q(0.0) : Q(0.5) * TEN_TO_MINUS(DECIMALS(size, x)))
-#define K(x)                   (Q(x) + HALF_UNIT(sizeof #x, Q(x)))
-#define methods_table          moved_table
-#define methods_count          moved_count
+#define EXACT_LITERAL(x) ((x)*1048576 == (quad)(long long)((x)*1048576))
+#define HALF_UNIT(size, x) (EXACT_LITERAL(x) ? Q(0.0) : Q(0.5) * TEN_TO_MINUS(DECIMALS(size, x)))
+#define K(x) (Q(x) + HALF_UNIT(sizeof #x, Q(x)))
+#define methods_table moved_table
+#define methods_count moved_count
 #define methods_newmark_damped moved_newmark_damped
 #include "core/methods.c"
 #undef methods_table

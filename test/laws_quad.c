@@ -8,8 +8,8 @@
 
 #define K(x) Q(x)
 typedef quad coef;
-#define methods_table          quad_methods_table
-#define methods_count          quad_methods_count
+#define methods_table quad_methods_table
+#define methods_count quad_methods_count
 #define methods_newmark_damped quad_methods_newmark_damped
 #include "core/methods.c"
 
@@ -17,17 +17,17 @@ typedef quad coef;
 #include <string.h>
 
 #define clock quad_clock
-#define real  quad
+#define real quad
 typedef quad clock;
 typedef int64_t whole;
 #define FMA(a, b, c) ((a) * (b) + (c))
-#define ABS(x)       ((x) < 0 ? -(x) : (x))
-#define FINITE(x)    ((x) - (x) == 0)
-#define EPSILON      QUAD_EPSILON
+#define ABS(x) ((x) < 0 ? -(x) : (x))
+#define FINITE(x) ((x) - (x) == 0)
+#define EPSILON QUAD_EPSILON
 #define SQRT_EPSILON Q(0x1p-56)
-#define EACH(k)      for (size_t k = 0; k < w->nx; k++)
-#define EACHV(k)     for (size_t k = 0; k < w->nv; k++)
-#define TRACE(w, i)  ((void)(w), (void)(i))
+#define EACH(k) for (size_t k = 0; k < w->nx; k++)
+#define EACHV(k) for (size_t k = 0; k < w->nv; k++)
+#define TRACE(w, i) ((void)(w), (void)(i))
 #define ROWS
 #include "step/work.h"
 

@@ -22,7 +22,7 @@
 typedef __m512d vec;
 enum { WIDTH = 8 };
 #define LANES_NAME "AVX-512"
-#define KEEP(x)    __asm__("" : "+v"(x)) /* x is in a register here, and what it came from is forgotten */
+#define KEEP(x) __asm__("" : "+v"(x)) /* x is in a register here, and what it came from is forgotten */
 INLINE vec vec_all(double x) { return _mm512_set1_pd(x); }
 INLINE vec vec_load(const double *p) { return _mm512_loadu_pd(p); }
 INLINE void vec_store(double *p, vec x) { _mm512_storeu_pd(p, x); }
@@ -49,7 +49,7 @@ INLINE vec vec_rsqrt(vec x)
 typedef __m256d vec;
 enum { WIDTH = 4 };
 #define LANES_NAME "AVX2"
-#define KEEP(x)    __asm__("" : "+x"(x))
+#define KEEP(x) __asm__("" : "+x"(x))
 INLINE vec vec_all(double x) { return _mm256_set1_pd(x); }
 INLINE vec vec_load(const double *p) { return _mm256_loadu_pd(p); }
 INLINE void vec_store(double *p, vec x) { _mm256_storeu_pd(p, x); }
@@ -74,7 +74,7 @@ INLINE vec vec_rsqrt(vec x)
 typedef double vec __attribute__((vector_size(16)));
 enum { WIDTH = 2 };
 #define LANES_NAME "vectors of 2"
-#define KEEP(x)    ((void)(x))
+#define KEEP(x) ((void)(x))
 INLINE vec vec_all(double x) { return (vec){x, x}; }
 INLINE vec vec_load(const double *p)
 {

@@ -8,17 +8,17 @@
  * over one or two hundred instructions, not over a whole step of Runge-Kutta for all of them.
  */
 #define JOIN_(name, u, s) name##_##u##_##s
-#define JOIN(name, u, s)  JOIN_(name, u, s)
-#define BLOCK(name)       static void JOIN(name, U, S)(const oscillators *o, size_t at)
-#define EACH              UNROLL for (int u = 0; u < U; u++)
-#define EACH_GROUP        UNROLL for (int g = 0; g < U; g += S)
-#define EACH_IN_GROUP     UNROLL for (int s = 0, u = g; s < S; s++, u++)
+#define JOIN(name, u, s) JOIN_(name, u, s)
+#define BLOCK(name) static void JOIN(name, U, S)(const oscillators *o, size_t at)
+#define EACH UNROLL for (int u = 0; u < U; u++)
+#define EACH_GROUP UNROLL for (int g = 0; g < U; g += S)
+#define EACH_IN_GROUP UNROLL for (int s = 0, u = g; s < S; s++, u++)
 /* What is before and after the loop is none of the loop's business: else the compiler carries over from step to step
  * what it needs there. */
 #define SEAL(array) \
     EACH            \
     KEEP(array[u])
-#define F_OF(u)                vec_load(o->F + at + (size_t)(u)*WIDTH)
+#define F_OF(u) vec_load(o->F + at + (size_t)(u)*WIDTH)
 #define STORE(array, u, value) vec_store(o->array + at + (size_t)(u)*WIDTH, value)
 
 /* Our operations in our order: x³ as (x x) x, minus x, plus F cos t, each with one rounding where it is one

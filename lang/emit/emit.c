@@ -92,8 +92,8 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
 }
 
 /* OF, FUSE and WHEN are the text's: they mean one thing for doubles and another for lanes. */
-#define OF(f)                 OF(f)
-#define FUSE(a, b, c)         FUSE(a, b, c)
+#define OF(f) OF(f)
+#define FUSE(a, b, c) FUSE(a, b, c)
 #define WHEN(condition, a, b) WHEN(condition, a, b)
 
 bool emit_operations(emit *e, uint64_t set, const char *type, const char *prefix)

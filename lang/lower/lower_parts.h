@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #define COMPLAIN(l, at, ...) (source_complain(&(l)->model->source, MOTUS_SHAPE, (at), __VA_ARGS__))
-#define HINT(l, ...)         (source_hint(&(l)->model->source, __VA_ARGS__))
+#define HINT(l, ...) (source_hint(&(l)->model->source, __VA_ARGS__))
 
 static inline bool failed(const lowering *l) { return source_failed(&l->model->source) || l->model->graph->too_large; }
 

@@ -19,8 +19,8 @@ enum {
     MODEL_CHAIN_MAX = 400,        /* definitions that use one another, one behind the other */
     MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
-#define MODEL_LOWERED_MAX        50000000u /* trees lowered; a quantity counts at every use */
-#define MODEL_TERMS_MAX          1e11      /* of nested sums and families, per evaluation */
+#define MODEL_LOWERED_MAX 50000000u  /* trees lowered; a quantity counts at every use */
+#define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
 #define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together, which are computed while the model is read */
 
 typedef struct model_cells { /* the cells of a family that have an equation, in the order of their indices */

@@ -21,10 +21,10 @@
 #ifndef ISA
 #define ISA base
 #endif
-#define JOIN_(a, b)  a##b
-#define JOIN(a, b)   JOIN_(a, b)
-#define TEXT_(a)     #a
-#define TEXT(a)      TEXT_(a)
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+#define TEXT_(a) #a
+#define TEXT(a) TEXT_(a)
 #define OF_ISA(name) JOIN(name, ISA)
 
 /* The value of a row that is a call of a function: the call itself, or, where size counts more (-DONE_COPY), the copy

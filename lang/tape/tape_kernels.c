@@ -54,10 +54,8 @@
 #define BINARY(id, spelling, degree, smooth, value, derivative) \
     KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
 #define FUNCTION(id, arity, spelling, degree, smooth, value, derivative) FUNCTION_##arity(id, CALLED(id, value))
-#define FUNCTION_1(id, value)                                            KERNEL(id, 1, value)
-/* clang-format off: its alignment of macros would make this line too long. */
+#define FUNCTION_1(id, value) KERNEL(id, 1, value)
 #define FUNCTION_2(id, value) KERNEL(id, 1, value) KERNEL(id, 2, value) KERNEL(id, 3, value)
-/* clang-format on */
 #define TERNARY(id, spelling, degree, smooth, value, derivative) \
     KERNEL(id, 1, value)                                         \
     KERNEL(id, 2, value)                                         \
@@ -67,7 +65,7 @@
 #ifdef WIDTH
 /* The same by registers; what is left over is done one by one, by the same text. */
 #define VECTOR_(n) motus_reals_x##n
-#define VECTOR(n)  VECTOR_(n)
+#define VECTOR(n) VECTOR_(n)
 typedef VECTOR(WIDTH) vector;
 static inline vector vector_at(const double *p, int lanes)
 {
@@ -79,7 +77,7 @@ static inline vector vector_at(const double *p, int lanes)
     return v;
 }
 #define LANED_(f, n) motus_##f##_x##n
-#define LANED(f, n)  LANED_(f, n)
+#define LANED(f, n) LANED_(f, n)
 #define LANED_KERNEL(id, mask, many, one)                                                                              \
     static void id##_lanes_##mask(double *r, const double *pa, const double *pb, const double *pc, size_t n)           \
     {                                                                                                                  \
@@ -110,36 +108,39 @@ LANED_1(ASIN, asin)
 LANED_1(ACOS, acos)
 LANED_1(ATAN, atan)
 LANED_1(SINH, sinh)
-LANED_1(COSH, cosh) LANED_1(TANH, tanh) LANED_1(EXP, exp) LANED_1(LOG, log) LANED_1(CBRT, cbrt) LANED_1(ERF, erf)
-    LANED_2(ATAN2, atan2) LANED_2(HYPOT, hypot) LANED_2(POW, pow)
+LANED_1(COSH, cosh)
+LANED_1(TANH, tanh)
+LANED_1(EXP, exp)
+LANED_1(LOG, log)
+LANED_1(CBRT, cbrt) LANED_1(ERF, erf) LANED_2(ATAN2, atan2) LANED_2(HYPOT, hypot) LANED_2(POW, pow)
 
 /* A row's kernel: the one in lanes where HAS_… makes a second argument of it. */
-#define HAS_SIN_1   ~, SIN_lanes_1
-#define HAS_COS_1   ~, COS_lanes_1
-#define HAS_TAN_1   ~, TAN_lanes_1
-#define HAS_ASIN_1  ~, ASIN_lanes_1
-#define HAS_ACOS_1  ~, ACOS_lanes_1
-#define HAS_ATAN_1  ~, ATAN_lanes_1
-#define HAS_SINH_1  ~, SINH_lanes_1
-#define HAS_COSH_1  ~, COSH_lanes_1
-#define HAS_TANH_1  ~, TANH_lanes_1
-#define HAS_EXP_1   ~, EXP_lanes_1
-#define HAS_LOG_1   ~, LOG_lanes_1
-#define HAS_CBRT_1  ~, CBRT_lanes_1
-#define HAS_ERF_1   ~, ERF_lanes_1
+#define HAS_SIN_1 ~, SIN_lanes_1
+#define HAS_COS_1 ~, COS_lanes_1
+#define HAS_TAN_1 ~, TAN_lanes_1
+#define HAS_ASIN_1 ~, ASIN_lanes_1
+#define HAS_ACOS_1 ~, ACOS_lanes_1
+#define HAS_ATAN_1 ~, ATAN_lanes_1
+#define HAS_SINH_1 ~, SINH_lanes_1
+#define HAS_COSH_1 ~, COSH_lanes_1
+#define HAS_TANH_1 ~, TANH_lanes_1
+#define HAS_EXP_1 ~, EXP_lanes_1
+#define HAS_LOG_1 ~, LOG_lanes_1
+#define HAS_CBRT_1 ~, CBRT_lanes_1
+#define HAS_ERF_1 ~, ERF_lanes_1
 #define HAS_ATAN2_1 ~, ATAN2_lanes_1
 #define HAS_ATAN2_2 ~, ATAN2_lanes_2
 #define HAS_ATAN2_3 ~, ATAN2_lanes_3
 #define HAS_HYPOT_1 ~, HYPOT_lanes_1
 #define HAS_HYPOT_2 ~, HYPOT_lanes_2
 #define HAS_HYPOT_3 ~, HYPOT_lanes_3
-#define HAS_POW_1   ~, POW_lanes_1
-#define HAS_POW_2   ~, POW_lanes_2
-#define HAS_POW_3   ~, POW_lanes_3
+#define HAS_POW_1 ~, POW_lanes_1
+#define HAS_POW_2 ~, POW_lanes_2
+#define HAS_POW_3 ~, POW_lanes_3
 #endif
 #define SECOND(a, b, ...) b
-#define BEST_(...)        SECOND(__VA_ARGS__, ~)
-#define BEST(id, mask)    BEST_(HAS_##id##_##mask, id##_##mask)
+#define BEST_(...) SECOND(__VA_ARGS__, ~)
+#define BEST(id, mask) BEST_(HAS_##id##_##mask, id##_##mask)
 
 #define LEAF(...)
 #define UNARY(id, ...) [OP_##id * 8 + 1] = BEST(id, 1),
@@ -148,6 +149,6 @@ LANED_1(COSH, cosh) LANED_1(TANH, tanh) LANED_1(EXP, exp) LANED_1(LOG, log) LANE
 #define TERNARY(id, ...)                                                                                            \
     [OP_##id * 8 + 1] = id##_1, [OP_##id * 8 + 2] = id##_2, [OP_##id * 8 + 3] = id##_3, [OP_##id * 8 + 4] = id##_4, \
                    [OP_##id * 8 + 5] = id##_5, [OP_##id * 8 + 6] = id##_6, [OP_##id * 8 + 7] = id##_7,
-        block_kernel *const OF_ISA(tape_kernels_)[OPERATIONS * 8] = {
+    block_kernel *const OF_ISA(tape_kernels_)[OPERATIONS * 8] = {
 #include "lang/base/operations.def"
 };

@@ -269,9 +269,9 @@ static __attribute__((noinline)) double function(const instruction *i, const dou
 static void execute(frame *f, const instruction *i)
 {
     static const void *const label[CODE_END + 1] = {
-#define LEAF(id, ...)     [OP_##id] = &&l_other,
+#define LEAF(id, ...) [OP_##id] = &&l_other,
 #define FUNCTION(id, ...) [OP_##id] = &&l_function,
-#define OP(id, ...)       [OP_##id] = &&l_##id,
+#define OP(id, ...) [OP_##id] = &&l_##id,
 #include "lang/base/operations.def"
 #undef OP
         [CODE_CONST] = &&l_other,   [CODE_TIME] = &&l_time,         [CODE_PARAM] = &&l_other,

@@ -81,7 +81,7 @@ static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
 static inline tree *nothing(parser *p) { return grow(p, TREE_NUMBER, p->token.at); }
 
 #define COMPLAIN(p, at, ...) (source_complain((p)->source, MOTUS_SYNTAX, (at), __VA_ARGS__))
-#define HINT(p, ...)         (source_hint((p)->source, __VA_ARGS__))
+#define HINT(p, ...) (source_hint((p)->source, __VA_ARGS__))
 
 static inline const char *quote(const parser *p, span at, char out[80])
 {

@@ -8,17 +8,17 @@ typedef __UINT64_TYPE__ uint64_t;
 #define bool _Bool
 #define true 1
 #define false 0
-#define NULL        ((void *)0)
+#define NULL ((void *)0)
 #define DBL_EPSILON __DBL_EPSILON__
-#define INFINITY    __builtin_inff()
-#define NAN         __builtin_nanf("")
-#define fma         __builtin_fma
-#define sqrt        __builtin_sqrt
-#define fabs        __builtin_fabs
-#define floor       __builtin_floor
-#define fmod        __builtin_fmod
-#define copysign    __builtin_copysign
-#define signbit     __builtin_signbit
+#define INFINITY __builtin_inff()
+#define NAN __builtin_nanf("")
+#define fma __builtin_fma
+#define sqrt __builtin_sqrt
+#define fabs __builtin_fabs
+#define floor __builtin_floor
+#define fmod __builtin_fmod
+#define copysign __builtin_copysign
+#define signbit __builtin_signbit
 /* Before a loop whose turns are known in number: it is written out. */
 #ifdef __clang__
 #define WRITTEN_OUT _Pragma("clang loop unroll(full)")

@@ -3,29 +3,29 @@
  * and step are the same for all.
  */
 #define clock motus_clock
-#define real  reals
+#define real reals
 typedef double clock;
 typedef int64_t whole;
 #define FMA(a, b, c) MANY_FUSED(a, b, c)
-#define FINITE(x)    ((x) - (x) == 0)
-#define EPSILON      DBL_EPSILON
+#define FINITE(x) ((x) - (x) == 0)
+#define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26
 #if WIDTH > 1
 #define ABS(x) ((real)((OF_LANES(bits))(x) & ((OF_LANES(bits)){0} + 0x7fffffffffffffffu)))
 typedef OF_LANES(mask) truth;
-#define ALWAYS            ((truth){0} == 0)
+#define ALWAYS ((truth){0} == 0)
 #define PICK(where, a, b) CHOOSE(where, a, b)
-#define SOME(where)       OF_LANES(any)(where)
+#define SOME(where) OF_LANES(any)(where)
 #else
-#define ABS(x)            fabs(x)
+#define ABS(x) fabs(x)
 typedef bool truth;
-#define ALWAYS            true
+#define ALWAYS true
 #define PICK(where, a, b) ((where) ? (a) : (b))
-#define SOME(where)       (where)
+#define SOME(where) (where)
 #endif
 #define STOP(w, where, status) solve_stop(w, where)
-#define SPOIL(w, y)            solve_spoil(w, y)
-#define BLAME(w, where, k)     ((void)0)
-#define EACH(k)                for (size_t k = 0; k < FACT(w, nx); k++)
-#define EACHV(k)               for (size_t k = 0; k < FACT(w, nv); k++)
-#define TRACE(w, i)            ((void)(w), (void)(i))
+#define SPOIL(w, y) solve_spoil(w, y)
+#define BLAME(w, where, k) ((void)0)
+#define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)
+#define EACHV(k) for (size_t k = 0; k < FACT(w, nv); k++)
+#define TRACE(w, i) ((void)(w), (void)(i))

@@ -5,4 +5,4 @@
 #define refresh_at(w, t, x, v) ((void)0)
 #endif
 #define LEAST(a, b) OF_LANES(min)(a, b)
-#define MOST(a, b)  OF_LANES(max)(a, b)
+#define MOST(a, b) OF_LANES(max)(a, b)

@@ -10,8 +10,8 @@
  * row meets a velocity term that does work, by an infinity. What is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
-#define SOLVE_MATRIX   (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
-#define SOLVE_SIZE     ((sizeof(solving) + 63) / 64 * 64)
+#define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
+#define SOLVE_SIZE ((sizeof(solving) + 63) / 64 * 64)
 const size_t motus_lanes_solving = SOLVE_SIZE;
 
 static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t group)

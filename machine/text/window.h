@@ -24,7 +24,7 @@ static inline size_t window_place(const tiling_part *p, whole index)
         for (size_t k = window_place(p_, w->window.from), to_ = window_place(p_, w->window.to); k < to_; k++)
 #undef EACH
 #undef EACHV
-#define EACH(k)  WINDOW(k, w->host->tiling->positions)
+#define EACH(k) WINDOW(k, w->host->tiling->positions)
 #define EACHV(k) WINDOW(k, w->host->tiling->parts)
 #endif
 
@@ -61,5 +61,5 @@ typedef struct window_put {
     real *ex, *ev;
 } window_put;
 
-#define PUT(k, value)  window_keep(move, x, v, a, (size_t)(k), (value))
+#define PUT(k, value) window_keep(move, x, v, a, (size_t)(k), (value))
 #define PUTS(k, value) window_keep_many(move, x, v, a, (size_t)(k), (value))

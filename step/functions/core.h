@@ -29,22 +29,22 @@
  * the reduction of huge angles, which changes no lane that does not need it.
  */
 #ifndef NAME
-#define reals           double
-#define bits            uint64_t
-#define mask            int
-#define LANES           1
-#define LANE(x, k)      (x)
-#define NAME(f)         motus_##f
-#define REAL(c)         (c)
-#define BITS(c)         ((uint64_t)(c))
-#define FUSED(a, b, c)  fma(a, b, c)
-#define SQRT(x)         sqrt(x)
+#define reals double
+#define bits uint64_t
+#define mask int
+#define LANES 1
+#define LANE(x, k) (x)
+#define NAME(f) motus_##f
+#define REAL(c) (c)
+#define BITS(c) ((uint64_t)(c))
+#define FUSED(a, b, c) fma(a, b, c)
+#define SQRT(x) sqrt(x)
 #define SELECT(m, a, b) ((m) ? (a) : (b))
-#define ANY(m)          (m)
-#define INLINE          static inline
-#define CONSTANT        static const
-#define AS_BITS(x)      NAME(as_bits)(x)
-#define AS_REAL(b)      NAME(as_real)(b)
+#define ANY(m) (m)
+#define INLINE static inline
+#define CONSTANT static const
+#define AS_BITS(x) NAME(as_bits)(x)
+#define AS_REAL(b) NAME(as_real)(b)
 #ifdef __GNUC__
 #define COLD __attribute__((noinline, cold, unused)) static
 #else
@@ -68,11 +68,11 @@ static inline double motus_as_real(uint64_t b)
 }
 #endif
 
-#define SIGN_BIT     BITS(0x8000000000000000)
-#define INFINITE     REAL((double)INFINITY)
+#define SIGN_BIT BITS(0x8000000000000000)
+#define INFINITE REAL((double)INFINITY)
 #define NOT_A_NUMBER REAL((double)NAN)
-#define ABSOLUTE(x)  AS_REAL(AS_BITS(x) & ~SIGN_BIT)
-#define SIGN_OF(x)   (AS_BITS(x) & SIGN_BIT)
+#define ABSOLUTE(x) AS_REAL(AS_BITS(x) & ~SIGN_BIT)
+#define SIGN_OF(x) (AS_BITS(x) & SIGN_BIT)
 #define SIGNED(x, s) AS_REAL(AS_BITS(x) ^ (s)) /* x, negated where s is the sign bit */
 
 /* Adding 1.5 2^52 rounds to an integer, to even at halves, and leaves that integer in the low bits, modulo 2^51. */
@@ -80,12 +80,12 @@ static inline double motus_as_real(uint64_t b)
 
 /* Polynomials from the constant up, by Estrin's tree: half the depth of Horner's for one or two powers more. x2 =
  * x^2, x4 = x2^2. */
-#define POLY2(x, a, b)                           FUSED(x, REAL(b), REAL(a))
-#define POLY3(x, x2, a, b, c)                    FUSED(x2, REAL(c), POLY2(x, a, b))
-#define POLY4(x, x2, a, b, c, d)                 FUSED(x2, POLY2(x, c, d), POLY2(x, a, b))
-#define POLY5(x, x2, x4, a, b, c, d, e)          FUSED(x4, REAL(e), POLY4(x, x2, a, b, c, d))
-#define POLY6(x, x2, x4, a, b, c, d, e, f)       FUSED(x4, POLY2(x, e, f), POLY4(x, x2, a, b, c, d))
-#define POLY7(x, x2, x4, a, b, c, d, e, f, g)    FUSED(x4, POLY3(x, x2, e, f, g), POLY4(x, x2, a, b, c, d))
+#define POLY2(x, a, b) FUSED(x, REAL(b), REAL(a))
+#define POLY3(x, x2, a, b, c) FUSED(x2, REAL(c), POLY2(x, a, b))
+#define POLY4(x, x2, a, b, c, d) FUSED(x2, POLY2(x, c, d), POLY2(x, a, b))
+#define POLY5(x, x2, x4, a, b, c, d, e) FUSED(x4, REAL(e), POLY4(x, x2, a, b, c, d))
+#define POLY6(x, x2, x4, a, b, c, d, e, f) FUSED(x4, POLY2(x, e, f), POLY4(x, x2, a, b, c, d))
+#define POLY7(x, x2, x4, a, b, c, d, e, f, g) FUSED(x4, POLY3(x, x2, e, f, g), POLY4(x, x2, a, b, c, d))
 #define POLY8(x, x2, x4, a, b, c, d, e, f, g, h) FUSED(x4, POLY4(x, x2, e, f, g, h), POLY4(x, x2, a, b, c, d))
 
 /* hi + lo, unevaluated, |lo| small beside |hi|. */

@@ -6,28 +6,28 @@
  * machine, each is one instruction; wider vectors are made of such registers, and without them the loops below serve.
  */
 #define LANES_JOIN_(a, b) a##b
-#define LANES_JOIN(a, b)  LANES_JOIN_(a, b)
-#define NAME(f)           LANES_JOIN(motus_##f##_x, LANES)
+#define LANES_JOIN(a, b) LANES_JOIN_(a, b)
+#define NAME(f) LANES_JOIN(motus_##f##_x, LANES)
 
 typedef double NAME(reals) __attribute__((vector_size(8 * LANES)));
 typedef uint64_t NAME(bits) __attribute__((vector_size(8 * LANES)));
 typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 #define reals NAME(reals)
-#define bits  NAME(bits)
-#define mask  NAME(mask)
+#define bits NAME(bits)
+#define mask NAME(mask)
 
-#define LANE(x, k)      (x)[k]
-#define REAL(c)         ((c) - (reals){0}) /* c - 0 is c, even where that is -0 */
-#define BITS(c)         ((uint64_t)(c) | (bits){0})
-#define AS_BITS(x)      ((bits)(x))
-#define AS_REAL(b)      ((reals)(b))
-#define FUSED(a, b, c)  NAME(fused)(a, b, c)
-#define SQRT(x)         NAME(root)(x)
+#define LANE(x, k) (x)[k]
+#define REAL(c) ((c) - (reals){0}) /* c - 0 is c, even where that is -0 */
+#define BITS(c) ((uint64_t)(c) | (bits){0})
+#define AS_BITS(x) ((bits)(x))
+#define AS_REAL(b) ((reals)(b))
+#define FUSED(a, b, c) NAME(fused)(a, b, c)
+#define SQRT(x) NAME(root)(x)
 #define SELECT(m, a, b) NAME(select)(m, a, b)
-#define ANY(m)          NAME(any)(m)
-#define INLINE          static inline __attribute__((always_inline))
-#define COLD            __attribute__((noinline, cold, unused)) static
-#define CONSTANT        static const
+#define ANY(m) NAME(any)(m)
+#define INLINE static inline __attribute__((always_inline))
+#define COLD __attribute__((noinline, cold, unused)) static
+#define CONSTANT static const
 
 /* Of LANES_PART doubles each: the registers that a vector of LANES is made of. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && LANES % 8 == 0
@@ -40,19 +40,19 @@ typedef int64_t NAME(mask) __attribute__((vector_size(8 * LANES)));
 #define LANES_SQRT(a) __builtin_ia32_sqrtpd512_mask(a, a, (unsigned char)-1, 4)
 #endif
 #define LANES_SELECT(m, a, b) ((NAME(part))(((NAME(word))(a) & (NAME(word))(m)) | ((NAME(word))(b) & ~(NAME(word))(m))))
-#define LANES_ANY(m)          (__builtin_ia32_cvtq2mask512((NAME(word))(m)) != 0)
+#define LANES_ANY(m) (__builtin_ia32_cvtq2mask512((NAME(word))(m)) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 4 == 0
-#define LANES_PART            4
-#define LANES_FUSED           __builtin_ia32_vfmaddpd256
-#define LANES_SQRT            __builtin_ia32_sqrtpd256
+#define LANES_PART 4
+#define LANES_FUSED __builtin_ia32_vfmaddpd256
+#define LANES_SQRT __builtin_ia32_sqrtpd256
 #define LANES_SELECT(m, a, b) __builtin_ia32_blendvpd256(b, a, m)
-#define LANES_ANY(m)          (__builtin_ia32_movmskpd256(m) != 0)
+#define LANES_ANY(m) (__builtin_ia32_movmskpd256(m) != 0)
 #elif defined(__AVX2__) && defined(__FMA__) && LANES % 2 == 0
-#define LANES_PART            2
-#define LANES_FUSED           __builtin_ia32_vfmaddpd
-#define LANES_SQRT            __builtin_ia32_sqrtpd
+#define LANES_PART 2
+#define LANES_FUSED __builtin_ia32_vfmaddpd
+#define LANES_SQRT __builtin_ia32_sqrtpd
 #define LANES_SELECT(m, a, b) __builtin_ia32_blendvpd(b, a, m)
-#define LANES_ANY(m)          (__builtin_ia32_movmskpd(m) != 0)
+#define LANES_ANY(m) (__builtin_ia32_movmskpd(m) != 0)
 #endif
 
 #ifdef LANES_PART

@@ -7,7 +7,7 @@
  * on |s| <= 0.1716. Invariant: f and f^2/2 are carried exactly, so that what is rounded more than once is below 0.06
  * of the result.
  */
-#define LN2_TOP  REAL(0x1.62e42fefa3800p-1) /* 42 bits: k times it is exact */
+#define LN2_TOP REAL(0x1.62e42fefa3800p-1) /* 42 bits: k times it is exact */
 #define LN2_REST REAL(0x1.ef35793c76730p-45)
 
 typedef struct NAME(binary) {

@@ -5,10 +5,10 @@
  * part's function stays in registers, where the texts written over the whole vector would not.
  */
 #define WIDE_JOIN_(f, n) motus_##f##_x##n
-#define WIDE_JOIN(f, n)  WIDE_JOIN_(f, n)
-#define WIDE             WIDE_JOIN(reals, LANES)
-#define WIDE_PART        WIDE_JOIN(part, LANES)
-#define WIDE_EACH        for (int i = 0; i < LANES / LANES_PART; i++)
+#define WIDE_JOIN(f, n) WIDE_JOIN_(f, n)
+#define WIDE WIDE_JOIN(reals, LANES)
+#define WIDE_PART WIDE_JOIN(part, LANES)
+#define WIDE_EACH for (int i = 0; i < LANES / LANES_PART; i++)
 #define WIDE_UNARY(f)                                                             \
     static inline __attribute__((always_inline)) WIDE WIDE_JOIN(f, LANES)(WIDE x) \
     {                                                                             \
@@ -35,8 +35,10 @@ WIDE_UNARY(tan)
 WIDE_UNARY(asin)
 WIDE_UNARY(acos)
 WIDE_UNARY(atan)
-WIDE_BINARY(atan2) WIDE_UNARY(sinh) WIDE_UNARY(cosh) WIDE_UNARY(tanh) WIDE_UNARY(exp) WIDE_UNARY(log) WIDE_BINARY(pow)
-    WIDE_UNARY(cbrt) WIDE_BINARY(hypot) WIDE_UNARY(erf)
+WIDE_BINARY(atan2)
+WIDE_UNARY(sinh)
+WIDE_UNARY(cosh)
+WIDE_UNARY(tanh) WIDE_UNARY(exp) WIDE_UNARY(log) WIDE_BINARY(pow) WIDE_UNARY(cbrt) WIDE_BINARY(hypot) WIDE_UNARY(erf)
 
 #undef WIDE_JOIN_
 #undef WIDE_JOIN

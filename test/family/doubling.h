@@ -39,9 +39,9 @@ static void doubling_accept(work *w, mask good)
     EACHV(k) w->v[k] = CHOOSE_WHERE(good, w->vs[2 * w->stride + k], w->v[k]);
 }
 #define doubling_observe state_is_complete
-#define doubling_sync    work_sync_main
-#define doubling_carry   work_carry_main
-#define doubling_dense   dense_hermite
+#define doubling_sync work_sync_main
+#define doubling_carry work_carry_main
+#define doubling_dense dense_hermite
 static inline void doubling_place(work *w, placing *p)
 {
     w->xs = work_array(p, 4), w->vs = work_array(p, 4), w->ks = work_array(p, 1);
