@@ -35,18 +35,20 @@
 enum { COUNT = 1024, ROUNDS = 40, REPEATS = 25 };
 
 /* name, arguments, from, to, second from, to */
-#define EACH_FUNCTION(X)                                                                              \
-    X(sin, 1, -10, 10, 0, 0)                                                                          \
-    X(cos, 1, -10, 10, 0, 0)                                                                          \
-    X(tan, 1, -10, 10, 0, 0)                                                                          \
-    X(exp, 1, -20, 20, 0, 0)                                                                          \
-    X(log, 1, 0.01, 100, 0, 0)                                                                        \
-    X(pow, 2, 0.01, 100, -10, 10)                                                                     \
-    X(sinh, 1, -5, 5, 0, 0)                                                                           \
-    X(cosh, 1, -5, 5, 0, 0)                                                                           \
-    X(tanh, 1, -5, 5, 0, 0)                                                                           \
-    X(asin, 1, -1, 1, 0, 0) X(acos, 1, -1, 1, 0, 0) X(atan, 1, -5, 5, 0, 0) X(atan2, 2, -5, 5, -5, 5) \
-        X(cbrt, 1, -100, 100, 0, 0) X(hypot, 2, -5, 5, -5, 5) X(erf, 1, -3, 3, 0, 0)
+#define EACH_FUNCTION(X)          \
+    X(sin, 1, -10, 10, 0, 0)      \
+    X(cos, 1, -10, 10, 0, 0)      \
+    X(tan, 1, -10, 10, 0, 0)      \
+    X(exp, 1, -20, 20, 0, 0)      \
+    X(log, 1, 0.01, 100, 0, 0)    \
+    X(pow, 2, 0.01, 100, -10, 10) \
+    X(sinh, 1, -5, 5, 0, 0)       \
+    X(cosh, 1, -5, 5, 0, 0)       \
+    X(tanh, 1, -5, 5, 0, 0)       \
+    X(asin, 1, -1, 1, 0, 0)       \
+    X(acos, 1, -1, 1, 0, 0)       \
+    X(atan, 1, -5, 5, 0, 0)       \
+    X(atan2, 2, -5, 5, -5, 5) X(cbrt, 1, -100, 100, 0, 0) X(hypot, 2, -5, 5, -5, 5) X(erf, 1, -3, 3, 0, 0)
 
 typedef void sweep(double *r, const double *x, const double *y);
 

@@ -112,7 +112,11 @@ LANED_1(COSH, cosh)
 LANED_1(TANH, tanh)
 LANED_1(EXP, exp)
 LANED_1(LOG, log)
-LANED_1(CBRT, cbrt) LANED_1(ERF, erf) LANED_2(ATAN2, atan2) LANED_2(HYPOT, hypot) LANED_2(POW, pow)
+LANED_1(CBRT, cbrt)
+LANED_1(ERF, erf)
+LANED_2(ATAN2, atan2)
+LANED_2(HYPOT, hypot)
+LANED_2(POW, pow)
 
 /* A row's kernel: the one in lanes where HAS_… makes a second argument of it. */
 #define HAS_SIN_1 ~, SIN_lanes_1
@@ -149,6 +153,6 @@ LANED_1(CBRT, cbrt) LANED_1(ERF, erf) LANED_2(ATAN2, atan2) LANED_2(HYPOT, hypot
 #define TERNARY(id, ...)                                                                                            \
     [OP_##id * 8 + 1] = id##_1, [OP_##id * 8 + 2] = id##_2, [OP_##id * 8 + 3] = id##_3, [OP_##id * 8 + 4] = id##_4, \
                    [OP_##id * 8 + 5] = id##_5, [OP_##id * 8 + 6] = id##_6, [OP_##id * 8 + 7] = id##_7,
-    block_kernel *const OF_ISA(tape_kernels_)[OPERATIONS * 8] = {
+block_kernel *const OF_ISA(tape_kernels_)[OPERATIONS * 8] = {
 #include "lang/base/operations.def"
 };
