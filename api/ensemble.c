@@ -43,14 +43,27 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
 
 static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
-    for (size_t k = 0; k < e->vary_count; k++) {
-        motus_status status = ensemble_place(e->system, d->vary[k], &e->places[k], err);
-        for (size_t i = 0; i < k && status == MOTUS_OK; i++)
-            if (e->places[i] == e->places[k]) status = fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
-        if (status != MOTUS_OK) return status;
+    for (size_t k = 0; k < d->vary_count; k++) {
+        bool twice = false;
+        if (d->vary[k] && !strcmp(d->vary[k], "until")) {
+            twice = e->until != SIZE_MAX;
+            e->until = k;
+        } else {
+            size_t *place = &e->places[e->vary_count];
+            motus_status status = ensemble_place(e->system, d->vary[k], place, err);
+            if (status != MOTUS_OK) return status;
+            for (size_t i = 0; i < e->vary_count; i++) twice |= e->places[i] == *place;
+            e->vary_count++;
+        }
+        if (twice) return fail(err, MOTUS_ARGUMENT, "%s varies twice", d->vary[k]);
     }
+    if (e->until != SIZE_MAX && !isnan(d->until))
+        return fail(err, MOTUS_ARGUMENT, "the end is %g, and varies: only one of them can hold", d->until);
     return MOTUS_OK;
 }
+
+/* Trajectories take different numbers of steps. */
+static bool steps_differ(const motus_ensemble *e) { return e->until != SIZE_MAX || row_adaptive(&e->chosen); }
 
 /* A recorded column as lanes see it; false: they cannot. */
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
@@ -103,6 +116,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
                            .until = e->timing.until,
                            .whole = e->timing.whole,
                            .every = e->every,
+                           .own_clock = steps_differ(e),
                            .lanes = d->lanes,
                            .threads = e->threads,
                            .fast = d->fast != 0,
@@ -130,7 +144,7 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 {
     motus_system *s = e->system;
     choose_portable(e);
-    if (!s->model && s->callback.block) e->block = ensemble_block_size(s, &e->chosen);
+    if (!s->model && s->callback.block && e->until == SIZE_MAX) e->block = ensemble_block_size(s, &e->chosen);
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why;
     motus_status status =
@@ -146,14 +160,17 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     motus_system *s = e->system;
     const motus_method *card;
     motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
-    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, d->step, d->until, NAN, &e->timing, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
+    /* where ends vary, only what all trajectories share is known now */
+    const double until = e->until == SIZE_MAX ? d->until : s->start;
+    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, d->step, until, NAN, &e->timing, err);
     if (status == MOTUS_OK && s->model)
-        status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step), !isnan(d->until), &e->vary, err);
+        status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step),
+                             !isnan(d->until) || e->until != SIZE_MAX, &e->vary, err);
     const char *wanted = d->machine;
     bool automatic, compiled;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);
-    if (status == MOTUS_OK && s->model && d->expected && automatic &&
+    if (status == MOTUS_OK && s->model && d->expected && automatic && !steps_differ(e) &&
         choice_worth(s, card, (double)d->expected * (double)e->timing.total) < 1) {
         compiled = false;
         wanted = "interpreter";
@@ -179,7 +196,9 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     *e = (motus_ensemble){.system = s,
                           .allocator = s->allocator,
                           .every = d.every,
-                          .vary_count = d.vary_count,
+                          .given = d.vary_count,
+                          .until = SIZE_MAX,
+                          .step = d.step,
                           .record_count = d.record_count,
                           .threads = d.threads  ? d.threads
                                      : s->model ? parallel_processors()
@@ -189,8 +208,9 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     motus_system_hold(s, true);
     e->places = take(&s->allocator, d.vary_count + 1, sizeof *e->places);
     e->records = take(&s->allocator, d.record_count, sizeof *e->records);
+    e->values = take(&s->allocator, d.vary_count + 1, sizeof *e->values);
     modes m = modes_enter();
-    if (!e->places || !e->records) {
+    if (!e->places || !e->records || !e->values) {
         status = fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     } else {
         memcpy(e->records, d.records, d.record_count * sizeof *e->records);
@@ -205,27 +225,50 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     return MOTUS_OK;
 }
 
+motus_status ensemble_timing(const motus_ensemble *e, const places *p, size_t k, timing *t, motus_error *err)
+{
+    *t = e->timing;
+    return p->until ? run_timing(e->system, &e->chosen, e->step, p->until[k], NAN, t, err) : MOTUS_OK;
+}
+
+/* All ends are right, or nothing is computed. */
+static motus_status check_ends(const motus_ensemble *e, const places *p, motus_error *err)
+{
+    for (size_t k = 0; p->until && k < e->count; k++) {
+        timing t;
+        motus_error why = motus_default_error();
+        const motus_status status = ensemble_timing(e, p, k, &t, &why);
+        if (status == MOTUS_OK) continue;
+        fail(err, status, "until, value %zu of %zu: %s", k + 1, e->count, why.message);
+        if (why.hint[0]) hint(err, "%s", why.hint);
+        return status;
+    }
+    return MOTUS_OK;
+}
+
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
                                 double *stopped, motus_error *err)
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!e || !results || (e->vary_count && !values))
+    if (!e || !results || (e->given && !values))
         return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
-    for (size_t k = 0; k < e->vary_count; k++)
+    for (size_t k = 0; k < e->given; k++)
         if (!values[k]) return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
     for (size_t r = 0; r < e->record_count; r++)
         if (!results[r]) return fail(err, MOTUS_ARGUMENT, "the place for record %zu is NULL", r);
     if (!count) return MOTUS_OK;
     modes m = modes_enter();
     double began = pace_now();
-    places p = {values, results, stopped, false};
+    places p = {e->values, NULL, results, stopped, false};
+    size_t places = 0;
+    for (size_t k = 0; k < e->given; k++) *(k == e->until ? &p.until : &e->values[places++]) = values[k];
     for (size_t r = 0; r < e->record_count; r++) p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
-    motus_status status = e->lanes ? lanes_run(e->lanes, count, values, results, stopped, err) : MOTUS_METHOD;
+    motus_status status = check_ends(e, &p, err);
+    if (status == MOTUS_OK)
+        status = e->lanes ? lanes_run(e->lanes, count, p.values, p.until, results, stopped, err) : MOTUS_METHOD;
     if (e->lanes && status == MOTUS_METHOD) choose_portable(e);
-    if (status == MOTUS_METHOD)
-        status =
-            !e->system->model && e->system->callback.block ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    if (status == MOTUS_METHOD) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
@@ -240,10 +283,11 @@ void motus_ensemble_destroy(motus_ensemble *e)
     ensemble_dismiss(e);
     give(&a, e->places);
     give(&a, e->records);
+    give(&a, (void *)e->values);
     give(&a, e);
 }
 
-int64_t motus_ensemble_steps(const motus_ensemble *e) { return e ? e->timing.total : 0; }
+int64_t motus_ensemble_steps(const motus_ensemble *e) { return !e || steps_differ(e) ? 0 : e->timing.total; }
 const char *motus_ensemble_method(const motus_ensemble *e) { return e ? e->chosen.name : ""; }
 const char *motus_ensemble_machine(const motus_ensemble *e)
 {

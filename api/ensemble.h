@@ -33,15 +33,19 @@ struct motus_ensemble {
     chosen chosen;
     timing timing;
     int64_t every;
-    size_t vary_count, record_count;
-    size_t *places; /* of the pool; of a callback: of x, then v */
+    size_t vary_count, record_count; /* vary_count: without `until` */
+    size_t *places;                  /* of the pool; of a callback: of x, then v */
+    const double **values;           /* room for the values at them */
+    size_t given;                    /* arrays of values that a run is given: `until` among them */
+    size_t until;                    /* its place among them where it varies, or SIZE_MAX */
+    double step;                     /* as asked for; NaN: the model's */
     motus_record *records;
     vary *vary;
     lanes *lanes;    /* NULL: one trajectory after the other */
     machine machine; /* then, of the first worker */
     /* `threads` of them, made when they are first needed; those not made yet are zero */
     worker *workers;
-    size_t count, block; /* trajectories of this run; of a block: 1 but for callbacks of blocks */
+    size_t count, block; /* trajectories of this run; of a block, where a callback takes them so; else 0 */
     atomic_size_t done;
     atomic_bool stop; /* somebody failed, or nobody wants the rest */
     int threads;
@@ -59,10 +63,14 @@ motus_status ensemble_place(const motus_system *, const char *name, size_t *plac
 
 /* What a run is given: where values come from and results go. */
 typedef struct places {
-    const double *const *values;
+    const double *const *values; /* at e->places */
+    const double *until;         /* where it varies; else NULL */
     double *const *results, *stopped;
     bool looks;
 } places;
+/* The timing of trajectory k. */
+motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);
+
 /* ensemble_single.c: one trajectory after the other. ensemble_block.c: blocks of a callback. */
 motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
 motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);

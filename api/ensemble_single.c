@@ -105,8 +105,9 @@ static motus_status travel(single *s, const places *p, size_t k, motus_error *er
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
-    const timing *t = &e->timing;
+    timing own, *t = &own;
     motus_status status = start(s, p->values, k, err);
+    if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);
     if (status != MOTUS_OK) return status;
     status = w->stepper
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)

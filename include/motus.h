@@ -592,7 +592,8 @@ typedef struct motus_record {
 typedef struct motus_ensemble_def {
     uint32_t size; /* by motus_default_ensemble() */
     /* What differs: a parameter "F", a component of one "g.x", an initial value "x(0)", "x'(0)", "r.x(0)",
-     * "x[3](0)". Values that are computed from these follow. What decides sizes, the step or the end cannot differ. */
+     * "x[3](0)", or the end, "until", where the definition has none. Values that are computed from these follow. What
+     * decides sizes, the step or the end cannot differ. */
     const char *const *vary;
     size_t vary_count;
     const motus_record *records; /* at least one */
@@ -621,12 +622,13 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
  * room for `count` numbers of records[k]. stopped: NULL or room for `count` numbers: NaN, or the time at which a
  * trajectory left the finite numbers, its implicit equation could not be solved, or its callback could not be
  * evaluated (above 0); its results are then NaN, and the others are not harmed. MOTUS_CALLBACK: a callback failed
- * (below 0). MOTUS_CANCELLED. */
+ * (below 0). MOTUS_CANCELLED. MOTUS_ARGUMENT, MOTUS_LIMIT, MOTUS_METHOD: an end that varies is none for a run, and
+ * nothing has been computed. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
-MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory */
+MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */
 MOTUS_API const char *motus_ensemble_method(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_machine(const motus_ensemble *);
 MOTUS_API const char *motus_ensemble_note(const motus_ensemble *); /* why not another machine, or "" */

@@ -116,9 +116,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t,
              "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
              "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
-             "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.direct, w.order,
-             r->family == SPLITTING && w.unit[0] == 0);
+             "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define FACT_linears %d\n"
+             "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
+             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.direct, w.order, w.linears,
+             w.squares, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -293,8 +294,9 @@ bool compose(emit *e, const composition *c)
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {
-        emit_add(t, "#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)",
-                 c->model->boundary_count > 0, c->groups, c->width);
+        emit_add(
+            t, "#define OWN_CLOCK %d\n#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)",
+            c->own_clock, c->model->boundary_count > 0, c->groups, c->width);
         for (int group = 0; group < c->groups; group++) emit_add(t, " DO(%d)", group);
         emit_add(t, "\n");
     }
@@ -328,7 +330,7 @@ bool compose(emit *e, const composition *c)
     }
     if (windowed) add_text(t, "machine/text/pass.h");
     add_family(t, c);
-    add_text(t, "step/advance.h");
+    if (!lanes || c->chosen->row->adaptive) add_text(t, "step/advance.h");
     if (!lanes) add_text(t, "step/loop.h");
     if (local) add_text(t, "machine/text/tiled.h");
     for (const char *const *last = c->last; *last; last++) add_text(t, *last);

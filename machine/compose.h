@@ -25,6 +25,7 @@ typedef struct composition {
     size_t program_count;
     const locality *locality; /* of the first program, where it may be taken window by window; NULL */
     bool solves;              /* lanes: the row solves equations, by solve_text.h */
+    bool own_clock;           /* lanes: each has a time and a step of its own */
     /* lanes: trajectories in one vector, vectors side by side; width 0: one trajectory */
     int width, groups;
     const char *glue;        /* C text between the programs and the texts of step/, or NULL */

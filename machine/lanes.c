@@ -1,6 +1,6 @@
 /* Lanes: what they can do, the text, the object. See lanes.h.
  *
- * Invariant: the text is made of the model, the row, what varies and what is looked at; numbers of trajectories and
+ * Invariant: the text is made of the model, the row, what varies and what is observed at; numbers of trajectories and
  * of threads are not in it.
  */
 #include "machine/lanes_parts.h"
@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* vectors in a block; operations in one step of all of them; in a function; in a quantity */
-enum { GROUPS_MAX = 12, STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, LOOK_WEIGHT = 30 };
-enum { LOOKS_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
+/* operations in one step of all groups; in a function; in a quantity */
+enum { STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, OBSERVED_WEIGHT = 30 };
+enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
@@ -26,10 +26,14 @@ static int best_groups(const lanes_def *d, const work *plan)
     if (plan->solves && !(plan->row->family == IMPLICIT ? plan->direct : plan->linear))
         return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
-    for (uint32_t k = 0; k < g->count; k++) /* what depends on time alone is in the table */
-        operations += !(g->nodes[k].deps & DEP_STATE) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
+    /* what depends on time alone is in the table, where there is one */
+    const unsigned counted = d->own_clock ? DEP_STATE | DEP_TIME : DEP_STATE;
+    for (uint32_t k = 0; k < g->count; k++)
+        operations += !(g->nodes[k].deps & counted) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
     for (size_t k = 0; k < d->source_count; k++)
-        operations += d->sources[k].how == REDUCE_FINAL ? 0 : d->sources[k].kind == SOURCE_DEFINITION ? LOOK_WEIGHT : 4;
+        operations += d->sources[k].how == REDUCE_FINAL         ? 0
+                      : d->sources[k].kind == SOURCE_DEFINITION ? OBSERVED_WEIGHT
+                                                                : 4;
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
@@ -40,9 +44,9 @@ const char *lanes_refuse(const lanes_def *d)
     if (d->chosen->row->family == EXACT) return "the exact motion is computed one trajectory at a time";
     if (!solve_text_admits(d->model, d->problem, d->chosen))
         return "this method solves equations of a family, or of many unknowns, one trajectory at a time";
-    if (d->chosen->row->gyroscopic && (!d->problem->traits.constant_jv || (!d->whole && d->last == 0)))
+    const bool steps = !d->own_clock && (d->whole > 0 || d->last != 0);
+    if (d->chosen->row->gyroscopic && (!d->problem->traits.constant_jv || !steps))
         return "whether the velocity term does no work depends on the state: trajectories are computed one at a time";
-    if (row_adaptive(d->chosen)) return "the steps of this method adapt to each trajectory, one at a time";
     if ((d->model->pool_count + 8 * d->model->nv) * sizeof(double) * 8 > BLOCK_BYTES)
         return "the model is large: its trajectories are computed one at a time";
     if (d->model->graph->count > OPERATIONS_MAX)
@@ -56,12 +60,12 @@ const char *lanes_refuse(const lanes_def *d)
 
 /* ---- the text ---- */
 
-typedef struct looked {
+typedef struct observed {
     const model_definition *definition;
     size_t first;
-} looked;
+} observed;
 
-static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *outs)
+static size_t list_observed(const lanes_def *d, observed list[OBSERVED_MAX], size_t *outs)
 {
     size_t count = 0;
     *outs = 0;
@@ -70,8 +74,8 @@ static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *out
         bool known = s->kind != SOURCE_DEFINITION;
         for (size_t k = 0; k < count; k++) known |= s->definition == list[k].definition;
         if (known) continue;
-        if (count == LOOKS_MAX) return SIZE_MAX;
-        list[count++] = (looked){s->definition, *outs};
+        if (count == OBSERVED_MAX) return SIZE_MAX;
+        list[count++] = (observed){s->definition, *outs};
         *outs += s->definition->numbers;
     }
     return count;
@@ -80,15 +84,15 @@ static size_t list_looks(const lanes_def *d, looked list[LOOKS_MAX], size_t *out
 #define CALL "(host->pool, host->q, host->u, host->bound, host->own, "
 
 /* What is recorded, as a table of the text. */
-static void write_records(emit_text *t, const lanes_def *d, const looked *looks, size_t look_count)
+static void write_records(emit_text *t, const lanes_def *d, const observed *quantities, size_t observed_count)
 {
     bool looking = false, velocity = false;
     emit_add(t, "static const lanes_record the_records[] = {");
     for (size_t i = 0; i < d->source_count; i++) {
         const lanes_source *s = &d->sources[i];
         size_t first = 0;
-        for (size_t k = 0; k < look_count; k++)
-            if (s->kind == SOURCE_DEFINITION && looks[k].definition == s->definition) first = looks[k].first;
+        for (size_t k = 0; k < observed_count; k++)
+            if (s->kind == SOURCE_DEFINITION && quantities[k].definition == s->definition) first = quantities[k].first;
         static const int from[] = {
             [SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
         emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
@@ -102,18 +106,19 @@ static void write_records(emit_text *t, const lanes_def *d, const looked *looks,
 }
 
 /* The functions of the text that call the programs, all of one kind in one. */
-static char *write_glue(lanes *l, const composed_program *along, size_t entries, const looked *looks, size_t look_count)
+static char *write_glue(lanes *l, const composed_program *along, size_t entries, const observed *quantities,
+                        size_t observed_count)
 {
     emit_text t = {.arena = l->def.model->arena};
     const bool bounded = l->def.model->boundary_count > 0;
-    write_records(&t, &l->def, looks, look_count);
+    write_records(&t, &l->def, quantities, observed_count);
     emit_add(&t,
              "static inline void lanes_bind(const double *pool, const int64_t *q, double *u)\n{\n    "
              "compiled_force_bind(pool, q, u);\n%s",
              bounded ? "    compiled_boundary_bind(pool, q, u);\n" : "");
     for (const composed_program *p = along; p->name; p++) emit_add(&t, "    %s_bind(pool, q, u);\n", p->name);
     for (size_t k = 0; k < entries; k++) emit_add(&t, "    start_%zu_bind(pool, q, u);\n", k);
-    for (size_t k = 0; k < look_count; k++) emit_add(&t, "    look_%zu_bind(pool, q, u);\n", k);
+    for (size_t k = 0; k < observed_count; k++) emit_add(&t, "    quantity_%zu_bind(pool, q, u);\n", k);
     emit_add(&t, "}\nstatic inline void lanes_start(const lanes_job *job, const compiled_host *host, const real "
                  "*values)\n{\n    (void)host;\n");
     for (size_t k = 0; k <= entries; k++) {
@@ -122,7 +127,7 @@ static char *write_glue(lanes *l, const composed_program *along, size_t entries,
             emit_add(
                 &t,
                 "    start_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n    start_%zu" CALL
-                "0, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n",
+                "(clock){0}, (const clock *)0, (real *)0, (real *)0, (real *)0, host->own);\n",
                 k, k);
     }
     emit_add(&t,
@@ -132,13 +137,14 @@ static char *write_glue(lanes *l, const composed_program *along, size_t entries,
                      : "");
     for (const composed_program *p = along; p->name; p++)
         emit_add(&t, "    %s_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", p->name);
-    for (size_t k = 0; k < look_count; k++)
-        emit_add(&t, "    look_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", k);
-    emit_add(&t, "}\n\nstatic inline void lanes_looks(const compiled_host *host, clock t, real *x, real *v, real *a, "
-                 "real *out)\n{\n"
-                 "    (void)host, (void)t, (void)x, (void)v, (void)a, (void)out;\n");
-    for (size_t k = 0; k < look_count; k++)
-        emit_add(&t, "    look_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu);\n", k, looks[k].first);
+    for (size_t k = 0; k < observed_count; k++)
+        emit_add(&t, "    quantity_%zu_bind_lanes(host->pool, host->q, host->u, host->own, host->bound);\n", k);
+    emit_add(&t,
+             "}\n\nstatic inline void lanes_quantities(const compiled_host *host, clock t, real *x, real *v, real *a, "
+             "real *out)\n{\n"
+             "    (void)host, (void)t, (void)x, (void)v, (void)a, (void)out;\n");
+    for (size_t k = 0; k < observed_count; k++)
+        emit_add(&t, "    quantity_%zu" CALL "t, (const clock *)0, x, v, a, out + %zu);\n", k, quantities[k].first);
     emit_add(&t, "}\n\n");
     return l->def.model->arena->failed ? NULL : t.bytes;
 }
@@ -151,13 +157,14 @@ static bool write_text(lanes *l)
     model *m = d->model;
     uint32_t entries;
     const vary_active *active = vary_entries(d->vary, &entries);
-    looked looks[LOOKS_MAX];
-    const size_t look_count = list_looks(d, looks, &l->outs), count = 4 + entries + look_count;
+    observed quantities[OBSERVED_MAX];
+    const size_t observed_count = list_observed(d, quantities, &l->outs), count = 4 + entries + observed_count;
     composed_program *programs = arena_room(m->arena, count * sizeof *programs);
     char *names = arena_room(m->arena, count * PROGRAM_NAME);
     if (!programs || !names) return false;
     size_t n = 0;
-    programs[n++] = (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", true};
+    programs[n++] =
+        (composed_program){program_create(m->graph, m->accel, m->accel_count), "compiled_force", !d->own_clock};
     composed_program along[3] = {{0}};
     const size_t alongs = solve_text_programs(m, d->problem, d->chosen, along);
     for (size_t k = 0; k < alongs; k++) programs[n++] = along[k];
@@ -169,27 +176,31 @@ static bool write_text(lanes *l)
         programs[n] = (composed_program){active[k].program, names + n * PROGRAM_NAME, false};
         n++;
     }
-    for (size_t k = 0; k < look_count; k++) {
-        const model_definition *definition = looks[k].definition;
+    for (size_t k = 0; k < observed_count; k++) {
+        const model_definition *definition = quantities[k].definition;
         for (size_t i = 0; i < definition->output_count; i++)
             l->wants_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
-        snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "look_%zu", k);
+        snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "quantity_%zu", k);
         programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count),
                                          names + n * PROGRAM_NAME, false};
         n++;
     }
     static const char *const last[] = {"machine/text/lanes_ways.h", "step/observe.h", "machine/text/reduce.h",
                                        "machine/text/lanes.h", NULL};
-    l->e = (emit){.text = {.arena = m->arena}, .lanes = true, .varied = d->place_count ? vary_affected(d->vary) : NULL};
+    l->e = (emit){.text = {.arena = m->arena},
+                  .lanes = true,
+                  .own_time = d->own_clock,
+                  .varied = d->place_count ? vary_affected(d->vary) : NULL};
     const composition c = {.model = m,
                            .problem = d->problem,
                            .chosen = d->chosen,
                            .programs = programs,
                            .program_count = n,
+                           .own_clock = d->own_clock,
                            .width = l->width,
                            .solves = l->plan.solves > 0,
                            .groups = l->groups,
-                           .glue = write_glue(l, along, entries, looks, look_count),
+                           .glue = write_glue(l, along, entries, quantities, observed_count),
                            .last = last};
     if (m->arena->failed || !compose(&l->e, &c)) return false;
     return true;
@@ -229,23 +240,25 @@ static bool prepare(lanes *l)
     l->bound_size = lines(l, l->e.fixed_lanes);
     l->carry_size = lines(l, l->carried);
     l->kept_size = lines(l, d->source_count * REDUCE_KEPT);
+    l->clock_size = d->own_clock ? lines(l, LANES_CLOCKS) : 0;
     l->work_size = lines(l, stepper_arrays(l->plan) * m->nv);
     l->solve_size =
         (l->solving * (size_t)l->groups + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT / sizeof(double) + lines(l, 1);
-    l->look_size = lines(l, m->nx + m->nv + m->nv + l->outs);
+    l->observed_size = lines(l, m->nx + m->nv + m->nv + l->outs);
     return true;
 }
 
 motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t size, motus_error *err)
 {
     model *m = d->model;
-    looked looks[LOOKS_MAX];
+    observed quantities[OBSERVED_MAX];
     size_t outs;
     lanes *l = arena_take(m->arena, sizeof *l);
     if (m->arena->failed) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *l = (lanes){.def = *d, .width = compose_width()};
-    if (list_looks(d, looks, &outs) == SIZE_MAX) {
-        snprintf(note, size, "more than %d quantities are recorded", LOOKS_MAX);
+    for (size_t r = 0; r < d->source_count; r++) l->on_the_way |= d->sources[r].how != REDUCE_FINAL;
+    if (list_observed(d, quantities, &outs) == SIZE_MAX) {
+        snprintf(note, size, "more than %d quantities are recorded", OBSERVED_MAX);
         return MOTUS_TOOL;
     }
     l->plan = stepper_plan(d->problem, d->chosen, NULL);
@@ -264,10 +277,10 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     *(void **)&l->begin = dlsym(l->handle, "motus_lanes_begin");
     *(void **)&l->set = dlsym(l->handle, "motus_lanes_set");
     *(void **)&l->first = dlsym(l->handle, "motus_lanes_first");
-    *(void **)&l->look = dlsym(l->handle, "motus_lanes_look");
+    *(void **)&l->observe = dlsym(l->handle, "motus_lanes_observe");
     *(void **)&l->run = dlsym(l->handle, "motus_lanes_run");
     const size_t *solving = dlsym(l->handle, "motus_lanes_solving");
-    if (!solving || !l->bind || !l->table || !l->begin || !l->set || !l->first || !l->look || !l->run) {
+    if (!solving || !l->bind || !l->table || !l->begin || !l->set || !l->first || !l->observe || !l->run) {
         snprintf(note, size, "the compiled object is not what was compiled");
         lanes_destroy(l);
         return MOTUS_TOOL;

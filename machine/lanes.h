@@ -28,8 +28,9 @@ typedef struct lanes_def {
     const lanes_source *sources;
     size_t source_count;
     double t0, h, last, until; /* last: the shorter last step, 0 none */
-    int64_t whole, every;
-    int lanes, threads; /* lanes 0: as many as suits */
+    int64_t whole, every;      /* observations every so many steps */
+    bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are not used */
+    int lanes, threads;        /* lanes 0: as many as suits */
     bool fast;
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
@@ -41,10 +42,11 @@ const char *lanes_refuse(const lanes_def *);
 /* The definition's pointers must outlive it. note[size]: why there is no object, where the status is MOTUS_TOOL. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
-/* values[k][i], results[r][i], stopped[i] (may be NULL) for i < count. MOTUS_METHOD, with no error: lanes cannot tell
+/* values[k][i], until[i] (NULL: that of the definition), results[r][i], stopped[i] (may be NULL) for i < count.
+ * MOTUS_METHOD, with no error: lanes cannot tell
  * whether the method admits the parameters of every trajectory; one at a time can. */
-motus_status lanes_run(lanes *, size_t count, const double *const *values, double *const *results, double *stopped,
-                       motus_error *);
+motus_status lanes_run(lanes *, size_t count, const double *const *values, const double *until, double *const *results,
+                       double *stopped, motus_error *);
 int lanes_in_block(const lanes *);
 
 #endif

@@ -1,4 +1,6 @@
-/* What lanes.c (text and object) and lanes_blocks.c (blocks of trajectories) share. */
+/* What the files of lanes share: lanes.c (text and object), lanes_block.c (one block of trajectories),
+ * lanes_together.c (blocks whose trajectories share one clock) and lanes_apart.c (every trajectory has its own).
+ */
 #ifndef MACHINE_LANES_PARTS_H
 #define MACHINE_LANES_PARTS_H
 
@@ -9,7 +11,11 @@
 #include "machine/text/host.h"
 #include "machine/text/lanes_job.h"
 
+#include <stdatomic.h>
+
 enum { ALIGNMENT = 64 }; /* bytes of a cache line, and of the widest vector */
+enum { CHUNK = 512 };    /* steps that are taken in one call */
+enum { GROUPS_MAX = 12, BLOCK_MAX = GROUPS_MAX * 8 };
 
 struct lanes {
     lanes_def def;
@@ -18,23 +24,94 @@ struct lanes {
     emit e;
     void *handle;
     void (*bind)(const double *, const int64_t *, double *);
-    void (*table)(const lanes_job *, clock *, whole);
+    void (*table)(const lanes_job *, double *, whole);
     void (*begin)(const lanes_job *);
     void (*set)(const lanes_job *);
     void (*first)(const lanes_job *);
-    void (*look)(const lanes_job *);
+    void (*observe)(const lanes_job *);
     void (*run)(const lanes_job *, whole, whole);
     double *u;
     int64_t *q, *places, *from_x, *from_v;
-    size_t outs; /* numbers of the definitions that are looked at */
+    size_t outs; /* numbers of the definitions that are observed */
     bool wants_a;
-    size_t solving; /* bytes of the linear systems of a group */
-    size_t carried; /* elements of a group's carry */
+    bool on_the_way; /* something is recorded on the way, not at the end alone */
+    size_t solving;  /* bytes of the linear systems of a group */
+    size_t carried;  /* elements of a group's carry */
     /* of one block, in doubles, whole cache lines */
-    size_t own_size, bound_size, carry_size, kept_size, work_size, look_size, solve_size;
+    size_t own_size, bound_size, carry_size, kept_size, clock_size, work_size, observed_size, solve_size;
 };
 
 /* Doubles for so many elements of every lane of a block, in whole cache lines. */
 static inline size_t lines(const lanes *l, size_t elements) { return (elements * (size_t)l->block + 7) / 8 * 8; }
+
+/* Element k of lane i of a block, where a group has so many elements. */
+static inline size_t lane_at(const lanes *l, size_t elements, size_t k, size_t i)
+{
+    const size_t width = (size_t)l->width;
+    return (i / width * elements + k) * width + i % width;
+}
+
+/* A call of lanes_run: all its trajectories. */
+typedef struct lanes_call {
+    lanes *l;
+    size_t count;
+    const double *const *values;
+    const double *until; /* of every trajectory, or NULL: the same for all */
+    double *const *results, *stopped;
+    double *memory; /* of every thread: its blocks, its scratch */
+    size_t blocks, block_size, scratch_size, table_size, thread_size;
+    size_t items, most; /* pieces of the work, and how many trajectories one has */
+    atomic_size_t done; /* trajectories */
+    atomic_bool cancelled;
+    atomic_bool refused; /* the row does not admit the parameters of some lane */
+} lanes_call;
+
+/* One piece of the work: trajectories first … first + count - 1, taken through time by one thread with blocks of its
+ * own. */
+typedef struct lanes_item {
+    lanes *l;
+    lanes_call *call;
+    size_t first, count;
+    bool told;                        /* it reports the progress */
+    double *memory, *scratch, *table; /* of the blocks; of whichever block is at work; of time */
+    double t0, h;                     /* the leg that all share, */
+    int64_t n, first_row;             /*   the steps taken in it, and the first row of the table */
+    int64_t observations;             /* recorded so far */
+    bool ends;                        /* the observation to come is the last */
+} lanes_item;
+
+/* ---- lanes_block.c ---- */
+
+size_t lanes_block_size(const lanes *);
+size_t lanes_scratch_size(const lanes *);
+lanes_job lanes_block_job(const lanes_item *, size_t block);
+/* When each lane of a block stopped; NaN: it goes on. */
+double *lanes_block_stopped(const lanes_item *, size_t block);
+/* Where a block's carry and clocks are copied to before steps that may have to be taken once more. */
+void lanes_block_save(const lanes_item *, const lanes_job *);
+/* Lane i of the block is at the start of trajectory who[i]. */
+void lanes_block_begin(const lanes_item *, size_t block, const size_t *who);
+/* Whether an infinity or a NaN has appeared in the carry of a lane that has not stopped before. */
+bool lanes_block_broke(const lanes_item *, size_t block);
+/* Lanes whose carry is not finite stop now. */
+void lanes_block_stop(const lanes_item *, size_t block);
+/* The steps since lanes_block_save once more, one by one, to see when each lane stopped. every: observations among
+ * them; 0 none. */
+void lanes_block_trace(const lanes_item *, size_t block, bool first, int64_t steps, int64_t every);
+/* Observes a block, and stops lanes whose observed state is not finite; `where` as in lanes_job. */
+void lanes_block_observe(const lanes_item *, size_t block, const lanes_job *);
+double lanes_block_time(const lanes *, const lanes_job *, size_t lane);
+/* The results of one lane, after so many observations, are those of trajectory `who`. */
+void lanes_block_result(const lanes_item *, size_t block, size_t lane, size_t who, int64_t observations);
+/* Tells the caller's hook how far all have come, `more` trajectories of this item counted; true: enough. */
+bool lanes_item_tell(lanes_item *, double more);
+
+/* ---- lanes_together.c, lanes_apart.c ---- */
+
+void lanes_together(lanes_item *, size_t blocks);
+void lanes_apart(lanes_item *);
+size_t lanes_apart_blocks(void);
+/* Doubles that lanes_apart needs of scratch besides. */
+size_t lanes_apart_size(const lanes *);
 
 #endif

@@ -18,5 +18,6 @@ ADVANCE_STEP int advance_step(work *w)
     const mask good = control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
-    return w->stalled ? STEP_STALLED : STEP_OK;
+    STOP(w, w->stalled, STEP_STALLED);
+    return STEP_OK;
 }

@@ -15,8 +15,8 @@ static int beeman_step(work *w)
         EACHV(k) old[k] = a[k];
     else
         EACHV(k) ADVANCE(v[k], third, a[k]);
-    EACH(k) x[k] += FMA(h, v[k], hh_sixth * FMA((clock)4, a[k], -old[k]));
-    EACHV(k) ADVANCE(v[k], sixth, FMA((clock)5, a[k], -old[k]));
+    EACH(k) x[k] += FMA(h, v[k], hh_sixth * FMA(4, a[k], -old[k]));
+    EACHV(k) ADVANCE(v[k], sixth, FMA(5, a[k], -old[k]));
     if (SMALL) {
         EACHV(k) old[k] = a[k];
     } else {

@@ -16,7 +16,7 @@ static inline mask control_judge(work *w)
     const mask good = w->error <= 1, ample = w->error * (2 << (FACT(w, order) + 1)) <= 1;
     const clock kept = CHOOSE_WHERE(good, w->next, w->h / 2);
     w->next = CHOOSE_WHERE(ample, 2 * kept, kept);
-    w->stalled = NONE(w->t + w->next != w->t);
+    w->stalled = w->t + w->next == w->t;
     w->refused += NONE(good);
     return good;
 }

@@ -21,7 +21,8 @@ static inline void implicit_stage(work *w, int i)
 static inline int implicit_matrix(work *w, truth *where)
 {
     const int first = FACT(w, known), all = FACT(w, stages), s = all - first;
-    clock *ax = w->matrix, *av = ax + s * s, c = 0;
+    clock *ax = w->matrix, *av = ax + s * s;
+    coef c = 0;
     for (int i = 0; i < s; i++) {
         c += w->c[first + i] / s;
         for (int j = 0; j < s; j++) {

@@ -66,12 +66,12 @@ enum { NEWTON_NOW = -1 };
 static inline int newton_increment(work *w, clock g, clock s, const real *u, int stage)
 {
     real *restrict delta = w->delta, *restrict r = w->r, *restrict V = w->vs;
-    const clock none = 0, slope = g * s / 2, t = stage == NEWTON_NOW ? time_now(w) : time_in(w, FACT(w, c)[stage]);
+    const clock none = {0}, slope = g * s / 2, t = stage == NEWTON_NOW ? time_now(w) : time_in(w, FACT(w, c)[stage]);
     real before = (real){0} - 1;
     truth open = ALWAYS;
     EACHV(k) delta[k] = (real){0};
     for (int i = 0; i < NEWTON_MAX && SOME(open); i++) {
-        EACHV(k) V[k] = s * FMA((clock)0.5, delta[k], u[k]);
+        EACHV(k) V[k] = s * FMA(0.5, delta[k], u[k]);
         int bad = stage == NEWTON_NOW ? accel_now(w, w->x, V, w->a) : accel_in(w, stage, w->x, V, w->a);
         if (bad) return bad;
         EACHV(k) r[k] = FMA(g, w->a[k], -delta[k]);
@@ -84,7 +84,7 @@ static inline int newton_increment(work *w, clock g, clock s, const real *u, int
         }
         newton_correct(w, open, delta, r);
         w->iterations++;
-        const newton_verdict now = newton_judge(w, r, delta, 1, u, 1, &before);
+        const newton_verdict now = newton_judge(w, r, delta, 1, u, CLOCK(1), &before);
         STOP(w, open & now.lost, i == 0 ? STEP_DIVERGED : STEP_SOLVE);
         open = open & NOT(now.lost | now.done); /* far from the solution a full step may well grow once or twice */
     }

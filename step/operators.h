@@ -19,7 +19,7 @@ static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stage
  * form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
 static int kick_implicit(work *w, int i)
 {
-    int bad = newton_increment(w, kick_size(w, i), 1, w->v, i);
+    int bad = newton_increment(w, kick_size(w, i), CLOCK(1), w->v, i);
     if (bad) return bad;
     EACHV(k) w->v[k] += w->delta[k];
     return STEP_OK;

@@ -54,7 +54,7 @@ static int verlet_sync(work *w, real *x, real *v)
     if (FIRST(w))
         EACHV(k) v[k] = d[k];
     else if (FACT(w, velocity))
-        EACHV(k) v[k] = FMA((clock)0.5, w->delta[k], d[k]) * w->per_h;
+        EACHV(k) v[k] = FMA(0.5, w->delta[k], d[k]) * w->per_h;
     else
         EACHV(k) v[k] = FMA(w->half_hh, w->a[k], d[k]) * w->per_h;
     return STEP_OK;

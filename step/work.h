@@ -15,13 +15,13 @@
  *                             constants, so that the compiler never translates what the model does not use
  * and, before the families, the functions
  *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
- *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)     the same at the time of stage i, and of the present step.
- *                                                        Macros of this file, unless
- *                                           the includer has its own (and defines both): it may have tabulated what
- *                                               depends on time alone
- *     solve_factor(w, where, s, ax, av, t, x, v)     factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_
- *                                                    status. Lanes: where *where
- *                                           holds; it no longer does where the matrix is singular
+ *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)
+ *                                           the same at the time of stage i, and of the present step. Macros of this
+ *                                           file, unless the includer, who may have tabulated what depends on time
+ *                                           alone, defines both
+ *     solve_factor(w, where, s, ax, av, t, x, v)
+ *                                           factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status.
+ *                                           Lanes: where *where holds; it no longer does where the matrix is singular
  *     solve_back(w, r)                      r, stage after stage, becomes the solution
  *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
  *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
@@ -39,13 +39,16 @@
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
 
-/* Which trajectories of the workspace something holds for: one, unless real is a vector. */
+/* Which trajectories of the workspace something holds for, and how many steps they have taken: as many of both as there
+ * are clocks. */
 #ifndef EVERY
 typedef bool mask;
+typedef whole ticks;
 #define EVERY true
 #define CHOOSE_WHERE(good, a, b) ((good) ? (a) : (b))
 #define NONE(good) (!(good))
 #endif
+#define CLOCK(number) ((clock){0} + (number))
 
 /* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is
  * whether it holds for any. A step that cannot go on STOPs with its status; of lanes it marks those `where` it
@@ -83,7 +86,6 @@ typedef struct dense_end {
     const real *x, *v, *a;
 } dense_end;
 
-/* No member is a `real`: lanes, where that is a vector, are given the library's workspace. */
 typedef struct work {
     const row *row;
     size_t nx, nv, stride;                  /* stride: distance of two arrays below; at least nv */
@@ -95,10 +97,11 @@ typedef struct work {
     whole evaluations, iterations, refused; /* refused: candidates that were not accepted */
 
     /* Time. Fixed: step n begins at t0 + n h. Carried: it begins at t, a sum whose rounding error is `lost`. */
-    bool carried, stalled; /* stalled: the next step would not move time on */
-    mask ends;             /* the candidate reaches `until` */
+    bool carried;
+    mask stalled; /* the next step would not move time on */
+    mask ends;    /* the candidate reaches `until` */
     clock t0, h;
-    whole n;              /* steps finished since t0 */
+    ticks n;              /* steps finished since t0 */
     clock t, lost, until; /* carried only; no step passes `until` */
     clock next;           /* adaptive: the size that the next candidate should have */
 
@@ -195,11 +198,11 @@ static inline void time_tick(work *w, mask good)
         w->lost = CHOOSE_WHERE(good, (w->t - (sum - taken)) + (way - taken), w->lost);
         w->t = CHOOSE_WHERE(good, sum, w->t);
         if (!NONE(w->ends)) {
-            w->lost = CHOOSE_WHERE(good & w->ends, (clock)0, w->lost);
+            w->lost = CHOOSE_WHERE(good & w->ends, 0, w->lost);
             w->t = CHOOSE_WHERE(good & w->ends, w->until, w->t);
         }
     }
-    w->n++;
+    w->n = CHOOSE_WHERE(good, w->n + 1, w->n);
 }
 
 #ifndef accel_in
@@ -239,8 +242,9 @@ static inline void work_scale(work *w, clock h)
     w->hh = h * h;
     w->half_hh = w->hh / 2;
     w->per_h = 1 / h;
-    for (int i = 0; i < w->linears; i++) w->scaled[i] = w->unit[i] * w->h;
-    for (int i = w->linears; i < w->linears + w->squares; i++) w->scaled[i] = w->unit[i] * w->hh;
+    const int linears = FACT(w, linears), all = linears + FACT(w, squares);
+    for (int i = 0; i < linears; i++) w->scaled[i] = w->unit[i] * w->h;
+    for (int i = linears; i < all; i++) w->scaled[i] = w->unit[i] * w->hh;
 }
 
 /* Memory ---------------------------------------------------------------------------------------------------------- */

@@ -14,7 +14,7 @@
 #endif
 #endif
 
-enum { COUNT_MAX = 64, VARY_MAX = 4, RECORDS_MAX = 400 };
+enum { COUNT_MAX = 64, VARY_MAX = 5, RECORDS_MAX = 400 };
 
 /* Results of `count` trajectories, record by record, and when they stopped. */
 typedef struct outcome {

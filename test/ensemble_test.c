@@ -103,7 +103,7 @@ static motus_system *read_with(const char *text, const char *const *set, size_t 
     return given_text_with(text, set, count, count ? set[0] : text);
 }
 
-enum { SHAPES = 8, COUNTS = 3, MANY = 37 };
+enum { SHAPES = 12, SAME_ENDS = 8, COUNTS = 3, MANY = 37 };
 static const size_t counts[COUNTS] = {MANY, 1, 2}; /* that fill no block */
 
 /* What is computed, apart from who computes it. */
@@ -118,6 +118,7 @@ typedef struct task {
     const double *value_list[VARY_MAX];
     double step, until;
     int64_t every, steps;
+    bool ends; /* every trajectory has its own end, which is the last value that varies */
     /* one at a time, by the method that is `plain_by`: the same for every compiler and width */
     outcome plain[SHAPES][COUNTS];
     bool known[SHAPES];
@@ -166,10 +167,36 @@ static void close_task(task *t)
     free(t->text);
 }
 
-/* Ends that the step divides and does not, looks at every distance; ends beyond several chunks of what is computed
- * ahead. */
+/* An end for every trajectory: at its start, before it, a part of a step behind it, and up to 700 steps later, some
+ * whole. */
+static void ends(task *t, double start)
+{
+    double *until = t->values[t->vary_count];
+    for (size_t i = 0; i < COUNT_MAX; i++) {
+        const double far = (double)((i * 43) % 71 * 10) / (i % 3 ? 1 : 7), steps = i % 5 ? far : floor(far);
+        const bool whole = !strcmp(t->method, "verlet-literal");
+        const double way = t->step * (whole ? floor(steps) : i == 7 ? 0.3 : steps);
+        until[i] = start + (i % 11 == 4 ? -way : way);
+    }
+    t->names[t->vary_count] = "until";
+    t->value_list[t->vary_count] = until;
+}
+
+/* Ends that the step divides and does not, observations at every distance; ends beyond several chunks of what is
+ * computed ahead; and ends that differ. */
 static void shape(task *t, int k)
 {
+    static const int64_t every[] = {1, 7, 1000, 60};
+    motus_settings own = motus_default_settings();
+    motus_settings_of(t->s, &own);
+    t->ends = k >= SAME_ENDS;
+    if (t->ends) {
+        t->every = every[k - SAME_ENDS];
+        t->until = NAN;
+        t->steps = 0;
+        ends(t, own.from);
+        return;
+    }
     static const struct {
         double steps;
         int64_t every;
@@ -189,7 +216,7 @@ static motus_ensemble *make(const task *t, const char *machine, int lanes, int t
 {
     motus_ensemble_def def = motus_default_ensemble();
     def.vary = t->names;
-    def.vary_count = t->vary_count;
+    def.vary_count = t->vary_count + t->ends;
     def.records = t->records;
     def.record_count = t->record_count;
     def.method = t->method;
@@ -226,7 +253,7 @@ static void look_at(const task *t, motus_run *r, double *kept, double *when, int
 static void as_a_run(const task *t, const outcome *o, size_t i)
 {
     char set[VARY_MAX][256], number[40];
-    const char *list[VARY_MAX] = {set[0], set[1], set[2], set[3]};
+    const char *list[VARY_MAX] = {set[0], set[1], set[2], set[3], set[4]};
     for (size_t k = 0; k < t->vary_count; k++) {
         const char *format = t->c->vary[k].set;
         snprintf(number, sizeof number, "%.17g", t->values[k][i]);
@@ -237,7 +264,8 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
             snprintf(set[k], sizeof set[k], "%s=%s", t->names[k], number);
     }
     motus_system *s = read_with(t->text, list, t->vary_count);
-    motus_run *r = given_run(s, t->method, t->step, t->until);
+    const double until = t->ends ? t->values[t->vary_count][i] : t->until;
+    motus_run *r = given_run(s, t->method, t->step, until);
     double *kept = calloc(2 * t->record_count, sizeof *kept), *when = kept + t->record_count;
     int64_t looks = 0;
     motus_error err = motus_default_error();
@@ -263,8 +291,8 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
             !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_REDUCE_MIN || how == MOTUS_REDUCE_MAX)))
             fail_msg(
                 "%s by %s, until %g, every %lld: trajectory %zu, record %zu (%d of column %zu) is %a; a run says %a",
-                t->c->model, t->method, t->until, (long long)t->every, i, k, (int)how, t->records[k].column,
-                o->at[k][i], expected);
+                t->c->model, t->method, until, (long long)t->every, i, k, (int)how, t->records[k].column, o->at[k][i],
+                expected);
     }
     free(kept);
     motus_run_destroy(r);
@@ -282,7 +310,8 @@ static bool goes_alone(const task *t)
     assert_int_equal(motus_method_find(t->method, &m, NULL), MOTUS_OK);
     motus_analysis_of(t->s, &a);
     const bool solves = !strcmp(m->family, "implicit") || (a.velocity_dependent && strncmp(m->name, "verlet", 6) == 0);
-    return t->c->how == ALONE || !strcmp(m->family, "exact") || (solves && t->c->how == SOLVES_ALONE);
+    return t->c->how == ALONE || !strcmp(m->family, "exact") || (t->ends && !strcmp(m->name, "boris")) ||
+           (solves && t->c->how == SOLVES_ALONE);
 }
 
 /* One shape: one at a time, and some of these against runs. */

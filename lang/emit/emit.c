@@ -51,9 +51,9 @@ static void write_functions(writer *w, const char *name, bool terms)
         SAY(w, "}\n\n");
     }
     SAY(w,
-        "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, double t, const double "
-        "*restrict T, "
-        "real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, (void)w, (void)own, "
+        "%s void %s(%sconst double *restrict u, const real *restrict w, real *restrict own, clock t, "
+        "const clock *restrict T, real *restrict x, real *restrict v, real *restrict a, real *restrict out%s)\n{\n%s, "
+        "(void)w, (void)own, "
         "(void)t, (void)T, (void)x, (void)v, (void)a, "
         "(void)out;\n",
         w->e->separate ? "__attribute__((noinline)) static" : "static inline", name, parameters,

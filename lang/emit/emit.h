@@ -34,6 +34,7 @@ typedef struct emit {
     bool literal; /* sizes are structure (no families): places are written as numbers */
     const array *arrays;
     bool lanes;            /* `real` is one number for each of several trajectories */
+    bool own_time;         /* and so is time */
     const uint8_t *varied; /* by place of the pool: lanes have their own, in `own`; NULL: none */
     /* numbers computed once, when parameters are bound: u[0 … fixed) and, for every lane, w[0 … fixed_lanes) */
     uint32_t fixed, fixed_lanes;

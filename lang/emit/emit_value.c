@@ -22,6 +22,7 @@ bool emit_natures(writer *w, bool loops)
         if (arity > 2) a |= w->nature[m->c], all &= w->nature[m->c];
         *own = (uint8_t)((a & WIDE) | (all & CLOSED));
         if (m->op == OP_TOTAL || m->op == OP_INDEX) *own = 0;
+        if (m->op == OP_TIME && w->e->own_time) *own |= WIDE;
         if (m->op == OP_PARAM && w->e->varied && w->e->varied[m->a]) *own |= WIDE;
         if (m->op == OP_LOAD) {
             const array *from = &g->arrays[g->references[m->a].array];

@@ -8,7 +8,8 @@ struct compiled_host {
     /* of lanes: the pool of each trajectory, and the numbers that depend on it alone */
     real *own, *bound;
     struct solving *solving;         /* of lanes: their linear systems, and which of them */
-    real *lost;                      /*   could not be solved */
+    real *lost;                      /*   could not be solved, or go on */
+    bool begins;                     /* of lanes with clocks of their own: every lane is at the first step of its leg */
     int (*run)(work *, whole steps); /* the library's own loop */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

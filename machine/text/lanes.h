@@ -1,29 +1,58 @@
-/* The last text of a compiled model in lanes: a block of trajectories starts, goes on, is looked at.
+/* The last text of a compiled model in lanes: a block of trajectories starts, goes on, is observed.
  *
- * Before it stand lanes_start, lanes_bind and lanes_looks, written for the model, and EVERY_GROUP(DO), DO(0) DO(1) …
- * for the groups of a block. Invariant: a lane never sees another; what a block needs between two calls lies in its
- * job. In between a block of a small model lives in registers and the first cache: each group takes its whole step,
- * and the processor overlaps the groups, whose chains of operations are strangers to one another.
+ * Before it stand lanes_start, lanes_bind and lanes_quantities, written for the model, and EVERY_GROUP(DO), DO(0)
+ * DO(1) … for the groups of a block.
+ *
+ * Invariant: a lane never sees another; what a block needs between two calls lies in its job. In between a block of a
+ * small model lives in registers and the first cache: each group takes its whole step, and the processor overlaps the
+ * groups, whose chains of operations are strangers to one another.
+ *
+ * OWN_CLOCK: every lane has its own time and step. Those of an adaptive row accept their candidates one by one; those
+ * of a row of fixed steps take as many steps as the library knows that all of them have to take.
  */
 void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_bind(pool, q, u); }
 
-/* The numbers that all lanes share, `count` steps from job->plan.n on; room for LANES_OF_TIME more. */
-void motus_lanes_table(const lanes_job *job, clock *table, whole count)
+/* The numbers that all lanes share, `count` steps from job->n on; room for LANES_OF_TIME more. */
+void motus_lanes_table(const lanes_job *job, double *table, whole count)
 {
 #if TERMS
-    compiled_fill(&job->host, job->plan->t0, job->plan->h, table, job->plan->n, count);
+    compiled_fill(&job->host, job->t0, job->h, table, job->n, count);
 #else
     (void)job, (void)table, (void)count;
 #endif
 }
+
+/* ---- a group: its host, its workspace, its arrays ---- */
 
 static inline compiled_host lanes_host(const lanes_job *job, size_t group)
 {
     compiled_host host = job->host;
     host.own += group * job->own_size;
     host.bound += group * job->bound_size;
+    host.begins = job->begins;
+    host.lost = job->lost + group;
+    *host.lost = MANY(0.0);
     solve_begin(&host, job, group);
     return host;
+}
+
+/* Its clock: time, steps taken, and the row's constants for the present step; `scaled` is room for them. */
+static inline void lanes_clock(work *w, const lanes_job *job, size_t group, clock *scaled)
+{
+    w->scaled = scaled;
+    w->unit = fact_unit;
+    w->c = fact_c;
+#if OWN_CLOCK
+    const real *own = job->clocks + group * LANES_CLOCKS;
+    w->t0 = own[LANES_T0], w->n = own[LANES_N];
+    w->t = own[LANES_T], w->lost = own[LANES_LOST], w->next = own[LANES_NEXT], w->until = own[LANES_UNTIL];
+    work_scale(w, own[LANES_H]);
+#else
+    (void)group;
+    w->t0 = job->t0, w->n = job->n;
+    w->table = job->table, w->first = job->first_row;
+    work_scale(w, job->h);
+#endif
 }
 
 static inline void lanes_place(work *w, const compiled_host *host, real *room)
@@ -50,10 +79,38 @@ static inline void lanes_store(work *w, real *carry)
         EACHV(k) carry[(size_t)i * FACT(w, nv) + k] = list[i][k];
 }
 
+/* A workspace without arrays: sizes alone. */
+#define LANES_SIZES(w)                                            \
+    const work w##_ = {.nx = job->nx, .nv = job->nv}, *w = &w##_; \
+    (void)w
+
+/* The arrays of a block lie on the stack where their size is known, and not too large for that. */
+#define LANES_LOCAL (NUMBERS > 0 && ARRAYS * NUMBERS * GROUPS <= 1024)
+#if LANES_LOCAL
+#define LANES_STRIDE NUMBERS
+#define LANES_ROOM(g) real room_##g[ARRAYS * NUMBERS];
+#else
+#define LANES_STRIDE job->stride
+#define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * job->stride;
+#endif
+#define LANES_NEW(w) work w = {.nx = job->nx, .nv = job->nv, .stride = LANES_STRIDE}
+
+/* A workspace of one group, whose number is `group`. */
+#define LANES_WORKSPACE(w, host)        \
+    LANES_NEW(w##_);                    \
+    work *const w = &w##_;              \
+    clock scaled[CONSTANTS + 1];        \
+    LANES_ROOM(group)                   \
+    lanes_clock(w, job, group, scaled); \
+    lanes_place(w, host, room_group);   \
+    lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
+
+/* ---- a leg begins ---- */
+
 /* From the values that vary to the state at the start. */
 void motus_lanes_begin(const lanes_job *job)
 {
-    const work *w = job->plan;
+    LANES_SIZES(w);
     for (size_t group = 0; group < GROUPS; group++) {
         const compiled_host host = lanes_host(job, group);
         real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv);
@@ -61,16 +118,18 @@ void motus_lanes_begin(const lanes_job *job)
         EACH(k) x[k] = job->from_x[k] < 0 ? MANY(job->x0[k]) : host.own[job->from_x[k]];
         EACHV(k) v[k] = job->from_v[k] < 0 ? MANY(job->v0[k]) : host.own[job->from_v[k]];
         lanes_bind_lanes(&host);
-#if BOUNDED
-        BOUNDARY((&host), w->t0, x, v, (real *)0);
+#if BOUNDED && OWN_CLOCK
+        BOUNDARY((&host), job->clocks[group * LANES_CLOCKS + LANES_T0], x, v, (real *)0);
+#elif BOUNDED
+        BOUNDARY((&host), job->t0, x, v, (real *)0);
 #endif
     }
 }
 
-/* A new leg from the state that was looked at, at the start of job->plan. */
+/* From the state that was observed to what the steps carry. */
 void motus_lanes_set(const lanes_job *job)
 {
-    const work *w = job->plan;
+    LANES_SIZES(w);
     for (size_t group = 0; group < GROUPS; group++) {
         real *carry = job->carry + group * CARRIED * FACT(w, nv);
         for (int i = 0; i < CARRIED; i++)
@@ -80,38 +139,9 @@ void motus_lanes_set(const lanes_job *job)
     }
 }
 
-/* The workspaces of a block lie on the stack where their size is known, and not too large for that. */
-#define LANES_LOCAL (NUMBERS > 0 && ARRAYS * NUMBERS * GROUPS <= 1024)
+/* ---- observations ---- */
 
-/* A workspace of one group in memory, after n steps. */
-#if LANES_LOCAL
-#define LANES_WORKSPACE(w, host, n_)                                                \
-    work w##_ = *job->plan, *w = &w##_;                                             \
-    real room[ARRAYS * NUMBERS];                                                    \
-    w->stride = NUMBERS, w->n = (n_), w->table = job->table, w->first = job->first; \
-    lanes_place(w, host, room);                                                     \
-    lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
-#else
-#define LANES_WORKSPACE(w, host, n_)                              \
-    work w##_ = *job->plan, *w = &w##_;                           \
-    w->n = (n_), w->table = job->table, w->first = job->first;    \
-    lanes_place(w, host, job->room + group * ARRAYS * w->stride); \
-    lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
-#endif
-
-/* The first step of all, for which some methods have a formula of its own. */
-void motus_lanes_first(const lanes_job *job)
-{
-    for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
-        LANES_WORKSPACE(w, &host, 0);
-        family_step(w);
-        time_tick(w, EVERY);
-        lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
-    }
-}
-
-/* What is recorded of a state: `all` of it, or what has to be seen on the way. */
+/* What is recorded of a state: `all` of it, or what has to be observed on the way. */
 static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first,
                               bool all, size_t group)
 {
@@ -123,42 +153,65 @@ static inline void lanes_keep(const lanes_job *job, const real *x, const real *v
                            : r->from == LANES_V   ? v[r->element]
                            : r->from == LANES_OUT ? out[r->element]
                                                   : MANY(t);
-        real *kept = job->kept + (group * RECORDS + i) * REDUCE_KEPT;
+        real *kept = job->kept + (group * RECORDS + i) * REDUCE_KEPT, now[REDUCE_KEPT] = {kept[0], kept[1]};
         if (first)
-            reduce_first(kept, value, MANY(t));
+            reduce_first(now, value, MANY(t));
         else
-            reduce_next(kept, r->how, value, MANY(t));
+            reduce_next(now, r->how, value, MANY(t));
+#if OWN_CLOCK
+        const truth where = job->where[group] != 0;
+        for (int k = 0; k < REDUCE_KEPT; k++) kept[k] = PICK(where, now[k], kept[k]);
+#else
+        for (int k = 0; k < REDUCE_KEPT; k++) kept[k] = now[k];
+#endif
     }
 }
 
-/* The state of a group as one sees it, and the quantities that are recorded. */
+/* The time of an observation from outside: the end is `until`, whatever t0 + n h comes to. */
+static inline clock lanes_time(const lanes_job *job, const work *w, size_t group)
+{
+#if OWN_CLOCK
+    const truth ends = job->ends ? job->where[group] != 0 : NEVER;
+    return PICK(ends, job->clocks[group * LANES_CLOCKS + LANES_UNTIL], time_now(w));
+#else
+    (void)group;
+    return job->ends ? job->until : time_now(w);
+#endif
+}
+
+/* The state of a group as it is observed, and the quantities that are recorded. */
 static inline void lanes_see(const lanes_job *job, work *w, const compiled_host *host, clock t, size_t group)
 {
     real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv), *out = job->out + group * job->out_size;
     real *a = job->a ? job->a + group * FACT(w, nv) : job->a;
     advance_sync(w, x, v, (real *)0);
-    if (t != time_now(w)) refresh_at(w, t, x, v); /* the end is `until`, whatever t0 + n h comes to */
+#if OWN_CLOCK
+    if (job->ends) refresh_at(w, t, x, v);
+#else
+    if (t != time_now(w)) refresh_at(w, t, x, v);
+#endif
     if (a) accel(w, t, x, v, a);
-    lanes_looks(host, t, x, v, a, out);
+    lanes_quantities(host, t, x, v, a, out);
 }
 
-/* A look from outside the loop, at the present step of the plan; records nothing where record_count is 0. */
-void motus_lanes_look(const lanes_job *job)
+/* An observation from outside the loop; records nothing where record_count is 0. */
+void motus_lanes_observe(const lanes_job *job)
 {
-    const clock t = job->ends ? job->until : time_now(job->plan);
     for (size_t group = 0; group < GROUPS; group++) {
         const compiled_host host = lanes_host(job, group);
-        LANES_WORKSPACE(w, &host, job->plan->n);
+        LANES_WORKSPACE(w, &host);
+        const clock t = lanes_time(job, w, group);
         lanes_see(job, w, &host, t, group);
         if (job->record_count)
             lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv),
-                       job->out + group * job->out_size, t, job->first_look, true, group);
+                       job->out + group * job->out_size, t, job->first_observation, true, group);
     }
 }
 
-/* A look from within: positions are where they are, all else is worked out. */
-static inline void lanes_look_within(const lanes_job *job, work *w, const compiled_host *host, clock t, size_t group)
+/* An observation from within: positions are where they are, all else is computed. */
+static inline void lanes_observe_within(const lanes_job *job, work *w, const compiled_host *host, size_t group)
 {
+    const clock t = time_now(w);
 #if SEES_VELOCITY
     lanes_see(job, w, host, t, group);
     lanes_keep(job, job->x + group * FACT(w, nx), job->v + group * FACT(w, nv), job->out + group * job->out_size, t,
@@ -169,56 +222,123 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 #endif
 }
 
-#if LANES_LOCAL
-#define LANES_ROOM(g) real room_##g[ARRAYS * NUMBERS];
+/* ---- steps ---- */
+
+#if OWN_CLOCK
+static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t group)
+{
+    real *own = job->clocks + group * LANES_CLOCKS;
+    own[LANES_N] = w->n;
+    own[LANES_T] = w->t, own[LANES_LOST] = w->lost, own[LANES_NEXT] = w->next;
+}
 #else
-#define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
+#define lanes_store_clock(w, job, group) ((void)0)
 #endif
-#define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g);
-#define LANES_LOAD(g)                    \
+
+/* The first step of all, for which some methods have a formula of its own. */
+void motus_lanes_first(const lanes_job *job)
+{
+    for (size_t group = 0; group < GROUPS; group++) {
+        compiled_host host = lanes_host(job, group);
+        host.begins = true;
+        LANES_WORKSPACE(w, &host);
+        family_step(w);
+        time_tick(w, EVERY);
+        host.begins = false;
+        lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
+        lanes_store_clock(w, job, group);
+    }
+}
+
+#define LANES_HOST(g) compiled_host host_##g = lanes_host(job, g);
+#if OWN_CLOCK
+/* Every group has a workspace. */
+#define LANES_BEGIN(g)                           \
+    LANES_NEW(work_##g);                         \
+    clock scaled_##g[CONSTANTS + 1];             \
+    lanes_clock(&work_##g, job, g, scaled_##g);  \
+    host_##g.begins = false;                     \
+    lanes_place(&work_##g, &host_##g, room_##g); \
+    lanes_load(&work_##g, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_TURN(g) work *const w = &work_##g;
+#define LANES_TICK ((void)0)
+#else
+/* All groups share one, whose arrays change. */
+#define LANES_BEGIN(g)                   \
     lanes_place(w, &host_##g, room_##g); \
     lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_STEP(g)                    \
-    lanes_place(w, &host_##g, room_##g); \
-    w->fresh = fresh;                    \
-    family_step(w);
-#define LANES_LOOK(g)                    \
-    lanes_place(w, &host_##g, room_##g); \
-    w->fresh = false;                    \
-    lanes_look_within(job, w, &host_##g, time_now(w), g);
-#define LANES_STORE(g)                   \
-    lanes_place(w, &host_##g, room_##g); \
-    lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_TURN(g) lanes_place(w, &host_##g, room_##g);
+#define LANES_TICK time_tick(w, EVERY)
+#endif
+#if ROW_adaptive
+#define LANES_ADVANCE(w) advance_step(w)
+#elif OWN_CLOCK
+#define LANES_ADVANCE(w) (family_step(w), time_tick(w, EVERY))
+#else
+#define LANES_ADVANCE(w) family_step(w)
+#endif
+#define LANES_STEP(g)     \
+    {                     \
+        LANES_TURN(g)     \
+        w->fresh = fresh; \
+        LANES_ADVANCE(w); \
+    }
+#define LANES_OBSERVE(g)                            \
+    {                                               \
+        LANES_TURN(g)                               \
+        w->fresh = false;                           \
+        lanes_observe_within(job, w, &host_##g, g); \
+    }
+#define LANES_STORE(g)                                          \
+    {                                                           \
+        LANES_TURN(g)                                           \
+        lanes_store(w, job->carry + g * CARRIED * FACT(w, nv)); \
+        lanes_store_clock(w, job, g);                           \
+    }
 
-/* `steps` more, not the first one, and a look after every `every` of them; every = 0: none. */
+/* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, or cannot
+ * go on. */
+#define LANES_DUE(g)                                                                                          \
+    {                                                                                                         \
+        const real *own = job->clocks + g * LANES_CLOCKS;                                                     \
+        due = due | (work_##g.n == own[LANES_STOP]) | (work_##g.t == work_##g.until) | (*host_##g.lost != 0); \
+    }
+
+/* `steps` more, not the first one, and an observation after every `every` of them; every = 0: none. Adaptive: up to so
+ * many candidates. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
-    work local = *job->plan, *w = &local;
-    clock scaled[CONSTANTS + 1];
-    bool fresh = false; /* the accelerations of all groups are known, because somebody looked */
-#if LANES_LOCAL
-    w->stride = NUMBERS;
-#endif
+    bool fresh = false; /* the accelerations of all groups are known, from an observation */
     EVERY_GROUP(LANES_ROOM)
     EVERY_GROUP(LANES_HOST)
-    EVERY_GROUP(LANES_LOAD)
-    w->table = job->table;
-    w->first = job->first;
-    w->moved = 0;
-    WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = job->plan->scaled[i];
-    w->scaled = scaled;
+#if OWN_CLOCK
+    LANES_SIZES(w);
+#else
+    LANES_NEW(local);
+    work *const w = &local;
+    clock scaled[CONSTANTS + 1];
+    lanes_clock(w, job, 0, scaled);
+#endif
+    EVERY_GROUP(LANES_BEGIN)
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {
+#if !OWN_CLOCK
             if (w->n < 1) __builtin_unreachable();
+#endif
             EVERY_GROUP(LANES_STEP)
-            time_tick(w, EVERY);
+            LANES_TICK;
             fresh = false;
+#if ROW_adaptive
+            truth due = NEVER;
+            EVERY_GROUP(LANES_DUE)
+            if (SOME(due)) break;
+#endif
         }
         steps -= some;
 #if LOOKING
         if (every) {
-            EVERY_GROUP(LANES_LOOK)
+            EVERY_GROUP(LANES_OBSERVE)
             fresh = SEES_VELOCITY && FACT(w, waits);
         }
 #endif

@@ -1,10 +1,14 @@
 /* The vocabulary of the texts for lanes: `real` is a vector, one trajectory a lane; an element of an array is GROUPS
- * of them, so that short chains of operations have company. The includer has `reals`, MANY_FUSED, GROUPS, and time
- * and step are the same for all.
+ * of them, so that short chains of operations have company. The includer has `reals`, MANY_FUSED, GROUPS and OWN_CLOCK:
+ * whether time and step are a vector too, or the same for all.
  */
 #define clock motus_clock
 #define real reals
+#if OWN_CLOCK
+typedef reals clock;
+#else
 typedef double clock;
+#endif
 typedef int64_t whole;
 #define FMA(a, b, c) MANY_FUSED(a, b, c)
 #define FINITE(x) ((x) - (x) == 0)
@@ -23,7 +27,15 @@ typedef bool truth;
 #define PICK(where, a, b) ((where) ? (a) : (b))
 #define SOME(where) (where)
 #endif
-#define STOP(w, where, status) solve_stop(w, where)
+#if OWN_CLOCK
+typedef truth mask;
+typedef real ticks;
+#define EVERY ALWAYS
+#define CHOOSE_WHERE(where, a, b) PICK(where, a, b)
+#define NONE(where) (!SOME(where))
+#define FIRST(w) ((w)->host->begins)
+#endif
+#define STOP(w, where, status) (*(w)->host->lost = PICK(where, MANY((double)NAN), *(w)->host->lost))
 #define SPOIL(w, y) solve_spoil(w, y)
 #define BLAME(w, where, k) ((void)0)
 #define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)

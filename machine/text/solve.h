@@ -17,13 +17,10 @@ const size_t motus_lanes_solving = SOLVE_SIZE;
 static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t group)
 {
     host->solving = (solving *)(void *)(job->solving + group * SOLVE_SIZE);
-    host->lost = job->lost + group;
     host->solving->factored = false;
-    *host->lost = MANY(0.0);
 }
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
-static inline void solve_stop(work *w, truth where) { *w->host->lost = PICK(where, MANY((clock)NAN), *w->host->lost); }
 static inline void solve_spoil(work *w, real *y)
 {
     const real lost = *w->host->lost;
@@ -71,7 +68,7 @@ static inline truth solve_lu(real *restrict m, real *restrict pivot)
         {
             const truth more = ABS(column[i]) > largest;
             largest = PICK(more, ABS(column[i]), largest);
-            best = PICK(more, (clock)i, best);
+            best = PICK(more, (double)i, best);
         }
         pivot[j] = best;
         regular = regular & (largest != 0) & FINITE(largest);
@@ -122,9 +119,9 @@ static inline void solve_renew(const compiled_host *host, solving *z, truth *whe
     solve_derive(host, t, x, v, z);
     solve_fill(z, ax, av, m);
     const truth regular = solve_lu(m, pivot), singular = *where & NOT(regular);
-    *host->lost = PICK(singular, MANY((clock)NAN), *host->lost);
+    *host->lost = PICK(singular, MANY((double)NAN), *host->lost);
     for (int k = 0; k < SOLVE_MATRIX; k++)
-        z->matrix[k] = PICK(*where, PICK(singular, MANY((clock)NAN), m[k]), z->matrix[k]);
+        z->matrix[k] = PICK(*where, PICK(singular, MANY((double)NAN), m[k]), z->matrix[k]);
     for (int k = 0; k < SOLVE_N && !SOLVE_DIAGONAL; k++) z->pivot[k] = PICK(*where, pivot[k], z->pivot[k]);
     *where = *where & regular;
 }
@@ -137,7 +134,7 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
     truth all = ALWAYS;
     for (int k = 0; k < FACT_nv; k++) none[k] = MANY(0.0);
     solve_renew(host, host->solving, &all, ax, av, t, none, none);
-    *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((clock)INFINITY));
+    *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((double)INFINITY));
     host->solving->factored = true;
 }
 

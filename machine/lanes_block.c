@@ -1,0 +1,305 @@
+/* Lanes: one block of trajectories, and the calls that take many of them. See lanes_parts.h.
+ *
+ * Invariant: the results of a trajectory depend neither on the block it is in nor on the thread that computes it. A
+ * block in which a number stopped being finite takes its last steps again, one by one, to see when.
+ */
+#include "machine/lanes_parts.h"
+
+#include "machine/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ITEM_BYTES = 256 << 10 }; /* an item's blocks fit the second cache */
+enum { REFILLS = 16 };           /* blocks' worth of trajectories in an item that has one running block */
+#define LITTLE_WORK 1e6          /* operations: some 0.1 ms in lanes */
+
+/* ---- memory ---- */
+
+/* Its own parameters, what follows from them, what it carries, the records, the clocks, when a lane stopped. */
+size_t lanes_block_size(const lanes *l)
+{
+    return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + lines(l, 1);
+}
+
+static size_t saved_size(const lanes *l)
+{
+    const size_t values = lines(l, l->def.place_count), saved = l->carry_size + l->clock_size;
+    return saved > values ? saved : values;
+}
+
+/* Of whichever block is at work: workspaces, the observed state, linear systems, what is saved, two numbers a lane. */
+size_t lanes_scratch_size(const lanes *l)
+{
+    return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);
+}
+
+static double *saved_of(const lanes_item *b)
+{
+    return b->scratch + b->l->work_size + b->l->observed_size + b->l->solve_size;
+}
+
+double *lanes_block_stopped(const lanes_item *b, size_t block)
+{
+    return b->memory + (block + 1) * b->call->block_size - lines(b->l, 1);
+}
+
+lanes_job lanes_block_job(const lanes_item *b, size_t block)
+{
+    const lanes *l = b->l;
+    const model *m = l->def.model;
+    const size_t n = (size_t)l->block;
+    double *p = b->memory + block * b->call->block_size, *observed = b->scratch + l->work_size;
+    lanes_job j = {.nx = m->nx,
+                   .nv = m->nv,
+                   .stride = m->nv,
+                   .t0 = b->t0,
+                   .h = b->h,
+                   .n = b->n,
+                   .table = b->table,
+                   .first_row = b->first_row,
+                   .places = l->places,
+                   .value_count = (int64_t)l->def.place_count,
+                   .from_x = l->from_x,
+                   .from_v = l->from_v,
+                   .x0 = m->x0,
+                   .v0 = m->v0,
+                   .record_count = (int64_t)l->def.source_count,
+                   .out_size = l->outs,
+                   .first_observation = b->observations == 0,
+                   .ends = b->ends,
+                   .until = l->def.until};
+    j.own_size = l->own_size ? m->pool_count : 0;
+    j.bound_size = l->e.fixed_lanes;
+    j.host = (compiled_host){.pool = m->pool, .u = l->u, .q = l->q, .own = p, .bound = p + l->own_size};
+    j.carry = p + l->own_size + l->bound_size;
+    j.kept = j.carry + l->carry_size;
+    j.clocks = l->clock_size ? j.kept + l->kept_size : NULL;
+    j.room = b->scratch;
+    j.x = observed;
+    j.v = observed + m->nx * n;
+    j.a = l->wants_a ? observed + (m->nx + m->nv) * n : NULL;
+    j.out = observed + (m->nx + 2 * m->nv) * n;
+    j.solving = (char *)(observed + l->observed_size);
+    j.lost = saved_of(b) + saved_size(l);
+    j.where = j.lost + lines(l, 1);
+    return j;
+}
+
+void lanes_block_save(const lanes_item *b, const lanes_job *j)
+{
+    memcpy(saved_of(b), j->carry, b->l->carry_size * sizeof(double));
+    if (j->clocks) memcpy(saved_of(b) + b->l->carry_size, j->clocks, b->l->clock_size * sizeof(double));
+}
+
+/* ---- the start ---- */
+
+void lanes_block_begin(const lanes_item *b, size_t block, const size_t *who)
+{
+    const lanes *l = b->l;
+    const model *m = l->def.model;
+    lanes_job j = lanes_block_job(b, block);
+    double *values = saved_of(b), *stopped = lanes_block_stopped(b, block);
+    const size_t width = (size_t)l->width, count = l->def.place_count;
+    for (size_t g = 0; g < (size_t)l->groups; g++) {
+        for (size_t k = 0; k < count; k++)
+            for (size_t i = 0; i < width; i++)
+                values[(g * count + k) * width + i] = b->call->values[k][who[g * width + i]];
+        for (size_t k = 0; l->own_size && k < m->pool_count; k++)
+            for (size_t i = 0; i < width; i++) j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
+    }
+    for (size_t i = 0; i < (size_t)l->block; i++) stopped[i] = NAN;
+    j.values = values;
+    l->begin(&j);
+    l->set(&j);
+}
+
+/* ---- what is no longer finite ---- */
+
+static bool all_finite(const double *numbers, size_t count)
+{
+    int bad = 0;
+    for (size_t k = 0; k < count; k++) bad |= !(numbers[k] - numbers[k] == 0);
+    return !bad;
+}
+
+static bool lane_finite(const lanes *l, const double *numbers, size_t elements, size_t lane)
+{
+    double none = 0;
+    for (size_t k = 0; k < elements; k++)
+        none += numbers[lane_at(l, elements, k, lane)] - numbers[lane_at(l, elements, k, lane)];
+    return none == 0;
+}
+
+double lanes_block_time(const lanes *l, const lanes_job *j, size_t lane)
+{
+    work w = l->plan;
+    w.t0 = j->t0, w.h = j->h, w.n = j->n;
+    if (j->clocks) {
+        double own[LANES_CLOCKS];
+        for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = j->clocks[lane_at(l, LANES_CLOCKS, k, lane)];
+        w.t0 = own[LANES_T0], w.h = own[LANES_H], w.n = (int64_t)own[LANES_N];
+        w.t = own[LANES_T], w.lost = own[LANES_LOST];
+    }
+    return time_now(&w);
+}
+
+/* Lanes of an array of `elements` that are not finite stop now, if they have not stopped before. */
+static void stop_lanes(const lanes_item *b, size_t block, const lanes_job *j, const double *numbers, size_t elements)
+{
+    const lanes *l = b->l;
+    double *stopped = lanes_block_stopped(b, block);
+    if (all_finite(numbers, elements * (size_t)l->block)) return;
+    for (size_t i = 0; i < (size_t)l->block; i++)
+        if (isnan(stopped[i]) && !lane_finite(l, numbers, elements, i)) stopped[i] = lanes_block_time(l, j, i);
+}
+
+void lanes_block_stop(const lanes_item *b, size_t block)
+{
+    const lanes_job j = lanes_block_job(b, block);
+    stop_lanes(b, block, &j, j.carry, b->l->carried);
+}
+
+/* The state that is observed may be infinite a step before what the steps carry is. Lanes that are not observed now
+ * have other numbers there. */
+static void stop_observed(const lanes_item *b, size_t block, const lanes_job *j)
+{
+    const lanes *l = b->l;
+    const model *m = l->def.model;
+    double *stopped = lanes_block_stopped(b, block);
+    if (all_finite(j->x, m->nx * (size_t)l->block) && all_finite(j->v, m->nv * (size_t)l->block)) return;
+    for (size_t i = 0; i < (size_t)l->block; i++)
+        if (isnan(stopped[i]) && (!j->clocks || j->where[i] != 0) &&
+            !(lane_finite(l, j->x, m->nx, i) && lane_finite(l, j->v, m->nv, i)))
+            stopped[i] = lanes_block_time(l, j, i);
+}
+
+void lanes_block_observe(const lanes_item *b, size_t block, const lanes_job *j)
+{
+    b->l->observe(j);
+    stop_observed(b, block, j);
+}
+
+bool lanes_block_broke(const lanes_item *b, size_t block)
+{
+    const lanes *l = b->l;
+    const lanes_job j = lanes_block_job(b, block);
+    const double *stopped = lanes_block_stopped(b, block);
+    if (all_finite(j.carry, l->carried * (size_t)l->block)) return false;
+    for (size_t i = 0; i < (size_t)l->block; i++)
+        if (isnan(stopped[i]) && !lane_finite(l, j.carry, l->carried, i)) return true;
+    return false;
+}
+
+void lanes_block_trace(const lanes_item *b, size_t block, bool first, int64_t steps, int64_t every)
+{
+    const lanes *l = b->l;
+    lanes_job j = lanes_block_job(b, block);
+    j.carry = saved_of(b);
+    if (j.clocks) j.clocks = saved_of(b) + l->carry_size;
+    j.record_count = 0;
+    j.ends = false;
+    stop_lanes(b, block, &j, j.carry, l->carried);
+    for (int64_t k = 0; k < steps; k++) {
+        if (every && j.n % every == 0) lanes_block_observe(b, block, &j);
+        double before[BLOCK_MAX], *stopped = lanes_block_stopped(b, block);
+        for (size_t i = 0; i < (size_t)l->block; i++) before[i] = lanes_block_time(l, &j, i);
+        if (first)
+            l->first(&j);
+        else
+            l->run(&j, 1, 0);
+        /* an equation that could not be solved stops its lane before the step */
+        for (size_t i = 0; i < (size_t)l->block; i++)
+            if (isnan(stopped[i]) && isnan(j.lost[i])) stopped[i] = before[i];
+        j.n++;
+        stop_lanes(b, block, &j, j.carry, l->carried);
+    }
+}
+
+/* ---- the end ---- */
+
+void lanes_block_result(const lanes_item *b, size_t block, size_t lane, size_t who, int64_t observations)
+{
+    const lanes *l = b->l;
+    const lanes_job j = lanes_block_job(b, block);
+    const double stopped = lanes_block_stopped(b, block)[lane];
+    const size_t all = l->def.source_count * REDUCE_KEPT;
+    for (size_t r = 0; r < l->def.source_count; r++) {
+        const double kept[REDUCE_KEPT] = {j.kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
+                                          j.kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
+        b->call->results[r][who] =
+            isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
+    }
+    if (b->call->stopped) b->call->stopped[who] = stopped;
+}
+
+bool lanes_item_tell(lanes_item *b, double more)
+{
+    lanes_call *c = b->call;
+    const lanes_def *d = &b->l->def;
+    const double fraction = ((double)atomic_load(&c->done) + more) / (double)c->count;
+    if (d->progress(d->context, fraction < 1 ? fraction : 1)) atomic_store(&c->cancelled, true);
+    return atomic_load(&c->cancelled);
+}
+
+/* ---- all of them ---- */
+
+/* One item of the work, from the start to the end, by one thread, with memory of its own. */
+static void run_item(void *ctx, size_t item, int thread)
+{
+    lanes_call *c = ctx;
+    lanes *l = c->l;
+    if (atomic_load(&c->cancelled) || atomic_load(&c->refused)) return;
+    lanes_item b = {.l = l, .call = c, .first = item * c->most};
+    b.count = c->count - b.first < c->most ? c->count - b.first : c->most;
+    b.memory = c->memory + (size_t)thread * c->thread_size;
+    b.scratch = b.memory + c->blocks * c->block_size;
+    b.table = b.scratch + c->scratch_size;
+    b.told = thread == 0 && l->def.progress; /* the caller's hook is called by the caller's thread */
+    if (l->def.own_clock) {
+        lanes_apart(&b);
+    } else {
+        lanes_together(&b, (b.count + (size_t)l->block - 1) / (size_t)l->block);
+        atomic_fetch_add(&c->done, b.count);
+    }
+    if (b.told) lanes_item_tell(&b, 0);
+}
+
+/* Items large enough for the work to be worth it, and several for every thread; blocks as they fit a cache. */
+static void share_out(lanes_call *c, size_t threads)
+{
+    const lanes *l = c->l;
+    const size_t block = (size_t)l->block, all = (c->count + block - 1) / block,
+                 share = (all + 4 * threads - 1) / (4 * threads);
+    c->block_size = lanes_block_size(l);
+    c->scratch_size = lanes_scratch_size(l);
+    c->blocks = l->def.own_clock ? lanes_apart_blocks() : ITEM_BYTES / sizeof(double) / c->block_size;
+    size_t most = l->def.own_clock ? REFILLS : c->blocks;
+    if (most > share) most = share;
+    if (most == 0) most = 1;
+    if (!l->def.own_clock) c->blocks = most;
+    c->most = most * block;
+    c->items = (all + most - 1) / most;
+    c->table_size =
+        l->def.own_clock ? lanes_apart_size(l) : ((size_t)l->e.moments * l->e.terms * (CHUNK + 1 + 8 + 8) + 7) / 8 * 8;
+    c->thread_size = c->blocks * c->block_size + c->scratch_size + c->table_size;
+}
+
+motus_status lanes_run(lanes *l, size_t count, const double *const *values, const double *until, double *const *results,
+                       double *stopped, motus_error *err)
+{
+    const lanes_def *d = &l->def;
+    /* To wake threads takes longer than a little work. */
+    const bool little = !d->own_clock && (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
+    const size_t threads = little ? 1 : (size_t)d->threads;
+    lanes_call c = {.l = l, .count = count, .values = values, .until = until, .results = results, .stopped = stopped};
+    share_out(&c, threads);
+    double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
+    if (!memory)
+        return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories at once", threads * c.blocks * (size_t)l->block);
+    c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
+    parallel_for((int)threads, c.items, run_item, &c);
+    give(d->allocator, memory);
+    if (atomic_load(&c.refused)) return MOTUS_METHOD;
+    return atomic_load(&c.cancelled) ? fail(err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
+}

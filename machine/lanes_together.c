@@ -1,0 +1,178 @@
+/* Lanes whose trajectories share one clock: blocks go through time in chunks of steps, side by side, so that what
+ * depends on time alone is tabulated once for all of them. See lanes_parts.h.
+ */
+#include "machine/lanes_parts.h"
+
+#include "core/course.h"
+
+#include <math.h>
+
+typedef struct together {
+    lanes_item *item;
+    size_t blocks;
+    int64_t steps, every; /* the present chunk: steps to take, and from one observation in it to the next; 0: none */
+} together;
+
+static void each_block(const together *s, void (*body)(const together *, size_t))
+{
+    for (size_t k = 0; k < s->blocks; k++) body(s, k);
+}
+
+/* Lanes too many in the last block repeat the last trajectory. */
+static void begin_block(const together *s, size_t block)
+{
+    const lanes_item *b = s->item;
+    size_t who[BLOCK_MAX];
+    for (size_t i = 0; i < (size_t)b->l->block; i++) {
+        const size_t k = block * (size_t)b->l->block + i;
+        who[i] = b->first + (k < b->count ? k : b->count - 1);
+    }
+    lanes_block_begin(b, block, who);
+}
+
+static void run_block(const together *s, size_t block)
+{
+    const lanes_item *b = s->item;
+    const lanes *l = b->l;
+    const lanes_job j = lanes_block_job(b, block);
+    lanes_block_save(b, &j);
+    if (b->n == 0)
+        l->first(&j);
+    else
+        l->run(&j, s->steps, s->every);
+    for (size_t i = 0; l->plan.solves && b->n == 0 && i < (size_t)l->block; i++)
+        if (isinf(j.lost[i])) atomic_store(&b->call->refused, true);
+    if (lanes_block_broke(b, block)) lanes_block_trace(b, block, b->n == 0, s->steps, l->on_the_way ? l->def.every : 0);
+}
+
+static void observe_block(const together *s, size_t block)
+{
+    const lanes_job j = lanes_block_job(s->item, block);
+    lanes_block_observe(s->item, block, &j);
+}
+
+/* The shorter last step is a leg of its own, from the state at the end of the whole ones. */
+static void turn_block(const together *s, size_t block)
+{
+    lanes_job j = lanes_block_job(s->item, block);
+    j.record_count = 0;
+    s->item->l->observe(&j);
+    s->item->l->set(&j);
+}
+
+static void end_block(const together *s, size_t block)
+{
+    const lanes_item *b = s->item;
+    const size_t first = block * (size_t)b->l->block;
+    for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++)
+        lanes_block_result(b, block, i, b->first + first + i, b->observations);
+}
+
+/* ---- through time ---- */
+
+/* What depends on time alone, from the present step on. */
+static void fill_table(const together *s, int64_t steps)
+{
+    lanes_item *b = s->item;
+    b->first_row = b->n;
+    const lanes_job j = lanes_block_job(b, 0);
+    b->l->table(&j, b->table, steps + 1);
+}
+
+/* The next chunk. The first step is one of its own; the observation at the end is not among those on the way. */
+static void next_chunk(together *s)
+{
+    const lanes_item *b = s->item;
+    const lanes_def *d = &b->l->def;
+    const int64_t left = d->whole - b->n, every = d->every, due = every - b->n % every;
+    s->steps = b->n == 0 ? 1 : left < CHUNK ? left : CHUNK;
+    s->every = 0;
+    if (!b->l->on_the_way || due > s->steps || b->n == 0) return;
+    const bool end = d->last == 0 && due == left;
+    if (due < every || end) {
+        s->steps = due;
+        s->every = end ? 0 : due;
+        return;
+    }
+    s->steps -= s->steps % every;
+    if (d->last == 0 && s->steps == left) s->steps -= every;
+    s->every = every;
+}
+
+static void new_leg(lanes_item *b, double t0, double h)
+{
+    b->t0 = t0;
+    b->h = h;
+    b->n = 0;
+}
+
+static motus_status observe(void *ctx, motus_error *err)
+{
+    together *s = ctx;
+    (void)err;
+    fill_table(s, 0);
+    each_block(s, observe_block);
+    s->item->observations++;
+    return MOTUS_OK;
+}
+
+/* An observation that falls between two chunks is made here, one within a chunk by the object. */
+static motus_status whole_steps(together *s)
+{
+    lanes_item *b = s->item;
+    const lanes_def *d = &b->l->def;
+    while (b->n < d->whole) {
+        next_chunk(s);
+        fill_table(s, s->steps);
+        each_block(s, run_block);
+        b->n += s->steps;
+        b->observations += s->every ? s->steps / s->every : 0;
+        if (b->n == 1 && b->l->on_the_way && d->every == 1 && (d->whole > 1 || d->last != 0)) observe(s, NULL);
+        if (b->told && lanes_item_tell(b, (double)b->count * (double)b->n / (double)(d->whole + 1)))
+            return MOTUS_CANCELLED;
+    }
+    return MOTUS_OK;
+}
+
+static void short_step(together *s)
+{
+    lanes_item *b = s->item;
+    const lanes_job j = lanes_block_job(b, 0);
+    fill_table(s, 0);
+    each_block(s, turn_block);
+    new_leg(b, lanes_block_time(b->l, &j, 0), b->l->def.last);
+    s->steps = 1;
+    s->every = 0;
+    fill_table(s, 1);
+    each_block(s, run_block);
+    b->n = 1;
+}
+
+/* All the way, or nothing: the object observes on its way. */
+static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    together *s = ctx;
+    lanes_item *b = s->item;
+    const lanes_def *d = &b->l->def;
+    (void)err;
+    const motus_status status = limit.steps > 0 ? whole_steps(s) : MOTUS_OK;
+    if (limit.steps > 0 && status == MOTUS_OK && d->last != 0) short_step(s);
+    b->ends = limit.steps > 0 || (d->whole == 0 && d->last == 0);
+    *why = b->ends ? STOP_UNTIL : STOP_STEPS;
+    return status;
+}
+
+void lanes_together(lanes_item *b, size_t blocks)
+{
+    const lanes_def *d = &b->l->def;
+    together s = {.item = b, .blocks = blocks};
+    new_leg(b, d->t0, d->h);
+    each_block(&s, begin_block);
+    const course course = {.ctx = &s,
+                           .until = d->until,
+                           .every = b->l->on_the_way ? d->every : 0,
+                           .observes = true,
+                           .advance = advance,
+                           .observe = observe};
+    if (course_run(&course, NULL) == MOTUS_OK) each_block(&s, end_block);
+}
