@@ -265,10 +265,13 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     for (size_t r = 0; r < e->record_count; r++) p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
     motus_status status = check_ends(e, &p, err);
-    if (status == MOTUS_OK)
-        status = e->lanes ? lanes_run(e->lanes, count, p.values, p.until, results, stopped, err) : MOTUS_METHOD;
-    if (e->lanes && status == MOTUS_METHOD) choose_portable(e);
-    if (status == MOTUS_METHOD) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    bool singly = status == MOTUS_OK;
+    if (singly && e->lanes) {
+        status = lanes_run(e->lanes, count, p.values, p.until, results, stopped, err);
+        singly = status == MOTUS_METHOD;
+        if (singly) choose_portable(e);
+    }
+    if (singly) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;

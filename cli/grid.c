@@ -127,6 +127,13 @@ void grid_values(const grid *g, uint64_t first, size_t count, double *const *val
     }
 }
 
+bool grid_has(const grid *g, const char *name)
+{
+    for (size_t k = 0; k < g->count; k++)
+        if (!strcmp(g->names[k], name)) return true;
+    return false;
+}
+
 void grid_free(grid *g)
 {
     for (size_t k = 0; k < g->count; k++) axis_free(&g->axes[k]);

@@ -31,6 +31,8 @@ motus_status grid_read(grid *, const options *, motus_error *);
 /* Values of `count` trajectories from number `first`: values[axis][i]. The last --vary changes fastest, draws faster
  * still. */
 void grid_values(const grid *, uint64_t first, size_t count, double *const *values);
+/* Whether an axis has this name. */
+bool grid_has(const grid *, const char *name);
 void grid_free(grid *);
 
 /* One axis of an option's text; axis_free() also after a failure. */

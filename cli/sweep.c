@@ -121,7 +121,10 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
     s->step = isnan(o->step) ? settings.step : o->step;
-    s->until = load_until(&s->model, o);
+    s->until = grid_has(&s->grid, "until") ? NAN : load_until(&s->model, o);
+    if (isnan(s->until) && !isnan(o->until))
+        return complain(err, MOTUS_ARGUMENT,
+                        "--until is one end for all, and --vary until one for each: leave one out");
     s->columns = 2 + s->grid.count + s->records.count;
     status = look_every(s, err);
     if (!status) status = create(s, progress, err);
@@ -188,10 +191,12 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     decimal(s->until, until);
     text_seconds(seconds, inside);
     text_seconds(wall, all);
-    fprintf(out, "%s: %s, step %s, %lld steps to t = %s, %s%s, %d lane%s, %d thread%s\n", s->model.title, s->method,
-            step, (long long)motus_ensemble_steps(e), until, motus_ensemble_machine(e),
-            s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e), motus_ensemble_lanes(e) == 1 ? "" : "s",
-            motus_ensemble_threads(e), motus_ensemble_threads(e) == 1 ? "" : "s");
+    fprintf(out, "%s: %s, step %s, ", s->model.title, s->method, step);
+    if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
+    fprintf(out, "to t = %s, %s%s, %d lane%s, %d thread%s\n", isnan(s->until) ? "until, its own each" : until,
+            motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
+            motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
+            motus_ensemble_threads(e) == 1 ? "" : "s");
     fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);
     if (f->found > 0) fprintf(out, ", %llu of them were there", (unsigned long long)f->found);
     fprintf(out, ": %s, integration %s", all, inside);

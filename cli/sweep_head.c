@@ -97,7 +97,7 @@ static motus_status command(const sweep *s, file_out *f, motus_error *err)
     if (!status) status = option(f, "--record", o->record ? o->record : "final", err);
     if (!status) status = option(f, "--method", s->method, err);
     if (!status) status = option_number(f, "--step", s->step, err);
-    if (!status) status = option_number(f, "--until", s->until, err);
+    if (!status && !isnan(s->until)) status = option_number(f, "--until", s->until, err);
     if (!status && s->every > 1) {
         char text[DECIMAL_MAX + 8];
         snprintf(text, sizeof text, "%" PRId64 " steps", s->every);

@@ -26,11 +26,16 @@ typedef struct seat {     /* of one lane */
 } seat;
 #define NOBODY SIZE_MAX
 
+typedef struct room { /* a block and its seats */
+    lanes_block block;
+    seat *seats;
+} room;
+
 typedef struct apart {
     lanes_item *item;
-    lanes *l;
-    seat *seats[BLOCKS];
-    size_t block;   /* lanes in one */
+    const lanes *l;
+    room rooms[BLOCKS];
+    size_t lanes;   /* in a block */
     size_t next;    /* trajectories of the item that have begun */
     size_t waiting; /* the first lane of WAITING that may have a trajectory */
     size_t ending;  /* lanes of ENDING that have one */
@@ -42,173 +47,147 @@ size_t lanes_apart_size(const lanes *l) { return BLOCKS * lines(l, sizeof(seat) 
 
 /* ---- one lane ---- */
 
-static double *clock_of(const apart *s, const lanes_job *j, size_t lane, int k)
+static double *clock_of(const room *r, size_t lane, int k)
 {
-    return &j->clocks[lane_at(s->l, LANES_CLOCKS, (size_t)k, lane)];
+    return &r->block.job.clocks[lane_at(r->block.l, LANES_CLOCKS, (size_t)k, lane)];
+}
+static int64_t steps_of(const room *r, size_t lane) { return (int64_t)*clock_of(r, lane, LANES_N); }
+static bool occupied(const room *r, size_t lane) { return r->seats[lane].who != NOBODY; }
+static bool stopped(const room *r, size_t lane) { return !isnan(r->block.stopped[lane]); }
+
+static bool at_end(const apart *s, const room *r, size_t lane)
+{
+    if (s->adaptive) return *clock_of(r, lane, LANES_T) == *clock_of(r, lane, LANES_UNTIL);
+    return steps_of(r, lane) == r->seats[lane].whole;
 }
 
-static int64_t steps_of(const apart *s, const lanes_job *j, size_t lane)
+/* The lane counts as stopped, since the numbers that it goes on to make are no trajectory's. */
+static void leave(const room *r, size_t lane)
 {
-    return (int64_t)*clock_of(s, j, lane, LANES_N);
+    r->seats[lane].who = NOBODY;
+    *clock_of(r, lane, LANES_UNTIL) = *clock_of(r, lane, LANES_STOP) = NAN;
+    r->block.stopped[lane] = 0;
 }
 
-static bool occupied(const apart *s, int block, size_t lane) { return s->seats[block][lane].who != NOBODY; }
-
-static bool stopped(const apart *s, int block, size_t lane)
+static void copy(const lanes *l, double *to, size_t at, const double *from, size_t lane, size_t elements)
 {
-    return !isnan(lanes_block_stopped(s->item, (size_t)block)[lane]);
+    for (size_t k = 0; k < elements; k++) to[lane_at(l, elements, k, at)] = from[lane_at(l, elements, k, lane)];
 }
 
-static bool at_end(const apart *s, const lanes_job *j, int block, size_t lane)
+static void move(const room *from, size_t lane, const room *to, size_t at)
 {
-    if (s->adaptive) return *clock_of(s, j, lane, LANES_T) == *clock_of(s, j, lane, LANES_UNTIL);
-    return steps_of(s, j, lane) == s->seats[block][lane].whole;
+    const lanes *l = from->block.l;
+    const lanes_job *a = &from->block.job, *b = &to->block.job;
+    copy(l, b->host.own, at, a->host.own, lane, a->own_size);
+    copy(l, b->host.bound, at, a->host.bound, lane, a->bound_size);
+    copy(l, b->carry, at, a->carry, lane, l->carried);
+    copy(l, b->kept, at, a->kept, lane, l->def.source_count * REDUCE_KEPT);
+    copy(l, b->clocks, at, a->clocks, lane, LANES_CLOCKS);
+    to->block.stopped[at] = from->block.stopped[lane];
+    to->seats[at] = from->seats[lane];
+    leave(from, lane);
 }
 
-/* The lane counts as stopped, so that nobody looks at the numbers that it goes on to make. */
-static void leave(const apart *s, int block, size_t lane)
+static void finish(apart *s, const room *r, size_t lane)
 {
-    const lanes_job j = lanes_block_job(s->item, (size_t)block);
-    s->seats[block][lane].who = NOBODY;
-    *clock_of(s, &j, lane, LANES_UNTIL) = *clock_of(s, &j, lane, LANES_STOP) = NAN;
-    lanes_block_stopped(s->item, (size_t)block)[lane] = 0;
-}
-
-static void copy(const apart *s, double *to, size_t at, const double *from, size_t lane, size_t elements)
-{
-    for (size_t k = 0; k < elements; k++) to[lane_at(s->l, elements, k, at)] = from[lane_at(s->l, elements, k, lane)];
-}
-
-static void move(apart *s, int from, size_t lane, int to, size_t at)
-{
-    const lanes_job a = lanes_block_job(s->item, (size_t)from), b = lanes_block_job(s->item, (size_t)to);
-    copy(s, b.host.own, at, a.host.own, lane, a.own_size);
-    copy(s, b.host.bound, at, a.host.bound, lane, a.bound_size);
-    copy(s, b.carry, at, a.carry, lane, s->l->carried);
-    copy(s, b.kept, at, a.kept, lane, s->l->def.source_count * REDUCE_KEPT);
-    copy(s, b.clocks, at, a.clocks, lane, LANES_CLOCKS);
-    lanes_block_stopped(s->item, (size_t)to)[at] = lanes_block_stopped(s->item, (size_t)from)[lane];
-    s->seats[to][at] = s->seats[from][lane];
-    leave(s, from, lane);
-}
-
-static void finish(apart *s, int block, size_t lane)
-{
-    const seat *p = &s->seats[block][lane];
-    lanes_block_result(s->item, (size_t)block, lane, p->who, p->observations);
+    const seat *p = &r->seats[lane];
+    lanes_block_result(&r->block, s->item->call, lane, p->who, p->observations);
     atomic_fetch_add(&s->item->call->done, 1);
-    leave(s, block, lane);
+    leave(r, lane);
 }
 
 /* ---- observations ---- */
 
-typedef bool due_now(const apart *, const lanes_job *, int block, size_t lane);
+typedef bool due_now(const apart *, const room *, size_t lane);
 
-static bool at_start(const apart *s, const lanes_job *j, int block, size_t lane)
-{
-    return s->l->on_the_way || at_end(s, j, block, lane);
-}
+static bool at_start(const apart *s, const room *r, size_t lane) { return s->l->on_the_way || at_end(s, r, lane); }
 
 /* The observation at the end is not among those on the way. */
-static bool on_the_way(const apart *s, const lanes_job *j, int block, size_t lane)
+static bool on_the_way(const apart *s, const room *r, size_t lane)
 {
-    const seat *p = &s->seats[block][lane];
-    const int64_t n = steps_of(s, j, lane);
-    return s->l->on_the_way && n % s->l->def.every == 0 && n != p->observed &&
-           !(p->last == 0 && at_end(s, j, block, lane));
+    const seat *p = &r->seats[lane];
+    const int64_t n = steps_of(r, lane);
+    return n % s->l->def.every == 0 && n != p->observed && !(p->last == 0 && at_end(s, r, lane));
 }
 
-static bool arrived(const apart *s, const lanes_job *j, int block, size_t lane)
-{
-    return (void)j, s->seats[block][lane].last == 0;
-}
+static bool without_last(const apart *s, const room *r, size_t lane) { return (void)s, r->seats[lane].last == 0; }
+static bool anyone(const apart *s, const room *r, size_t lane) { return (void)s, (void)r, (void)lane, true; }
 
-static bool anyone(const apart *s, const lanes_job *j, int block, size_t lane)
+/* All lanes that are observed together have been observed before, or none. */
+static void observe(apart *s, const room *r, due_now *due, bool ends)
 {
-    return (void)s, (void)j, (void)block, (void)lane, true;
-}
-
-static void observe(apart *s, int block, due_now *due, bool ends)
-{
-    lanes_job j = lanes_block_job(s->item, (size_t)block);
+    lanes_block block = r->block;
     bool any = false;
-    j.ends = ends;
-    j.begins = due == at_start;
-    for (size_t i = 0; i < s->block; i++) {
-        const bool here = occupied(s, block, i) && !stopped(s, block, i) && due(s, &j, block, i);
-        j.where[i] = here;
+    block.job.ends = ends;
+    block.job.begins = due == at_start;
+    for (size_t i = 0; i < s->lanes; i++) {
+        const bool here = occupied(r, i) && !stopped(r, i) && due(s, r, i);
+        block.job.where[i] = here;
         if (!here) continue;
         any = true;
-        /* the same for all that are observed together */
-        j.first_observation = s->seats[block][i].observations == 0;
-        s->seats[block][i].observations++;
-        s->seats[block][i].observed = steps_of(s, &j, i);
+        block.job.first_observation = r->seats[i].observations == 0;
+        r->seats[i].observations++;
+        r->seats[i].observed = steps_of(r, i);
     }
-    if (any) lanes_block_observe(s->item, (size_t)block, &j);
+    if (any) lanes_block_observe(&block);
 }
 
 /* ---- the end ---- */
 
-static void finish_where(apart *s, int block, due_now *done)
+static void finish_where(apart *s, const room *r, due_now *done)
 {
-    const lanes_job j = lanes_block_job(s->item, (size_t)block);
-    for (size_t i = 0; i < s->block; i++)
-        if (occupied(s, block, i) && (stopped(s, block, i) || done(s, &j, block, i))) finish(s, block, i);
+    for (size_t i = 0; i < s->lanes; i++)
+        if (occupied(r, i) && (stopped(r, i) || done(s, r, i))) finish(s, r, i);
 }
 
 /* One step of all lanes by the formula of the first step of a leg. */
-static void first_step(apart *s, int block)
+static void first_step(const room *r)
 {
-    const lanes_job j = lanes_block_job(s->item, (size_t)block);
-    lanes_block_save(s->item, &j);
-    s->l->first(&j);
-    if (lanes_block_broke(s->item, (size_t)block)) lanes_block_trace(s->item, (size_t)block, true, 1, 0);
+    lanes_block_save(&r->block);
+    r->block.l->first(&r->block.job);
+    if (lanes_block_broke(&r->block)) lanes_block_trace(&r->block, true, 1, 0, 0);
 }
 
 /* What is in ENDING comes to its end: by the shorter last step, a leg of its own, where there is one. */
 static void end_all(apart *s)
 {
-    observe(s, ENDING, arrived, true);
-    finish_where(s, ENDING, arrived);
+    const room *r = &s->rooms[ENDING];
     bool any = false;
-    lanes_job j = lanes_block_job(s->item, ENDING);
-    for (size_t i = 0; i < s->block; i++) any |= occupied(s, ENDING, i);
+    observe(s, r, without_last, true);
+    finish_where(s, r, without_last);
+    for (size_t i = 0; i < s->lanes; i++) any |= occupied(r, i);
     s->ending = 0;
     if (!any) return;
+    lanes_job j = r->block.job;
     j.record_count = 0;
     s->l->observe(&j);
     s->l->set(&j);
-    for (size_t i = 0; i < s->block; i++) {
-        if (!occupied(s, ENDING, i)) continue;
-        *clock_of(s, &j, i, LANES_T0) = lanes_block_time(s->l, &j, i);
-        *clock_of(s, &j, i, LANES_H) = s->seats[ENDING][i].last;
-        *clock_of(s, &j, i, LANES_N) = 0;
+    for (size_t i = 0; i < s->lanes; i++) {
+        if (!occupied(r, i)) continue;
+        *clock_of(r, i, LANES_T0) = lanes_block_time(&r->block, i);
+        *clock_of(r, i, LANES_H) = r->seats[i].last;
+        *clock_of(r, i, LANES_N) = 0;
     }
-    first_step(s, ENDING);
-    observe(s, ENDING, anyone, true);
-    finish_where(s, ENDING, anyone);
-}
-
-static void arrive(apart *s, int from, size_t lane)
-{
-    if (s->ending == s->block) end_all(s);
-    move(s, from, lane, ENDING, s->ending++);
+    first_step(r);
+    observe(s, r, anyone, true);
+    finish_where(s, r, anyone);
 }
 
 /* Trajectories that stopped or arrived leave their lanes; whether there were any. */
-static bool settle(apart *s, int block)
+static bool settle(apart *s)
 {
-    const lanes_job j = lanes_block_job(s->item, (size_t)block);
+    const room *r = &s->rooms[RUNNING];
     bool any = false;
-    for (size_t i = 0; i < s->block; i++) {
-        if (!occupied(s, block, i)) continue;
-        const bool broken = stopped(s, block, i);
-        if (broken)
-            finish(s, block, i);
-        else if (at_end(s, &j, block, i))
-            arrive(s, block, i);
-        else
+    for (size_t i = 0; i < s->lanes; i++) {
+        if (!occupied(r, i)) continue;
+        if (stopped(r, i)) {
+            finish(s, r, i);
+        } else if (at_end(s, r, i)) {
+            if (s->ending == s->lanes) end_all(s);
+            move(r, i, &s->rooms[ENDING], s->ending++);
+        } else {
             continue;
+        }
         any = true;
     }
     return any;
@@ -216,9 +195,10 @@ static bool settle(apart *s, int block)
 
 /* ---- the start ---- */
 
-/* The clock of lane `lane` of WAITING, which trajectory k will use. */
-static void set_clock(apart *s, const lanes_job *j, size_t lane, size_t k, bool used)
+/* Trajectory k is about to begin in a lane of WAITING. */
+static void take_seat(apart *s, size_t lane, size_t k)
 {
+    const room *r = &s->rooms[WAITING];
     const lanes_def *d = &s->l->def;
     const double until = s->item->call->until ? s->item->call->until[k] : d->until;
     double h = until < d->t0 ? -fabs(d->h) : fabs(d->h);
@@ -227,74 +207,78 @@ static void set_clock(apart *s, const lanes_job *j, size_t lane, size_t k, bool 
         h = way.last;
         way = (stepper_way){1, 0};
     }
-    const double own[LANES_CLOCKS] = {[LANES_T0] = d->t0, [LANES_H] = h,         [LANES_T] = d->t0,
-                                      [LANES_NEXT] = h,   [LANES_UNTIL] = until, [LANES_STOP] = NAN};
-    for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(s, j, lane, i) = own[i];
-    s->seats[WAITING][lane] = (seat){.who = used ? k : NOBODY, .whole = way.whole, .last = way.last};
+    const double own[LANES_CLOCKS] = {
+        [LANES_T0] = d->t0, [LANES_H] = h,         [LANES_T] = d->t0,
+        [LANES_NEXT] = h,   [LANES_UNTIL] = until, [LANES_STOP] = NAN,
+    };
+    for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(r, lane, i) = own[i];
+    r->seats[lane] = (seat){.who = k, .whole = way.whole, .last = way.last};
 }
 
 /* The next trajectories begin, and take their first step where that has a formula of its own. */
 static void begin(apart *s)
 {
     lanes_item *b = s->item;
+    const room *r = &s->rooms[WAITING];
     size_t who[BLOCK_MAX];
-    const size_t left = b->count - s->next, count = left < s->block ? left : s->block;
-    const lanes_job j = lanes_block_job(b, WAITING);
-    for (size_t i = 0; i < s->block; i++) {
+    const size_t left = b->count - s->next, count = left < s->lanes ? left : s->lanes;
+    for (size_t i = 0; i < s->lanes; i++) {
         who[i] = b->first + s->next + (i < count ? i : count - 1);
-        set_clock(s, &j, i, who[i], i < count);
+        take_seat(s, i, who[i]);
     }
-    lanes_block_begin(b, WAITING, who);
-    for (size_t i = count; i < s->block; i++) leave(s, WAITING, i);
-    lanes_block_stop(b, WAITING);
+    lanes_block_begin(&r->block, b, who);
+    for (size_t i = count; i < s->lanes; i++) leave(r, i);
+    lanes_block_stop(&r->block);
     s->next += count;
     s->waiting = 0;
-    observe(s, WAITING, at_start, false);
-    for (size_t i = 0; i < s->block; i++)
-        if (occupied(s, WAITING, i) && (stopped(s, WAITING, i) || at_end(s, &j, WAITING, i))) finish(s, WAITING, i);
+    observe(s, r, at_start, false);
+    finish_where(s, r, at_end);
     if (s->adaptive) return;
-    first_step(s, WAITING);
-    observe(s, WAITING, on_the_way, false);
+    first_step(r);
+    if (s->l->on_the_way) observe(s, r, on_the_way, false);
 }
 
 /* Lanes of RUNNING that are free take the next trajectories that wait; whether any lane has one. */
 static bool refill(apart *s)
 {
+    const room *running = &s->rooms[RUNNING], *waiting = &s->rooms[WAITING];
     bool any = false;
-    for (size_t i = 0; i < s->block; i++) {
-        while (!occupied(s, RUNNING, i)) {
-            while (s->waiting < s->block && !occupied(s, WAITING, s->waiting)) s->waiting++;
-            if (s->waiting < s->block)
-                move(s, WAITING, s->waiting, RUNNING, i);
+    for (size_t i = 0; i < s->lanes; i++) {
+        while (!occupied(running, i)) {
+            while (s->waiting < s->lanes && !occupied(waiting, s->waiting)) s->waiting++;
+            if (s->waiting < s->lanes)
+                move(waiting, s->waiting, running, i);
             else if (s->next < s->item->count)
                 begin(s);
             else
                 break;
         }
-        any |= occupied(s, RUNNING, i);
+        any |= occupied(running, i);
     }
     return any;
 }
 
 /* ---- on the way ---- */
 
-/* So many steps that no lane passes its end, nor a moment at which it is to be observed; where all lanes are observed
- * at the same steps, the object observes them on the way, after every *every of them. */
-static int64_t steps_to_take(apart *s, const lanes_job *j, int64_t *every)
+/* So many steps that no lane passes its end, nor a moment at which it is to be observed. Where all lanes are observed
+ * at the same steps, the object observes them on the way, after every *every of them, beginning at step *n. */
+static int64_t steps_to_take(const apart *s, const room *r, int64_t *n, int64_t *every)
 {
     const int64_t period = s->l->def.every;
     int64_t steps = CHUNK, due = CHUNK, phase = -1;
-    bool alike = s->l->on_the_way;
-    for (size_t i = 0; i < s->block; i++) {
-        if (!occupied(s, RUNNING, i)) continue;
-        const int64_t n = steps_of(s, j, i), left = s->seats[RUNNING][i].whole - n;
+    bool alike = true;
+    *every = *n = 0;
+    for (size_t i = 0; i < s->lanes; i++) {
+        if (!occupied(r, i)) continue;
+        const int64_t taken = steps_of(r, i), left = r->seats[i].whole - taken;
         if (left < steps) steps = left;
-        if (period - n % period < due) due = period - n % period;
-        alike = alike && (phase < 0 || n % period == phase);
-        phase = n % period;
-        s->item->n = n;
+        if (!s->l->on_the_way) continue;
+        const int64_t here = taken % period;
+        if (period - here < due) due = period - here;
+        alike = alike && (phase < 0 || here == phase);
+        phase = here;
+        *n = taken;
     }
-    *every = 0;
     if (!s->l->on_the_way || due > steps) return steps;
     const int64_t inner = (steps - 1) / period * period; /* the last one may be the end */
     if (!alike || phase != 0 || inner == 0) return due;
@@ -304,53 +288,52 @@ static int64_t steps_to_take(apart *s, const lanes_job *j, int64_t *every)
 
 static void run_fixed(apart *s)
 {
-    const lanes_job j = lanes_block_job(s->item, RUNNING);
-    int64_t every;
-    const int64_t steps = steps_to_take(s, &j, &every);
-    for (size_t i = 0; every && i < s->block; i++) j.where[i] = occupied(s, RUNNING, i);
-    lanes_block_save(s->item, &j);
-    s->l->run(&j, steps, every);
-    for (size_t i = 0; every && i < s->block; i++) {
-        s->seats[RUNNING][i].observations += steps / every;
-        s->seats[RUNNING][i].observed = steps_of(s, &j, i);
+    const room *r = &s->rooms[RUNNING];
+    int64_t n, every;
+    const int64_t steps = steps_to_take(s, r, &n, &every);
+    for (size_t i = 0; every && i < s->lanes; i++) r->block.job.where[i] = occupied(r, i);
+    lanes_block_save(&r->block);
+    s->l->run(&r->block.job, steps, every);
+    for (size_t i = 0; every && i < s->lanes; i++) {
+        r->seats[i].observations += steps / every;
+        r->seats[i].observed = steps_of(r, i);
     }
-    if (lanes_block_broke(s->item, RUNNING)) lanes_block_trace(s->item, RUNNING, false, steps, every);
+    if (lanes_block_broke(&r->block)) lanes_block_trace(&r->block, false, steps, n, every);
 }
 
 /* Candidates, until some lane is at its end, at an observation, or cannot go on. */
 static void run_adaptive(apart *s)
 {
-    const lanes_job j = lanes_block_job(s->item, RUNNING);
+    const room *r = &s->rooms[RUNNING];
     const int64_t every = s->l->def.every;
-    for (size_t i = 0; s->l->on_the_way && i < s->block; i++)
-        if (occupied(s, RUNNING, i))
-            *clock_of(s, &j, i, LANES_STOP) = (double)((steps_of(s, &j, i) / every + 1) * every);
-    s->l->run(&j, CHUNK, 0);
-    double *ended = lanes_block_stopped(s->item, RUNNING);
-    for (size_t i = 0; i < s->block; i++)
-        if (occupied(s, RUNNING, i) && j.lost[i] != 0) ended[i] = lanes_block_time(s->l, &j, i);
+    for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
+        if (occupied(r, i)) *clock_of(r, i, LANES_STOP) = (double)((steps_of(r, i) / every + 1) * every);
+    s->l->run(&r->block.job, CHUNK, 0);
+    for (size_t i = 0; i < s->lanes; i++)
+        if (occupied(r, i) && r->block.job.lost[i] != 0) r->block.stopped[i] = lanes_block_time(&r->block, i);
 }
 
 void lanes_apart(lanes_item *b)
 {
     lanes *l = b->l;
-    apart s = {.item = b, .l = l, .block = (size_t)l->block, .adaptive = l->plan.carried};
+    apart s = {.item = b, .l = l, .lanes = (size_t)l->block, .waiting = (size_t)l->block, .adaptive = l->plan.carried};
     memset(b->memory, 0, BLOCKS * b->call->block_size * sizeof(double));
-    for (int k = 0; k < BLOCKS; k++) {
-        s.seats[k] = (seat *)(void *)(b->table + (size_t)k * lines(l, sizeof(seat) / sizeof(double)));
-        for (size_t i = 0; i < s.block; i++) leave(&s, k, i);
+    for (size_t k = 0; k < BLOCKS; k++) {
+        void *seats = b->table + k * lines(l, sizeof(seat) / sizeof(double));
+        s.rooms[k] = (room){lanes_block_of(b, k), seats};
+        s.rooms[k].block.job.first_observation = false;
+        for (size_t i = 0; i < s.lanes; i++) leave(&s.rooms[k], i);
     }
-    s.waiting = s.block;
     for (;;) {
         bool any;
         do any = refill(&s);
-        while (settle(&s, RUNNING));
+        while (settle(&s));
         if (!any) break;
         if (s.adaptive)
             run_adaptive(&s);
         else
             run_fixed(&s);
-        observe(&s, RUNNING, on_the_way, false);
+        if (l->on_the_way) observe(&s, &s.rooms[RUNNING], on_the_way, false);
         if (b->told && lanes_item_tell(b, 0)) return;
         if (atomic_load(&b->call->cancelled)) return;
     }

@@ -34,22 +34,13 @@ size_t lanes_scratch_size(const lanes *l)
     return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);
 }
 
-static double *saved_of(const lanes_item *b)
+lanes_block lanes_block_of(const lanes_item *b, size_t block)
 {
-    return b->scratch + b->l->work_size + b->l->observed_size + b->l->solve_size;
-}
-
-double *lanes_block_stopped(const lanes_item *b, size_t block)
-{
-    return b->memory + (block + 1) * b->call->block_size - lines(b->l, 1);
-}
-
-lanes_job lanes_block_job(const lanes_item *b, size_t block)
-{
-    const lanes *l = b->l;
+    lanes *l = b->l;
     const model *m = l->def.model;
     const size_t n = (size_t)l->block;
     double *p = b->memory + block * b->call->block_size, *observed = b->scratch + l->work_size;
+    double *saved = observed + l->observed_size + l->solve_size;
     lanes_job j = {.nx = m->nx,
                    .nv = m->nv,
                    .stride = m->nv,
@@ -81,25 +72,26 @@ lanes_job lanes_block_job(const lanes_item *b, size_t block)
     j.a = l->wants_a ? observed + (m->nx + m->nv) * n : NULL;
     j.out = observed + (m->nx + 2 * m->nv) * n;
     j.solving = (char *)(observed + l->observed_size);
-    j.lost = saved_of(b) + saved_size(l);
+    j.lost = saved + saved_size(l);
     j.where = j.lost + lines(l, 1);
-    return j;
+    return (lanes_block){.l = l, .job = j, .stopped = p + b->call->block_size - lines(l, 1), .saved = saved};
 }
 
-void lanes_block_save(const lanes_item *b, const lanes_job *j)
+void lanes_block_save(const lanes_block *k)
 {
-    memcpy(saved_of(b), j->carry, b->l->carry_size * sizeof(double));
-    if (j->clocks) memcpy(saved_of(b) + b->l->carry_size, j->clocks, b->l->clock_size * sizeof(double));
+    const lanes *l = k->l;
+    memcpy(k->saved, k->job.carry, l->carry_size * sizeof(double));
+    if (k->job.clocks) memcpy(k->saved + l->carry_size, k->job.clocks, l->clock_size * sizeof(double));
 }
 
 /* ---- the start ---- */
 
-void lanes_block_begin(const lanes_item *b, size_t block, const size_t *who)
+void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *who)
 {
-    const lanes *l = b->l;
+    const lanes *l = block->l;
     const model *m = l->def.model;
-    lanes_job j = lanes_block_job(b, block);
-    double *values = saved_of(b), *stopped = lanes_block_stopped(b, block);
+    lanes_job j = block->job;
+    double *values = block->saved;
     const size_t width = (size_t)l->width, count = l->def.place_count;
     for (size_t g = 0; g < (size_t)l->groups; g++) {
         for (size_t k = 0; k < count; k++)
@@ -108,7 +100,7 @@ void lanes_block_begin(const lanes_item *b, size_t block, const size_t *who)
         for (size_t k = 0; l->own_size && k < m->pool_count; k++)
             for (size_t i = 0; i < width; i++) j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
     }
-    for (size_t i = 0; i < (size_t)l->block; i++) stopped[i] = NAN;
+    for (size_t i = 0; i < (size_t)l->block; i++) block->stopped[i] = NAN;
     j.values = values;
     l->begin(&j);
     l->set(&j);
@@ -131,106 +123,91 @@ static bool lane_finite(const lanes *l, const double *numbers, size_t elements, 
     return none == 0;
 }
 
-double lanes_block_time(const lanes *l, const lanes_job *j, size_t lane)
+double lanes_block_time(const lanes_block *b, size_t lane)
 {
-    work w = l->plan;
-    w.t0 = j->t0, w.h = j->h, w.n = j->n;
+    const lanes_job *j = &b->job;
+    work w = {.carried = b->l->plan.carried, .t0 = j->t0, .h = j->h, .n = j->n};
     if (j->clocks) {
         double own[LANES_CLOCKS];
-        for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = j->clocks[lane_at(l, LANES_CLOCKS, k, lane)];
+        for (size_t k = 0; k < LANES_CLOCKS; k++) own[k] = j->clocks[lane_at(b->l, LANES_CLOCKS, k, lane)];
         w.t0 = own[LANES_T0], w.h = own[LANES_H], w.n = (int64_t)own[LANES_N];
         w.t = own[LANES_T], w.lost = own[LANES_LOST];
     }
     return time_now(&w);
 }
 
-/* Lanes of an array of `elements` that are not finite stop now, if they have not stopped before. */
-static void stop_lanes(const lanes_item *b, size_t block, const lanes_job *j, const double *numbers, size_t elements)
+void lanes_block_stop(const lanes_block *b)
 {
     const lanes *l = b->l;
-    double *stopped = lanes_block_stopped(b, block);
-    if (all_finite(numbers, elements * (size_t)l->block)) return;
+    if (all_finite(b->job.carry, l->carried * (size_t)l->block)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(stopped[i]) && !lane_finite(l, numbers, elements, i)) stopped[i] = lanes_block_time(l, j, i);
-}
-
-void lanes_block_stop(const lanes_item *b, size_t block)
-{
-    const lanes_job j = lanes_block_job(b, block);
-    stop_lanes(b, block, &j, j.carry, b->l->carried);
+        if (isnan(b->stopped[i]) && !lane_finite(l, b->job.carry, l->carried, i))
+            b->stopped[i] = lanes_block_time(b, i);
 }
 
 /* The state that is observed may be infinite a step before what the steps carry is. Lanes that are not observed now
  * have other numbers there. */
-static void stop_observed(const lanes_item *b, size_t block, const lanes_job *j)
+void lanes_block_observe(const lanes_block *b)
 {
     const lanes *l = b->l;
-    const model *m = l->def.model;
-    double *stopped = lanes_block_stopped(b, block);
-    if (all_finite(j->x, m->nx * (size_t)l->block) && all_finite(j->v, m->nv * (size_t)l->block)) return;
+    const lanes_job *j = &b->job;
+    const size_t nx = l->def.model->nx, nv = l->def.model->nv;
+    l->observe(j);
+    if (all_finite(j->x, nx * (size_t)l->block) && all_finite(j->v, nv * (size_t)l->block)) return;
     for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(stopped[i]) && (!j->clocks || j->where[i] != 0) &&
-            !(lane_finite(l, j->x, m->nx, i) && lane_finite(l, j->v, m->nv, i)))
-            stopped[i] = lanes_block_time(l, j, i);
+        if (isnan(b->stopped[i]) && (!j->clocks || j->where[i] != 0) &&
+            !(lane_finite(l, j->x, nx, i) && lane_finite(l, j->v, nv, i)))
+            b->stopped[i] = lanes_block_time(b, i);
 }
 
-void lanes_block_observe(const lanes_item *b, size_t block, const lanes_job *j)
-{
-    b->l->observe(j);
-    stop_observed(b, block, j);
-}
-
-bool lanes_block_broke(const lanes_item *b, size_t block)
+bool lanes_block_broke(const lanes_block *b)
 {
     const lanes *l = b->l;
-    const lanes_job j = lanes_block_job(b, block);
-    const double *stopped = lanes_block_stopped(b, block);
-    if (all_finite(j.carry, l->carried * (size_t)l->block)) return false;
+    if (all_finite(b->job.carry, l->carried * (size_t)l->block)) return false;
     for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(stopped[i]) && !lane_finite(l, j.carry, l->carried, i)) return true;
+        if (isnan(b->stopped[i]) && !lane_finite(l, b->job.carry, l->carried, i)) return true;
     return false;
 }
 
-void lanes_block_trace(const lanes_item *b, size_t block, bool first, int64_t steps, int64_t every)
+void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int64_t n, int64_t every)
 {
-    const lanes *l = b->l;
-    lanes_job j = lanes_block_job(b, block);
-    j.carry = saved_of(b);
-    if (j.clocks) j.clocks = saved_of(b) + l->carry_size;
-    j.record_count = 0;
-    j.ends = false;
-    stop_lanes(b, block, &j, j.carry, l->carried);
+    const lanes *l = block->l;
+    lanes_block b = *block;
+    b.job.carry = b.saved;
+    if (b.job.clocks) b.job.clocks = b.saved + l->carry_size;
+    b.job.record_count = 0;
+    b.job.ends = false;
+    lanes_block_stop(&b);
     for (int64_t k = 0; k < steps; k++) {
-        if (every && j.n % every == 0) lanes_block_observe(b, block, &j);
-        double before[BLOCK_MAX], *stopped = lanes_block_stopped(b, block);
-        for (size_t i = 0; i < (size_t)l->block; i++) before[i] = lanes_block_time(l, &j, i);
+        if (every && (n + k) % every == 0) lanes_block_observe(&b);
+        double before[BLOCK_MAX];
+        for (size_t i = 0; i < (size_t)l->block; i++) before[i] = lanes_block_time(&b, i);
         if (first)
-            l->first(&j);
+            l->first(&b.job);
         else
-            l->run(&j, 1, 0);
+            l->run(&b.job, 1, 0);
         /* an equation that could not be solved stops its lane before the step */
         for (size_t i = 0; i < (size_t)l->block; i++)
-            if (isnan(stopped[i]) && isnan(j.lost[i])) stopped[i] = before[i];
-        j.n++;
-        stop_lanes(b, block, &j, j.carry, l->carried);
+            if (isnan(b.stopped[i]) && isnan(b.job.lost[i])) b.stopped[i] = before[i];
+        b.job.n++;
+        lanes_block_stop(&b);
     }
 }
 
 /* ---- the end ---- */
 
-void lanes_block_result(const lanes_item *b, size_t block, size_t lane, size_t who, int64_t observations)
+void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t who, int64_t observations)
 {
     const lanes *l = b->l;
-    const lanes_job j = lanes_block_job(b, block);
-    const double stopped = lanes_block_stopped(b, block)[lane];
+    const lanes_job *j = &b->job;
+    const double stopped = b->stopped[lane];
     const size_t all = l->def.source_count * REDUCE_KEPT;
     for (size_t r = 0; r < l->def.source_count; r++) {
-        const double kept[REDUCE_KEPT] = {j.kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
-                                          j.kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
-        b->call->results[r][who] =
-            isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
+        const double kept[REDUCE_KEPT] = {j->kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
+                                          j->kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
+        c->results[r][who] = isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
     }
-    if (b->call->stopped) b->call->stopped[who] = stopped;
+    if (c->stopped) c->stopped[who] = stopped;
 }
 
 bool lanes_item_tell(lanes_item *b, double more)

@@ -80,29 +80,35 @@ typedef struct lanes_item {
     bool ends;                        /* the observation to come is the last */
 } lanes_item;
 
+/* One block of an item: what the object is given, and what it is not. */
+typedef struct lanes_block {
+    lanes *l;
+    lanes_job job;
+    double *stopped; /* when each lane stopped; NaN: it goes on */
+    double *saved;   /* carry and clocks, before steps that may have to be taken once more */
+} lanes_block;
+
 /* ---- lanes_block.c ---- */
 
 size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
-lanes_job lanes_block_job(const lanes_item *, size_t block);
-/* When each lane of a block stopped; NaN: it goes on. */
-double *lanes_block_stopped(const lanes_item *, size_t block);
-/* Where a block's carry and clocks are copied to before steps that may have to be taken once more. */
-void lanes_block_save(const lanes_item *, const lanes_job *);
+lanes_block lanes_block_of(const lanes_item *, size_t block);
+void lanes_block_save(const lanes_block *);
 /* Lane i of the block is at the start of trajectory who[i]. */
-void lanes_block_begin(const lanes_item *, size_t block, const size_t *who);
+void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *who);
 /* Whether an infinity or a NaN has appeared in the carry of a lane that has not stopped before. */
-bool lanes_block_broke(const lanes_item *, size_t block);
+bool lanes_block_broke(const lanes_block *);
 /* Lanes whose carry is not finite stop now. */
-void lanes_block_stop(const lanes_item *, size_t block);
+void lanes_block_stop(const lanes_block *);
 /* The steps since lanes_block_save once more, one by one, to see when each lane stopped. every: observations among
- * them; 0 none. */
-void lanes_block_trace(const lanes_item *, size_t block, bool first, int64_t steps, int64_t every);
-/* Observes a block, and stops lanes whose observed state is not finite; `where` as in lanes_job. */
-void lanes_block_observe(const lanes_item *, size_t block, const lanes_job *);
-double lanes_block_time(const lanes *, const lanes_job *, size_t lane);
+ * them, 0 none, counted from step n. */
+void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n, int64_t every);
+/* Observes a block, and stops lanes whose observed state is not finite; of lanes with own clocks, those in
+ * job.where. */
+void lanes_block_observe(const lanes_block *);
+double lanes_block_time(const lanes_block *, size_t lane);
 /* The results of one lane, after so many observations, are those of trajectory `who`. */
-void lanes_block_result(const lanes_item *, size_t block, size_t lane, size_t who, int64_t observations);
+void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t who, int64_t observations);
 /* Tells the caller's hook how far all have come, `more` trajectories of this item counted; true: enough. */
 bool lanes_item_tell(lanes_item *, double more);
 

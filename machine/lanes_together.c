@@ -19,53 +19,56 @@ static void each_block(const together *s, void (*body)(const together *, size_t)
 }
 
 /* Lanes too many in the last block repeat the last trajectory. */
-static void begin_block(const together *s, size_t block)
+static void begin_block(const together *s, size_t number)
 {
     const lanes_item *b = s->item;
+    const lanes_block block = lanes_block_of(b, number);
     size_t who[BLOCK_MAX];
     for (size_t i = 0; i < (size_t)b->l->block; i++) {
-        const size_t k = block * (size_t)b->l->block + i;
+        const size_t k = number * (size_t)b->l->block + i;
         who[i] = b->first + (k < b->count ? k : b->count - 1);
     }
-    lanes_block_begin(b, block, who);
+    lanes_block_begin(&block, b, who);
 }
 
-static void run_block(const together *s, size_t block)
+static void run_block(const together *s, size_t number)
 {
     const lanes_item *b = s->item;
     const lanes *l = b->l;
-    const lanes_job j = lanes_block_job(b, block);
-    lanes_block_save(b, &j);
+    const lanes_block block = lanes_block_of(b, number);
+    lanes_block_save(&block);
     if (b->n == 0)
-        l->first(&j);
+        l->first(&block.job);
     else
-        l->run(&j, s->steps, s->every);
+        l->run(&block.job, s->steps, s->every);
     for (size_t i = 0; l->plan.solves && b->n == 0 && i < (size_t)l->block; i++)
-        if (isinf(j.lost[i])) atomic_store(&b->call->refused, true);
-    if (lanes_block_broke(b, block)) lanes_block_trace(b, block, b->n == 0, s->steps, l->on_the_way ? l->def.every : 0);
+        if (isinf(block.job.lost[i])) atomic_store(&b->call->refused, true);
+    if (lanes_block_broke(&block))
+        lanes_block_trace(&block, b->n == 0, s->steps, b->n, l->on_the_way ? l->def.every : 0);
 }
 
-static void observe_block(const together *s, size_t block)
+static void observe_block(const together *s, size_t number)
 {
-    const lanes_job j = lanes_block_job(s->item, block);
-    lanes_block_observe(s->item, block, &j);
+    const lanes_block block = lanes_block_of(s->item, number);
+    lanes_block_observe(&block);
 }
 
 /* The shorter last step is a leg of its own, from the state at the end of the whole ones. */
-static void turn_block(const together *s, size_t block)
+static void turn_block(const together *s, size_t number)
 {
-    lanes_job j = lanes_block_job(s->item, block);
-    j.record_count = 0;
-    s->item->l->observe(&j);
-    s->item->l->set(&j);
+    lanes_block block = lanes_block_of(s->item, number);
+    block.job.record_count = 0;
+    block.l->observe(&block.job);
+    block.l->set(&block.job);
 }
 
-static void end_block(const together *s, size_t block)
+static void end_block(const together *s, size_t number)
 {
     const lanes_item *b = s->item;
-    const size_t first = block * (size_t)b->l->block;
+    const lanes_block block = lanes_block_of(b, number);
+    const size_t first = number * (size_t)b->l->block;
     for (size_t i = 0; i < (size_t)b->l->block && first + i < b->count; i++)
-        lanes_block_result(b, block, i, b->first + first + i, b->observations);
+        lanes_block_result(&block, b->call, i, b->first + first + i, b->observations);
 }
 
 /* ---- through time ---- */
@@ -75,8 +78,8 @@ static void fill_table(const together *s, int64_t steps)
 {
     lanes_item *b = s->item;
     b->first_row = b->n;
-    const lanes_job j = lanes_block_job(b, 0);
-    b->l->table(&j, b->table, steps + 1);
+    const lanes_block block = lanes_block_of(b, 0);
+    b->l->table(&block.job, b->table, steps + 1);
 }
 
 /* The next chunk. The first step is one of its own; the observation at the end is not among those on the way. */
@@ -137,10 +140,10 @@ static motus_status whole_steps(together *s)
 static void short_step(together *s)
 {
     lanes_item *b = s->item;
-    const lanes_job j = lanes_block_job(b, 0);
+    const lanes_block block = lanes_block_of(b, 0);
     fill_table(s, 0);
     each_block(s, turn_block);
-    new_leg(b, lanes_block_time(b->l, &j, 0), b->l->def.last);
+    new_leg(b, lanes_block_time(&block, 0), b->l->def.last);
     s->steps = 1;
     s->every = 0;
     fill_table(s, 1);

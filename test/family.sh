@@ -47,5 +47,26 @@ check "a saved run goes on, on both machines alike" "$(cat "$copy/compiled")" "$
 truth "and gets there" "$(grep -c state "$copy/compiled") == 1"
 check "rows at times between steps whose sizes nobody knows beforehand" \
     "$("$motus" run $model --method doubling --step 0.1 --until 1.7 --every 0.1 -o "$copy/rows.csv" >/dev/null 2>&1; grep -c '^[0-9]' "$copy/rows.csv")" 18
+
+# In lanes: every trajectory has its own steps, refusals, observations and end.
+sweep() { "$motus" sweep $model --method doubling --step 0.1 --vary e=0:0.9:23 "$@" 2>&1; }
+rows() { sweep --quiet "$@" | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
+what=(--until 3 --record 'r.x,max(r.y),mean(t),time_of_min(r.x)')
+alone=$(rows "${what[@]}" --machine interpreter)
+check "23 trajectories one at a time" "$(tail -n 1 <<<"$alone")" 23
+for lanes in 1 4 16; do
+    check "in $lanes lanes: the same bits" "$(rows "${what[@]}" --machine compiled --lanes $lanes --threads 2)" "$alone"
+done
+what=(--vary until=-1:5:7 --every '3 steps' --record 'r.x,max(r.y)')
+check "with ends that differ, observed at every third step" "$(rows "${what[@]}" --machine compiled --lanes 8)" \
+    "$(rows "${what[@]}" --machine interpreter)"
+check "of all" "$(rows "${what[@]}" --machine compiled --lanes 8 | tail -n 1)" 161
+# A fall into the centre: no step is small enough, at a time that depends on where it begins.
+printf "k = 1\nx'' = -k/x^2\nx(0) = 1\nx'(0) = 0\n" >"$copy/fall.motus"
+fall() { "$motus" sweep "$copy/fall.motus" --method doubling --step 0.1 --vary k=0.1:9:40 --until 3 --record 'x,min(x)' --quiet "$@" 2>/dev/null | grep '^[0-9]'; }
+check "trajectories that cannot go on stop when they would stop alone" "$(fall --machine compiled --lanes 8)" "$(fall --machine interpreter)"
+truth "some of them do" "$(fall --machine compiled | grep -c ',[0-9.]*[1-9]$') > 20"
+check "and it is lanes that computed them" \
+    "$(sweep --until 3 --record r.x --machine compiled --lanes 16 --json -o "$copy/rows" | value lanes)" 16
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
