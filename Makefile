@@ -42,10 +42,10 @@ test:
 	@cmake/need.sh build demo test lab page
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary
 
-# Nothing here fails for want of a peer, or of speed.
+# A library that is not installed, or a missed limit, is no failure.
 bench:
 	@cmake/need.sh build
-	@cmake/need.sh bench || echo "motus: what is missing is left out of the comparison" >&2
+	@cmake/need.sh bench || echo "motus: the comparison omits what is missing" >&2
 	@mkdir -p build
 	@$(CMAKE) --preset release -DMOTUS_BENCH=ON >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 	@$(CMAKE) --build build --target motus_program motus_bench
@@ -60,7 +60,7 @@ fuzz:
 	@$(CMAKE) --preset fuzz >/dev/null && $(CMAKE) --build --preset fuzz
 	@FUZZ_SECONDS=$(FUZZ_SECONDS) cmake/fuzz.sh
 
-# The layout of every C file, by .clang-format; test/format.sh asks whether there is something to change.
+# The layout of every C file, by .clang-format; test/format.sh checks it.
 format:
 	@cmake/need.sh format
 	@git ls-files '*.[ch]' | xargs clang-format -i

@@ -1,10 +1,11 @@
-/* One --vary or --random, read.
+/* Reads the value of one --vary or --random.
  *
- *     NAME=FROM:TO:COUNT   NAME=log:FROM:TO:COUNT NAME=A,B,C NAME=@FILE:COLUMN NAME=FROM:TO
- *                          NAME=normal:MEAN:DEVIATION
+ *     --vary     NAME=FROM:TO:COUNT   NAME=log:FROM:TO:COUNT   NAME=A,B,C   NAME=@FILE:COLUMN
+ *     --random   NAME=FROM:TO         NAME=normal:MEAN:DEVIATION
  *
- * Invariant: every number in it is finite, every count at least 1; numbers are constant expressions of the language.
+ * Invariant: numbers are constant expressions of the language; each is finite, each count at least 1.
  */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/constant.h"
 #include "cli/grid.h"
@@ -26,10 +27,9 @@ typedef struct reading {
 static motus_status wrong(const reading *r, const char *what)
 {
     bool drawn = strcmp(r->option, "--random") == 0;
-    complain(r->err, MOTUS_ARGUMENT, "%s: %s", r->where, what);
-    complain_hint(r->err, "%s",
-                  drawn ? "F=0:1 or F=normal:MEAN:DEVIATION"
-                        : "F=0:1:11, F=log:0.1:10:5, F=1,2,5 or F=@values.csv:column");
+    fail(r->err, MOTUS_ARGUMENT, "%s: %s", r->where, what);
+    hint(r->err, "%s",
+         drawn ? "F=0:1 or F=normal:MEAN:DEVIATION" : "F=0:1:11, F=log:0.1:10:5, F=1,2,5 or F=@values.csv:column");
     return MOTUS_ARGUMENT;
 }
 
@@ -40,7 +40,7 @@ static char *trim(char *s)
     return s;
 }
 
-/* Cuts at `mark` outside brackets; at most `most` parts, or most + 1 where there are more. */
+/* Cuts at `mark` outside brackets. Returns the number of parts, most + 1 if there are more than `most`. */
 static size_t cut(char *s, char mark, char **parts, size_t most)
 {
     size_t count = 0;
@@ -71,12 +71,12 @@ static motus_status read_range(const reading *r, char **parts, bool logarithmic,
     motus_status status = number(r, parts[0], &from);
     if (!status) status = number(r, parts[1], &to);
     if (status) return status;
-    if (!typed_count(parts[2], &count, &rest) || *rest) return wrong(r, "its count is not a whole number above 0");
+    if (!typed_count(parts[2], &count, &rest) || *rest) return wrong(r, "its count is not an integer above 0");
     if ((uint64_t)count > GRID_MOST)
-        return complain(r->err, MOTUS_LIMIT, "%s: a count above %llu", r->where, (unsigned long long)GRID_MOST);
-    if (count == 1 && from != to) return wrong(r, "one value cannot be at both ends");
+        return fail(r->err, MOTUS_LIMIT, "%s: a count above %llu", r->where, (unsigned long long)GRID_MOST);
+    if (count == 1 && from != to) return wrong(r, "a count of 1 needs FROM and TO to be equal");
     if (logarithmic && (from == 0 || to == 0 || (from > 0) != (to > 0)))
-        return wrong(r, "equal ratios need two ends of the same sign, and not 0");
+        return wrong(r, "a log range needs two ends of the same sign, and not 0");
     if (logarithmic && fabs(log10(fabs(to)) - log10(fabs(from))) > 300)
         return wrong(r, "the ends are more than 300 decades apart");
     if (!logarithmic && !isfinite((double)count * (fabs(from) + fabs(to)))) return wrong(r, "its ends are too large");
@@ -122,11 +122,11 @@ static motus_status read_vary(const reading *r, char *text, axis *a)
     else if (count == 4 && strcmp(parts[0], "log") == 0)
         status = read_range(r, parts + 1, true, a);
     else if (count == 4 && strcmp(parts[3], "log") == 0)
-        status = wrong(r, "log stands first");
+        status = wrong(r, "log has to come first");
     else if (count == 2)
         status = wrong(r, "the count is missing, FROM:TO:COUNT");
     else
-        status = wrong(r, "this is no range");
+        status = wrong(r, "this is not a range");
     free(copy);
     return status;
 }
@@ -136,11 +136,11 @@ static motus_status read_random(const reading *r, char *text, axis *a)
     char *parts[PARTS];
     size_t count = cut(text, ':', parts, PARTS);
     bool normal = count == 3 && strcmp(parts[0], "normal") == 0;
-    if (count != 2 && !normal) return wrong(r, "this is no distribution");
+    if (count != 2 && !normal) return wrong(r, "this is not a distribution");
     motus_status status = number(r, parts[normal], &a->range.from);
     if (!status) status = number(r, parts[normal + 1], &a->range.to);
     if (status) return status;
-    if (normal && a->range.to < 0) return wrong(r, "a deviation is not negative");
+    if (normal && a->range.to < 0) return wrong(r, "the standard deviation is negative");
     if (!isfinite(normal ? fabs(a->range.from) + 40 * a->range.to : a->range.to - a->range.from))
         return wrong(r, "its numbers are too large");
     a->kind = normal ? AXIS_NORMAL : AXIS_UNIFORM;
@@ -153,7 +153,7 @@ motus_status axis_read(axis *a, const char *option, const char *spec, motus_erro
     *a = (axis){.spec = spec};
     reading r = {.option = option, .spec = spec, .text = strdup(spec), .err = err};
     if (!r.text) return complain_memory(err);
-    /* a long list is shown by its beginning */
+    /* of a long list only the beginning is shown */
     snprintf(r.where, sizeof r.where, "%s %.100s%s", option, spec, strlen(spec) > 100 ? "..." : "");
     char *equals = strchr(r.text, '=');
     *equals = 0;

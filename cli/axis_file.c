@@ -1,8 +1,8 @@
 /* Values from a column of a CSV file.
  *
- * Invariant: of the file only the numbers are kept; whatever is in it, there is a number for each of its rows or an
- * error that names the line.
+ * Invariant: every row gives one finite number, or the error names its line.
  */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/grid.h"
 #include "cli/typed.h"
@@ -22,14 +22,14 @@ typedef struct table_file {
     size_t place;     /* of the column, from 0; SIZE_MAX: not known yet */
 } table_file;
 
-/* Field `k` of the line, without its quotes, cut out in place; NULL: the line has not so many. */
+/* Field `k` of the line, without its quotes, cut out in place; NULL: the line has fewer. */
 static char *field(char *s, size_t k)
 {
     for (size_t i = 0;; i++) {
         char *start = s + strspn(s, " "), *out = start;
         s = start;
         if (*s == '"') {
-            for (s++; *s && !(*s == '"' && s[1] != '"'); *out++ = *s++) s += *s == '"'; /* of two quotes one is meant */
+            for (s++; *s && !(*s == '"' && s[1] != '"'); *out++ = *s++) s += *s == '"'; /* "" stands for " */
             s += strcspn(s, ",");
         } else {
             out = s += strcspn(s, ",");
@@ -45,7 +45,7 @@ static char *field(char *s, size_t k)
     }
 }
 
-/* The next line that is neither empty nor a comment. 1: there is one; 0: the end; -1: it cannot be read. */
+/* Reads the next line that is neither empty nor a comment. 1: there is one; 0: the end; -1: it cannot be read. */
 static int next_line(table_file *f)
 {
     errno = 0;
@@ -59,10 +59,10 @@ static int next_line(table_file *f)
 
 static motus_status cannot_read(const table_file *f, motus_error *err)
 {
-    return complain(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno ? errno : EIO));
+    return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno ? errno : EIO));
 }
 
-/* What programs write for a number, also one that is not finite. */
+/* Whether the text is a number, which may be infinite or NaN. */
 static bool is_number(const char *s, double *value)
 {
     s += strspn(s, " \t");
@@ -72,7 +72,7 @@ static bool is_number(const char *s, double *value)
     return strcasecmp(s, "nan") == 0 || strcasecmp(s, "inf") == 0 || strcasecmp(s, "infinity") == 0;
 }
 
-/* Finds the column; the head, if there is one, is then done with. */
+/* Finds the column from the first line; *is_row: that line is a row and not the head. */
 static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
 {
     int64_t n = 1;
@@ -84,22 +84,22 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
     double value;
     char *s;
     if (!f->column && field(copy, 1)) {
-        complain(err, MOTUS_ARGUMENT, "%s has several columns", f->path);
-        complain_hint(err, "say which, by name or number: F=@%s:1", f->path);
+        fail(err, MOTUS_ARGUMENT, "%s has several columns", f->path);
+        hint(err, "name one, or give its number: F=@%s:1", f->path);
         status = MOTUS_ARGUMENT;
     } else if (counted) {
         f->place = (size_t)n - 1;
         memcpy(copy, f->line, strlen(f->line) + 1);
         s = field(copy, f->place);
-        *is_row = !s || is_number(s, &value); /* a line that is too short is said later */
+        *is_row = !s || is_number(s, &value); /* read_row() refuses a line that is too short */
     }
     for (size_t k = 0; !status && f->place == SIZE_MAX; k++) {
         memcpy(copy, f->line, strlen(f->line) + 1);
         s = field(copy, k);
         if (!s) {
             memcpy(copy, f->line, strlen(f->line) + 1);
-            complain(err, MOTUS_NAME, "%s has no column %s", f->path, f->column);
-            complain_hint(err, "its first line is: %.200s", copy);
+            fail(err, MOTUS_NAME, "%s has no column %s", f->path, f->column);
+            hint(err, "its first line is: %.200s", copy);
             status = MOTUS_NAME;
         } else if (strcmp(s, f->column) == 0) {
             f->place = k;
@@ -111,14 +111,14 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
 
 static motus_status bad(const table_file *f, motus_status status, const char *what, motus_error *err)
 {
-    return complain(err, status, "%s:%lld: %s", f->path, f->number, what);
+    return fail(err, status, "%s:%lld: %s", f->path, f->number, what);
 }
 
 static motus_status read_row(table_file *f, double **list, uint64_t *count, motus_error *err)
 {
     char *s = field(f->line, f->place), what[128];
     double value = 0;
-    if (!s) return bad(f, MOTUS_ARGUMENT, "the line has not so many columns", err);
+    if (!s) return bad(f, MOTUS_ARGUMENT, "the line has too few columns", err);
     if (!is_number(s, &value) || !isfinite(value)) {
         snprintf(what, sizeof what, "%.60s is not a finite number", *s ? s : "nothing");
         return bad(f, MOTUS_ARGUMENT, what, err);
@@ -147,7 +147,7 @@ motus_status axis_file(const char *path, const char *column, double **list, uint
         if (!status && is_row) status = read_row(&f, list, count, err);
     }
     if (!status && more < 0) status = cannot_read(&f, err);
-    if (!status && *count == 0) status = complain(err, MOTUS_ARGUMENT, "%s holds no values", path);
+    if (!status && *count == 0) status = fail(err, MOTUS_ARGUMENT, "%s holds no values", path);
     fclose(f.stream);
     free(f.line);
     return status;

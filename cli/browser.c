@@ -1,7 +1,7 @@
 /* The browser as a child process.
  *
- * Invariant: there is no shell, and the address is one argument that begins with its scheme, so that no name of a
- * file is taken for an option or a command.
+ * Invariant: there is no shell, and the address is one argument that begins with its scheme, so that a file's name is
+ * never taken for an option or a command.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
@@ -34,8 +34,8 @@ bool browser_open(const char *url)
     const char *wanted = getenv("BROWSER");
     char *list = strdup(wanted ? wanted : "");
     bool good = false;
-    /* a list of programs, the best one first; what is more than the name of one, "firefox -P work %s", the opener
-     * understands */
+    /* $BROWSER is a list of programs in order of preference. An entry with arguments, "firefox -P work %s", fails to
+     * start here; the system's opener reads $BROWSER too and can run it. */
     for (char *name = list, *end; name && *name && !good; name = end) {
         end = name + strcspn(name, ":");
         if (*end) *end++ = 0;

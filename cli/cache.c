@@ -1,5 +1,5 @@
 /* motus cache: the compiled models kept between runs. */
-#include "cli/complain.h"
+#include "base/error.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
 
@@ -8,12 +8,12 @@
 motus_status cache_verb(const options *o, motus_error *err)
 {
     if (o->operand || !o->clear) {
-        complain(err, MOTUS_ARGUMENT, o->operand ? "motus cache takes no model" : "what is to be done with the cache?");
-        complain_hint(err, "motus cache --clear removes every entry");
+        fail(err, MOTUS_ARGUMENT, o->operand ? "motus cache takes no model" : "motus cache needs --clear");
+        hint(err, "motus cache --clear removes every entry");
         return MOTUS_ARGUMENT;
     }
     int count = motus_cache_clear();
-    if (count < 0) return complain(err, MOTUS_FILE, "the cache cannot be reached");
+    if (count < 0) return fail(err, MOTUS_FILE, "cannot read the folder of the cache");
     if (o->json) {
         json j = text_json(stdout);
         json_integer(&j, "removed", count);

@@ -1,6 +1,6 @@
-/* motus check: what the program understood of a model, and which methods it admits.
+/* motus check: the equations that the program read, their properties, and which methods the model admits.
  *
- * Invariant: the reasons are the library's own, the ones a run would give.
+ * Invariant: the reasons are the library's, the same that a run would give.
  */
 #include "cli/complain.h"
 #include "cli/file.h"
@@ -39,7 +39,7 @@ static motus_status print_text(const load *m, motus_error *err)
         putchar('\n');
     }
     const char *text = motus_explain(m->system);
-    printf("\n%swhat they say%s\n", strong, plain);
+    printf("\n%sanalysis%s\n", strong, plain);
     text_wrap(stdout, text ? text : "", 2, 100);
     printf("\n%smethods%s\n", strong, plain);
     table *t = table_create("llrl");

@@ -1,6 +1,6 @@
 /* motus compare: every method side by side.
  *
- * Invariant: the numbers are the library's; here they are only laid out. A method that failed has a row that says why.
+ * Invariant: the numbers are the library's. A method that failed has a row, and a note that says why.
  */
 #include "cli/complain.h"
 #include "cli/overlay.h"
@@ -48,7 +48,7 @@ static table *error_table(const motus_comparison *c)
     return t;
 }
 
-/* Drift of the invariants, and whether it goes on. NULL where there are none. */
+/* The deviation of the invariants and its trend. NULL: there are none. */
 static table *drift_table(const motus_comparison *c)
 {
     const motus_compare_row *widest = NULL;

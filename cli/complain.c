@@ -1,11 +1,12 @@
-/* Errors of the program.
+/* Messages of the program.
  *
- * Invariant: an error is shown once, with the place as file:line:column, the line, a caret and the remedy, and every
- * text in it passes text_put(): it may come from a model or a file name.
+ * Invariant: an error is printed once, with its place as file:line:column, the line, a caret and the hint; all text
+ * passes text_put(), since it may come from a model or a file name.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
 
+#include "base/error.h"
 #include "cli/text.h"
 #include "tell/tell.h"
 
@@ -14,38 +15,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What a sentence says, safe for a terminal. */
-static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list arguments)
-{
-    char raw[MOTUS_TEXT_MAX];
-    vsnprintf(raw, sizeof raw, format, arguments);
-    text_safe(raw, out, MOTUS_TEXT_MAX);
-}
-
-motus_status complain(motus_error *err, motus_status status, const char *format, ...)
-{
-    if (!err) return status;
-    char message[MOTUS_TEXT_MAX]; /* the arguments may lie in the error */
-    va_list arguments;
-    va_start(arguments, format);
-    compose(message, format, arguments);
-    va_end(arguments);
-    *err = motus_default_error();
-    err->status = status;
-    strcpy(err->message, message);
-    return status;
-}
-
-void complain_hint(motus_error *err, const char *format, ...)
-{
-    if (!err) return;
-    va_list arguments;
-    va_start(arguments, format);
-    compose(err->hint, format, arguments);
-    va_end(arguments);
-}
-
-motus_status complain_memory(motus_error *err) { return complain(err, MOTUS_MEMORY, "out of memory"); }
+motus_status complain_memory(motus_error *err) { return fail(err, MOTUS_MEMORY, "out of memory"); }
 
 bool complain_colours(int descriptor)
 {
@@ -53,7 +23,7 @@ bool complain_colours(int descriptor)
     return isatty(descriptor) && !(no && *no) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* False when standard output does not take it. */
+/* False: it could not be written. */
 static bool show_json(const motus_error *err)
 {
     char message[2 * MOTUS_TEXT_MAX + 2];

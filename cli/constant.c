@@ -1,10 +1,11 @@
 /* Constant expressions on the command line.
  *
- * Invariant: what is more than a number is read by the language itself, as the initial value of a model of one
- * companion, so it means what it means in a model.
+ * Invariant: an expression that is not a plain decimal is read by the language, as an initial value of a model, so it
+ * has the same meaning as in a model.
  */
 #include "cli/constant.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/typed.h"
 
@@ -17,7 +18,7 @@ motus_status constant_read(const char *expression, const char *where, double *va
     motus_status status = MOTUS_OK;
     motus_error inner = motus_default_error();
     const char first = expression[*expression == '-' || *expression == '+'];
-    /* a decimal number is most of what is asked, and worth no model; in the language none begins with a point */
+    /* a decimal, the usual case, needs no model; the language refuses one that begins with a point */
     if (first == '.' || !typed_decimal(expression, value)) {
         static const char name[] = "x(0)=";
         size_t length = strlen(expression);
@@ -34,7 +35,7 @@ motus_status constant_read(const char *expression, const char *where, double *va
         motus_run *run = NULL;
         status = motus_system_from_text(&text, &system, &inner);
         if (!status && motus_velocities(system) != 1) {
-            complain(&inner, MOTUS_SHAPE, "%s is no single number", expression);
+            fail(&inner, MOTUS_SHAPE, "%s is not a single number", expression);
             status = MOTUS_SHAPE;
         }
         if (!status) status = motus_run_create(system, NULL, &run, &inner);
@@ -45,12 +46,12 @@ motus_status constant_read(const char *expression, const char *where, double *va
         if (status == MOTUS_MEMORY) return complain_memory(err);
     }
     if (!status && isfinite(*value)) return MOTUS_OK;
-    complain(err, MOTUS_ARGUMENT, "%s: %s is not a constant", where, *expression ? expression : "nothing");
+    fail(err, MOTUS_ARGUMENT, "%s: %s is not a constant", where, *expression ? expression : "nothing");
     if (strchr(expression, ','))
-        complain_hint(err, "numbers are written with a point: 0.5");
+        hint(err, "numbers are written with a point: 0.5");
     else if (status && inner.message[0])
-        complain_hint(err, "%s", inner.message);
+        hint(err, "%s", inner.message);
     else if (!status)
-        complain_hint(err, "its value is not finite");
+        hint(err, "its value is not finite");
     return MOTUS_ARGUMENT;
 }

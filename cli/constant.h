@@ -4,7 +4,7 @@
 
 #include "motus.h"
 
-/* The remedy of the error says what is wrong with the expression; its sentence repeats `where`. */
+/* The error's message begins with `where`; its hint says what is wrong with the expression. */
 motus_status constant_read(const char *expression, const char *where, double *, motus_error *);
 
 #endif

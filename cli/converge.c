@@ -1,7 +1,8 @@
 /* motus converge: error against step, the fitted order, the certificate.
  *
- * Invariant: exit status 0 says that every method kept its declared order here.
+ * Invariant: the exit status is 0 only if every method showed its declared order.
  */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/plot.h"
 #include "cli/studies.h"
@@ -21,7 +22,7 @@ static void print_json(const studies *s, const void *result)
     json_end(&j);
 }
 
-/* Steps and errors in pairs of lines; what the fit left out stands in brackets. */
+/* Steps and errors in pairs of lines; points that the fit leaves out are in brackets. */
 static bool print_points(const motus_converge_row *r, bool colours)
 {
     enum { A_LINE = 10 };
@@ -52,7 +53,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     const motus_convergence *c = result;
     bool colours = complain_colours(1), good = true;
     studies_title(s, c->reference, c->reference_error);
-    puts("in brackets: not in the fit, where instability or round-off rules\n");
+    puts("in brackets: not in the fit, because instability or round-off dominates\n");
     for (size_t k = 0; k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
         const char *colour = !colours ? "" : r->passed ? "\033[32m" : "\033[31m";
@@ -70,7 +71,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
     const motus_convergence *c = result;
     plot_figure figure = {0};
     snprintf(figure.title, sizeof figure.title, "%s: error against step", s->model.title);
-    plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "error at the end");
+    plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "largest error");
     size_t points = 0, used = 0;
     for (size_t k = 0; k < c->row_count; k++) points += c->rows[k]->point_count;
     double *numbers = malloc((2 * points + 1) * sizeof *numbers);
@@ -79,7 +80,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
         const motus_converge_row *r = c->rows[k];
         size_t first = used, count = 0;
         for (size_t i = 0; i < r->point_count; i++)
-            if (r->points[i]->error > 0) { /* nothing has no logarithm */
+            if (r->points[i]->error > 0) { /* 0 has no logarithm */
                 numbers[2 * used] = r->points[i]->step;
                 numbers[2 * used++ + 1] = r->points[i]->error;
                 count++;
@@ -93,7 +94,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
             status = complain_memory(err);
     }
     if (!status && p->curve_count == 0)
-        status = complain(err, MOTUS_ARGUMENT, "every error is 0: there is nothing to draw");
+        status = fail(err, MOTUS_ARGUMENT, "there is nothing to draw: every error is 0 or unknown");
     if (!status) {
         p->logarithmic = true;
         status = plot_draw(&figure, s->options->plot, file, err);
@@ -103,7 +104,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
     return status;
 }
 
-/* The sentence for a certificate that does not hold; with JSON the object has said it already. */
+/* The error of methods that do not show their order. */
 static motus_status verdict(const motus_convergence *c, motus_error *err)
 {
     char names[MOTUS_TEXT_MAX / 2] = "";
@@ -112,7 +113,7 @@ static motus_status verdict(const motus_convergence *c, motus_error *err)
             strcat(names, names[0] ? ", " : "");
             strcat(names, c->rows[k]->method);
         }
-    return complain(err, MOTUS_ORDER, "the certificate does not hold for: %s", names);
+    return fail(err, MOTUS_ORDER, "the certificate does not hold for: %s", names);
 }
 
 motus_status converge_verb(const options *o, motus_error *err)

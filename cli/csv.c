@@ -6,6 +6,7 @@
 #include "cli/csv.h"
 
 #include "base/utf8.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 
@@ -54,7 +55,6 @@ void csv_free(csv *c)
     c->line = NULL;
 }
 
-/* A word of the command as a shell would need it, control characters as \xNN. */
 motus_status csv_word(file_out *f, const char *word, motus_error *err)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
@@ -111,7 +111,7 @@ motus_status csv_begin(csv *c, file_out *file, const options *o, const motus_run
     for (size_t k = 0; !status && k < c->count; k++) {
         motus_column column = motus_default_column();
         status = motus_column_at(c->model->system, c->columns[k], &column);
-        if (status) return complain(err, status, "column %zu has no name", c->columns[k]);
+        if (status) return fail(err, status, "column %zu has no name", c->columns[k]);
         if (k > 0) status = file_text(c->file, ",", err);
         if (!status) status = csv_name(c->file, column.name, err);
     }

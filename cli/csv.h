@@ -1,4 +1,4 @@
-/* The trajectory as CSV: a comment that says where it comes from, the names, the numbers without loss. */
+/* The trajectory as CSV: a comment with the command, the names of the columns, the numbers without loss. */
 #ifndef CLI_CSV_H
 #define CLI_CSV_H
 
@@ -8,7 +8,7 @@
 typedef struct csv {
     file_out *file;
     const load *model;
-    size_t *columns; /* which, in this order */
+    size_t *columns; /* the columns of the model, in the order of the file */
     size_t count;
     char *line; /* room for one row */
     int64_t rows;
@@ -17,11 +17,11 @@ typedef struct csv {
 /* Chooses the columns (the options', or all). */
 motus_status csv_plan(csv *, const load *, const options *, motus_error *);
 motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, motus_error *);
-/* One row; context is a csv (a walk_watcher's take). */
+/* Writes one row; context is a csv. The take of a walk_observer. */
 motus_status csv_row(void *context, const double *values, motus_error *);
 void csv_free(csv *);
 
-/* A blank and a word of a command, as a shell would need it, control characters as \xNN. */
+/* A blank and a word of a command, quoted for a shell, control characters as \xNN. */
 motus_status csv_word(file_out *, const char *word, motus_error *);
 /* The name of a column, quoted where it holds a comma or a quote. */
 motus_status csv_name(file_out *, const char *name, motus_error *);

@@ -1,8 +1,8 @@
-/* Random numbers by counting.
+/* Counter-based random numbers.
  *
- * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream and the number of words used
- * before. So a value does not depend on batch, thread or resumption, and integer arithmetic and comparisons make it
- * the same on every machine: no logarithm, no cosine.
+ * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream and the number of blocks used
+ * before. So a value does not depend on batch, thread or resumption; and since only integer arithmetic, comparisons
+ * and exact operations make it, it is the same on every machine.
  */
 #include "cli/draw.h"
 
@@ -51,8 +51,8 @@ double draw_uniform(uint64_t seed, uint32_t stream, uint64_t index)
     return uniform(&s);
 }
 
-/* True with probability exp(-p), 0 ≤ p ≤ 1: the chance that p > u1 > u2 > … > un is p^n/n!, so n is even with exp(-p)
- * [vonNeumann51]. */
+/* True with probability exp(-p), 0 ≤ p ≤ 1: p > u1 > u2 > … > un has the probability p^n/n!, so the length of such a
+ * run is even with probability exp(-p) [vonNeumann51]. */
 static bool survives(source *s, double p)
 {
     bool even = true;
@@ -65,8 +65,8 @@ static bool survives(source *s, double p)
     return even;
 }
 
-/* [Karney16, algorithm N]: the whole part k with weight exp(-k²/2), the rest x in [0, 1) with exp(-x (2 k + x)/2), by
- * rejection. */
+/* [Karney16, algorithm N]: the integer part k with weight exp(-k²/2), the fraction x in [0, 1) with
+ * exp(-x (2 k + x)/2), by rejection. */
 double draw_normal(uint64_t seed, uint32_t stream, uint64_t index)
 {
     source s = {.seed = seed, .index = index, .stream = stream};

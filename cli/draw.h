@@ -1,4 +1,5 @@
-/* Random numbers by counting: a number is a function of the seed, of what it is for, and of which trajectory asks. */
+/* Counter-based random numbers: each is a function of the seed, the stream (one for each --random) and the index of
+ * the trajectory. */
 #ifndef CLI_DRAW_H
 #define CLI_DRAW_H
 
@@ -9,7 +10,7 @@ void draw_philox(const uint32_t counter[4], const uint32_t key[2], uint32_t out[
 
 /* In [0, 1), a multiple of 2^-53. */
 double draw_uniform(uint64_t seed, uint32_t stream, uint64_t index);
-/* Mean 0, deviation 1. */
+/* Normal: mean 0, standard deviation 1. */
 double draw_normal(uint64_t seed, uint32_t stream, uint64_t index);
 
 #endif

@@ -1,10 +1,11 @@
 /* The figure of one run.
  *
- * Invariant: what is kept of a run is bounded whatever its length and the size of its families: cells are chosen
- * evenly where there are many, and the figure says so.
+ * Invariant: what is kept of a run is bounded, whatever its length and the size of its families: of many cells an even
+ * selection is drawn, and `left_out` is set.
  */
 #include "cli/figure.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 
@@ -13,10 +14,10 @@
 #include <string.h>
 
 enum {
-    FINE_LOOKS = 200000,
-    COARSE_LOOKS = 400,
+    FINE_SAMPLES = 200000,
+    COARSE_SAMPLES = 400,
     MOST_CURVES = 8, /* in a panel: as many as there are styles */
-    BUNDLE = 6,      /* a family up to this size is curves, beyond a heat map */
+    BUNDLE = 6,      /* a family up to this size is drawn as curves, a larger one as a heat map */
     HEAT_CELLS = 300,
     FIELD_SIDE = 200
 };
@@ -30,7 +31,7 @@ bool figure_find(const load *m, const motus_variable *v, const char *prefix, con
         return false;
     size_t components = v->components > 0 ? (size_t)v->components : 1, cells = count / components;
     motus_column second = motus_default_column();
-    /* numbers lie cell by cell or component by component: the second one tells */
+    /* the second column shows whether numbers lie cell by cell or component by component */
     bool by_cell = components == 1 || cells == 1 ||
                    (motus_column_at(m->system, first + 1, &second) == MOTUS_OK && second.component == 1);
     *p = (figure_place){first, cells, components, by_cell ? components : 1, by_cell ? 1 : cells};
@@ -66,20 +67,20 @@ static bool room_for_panel(figure *f)
     return false;
 }
 
-static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role role, bool drift)
+static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role role, bool change)
 {
     char label[PLOT_LABEL];
     column_name(f, column, label, sizeof label);
-    double *y = record_want(&f->fine, column);
+    double *y = record_add(&f->fine, column);
     plot_curve *c = y ? plot_curve_add(p, label, f->t, y, 0, 1) : NULL;
     if (!c) return false;
     c->role = role;
     c->timelike = true;
-    c->drift = drift;
+    c->change = change;
     return true;
 }
 
-/* Every component of a few cells against t. */
+/* Numbers of a variable against t, at most MOST_CURVES. */
 static bool add_numbers(figure *f, plot_panel *p, const figure_place *place, const figure_place *exact)
 {
     size_t numbers = place->cells * place->components, shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
@@ -99,7 +100,7 @@ static bool add_path(figure *f, plot_panel *p, const figure_place *place, size_t
 {
     double *at[3] = {NULL, NULL, NULL};
     for (size_t a = 0; a < axes; a++) {
-        at[a] = record_want(&f->fine, column_at(place, cell, a));
+        at[a] = record_add(&f->fine, column_at(place, cell, a));
         if (!at[a]) return false;
     }
     plot_curve *c = plot_curve_add(p, label, at[0], at[1], 0, 1);
@@ -147,7 +148,7 @@ static bool add_heat(figure *f, const motus_variable *v, const figure_place *pla
                                               .cell_first = v->dimensions == 1 ? (double)v->first[0] : 1,
                                               .cell_step = span};
     for (size_t k = 0; k < shown; k++)
-        if (!record_want(&f->coarse, column_at(place, spread(k, shown, place->cells), 0))) return false;
+        if (!record_add(&f->coarse, column_at(place, spread(k, shown, place->cells), 0))) return false;
     return true;
 }
 
@@ -168,7 +169,7 @@ static bool add_field(figure *f, const motus_variable *v, const figure_place *pl
     for (size_t i = 0; i < shown[0]; i++)
         for (size_t j = 0; j < shown[1]; j++) {
             size_t cell = spread(i, shown[0], side[0]) * side[1] + spread(j, shown[1], side[1]);
-            if (!record_want(&f->last, column_at(place, cell, 0))) return false;
+            if (!record_add(&f->last, column_at(place, cell, 0))) return false;
         }
     plot_panel *p = &f->plot.panels[panel];
     p->x_first = (double)v->first[1];
@@ -191,9 +192,9 @@ typedef struct shared {
 
 static bool add_variable(figure *f, const motus_variable *v, shared *s)
 {
-    figure_place place, truth;
+    figure_place place, exact_place;
     if (!figure_find(f->model, v, "", "", &place)) return true;
-    const figure_place *exact = figure_find(f->model, v, "exact ", "", &truth) ? &truth : NULL;
+    const figure_place *exact = figure_find(f->model, v, "exact ", "", &exact_place) ? &exact_place : NULL;
     bool path = v->order == 2 && (v->components == 2 || v->components == 3);
     if (path && v->components == 2) {
         if (s->plane == SIZE_MAX) {
@@ -236,25 +237,25 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
     return p && add_numbers(f, p, &place, exact);
 }
 
-static bool add_named(figure *f, const char *name, size_t first, size_t numbers, bool drift)
+static bool add_named(figure *f, const char *name, size_t first, size_t numbers, bool change)
 {
     if (!room_for_panel(f)) return true;
     char title[PLOT_LABEL];
-    snprintf(title, sizeof title, "%s%s", drift ? "drift of " : "", name);
-    plot_panel *p = add_panel(f, title, "t", drift ? "change since the start" : name);
+    snprintf(title, sizeof title, "%s%s", change ? "drift of " : "", name);
+    plot_panel *p = add_panel(f, title, "t", change ? "change since the start" : name);
     size_t shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
     f->left_out = f->left_out || shown < numbers;
     for (size_t k = 0; p && k < shown; k++)
-        if (!add_against_t(f, p, first + spread(k, shown, numbers), PLOT_LINE, drift)) return false;
+        if (!add_against_t(f, p, first + spread(k, shown, numbers), PLOT_LINE, change)) return false;
     return p != NULL;
 }
 
-static bool add_all_named(figure *f, load_naming *name, size_t column, bool drift)
+static bool add_all_named(figure *f, load_naming *name, size_t column, bool change)
 {
     const char *one;
     size_t numbers;
     for (size_t k = 0; (one = name(f->model->system, k, &numbers)) != NULL; k++, column += numbers)
-        if (!add_named(f, one, column, numbers, drift)) return false;
+        if (!add_named(f, one, column, numbers, change)) return false;
     return true;
 }
 
@@ -276,9 +277,8 @@ static motus_status one_column(const figure *f, const char *name, size_t *column
     motus_status status = motus_column_find(f->model->system, name, column, &count, err);
     if (!status && count != 1) {
         motus_column c = motus_default_column();
-        complain(err, MOTUS_SHAPE, "--plot-of: %s is %zu numbers", name, count);
-        if (motus_column_at(f->model->system, *column, &c) == MOTUS_OK)
-            complain_hint(err, "choose one of them, as %s", c.name);
+        fail(err, MOTUS_SHAPE, "--plot-of: %s is %zu numbers", name, count);
+        if (motus_column_at(f->model->system, *column, &c) == MOTUS_OK) hint(err, "choose one of them, as %s", c.name);
         return MOTUS_SHAPE;
     }
     return status;
@@ -293,15 +293,15 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
     if (status) return status;
     size_t columns[2] = {0, 0};
     if (names.count != 2) {
-        status = complain(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
-        complain_hint(err, "--plot-of \"x,x'\" draws x' against x");
+        status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed", text);
+        hint(err, "--plot-of \"x,x'\" draws x' against x");
     }
     for (int a = 0; !status && a < 2; a++) status = one_column(f, names.items[a], &columns[a], err);
     if (!status) {
         char title[PLOT_LABEL];
         snprintf(title, sizeof title, "%.60s against %.60s", names.items[1], names.items[0]);
         plot_panel *p = add_panel(f, title, names.items[0], names.items[1]);
-        double *x = p ? record_want(&f->fine, columns[0]) : NULL, *y = x ? record_want(&f->fine, columns[1]) : NULL;
+        double *x = p ? record_add(&f->fine, columns[0]) : NULL, *y = x ? record_add(&f->fine, columns[1]) : NULL;
         plot_curve *c = y ? plot_curve_add(p, title, x, y, 0, 1) : NULL;
         if (c) {
             c->timelike = columns[0] == 0;
@@ -317,8 +317,8 @@ static motus_status add_plane(figure *f, const char *text, motus_error *err)
             both = motus_column_find(f->model->system, name, &exact[a], &count[a], NULL) == MOTUS_OK && count[a] == 1;
         }
         if (both) {
-            x = record_want(&f->fine, exact[0]);
-            y = x ? record_want(&f->fine, exact[1]) : NULL;
+            x = record_add(&f->fine, exact[0]);
+            y = x ? record_add(&f->fine, exact[1]) : NULL;
             c = y ? plot_curve_add(p, "exact", x, y, 0, 1) : NULL;
             if (c) {
                 c->role = PLOT_EXACT;
@@ -338,23 +338,23 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     char step[DECIMAL_MAX];
     int64_t steps = motus_run_steps_total(run);
     *f = (figure){.model = model};
-    f->fine = record_for(steps, FINE_LOOKS);
-    f->coarse = record_for(steps, COARSE_LOOKS);
+    f->fine = record_for(steps, FINE_SAMPLES);
+    f->coarse = record_for(steps, COARSE_SAMPLES);
     f->last = record_for(steps, 1);
     text_brief(fabs(motus_run_step_size(run)), 6, step);
     snprintf(f->plot.title, sizeof f->plot.title, "%.60s: %.40s, step %s", model->title, motus_run_method(run), step);
-    f->t = record_want(&f->fine, 0);
-    f->coarse_t = record_want(&f->coarse, 0);
+    f->t = record_add(&f->fine, 0);
+    f->coarse_t = record_add(&f->coarse, 0);
     if (!f->t || !f->coarse_t) return complain_memory(err);
     if (o->plot_of) return add_plane(f, o->plot_of, err);
     return add_everything(f) ? MOTUS_OK : complain_memory(err);
 }
 
-void figure_watchers(figure *f, walk_watcher out[FIGURE_WATCHERS])
+void figure_observers(figure *f, walk_observer out[FIGURE_OBSERVERS])
 {
-    out[0] = record_watcher(&f->fine);
-    out[1] = record_watcher(&f->coarse);
-    out[2] = record_watcher(&f->last);
+    out[0] = record_observer(&f->fine);
+    out[1] = record_observer(&f->coarse);
+    out[2] = record_observer(&f->last);
 }
 
 static bool fill_heat(figure *f, const figure_heat *h)

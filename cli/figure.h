@@ -1,4 +1,4 @@
-/* The figure of one run: its motion, its quantities, the drift of its invariants, or a plane of two columns. */
+/* The figure of one run: its motion, its quantities, the change of its invariants, or a plane of two columns. */
 #ifndef CLI_FIGURE_H
 #define CLI_FIGURE_H
 
@@ -6,11 +6,11 @@
 #include "cli/plot.h"
 #include "cli/record.h"
 
-enum { FIGURE_WATCHERS = 3, FIGURE_PANELS = 10 };
+enum { FIGURE_OBSERVERS = 3, FIGURE_PANELS = 10 };
 
 typedef struct figure_heat {
     size_t panel, first;  /* first: of its columns in the record */
-    size_t rows, columns; /* columns 0: one per look */
+    size_t rows, columns; /* columns 0: one per sample */
     bool field;           /* from `last`; else from `coarse` */
     double cell_first, cell_step;
 } figure_heat;
@@ -22,21 +22,21 @@ typedef struct figure {
     double *t, *coarse_t;
     figure_heat heats[FIGURE_PANELS];
     size_t heat_count;
-    bool left_out; /* not everything found room */
+    bool left_out; /* some cells or panels are not drawn */
 } figure;
 
-/* Chooses what is drawn of a run, before it starts. */
+/* Chooses before the run what will be drawn. */
 motus_status figure_begin(figure *, const load *, const options *, motus_run *, motus_error *);
-/* Who has to look along the run. */
-void figure_watchers(figure *, walk_watcher out[FIGURE_WATCHERS]);
+/* The observers that record it along the run. */
+void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
 motus_status figure_draw(figure *, const char *path, file_out *, motus_error *);
 void figure_free(figure *);
 
-/* Columns of a variable: where component c of cell i lies. */
+/* The columns of a variable: component c of cell i is first + i cell_step + c component_step. */
 typedef struct figure_place {
     size_t first, cells, components, cell_step, component_step;
 } figure_place;
-/* prefix: "" or "exact "; suffix: "" or "'". False where there are no such columns. */
+/* prefix: "" or "exact "; suffix: "" or "'". False: there are no such columns. */
 bool figure_find(const load *, const motus_variable *, const char *prefix, const char *suffix, figure_place *);
 
 #endif

@@ -1,11 +1,12 @@
-/* Files: read whole within a bound, written whole or not at all.
+/* Files: read up to a bound, written completely or not at all.
  *
- * Invariant: the name the user gave appears, complete and on the disk, or stays what it was. A temporary file lives
- * in the same folder, because only there is a rename one step.
+ * Invariant: the file that the user named is complete and on the disk, or what it was before. The temporary file lies
+ * in the same folder, because a rename is atomic only within a file system.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/file.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/stop.h"
 
@@ -23,14 +24,14 @@ static const char *called(const char *path, bool reading)
 
 static motus_status too_long(const char *path, size_t most, motus_error *err)
 {
-    complain(err, MOTUS_LIMIT, "%s is longer than %zu bytes", called(path, true), most);
-    complain_hint(err, "is this the file you meant?");
+    fail(err, MOTUS_LIMIT, "%s is longer than %zu bytes", called(path, true), most);
+    hint(err, "is this the file you meant?");
     return MOTUS_LIMIT;
 }
 
 static motus_status cannot_read(const char *path, const char *why, motus_error *err)
 {
-    return complain(err, MOTUS_FILE, "cannot read %s: %s", called(path, true), why);
+    return fail(err, MOTUS_FILE, "cannot read %s: %s", called(path, true), why);
 }
 
 static motus_status read_all(int fd, const char *path, size_t most, size_t guess, char **text, size_t *length,
@@ -112,7 +113,7 @@ bool file_program(const char *name, char *path, size_t size)
 static motus_status cannot_write(file_out *f, motus_error *err)
 {
     if (f->code == EPIPE && strcmp(f->path, "-") == 0) stop_reader_gone();
-    return complain(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
+    return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
 /* A temporary file beside f->path with the access rights the final one would have. */
@@ -147,8 +148,8 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
     *f = (file_out){0};
     struct stat about;
     bool output = strcmp(path, "-") == 0, exists = !output && stat(path, &about) == 0;
-    if (!*path) return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
-    /* a link stays a link: its target is what is replaced */
+    if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
+    /* of a link the target is replaced */
     f->path = exists && S_ISREG(about.st_mode) ? realpath(path, NULL) : NULL;
     if (!f->path) f->path = strdup(path);
     if (!f->path) return complain_memory(err);
@@ -168,7 +169,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
         if (fd >= 0) close(fd);
         return cannot_write(f, err);
     }
-    /* a file made read-only is not to be replaced behind one's back */
+    /* rename() would replace a read-only file */
     if (exists && access(f->path, W_OK) != 0) {
         f->code = errno;
         return cannot_write(f, err);
@@ -202,7 +203,7 @@ motus_status file_finish(file_out *f, motus_error *err)
     return f->code ? cannot_write(f, err) : MOTUS_OK;
 }
 
-/* So that the rename itself survives a power cut; a folder that cannot be opened loses nothing but that. */
+/* Makes the rename survive a power cut; a folder that cannot be opened is not synchronised. */
 static void synchronise_folder(const char *path)
 {
     char *folder = strdup(path);
@@ -244,5 +245,5 @@ motus_status file_flush_output(motus_error *err)
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return MOTUS_OK;
     if (errno == EPIPE) stop_reader_gone();
-    return complain(err, MOTUS_FILE, "cannot write standard output: %s", strerror(errno ? errno : EIO));
+    return fail(err, MOTUS_FILE, "cannot write standard output: %s", strerror(errno ? errno : EIO));
 }

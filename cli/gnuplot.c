@@ -1,13 +1,13 @@
 /* gnuplot as a child process.
  *
- * Invariant: there is no shell, and no file name of the user's reaches gnuplot. The script lies complete in a
- * nameless file before it starts and its words go to another, so that neither side can wait for the other. The
- * picture comes through a pipe, because gnuplot does not notice a full disk, and file_write() does.
+ * Invariant: there is no shell, and gnuplot gets no file name of the user's. Its input and its messages are temporary
+ * files, so that neither process can wait for the other for ever. The picture comes through a pipe, because
+ * file_write() notices a full disk and gnuplot does not.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/gnuplot.h"
 
-#include "cli/complain.h"
+#include "base/error.h"
 #include "cli/spawn.h"
 #include "cli/stop.h"
 
@@ -21,8 +21,8 @@
 
 static motus_status missing(motus_error *err)
 {
-    complain(err, MOTUS_TOOL, "gnuplot is not installed, and it draws the plots");
-    complain_hint(err, "sudo apt-get install gnuplot-nox");
+    fail(err, MOTUS_TOOL, "gnuplot is not installed; motus draws plots with it");
+    hint(err, "sudo apt-get install gnuplot-nox");
     return MOTUS_TOOL;
 }
 
@@ -37,7 +37,7 @@ motus_status gnuplot_open(gnuplot *g, motus_error *err)
     g->script = tmpfile();
     g->complaints = tmpfile();
     if (g->script && g->complaints) return MOTUS_OK;
-    return complain(err, MOTUS_FILE, "cannot make a temporary file: %s", strerror(errno));
+    return fail(err, MOTUS_FILE, "cannot make a temporary file: %s", strerror(errno));
 }
 
 void gnuplot_close(gnuplot *g)
@@ -47,8 +47,7 @@ void gnuplot_close(gnuplot *g)
     *g = (gnuplot){0};
 }
 
-/* Everything that comes out of `from` into the picture. */
-static motus_status pass_on(int from, file_out *picture, size_t *bytes, motus_error *err)
+static motus_status copy_output(int from, file_out *picture, size_t *bytes, motus_error *err)
 {
     char part[1 << 16];
     motus_status status = MOTUS_OK;
@@ -63,8 +62,8 @@ static motus_status pass_on(int from, file_out *picture, size_t *bytes, motus_er
     return status;
 }
 
-/* The first line that says something. */
-static void first_words(FILE *from, char *out, int size)
+/* The first line with text in it, without leading blanks and gnuplot's caret. */
+static void first_message(FILE *from, char *out, int size)
 {
     out[0] = 0;
     rewind(from);
@@ -82,9 +81,9 @@ static void first_words(FILE *from, char *out, int size)
 motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
 {
     if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
-        return complain(err, MOTUS_FILE, "cannot write a temporary file: %s", strerror(errno));
+        return fail(err, MOTUS_FILE, "cannot write a temporary file: %s", strerror(errno));
     int ends[2];
-    if (pipe(ends) != 0) return complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(errno));
+    if (pipe(ends) != 0) return fail(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(errno));
     const int ours[] = {ends[0], ends[1], fileno(g->script), fileno(g->complaints)};
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++) (void)fcntl(ours[i], F_SETFD, FD_CLOEXEC);
     pid_t process;
@@ -94,18 +93,18 @@ motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
     close(ends[1]);
     if (code) {
         close(ends[0]);
-        return code == ENOENT ? missing(err) : complain(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(code));
+        return code == ENOENT ? missing(err) : fail(err, MOTUS_TOOL, "cannot start gnuplot: %s", strerror(code));
     }
     size_t bytes;
-    motus_status status = pass_on(ends[0], picture, &bytes, err);
-    close(ends[0]); /* a gnuplot that still writes ends here */
+    motus_status status = copy_output(ends[0], picture, &bytes, err);
+    close(ends[0]); /* if gnuplot still writes, this ends it */
     int outcome = 0;
     pid_t waited;
     while ((waited = waitpid(process, &outcome, 0)) < 0 && errno == EINTR)
         ;
-    if (stop_requested()) return complain(err, MOTUS_CANCELLED, "cancelled");
+    if (stop_requested()) return fail(err, MOTUS_CANCELLED, "cancelled");
     if (status || (waited == process && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && bytes > 0)) return status;
     char words[200];
-    first_words(g->complaints, words, sizeof words);
-    return complain(err, MOTUS_TOOL, "gnuplot failed%s%s", words[0] ? ": " : "", words);
+    first_message(g->complaints, words, sizeof words);
+    return fail(err, MOTUS_TOOL, "gnuplot failed%s%s", words[0] ? ": " : "", words);
 }

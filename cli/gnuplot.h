@@ -6,13 +6,13 @@
 
 typedef struct gnuplot {
     FILE *script;     /* write the script here */
-    FILE *complaints; /* what gnuplot says, kept for the message */
+    FILE *complaints; /* gnuplot's standard error */
 } gnuplot;
 
-/* TOOL, with the line that installs it, where there is no gnuplot. */
+/* TOOL, with the command that installs it, if there is no gnuplot. */
 motus_status gnuplot_check(motus_error *);
 motus_status gnuplot_open(gnuplot *, motus_error *);
-/* Runs the script; the picture goes to the file. TOOL with gnuplot's own first words where it failed. */
+/* Runs the script; the picture goes to the file. TOOL, with gnuplot's first message, if it failed. */
 motus_status gnuplot_draw(gnuplot *, file_out *picture, motus_error *);
 void gnuplot_close(gnuplot *);
 

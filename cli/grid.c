@@ -1,34 +1,35 @@
-/* What differs from trajectory to trajectory.
+/* The values that --vary and --random give to each trajectory.
  *
  * Invariant: the values of a trajectory are a function of its number alone.
  */
 #include "cli/grid.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/draw.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* One name twice, or a name that is set as well. */
+/* Refuses a name that is varied twice, or set as well. */
 static motus_status check_name(const grid *g, const options *o, size_t k, motus_error *err)
 {
     const char *name = g->axes[k].name;
     for (size_t i = 0; i < k; i++)
-        if (strcmp(g->axes[i].name, name) == 0) return complain(err, MOTUS_ARGUMENT, "%s is varied twice", name);
+        if (strcmp(g->axes[i].name, name) == 0) return fail(err, MOTUS_ARGUMENT, "%s is varied twice", name);
     for (size_t i = 0; i < o->set.count; i++) {
         size_t length = strcspn(o->set.items[i], "=");
         while (length > 0 && o->set.items[i][length - 1] == ' ') length--;
         if (length == strlen(name) && strncmp(o->set.items[i], name, length) == 0)
-            return complain(err, MOTUS_ARGUMENT, "%s is both set and varied", name);
+            return fail(err, MOTUS_ARGUMENT, "%s is both set and varied", name);
     }
     return MOTUS_OK;
 }
 
 static motus_status too_many(motus_error *err)
 {
-    complain(err, MOTUS_LIMIT, "these are more than %llu trajectories", (unsigned long long)GRID_MOST);
-    complain_hint(err, "--zip takes the values side by side; --random with --count picks some");
+    fail(err, MOTUS_LIMIT, "the sweep has more than %llu trajectories", (unsigned long long)GRID_MOST);
+    hint(err, "--zip pairs the values instead of combining all; --random with --count draws a sample");
     return MOTUS_LIMIT;
 }
 
@@ -39,9 +40,9 @@ static motus_status count_points(grid *g, size_t varied, motus_error *err)
         uint64_t n = g->axes[k].count;
         if (!g->zip && points > GRID_MOST / n) return too_many(err);
         if (g->zip && k > 0 && n != points) {
-            complain(err, MOTUS_ARGUMENT, "--zip: %s has %llu values, %s has %llu", g->axes[0].name,
-                     (unsigned long long)points, g->axes[k].name, (unsigned long long)n);
-            complain_hint(err, "side by side they have to be as many");
+            fail(err, MOTUS_ARGUMENT, "--zip: %s has %llu values, %s has %llu", g->axes[0].name,
+                 (unsigned long long)points, g->axes[k].name, (unsigned long long)n);
+            hint(err, "give every --vary the same number of values");
             return MOTUS_ARGUMENT;
         }
         points = g->zip ? n : points * n;
@@ -54,22 +55,21 @@ static motus_status count_points(grid *g, size_t varied, motus_error *err)
 static motus_status check(const options *o, motus_error *err)
 {
     if (o->vary.count + o->random.count == 0) {
-        complain(err, MOTUS_ARGUMENT, "nothing differs from trajectory to trajectory: --vary or --random is missing");
-        complain_hint(err, "--vary F=0:1:11, --random \"x(0)=-1:1\" --count 100; motus run integrates a single one");
+        fail(err, MOTUS_ARGUMENT, "motus sweep needs --vary or --random: without them all trajectories are equal");
+        hint(err, "--vary F=0:1:11, --random \"x(0)=-1:1\" --count 100; motus run integrates a single one");
         return MOTUS_ARGUMENT;
     }
     if (o->random.count > 0 && o->vary.count == 0 && o->count == 0) {
-        complain(err, MOTUS_ARGUMENT, "--random: how many trajectories?");
-        complain_hint(err, "add --count 100");
+        fail(err, MOTUS_ARGUMENT, "--random needs --count, the number of trajectories");
+        hint(err, "add --count 100");
         return MOTUS_ARGUMENT;
     }
     if (o->random.count == 0 && (o->count > 0 || o->seeded)) {
-        complain(err, MOTUS_ARGUMENT, "%s is about --random, which is missing", o->count > 0 ? "--count" : "--seed");
-        complain_hint(err, "--random F=0:1; the count of a range is its third number, --vary F=0:1:11");
+        fail(err, MOTUS_ARGUMENT, "%s needs --random", o->count > 0 ? "--count" : "--seed");
+        hint(err, "add --random F=0:1; the count of a --vary is its third number, F=0:1:11");
         return MOTUS_ARGUMENT;
     }
-    if (o->zip && o->vary.count < 2)
-        return complain(err, MOTUS_ARGUMENT, "--zip needs two --vary to take side by side");
+    if (o->zip && o->vary.count < 2) return fail(err, MOTUS_ARGUMENT, "--zip needs at least two --vary");
     return MOTUS_OK;
 }
 
@@ -111,7 +111,7 @@ void grid_values(const grid *g, uint64_t first, size_t count, double *const *val
     while (varied < g->count && g->axes[varied].kind <= AXIS_LIST) varied++;
     for (size_t k = varied; k < g->count; k++)
         for (size_t i = 0; i < count; i++) values[k][i] = value(g, k, (uint32_t)(k - varied), 0, first + i);
-    uint64_t repeat = g->draws; /* how many trajectories in a row have this value */
+    uint64_t repeat = g->draws; /* how many successive trajectories have the same value */
     for (size_t k = varied; k-- > 0;) {
         uint64_t n = g->axes[k].count, place = first / repeat % n, left = repeat - first % repeat;
         double v = value(g, k, 0, place, 0);

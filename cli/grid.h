@@ -1,4 +1,4 @@
-/* What differs from trajectory to trajectory: the values of --vary and --random, and their order. */
+/* The values that --vary and --random give to each trajectory of a sweep. */
 #ifndef CLI_GRID_H
 #define CLI_GRID_H
 
@@ -10,11 +10,11 @@ typedef enum axis_kind { AXIS_RANGE, AXIS_LIST, AXIS_UNIFORM, AXIS_NORMAL } axis
 typedef struct axis {
     const char *spec; /* "F=0:1:11", as given */
     char *name;       /* "F" */
-    char *path;       /* of the file the list came from, or NULL */
+    char *path;       /* of the file with the list, or NULL */
     axis_kind kind;
     range range; /* AXIS_UNIFORM: its ends; AXIS_NORMAL: mean and deviation */
     double *list;
-    uint64_t count; /* values; 1 for what is drawn */
+    uint64_t count; /* of values; 1 for AXIS_UNIFORM and AXIS_NORMAL */
 } axis;
 
 typedef struct grid {
@@ -22,24 +22,23 @@ typedef struct grid {
     size_t count;
     const char **names; /* of the axes, for the library */
     bool zip;
-    uint64_t draws, seed, total; /* draws for each point; trajectories in all */
+    uint64_t draws, seed, total; /* draws: for each point of --vary; total: trajectories */
 } grid;
 
 #define GRID_MOST ((uint64_t)1 << 53) /* trajectories: their numbers are exact as doubles */
 
 motus_status grid_read(grid *, const options *, motus_error *);
-/* Values of `count` trajectories from number `first`: values[axis][i]. The last --vary changes fastest, draws faster
- * still. */
+/* Sets values[axis][i] for `count` trajectories from number `first`. Draws change fastest, then the last --vary. */
 void grid_values(const grid *, uint64_t first, size_t count, double *const *values);
 /* Whether an axis has this name. */
 bool grid_has(const grid *, const char *name);
 void grid_free(grid *);
 
-/* One axis of an option's text; axis_free() also after a failure. */
+/* Reads the value of --vary or --random; call axis_free() also after a failure. */
 motus_status axis_read(axis *, const char *option, const char *spec, motus_error *);
 void axis_free(axis *);
 
-/* The numbers of one column of a CSV file; column: a name, or a number from 1; NULL: there is only one. */
+/* The numbers of one column of a CSV file; column: a name, or a number from 1; NULL: the only one. */
 motus_status axis_file(const char *path, const char *column, double **list, uint64_t *count, motus_error *);
 
 #endif

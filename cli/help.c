@@ -1,4 +1,4 @@
-/* What --help says: a verb's use, its options from the table that reads them, and examples that run as they stand. */
+/* The text of --help: a verb's use, its options (cli/options.c), and examples, which the tests run. */
 #include "cli/help.h"
 
 #include "cli/options.h"
@@ -10,8 +10,8 @@ typedef struct page {
 
 static const page pages[] = {
     {VERB_RUN, "motus run MODEL [options]",
-     "Integrates a model and shows the state at the end, with its error where the exact motion is known, and how far\n"
-     "the invariants moved. MODEL is a file, or - for standard input.",
+     "Integrates a model and prints the state at the end, its error where the exact motion is known, and the drift of\n"
+     "the invariants. MODEL is a file, or - for standard input.",
      "  motus run models/driven-oscillator.motus\n"
      "  motus run models/pendulum.motus --method rk4 --step 1/64 --until 20\n"
      "  motus run models/spring.motus -o traj.csv --every 0.1 --columns \"t,x,x'\"\n"
@@ -21,25 +21,23 @@ static const page pages[] = {
      "  printf \"x'' = -x\\nx(0) = 1\\nx'(0) = 0\\n\" | motus run - --step 0.01 --until 10\n"
      "  motus run models/pendulum.motus --set \"theta(0)=3\" --step 1/64 --share\n"},
     {VERB_COMPARE, "motus compare MODEL [options]",
-     "Runs every method side by side: steps, evaluations, time, largest and final error against the exact motion or a\n"
-     "reference whose own error is shown, drift of the invariants and its trend, and what is left after going there "
-     "and\n"
-     "back.",
+     "Runs every method and prints for each: steps, evaluations, time, the largest and the final error against the\n"
+     "exact motion or a reference solution, the drift of the invariants and its trend, and the reversal error: the\n"
+     "distance from the start after a run to the end and back.",
      "  motus compare models/projectile.motus\n"
      "  motus compare models/spring.motus --methods explicit-euler,symplectic-euler,verlet --plot spring.svg\n"
      "  motus compare models/kepler.motus --evaluations 20000\n"},
     {VERB_CONVERGE, "motus converge MODEL [options]",
-     "Measures the order of every method on this model: errors at a row of steps, the slope where neither instability "
-     "nor\n"
-     "round-off rules, and the certificate. Exit status 1 where a method does not keep its declared order.",
+     "Measures the order of every method on this model: errors at a sequence of steps, their slope between "
+     "instability\n"
+     "and round-off, and the certificate. Exit status 1 if a method does not show its declared order.",
      "  motus converge models/pendulum.motus\n"
      "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
      "  motus converge models/charged-particle.motus --json\n"},
     {VERB_SWEEP, "motus sweep MODEL --vary P=RANGE ... [options]",
-     "Integrates a model many times, with other parameters or initial values each time, on all processors, and writes "
-     "a row\n"
-     "of what was recorded for each. --vary twice is every value of the one with every value of the other. What was\n"
-     "interrupted, even by kill -9, goes on with --resume.",
+     "Integrates a model many times, on all processors, with different parameters or initial values, and writes a row\n"
+     "for each trajectory. Two --vary combine every value of one with every value of the other. --resume continues a\n"
+     "sweep that was interrupted, even by kill -9.",
      "  motus sweep models/driven-oscillator.motus --vary F=0:0.2:11\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:181\" --record \"max(theta),final\" --until 10 -o "
      "swings.csv\n"
@@ -49,16 +47,15 @@ static const page pages[] = {
      "cloud.npy\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=@swings.csv:theta(0)\" --until 1 --record energy\n"},
     {VERB_CHECK, "motus check MODEL [options]",
-     "Says what was understood of a model: its equations in normal form, what the acceleration depends on, and for "
-     "every\n"
-     "method whether the model admits it, and why not.",
+     "Prints the equations of a model as motus read them, what the acceleration depends on, and for every method "
+     "whether\n"
+     "the model admits it, and if not, why.",
      "  motus check models/damped-cubic.motus\n"
      "  motus check models/charged-particle.motus --json\n"},
     {VERB_LAB, "motus lab [MODEL] [options]",
-     "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser. "
-     "The file\n"
-     "is NAME-lab.html in the current folder, where NAME is the model's; its path goes to standard output.\n"
-     "The browser is $BROWSER, else the system's.",
+     "Writes the page of the lab with the model in it, one file that needs no network, and opens it in the browser\n"
+     "($BROWSER, else the system's). The file is NAME-lab.html in the current folder, where NAME is the model's; its\n"
+     "path goes to standard output.",
      "  motus lab\n"
      "  motus lab models/pendulum.motus --set \"theta(0)=3\"\n"
      "  motus lab models/spring.motus --method verlet --methods explicit-euler,symplectic-euler --step 1/8\n"
@@ -69,9 +66,8 @@ static const page pages[] = {
      "  motus methods verlet\n"
      "  motus methods --json\n"},
     {VERB_CACHE, "motus cache --clear",
-     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it; "
-     "it is\n"
-     "made again where it is wanted.",
+     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it;\n"
+     "motus compiles it again when needed.",
      "  motus cache --clear\n"},
 };
 
@@ -82,10 +78,10 @@ void help_program(FILE *out)
           "  motus compare  MODEL     every method side by side\n"
           "  motus converge MODEL     error against step, the observed order, a certificate\n"
           "  motus sweep    MODEL     many trajectories: parameters and initial values vary\n"
-          "  motus check    MODEL     what the program understood, which methods it admits\n"
+          "  motus check    MODEL     the equations as motus read them, which methods they admit\n"
           "  motus methods [METHOD]   the catalogue, or the card of one method\n"
-          "  motus lab     [MODEL]    the page: the motion drawn, methods beside each other, in the browser\n"
-          "  motus cache    --clear   forget the compiled models\n\n"
+          "  motus lab     [MODEL]    the lab: motion and methods in the browser\n"
+          "  motus cache    --clear   remove the compiled models\n\n"
           "  motus VERB --help        options and examples;  motus --version\n\n"
           "A model is a text that reads like a textbook:\n\n"
           "  x''   = -x + x^3 + 0.1 cos(t)\n"
@@ -95,9 +91,9 @@ void help_program(FILE *out)
           "  step   0.001\n"
           "  until  100\n\n"
           "Data goes to standard output, messages to standard error. Exit status: 0 done, 1 the computation failed,\n"
-          "2 the request was wrong. After Ctrl-C the program dies of the signal; no file is left half written, but for "
-          "the whole\n"
-          "rows of a sweep, with which --resume goes on.\n",
+          "2 the request was wrong. Ctrl-C ends the program by its signal and leaves no incomplete file; a sweep keeps "
+          "its\n"
+          "complete rows, and --resume continues it.\n",
           out);
 }
 

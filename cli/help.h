@@ -1,4 +1,4 @@
-/* What --help says. */
+/* The text of --help. */
 #ifndef CLI_HELP_H
 #define CLI_HELP_H
 

@@ -1,10 +1,11 @@
 /* motus lab: the page of the lab with a model in it, written and opened.
  *
- * Invariant: the model and what is said beside it are checked before anything is written; the page then appears whole
- * or not at all.
+ * Invariant: the model and the options are checked before anything is written; the page is then written completely or
+ * not at all.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/browser.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/lab_page.h"
@@ -28,7 +29,7 @@ typedef struct job {
     file_out file;
 } job;
 
-/* Settings are settings of a model. */
+/* Refuses options that need a model when there is none. */
 static motus_status check_alone(const options *o, motus_error *err)
 {
     const struct {
@@ -40,8 +41,8 @@ static motus_status check_alone(const options *o, motus_error *err)
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].given) {
-            complain(err, MOTUS_ARGUMENT, "%s is about a model, and the model is missing", others[i].name);
-            complain_hint(err, "motus lab model.motus, or - for standard input");
+            fail(err, MOTUS_ARGUMENT, "%s needs a model, which is missing", others[i].name);
+            hint(err, "motus lab model.motus, or - for standard input");
             return MOTUS_ARGUMENT;
         }
     return MOTUS_OK;
@@ -65,11 +66,11 @@ static motus_status name_output(job *j, motus_error *err)
     const char *const read[] = {o->operand, j->page.path};
     for (size_t i = 0; i < 2; i++)
         if (read[i] && strcmp(j->output, "-") != 0 && file_same(j->output, read[i]))
-            return complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", read[i]);
+            return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", read[i]);
     return MOTUS_OK;
 }
 
-static motus_status say_where(const job *j, motus_error *err)
+static motus_status print_path(const job *j, motus_error *err)
 {
     if (strcmp(j->output, "-") == 0) return file_flush_output(err);
     if (j->options->json) {
@@ -77,7 +78,7 @@ static motus_status say_where(const job *j, motus_error *err)
         json_string(&out, "output", j->output);
         json_end(&out);
     } else if (!j->options->quiet) {
-        /* a program that reads this needs the name itself, a terminal must not get everything that a name may hold */
+        /* a script needs the exact name; a terminal must not get control characters in it */
         if (isatty(STDOUT_FILENO))
             text_put(stdout, j->output);
         else
@@ -98,15 +99,15 @@ static void show(const job *j)
 
 static motus_status write_page(job *j, motus_error *err)
 {
-    stop_watch();
+    stop_catch_signals();
     motus_status status = file_create(&j->file, j->output, err);
     if (!status) status = lab_page_write(&j->page, j->fragment ? j->fragment + 1 : "", &j->file, err);
     if (!status) status = file_finish(&j->file, err);
-    if (!status && stop_requested()) status = complain(err, MOTUS_CANCELLED, "cancelled");
-    if (!status) status = say_where(j, err);
-    bool lasting = j->file.temporary != NULL; /* a file, no device or pipe */
+    if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
+    if (!status) status = print_path(j, err);
+    bool regular = j->file.temporary != NULL; /* not a device or pipe */
     if (!status) status = file_keep(&j->file, err);
-    if (!status && lasting && !j->options->no_open) show(j);
+    if (!status && regular && !j->options->no_open) show(j);
     return status;
 }
 

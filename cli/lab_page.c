@@ -1,11 +1,12 @@
 /* The page of the lab.
  *
- * Invariant: a page is written as it was built but for the start in its one empty meta element; of the start no
- * character has a meaning in HTML but &, which is written &amp;.
+ * Invariant: a page is written as it was built, except for the start in its one empty meta element; the only character
+ * of the start with a meaning in HTML is &, which is written &amp;.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/lab_page.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 #define PAGE_MAX ((size_t)16 << 20) /* bytes of a page */
 enum { PATH_ROOM = 4096 };
 
-/* Where the program lies, by what the system says, else by the name it was called with. */
+/* The folder of the program, from the system, else from the name it was called with. */
 static bool program_folder(const char *called, char out[PATH_ROOM])
 {
     char found[PATH_ROOM];
@@ -51,16 +52,16 @@ static motus_status find(char **path, const char *program, motus_error *err)
         *path = strdup(candidate);
         return *path ? MOTUS_OK : complain_memory(err);
     }
-    complain(err, MOTUS_FILE, "the page of the lab is not there: neither %s nor %s in %s", places[0], places[1],
-             known ? folder : "the folder of the program");
-    complain_hint(err, "make lab builds it; MOTUS_LAB_PAGE may name another place");
+    fail(err, MOTUS_FILE, "the page of the lab is missing: there is neither %s nor %s in %s", places[0], places[1],
+         known ? folder : "the folder of the program");
+    hint(err, "make lab builds it; MOTUS_LAB_PAGE may name another place");
     return MOTUS_FILE;
 }
 
 static motus_status not_a_page(const lab_page *p, const char *why, motus_error *err)
 {
-    complain(err, MOTUS_FILE, "%s is not the page of the lab: %s", p->path, why);
-    complain_hint(err, "make lab builds it anew");
+    fail(err, MOTUS_FILE, "%s is not the page of the lab: %s", p->path, why);
+    hint(err, "make lab builds it anew");
     return MOTUS_FILE;
 }
 
@@ -73,10 +74,10 @@ motus_status lab_page_read(lab_page *p, const char *program, motus_error *err)
     if (status) return status;
     if (memchr(p->text, 0, p->length)) return not_a_page(p, "it has a byte 0", err);
     const char *found = strstr(p->text, meta);
-    if (!found) return not_a_page(p, "nothing in it says with what it starts", err);
+    if (!found) return not_a_page(p, "it has no <meta name=\"motus-start\">", err);
     const char *rest = found + sizeof meta - 1;
-    if (strstr(rest, meta)) return not_a_page(p, "two places in it say with what it starts", err);
-    if (strncmp(rest, empty, sizeof empty - 1) != 0) return not_a_page(p, "its place for a start is not empty", err);
+    if (strstr(rest, meta)) return not_a_page(p, "it has two <meta name=\"motus-start\">", err);
+    if (strncmp(rest, empty, sizeof empty - 1) != 0) return not_a_page(p, "its motus-start is not empty", err);
     p->place = (size_t)(rest - p->text) + strlen(" content=\"");
     return MOTUS_OK;
 }

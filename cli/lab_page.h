@@ -1,4 +1,4 @@
-/* The page of the lab as `make lab` builds it, and the place in it where a written one says with what it starts. */
+/* The page of the lab as `make lab` builds it, and the place in it for the model that it opens with. */
 #ifndef CLI_LAB_PAGE_H
 #define CLI_LAB_PAGE_H
 
@@ -6,14 +6,14 @@
 
 typedef struct lab_page {
     char *path, *text;
-    size_t length, place; /* bytes; the start goes before byte `place` */
+    size_t length, place; /* bytes; the start is inserted before byte `place` */
 } lab_page;
 
-/* The page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0]. To
- * be freed, also after a failure. */
+/* Reads the page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0].
+ * Call lab_page_free() also after a failure. */
 motus_status lab_page_read(lab_page *, const char *program, motus_error *);
 void lab_page_free(lab_page *);
-/* The page with a start: text of a fragment without its #, or "". */
+/* Writes the page with a start: a fragment (cli/share.h) without its #, or "". */
 motus_status lab_page_write(const lab_page *, const char *start, file_out *, motus_error *);
 
 #endif

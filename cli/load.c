@@ -1,10 +1,10 @@
 /* The model that a command names.
  *
- * Invariant: a file is bounded before it is read, and what is no text never reaches the parser.
+ * Invariant: no more than FILE_MODEL_MAX bytes are read, and a text with a byte 0 never reaches the parser.
  */
 #include "cli/load.h"
 
-#include "cli/complain.h"
+#include "base/error.h"
 #include "cli/file.h"
 #include "cli/stop.h"
 #include "cli/text.h"
@@ -16,8 +16,8 @@
 static motus_status no_model(const options *o, motus_error *err)
 {
     const char *verb = options_verb(o->verb);
-    complain(err, MOTUS_ARGUMENT, "motus %s needs a model", verb);
-    complain_hint(err, "motus %s model.motus, or - for standard input", verb);
+    fail(err, MOTUS_ARGUMENT, "motus %s needs a model", verb);
+    hint(err, "motus %s model.motus, or - for standard input", verb);
     return MOTUS_ARGUMENT;
 }
 
@@ -33,8 +33,8 @@ motus_status load_complain(const char *text, const char *at, const char *path, c
             start = s + 1;
         }
     for (uint32_t c; start < at; column++) start += text_decode(start, &c);
-    complain(err, MOTUS_SYNTAX, "%s", what);
-    complain_hint(err, "a model is a text file in UTF-8");
+    fail(err, MOTUS_SYNTAX, "%s", what);
+    hint(err, "a model is a text file in UTF-8");
     text_safe(called(path), err->file, sizeof err->file);
     err->line = line;
     err->column = column;
@@ -66,7 +66,7 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     motus_status status = file_read(o->operand, FILE_MODEL_MAX, &m->text, &length, err);
     if (status) return status;
     const char *zero = memchr(m->text, 0, length);
-    if (zero) return load_complain(m->text, zero, o->operand, "a byte 0: this is not a text", err);
+    if (zero) return load_complain(m->text, zero, o->operand, "this is not a text: it has a byte 0 here", err);
     motus_text_def def = motus_default_text();
     def.text = m->text;
     def.length = length;
@@ -75,7 +75,7 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     def.set_count = o->set.count;
     status = motus_system_from_text(&def, &m->system, err);
     if (status) return status;
-    stop_watch(); /* up to here there is nothing to clean up: signals end the program at once */
+    stop_catch_signals(); /* before this there is nothing to clean up, so signals end the program at once */
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
     m->quantities = numbers_of(m->system, motus_quantity_name);

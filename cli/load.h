@@ -1,4 +1,4 @@
-/* The model that a command names: its text, and the system made of it. */
+/* The model that a command names: its text, and its system. */
 #ifndef CLI_LOAD_H
 #define CLI_LOAD_H
 
@@ -8,16 +8,15 @@ typedef struct load {
     char *text;
     motus_system *system;
     size_t positions, velocities;  /* columns: t, then these, then quantities, invariants, exact */
-    size_t quantities, invariants; /* numbers in all */
+    size_t quantities, invariants; /* their numbers, not their names */
     char title[MOTUS_NAME_MAX];    /* file name without folder and ending, safe to show */
 } load;
 
-/* Reads the model of the options with their --set; everything in *load is freed by load_free(), also after a
- * failure. */
+/* Reads the model of the options with their --set; call load_free() also after a failure. */
 motus_status load_model(load *, const options *, motus_error *);
 void load_free(load *);
 
-/* An error in a text at one of its bytes; `path` as a command names it, - is standard input. Returns MOTUS_SYNTAX. */
+/* Makes an error at one byte of a text; `path` as a command names it, - is standard input. Returns MOTUS_SYNTAX. */
 motus_status load_complain(const char *text, const char *at, const char *path, const char *what, motus_error *);
 
 /* motus_quantity_name or motus_invariant_name. */
@@ -25,7 +24,7 @@ typedef const char *load_naming(const motus_system *, size_t k, size_t *numbers)
 /* First column of the quantities and of the invariants. */
 size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);
-/* What the run will use where the options say nothing: the model's end. NaN: none. */
+/* The end: the options', else the model's. NaN: none. */
 double load_until(const load *, const options *);
 
 #endif

@@ -1,8 +1,9 @@
 /* motus, the program: the table of verbs.
  *
- * Invariant: a verb is one row. Each error is shown once, here; the exit status is that of its status.
+ * Invariant: a verb is one row of the table. Errors are printed once, here; the exit status follows from the error's.
  */
 #include "base/near.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/help.h"
@@ -51,13 +52,13 @@ static motus_status unknown(const char *name, motus_error *err)
             near = verbs[i].name;
         }
     }
-    complain(err, MOTUS_ARGUMENT, "unknown %s %s", name[0] == '-' ? "option" : "verb", name);
+    fail(err, MOTUS_ARGUMENT, "unknown %s %s", name[0] == '-' ? "option" : "verb", name);
     if (length > 6 && strcmp(name + length - 6, ".motus") == 0)
-        complain_hint(err, "to integrate it: motus run %s", name);
+        hint(err, "to integrate it: motus run %s", name);
     else if (near)
-        complain_hint(err, "did you mean motus %s?", near);
+        hint(err, "did you mean motus %s?", near);
     else
-        complain_hint(err, "motus --help lists the verbs");
+        hint(err, "motus --help lists the verbs");
     return MOTUS_ARGUMENT;
 }
 
@@ -94,13 +95,13 @@ static motus_status dispatch(int argc, char **argv, bool as_json, motus_error *e
     int first = 1;
     while (first < argc && strcmp(argv[first], "--json") == 0) first++;
     if (first == argc) {
-        complain(err, MOTUS_ARGUMENT, "a verb is missing");
-        complain_hint(err, "motus run model.motus; motus --help lists the others");
+        fail(err, MOTUS_ARGUMENT, "a verb is missing");
+        hint(err, "motus run model.motus; motus --help lists the others");
         return MOTUS_ARGUMENT;
     }
     const verb *v = find(argv[first]);
     if (!v) return unknown(argv[first], err);
-    if (!v->go) return complain(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
+    if (!v->go) return fail(err, MOTUS_UNAVAILABLE, "motus %s is not available in this version", v->name);
     options o;
     motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
     o.json = o.json || as_json;
@@ -123,7 +124,7 @@ int main(int argc, char **argv)
     stop_obey();
     if (!status) return 0;
     err.status = status;
-    if (!err.message[0]) complain(&err, status, "%s", motus_status_text(status));
-    /* the object of a study has said already which methods failed */
+    if (!err.message[0]) fail(&err, status, "%s", motus_status_text(status));
+    /* with MOTUS_ORDER, converge has already printed its JSON object, which says which methods failed */
     return complain_show(&err, as_json && status != MOTUS_ORDER);
 }

@@ -1,4 +1,5 @@
-/* motus methods: the catalogue, or the card of one method, from the rows the code runs. */
+/* motus methods: the catalogue, or the card of one method. */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/table.h"
@@ -88,7 +89,7 @@ static void print_card(const motus_method *m)
     snprintf(properties, sizeof properties,
              "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
              "largest stable h ω: %s",
-             m->stages, m->evaluations > 0 ? evaluations : "as many as solving takes", tell_forces(m->forces),
+             m->stages, m->evaluations > 0 ? evaluations : "as many as the solver needs", tell_forces(m->forces),
              m->symplectic ? "yes" : "no", m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);
@@ -100,8 +101,7 @@ motus_status methods_verb(const options *o, motus_error *err)
     const motus_method *only = NULL;
     motus_status status = o->operand ? motus_method_find(o->operand, &only, err) : MOTUS_OK;
     if (status) return status;
-    if (only && o->markdown)
-        return complain(err, MOTUS_ARGUMENT, "--markdown prints the whole catalogue and takes no method");
+    if (only && o->markdown) return fail(err, MOTUS_ARGUMENT, "--markdown prints the catalogue and takes no method");
     if (o->json)
         print_json(only);
     else if (only && !o->quiet)

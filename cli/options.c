@@ -1,11 +1,12 @@
 /* The command line.
  *
- * Invariant: an option is one row of the table: its name, what it takes, where it is stored, the verbs it belongs to,
- * its help. Numbers are checked here, so the verbs see only good ones.
+ * Invariant: an option is one row of the table: its name, its argument, where it is stored, the verbs it belongs to,
+ * its help. Numbers are checked here, so the verbs get only valid ones.
  */
 #include "cli/options.h"
 
 #include "base/near.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/text.h"
 #include "cli/typed.h"
@@ -51,37 +52,35 @@ static const option table[] = {
     {"--columns", NULL, "A,B,C", WORD, AT(columns), VERB_RUN,
      "columns of the CSV: t, r, r'.x, x[3]', energy, \"exact x\""},
     {"--every", NULL, "T", EVERY, AT(every_time), ONE,
-     "a row (sweep: a look for max and the like) every time T, or every \"10 steps\""},
+     "a row (sweep: a sample for min, max and mean) every time T, or every \"10 steps\""},
     {"--plot", NULL, "FIG", WORD, AT(plot), DRAWN, "draw with gnuplot; FIG ends in .svg, .png or .pdf"},
     {"--plot-of", NULL, "X,Y", WORD, AT(plot_of), VERB_RUN, "draw column Y against column X: \"x,x'\""},
     {"--save-state", NULL, "FILE", WORD, AT(save_state), VERB_RUN, "write an exact restart state at the end"},
-    {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "go on from a restart state, to the same bits"},
+    {"--restart", NULL, "FILE", WORD, AT(restart), VERB_RUN, "continue from a restart state, to the same bits"},
     {"--machine", NULL, "NAME", WORD, AT(machine), ONE,
      "auto (compiles where the run is long enough), interpreter, compiled"},
     {"--threads", NULL, "N", COUNT, AT(threads), ONE,
      "sweep: threads (else one for each processor); run: for one large system (else 1); the bits are the same"},
     {"--emit-c", NULL, NULL, FLAG, AT(emit_c), VERB_RUN, "print the C text that the compiled machine runs, and stop"},
     {"--share", NULL, NULL, FLAG, AT(share), SHARED,
-     "print what stands behind the address of the lab to show this, and stop"},
+     "print the part of a link to the lab that holds this model and its settings, and stop"},
     {"--no-open", NULL, NULL, FLAG, AT(no_open), VERB_LAB, "write the page and start no browser"},
     {"--clear", NULL, NULL, FLAG, AT(clear), VERB_CACHE, "remove every entry"},
     {"--vary", NULL, "P=RANGE", NAMED, AT(vary), VERB_SWEEP,
      "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
     {"--random", NULL, "P=DIST", NAMED, AT(random), VERB_SWEEP,
-     "\"x(0)=-1:1\", evenly; m=normal:MEAN:DEVIATION; repeatable"},
+     "\"x(0)=-1:1\" (uniform), m=normal:MEAN:DEVIATION; repeatable"},
     {"--count", NULL, "N", COUNT, AT(count), VERB_SWEEP, "draw N times (for each value of --vary, if there is one)"},
-    {"--seed", NULL, "S", SEED, AT(seed), VERB_SWEEP,
-     "of --random: a whole number (else 0); the same seed, the same numbers"},
-    {"--zip", NULL, NULL, FLAG, AT(zip), VERB_SWEEP, "--vary side by side, not every one with every other"},
+    {"--seed", NULL, "S", SEED, AT(seed), VERB_SWEEP, "seed of --random, an integer (else 0)"},
+    {"--zip", NULL, NULL, FLAG, AT(zip), VERB_SWEEP, "pair the values of several --vary instead of combining all"},
     {"--record", NULL, "LIST", WORD, AT(record), VERB_SWEEP,
      "final, x, energy, min(x), max(x), mean(x), time_of_min(x), time_of_max(x)"},
-    {"--resume", NULL, NULL, FLAG, AT(resume), VERB_SWEEP,
-     "go on with FILE where an interrupted sweep left off, to the same bytes"},
-    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP, "replace FILE if it is there"},
+    {"--resume", NULL, NULL, FLAG, AT(resume), VERB_SWEEP, "continue an interrupted sweep in FILE, to the same bytes"},
+    {"--force", NULL, NULL, FLAG, AT(force), VERB_SWEEP, "replace FILE if it exists"},
     {"--lanes", NULL, "N", COUNT, AT(lanes), VERB_SWEEP,
-     "trajectories side by side: 1, 2, 4, ... (for tests and the curious); the bits are the same"},
+     "trajectories in one vector: 1, 2, 4, ... (for tests); the bits are the same"},
     {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
-     "let the compiler reorder: last bits may differ from machine to machine"},
+     "let the compiler reorder operations: the last bits may differ between machines"},
     {"--markdown", NULL, NULL, FLAG, AT(markdown), VERB_METHODS, "the catalogue as a Markdown table"},
     {"--json", NULL, NULL, FLAG, AT(json), ANY, "one JSON object on standard output"},
     {"--quiet", "-q", NULL, FLAG, AT(quiet), ANY, "print nothing but errors and --json"},
@@ -103,7 +102,7 @@ static bool matches(const option *o, const char *name)
     return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
 }
 
-/* The option called `name` of this verb, or the reason why there is none. */
+/* The option `name` of this verb, or an error that says why there is none. */
 static motus_status find(const char *name, unsigned verb, const option **found, motus_error *err)
 {
     const option *elsewhere = NULL, *near = NULL;
@@ -127,29 +126,29 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
             if (elsewhere->verbs & bit)
                 snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
                          options_verb(bit));
-        complain(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
-        complain_hint(err, "%s belongs to: %s", elsewhere->name, verbs);
+        fail(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
+        hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
     }
     if (strcmp(name, "--tolerance") == 0) {
-        complain(err, MOTUS_UNAVAILABLE, "--tolerance would change nothing: every method takes fixed steps");
-        complain_hint(err, "give --step; motus converge shows the error that a step leaves");
+        fail(err, MOTUS_UNAVAILABLE, "--tolerance would change nothing: every method takes fixed steps");
+        hint(err, "give --step; motus converge shows the error at each step");
         return MOTUS_UNAVAILABLE;
     }
-    complain(err, MOTUS_ARGUMENT, "unknown option %s", name);
+    fail(err, MOTUS_ARGUMENT, "unknown option %s", name);
     if (strcmp(name, "--from") == 0)
-        complain_hint(err, "the start is the constant c in x(c) = ..., in the model");
+        hint(err, "the start is the constant c in x(c) = ..., in the model");
     else if (near)
-        complain_hint(err, "did you mean %s?", near->name);
+        hint(err, "did you mean %s?", near->name);
     else
-        complain_hint(err, "motus %s --help lists the options", options_verb(verb));
+        hint(err, "motus %s --help lists the options", options_verb(verb));
     return MOTUS_ARGUMENT;
 }
 
 static motus_status bad_value(const option *o, const char *value, const char *wanted, motus_error *err)
 {
-    complain(err, MOTUS_ARGUMENT, "%s %s: this is not %s", o->name, value, wanted);
-    if (strchr(value, ',')) complain_hint(err, "numbers are written with a point: 0.5");
+    fail(err, MOTUS_ARGUMENT, "%s %s: this is not %s", o->name, value, wanted);
+    if (strchr(value, ',')) hint(err, "numbers are written with a point: 0.5");
     return MOTUS_ARGUMENT;
 }
 
@@ -197,7 +196,7 @@ motus_status options_split(const char *text, const char *option_name, char **cop
         if (!*part) {
             free(parts);
             free(items);
-            return complain(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
+            return fail(err, MOTUS_ARGUMENT, "%s %s: a name is missing", option_name, text);
         }
         items[count++] = part;
         if (last) break;
@@ -211,8 +210,8 @@ motus_status options_split(const char *text, const char *option_name, char **cop
 static motus_status add_named(options_list *list, const option *row, const char *value, motus_error *err)
 {
     if (!strchr(value, '=') || value[0] == '=') {
-        complain(err, MOTUS_ARGUMENT, "%s %s: a name and what stands for it are missing", row->name, value);
-        complain_hint(err, "%s %s: %s", row->name, row->argument, row->help);
+        fail(err, MOTUS_ARGUMENT, "%s %s: this is not NAME=VALUE", row->name, value);
+        hint(err, "%s %s: %s", row->name, row->argument, row->help);
         return MOTUS_ARGUMENT;
     }
     const char **items = realloc(list->items, (list->count + 1) * sizeof *items);
@@ -229,7 +228,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
     switch (row->kind) {
     case FLAG: *(bool *)place = true; return MOTUS_OK;
     case WORD:
-        if (!*value) return complain(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
+        if (!*value) return fail(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
         *(const char **)place = value;
         return MOTUS_OK;
     case STEP:
@@ -256,8 +255,8 @@ static motus_status store(options *o, const option *row, const char *value, motu
     return MOTUS_OK;
 }
 
-/* An address has a model, its settings and methods: it cannot say how much work is spent or where a run was
- * interrupted. And as nothing is computed, there is nothing to write. */
+/* A link has a model, its settings and methods, but no number of evaluations and no restart state; and --share
+ * computes nothing that could be written. */
 static motus_status check_share(const options *o, motus_error *err)
 {
     const struct {
@@ -273,8 +272,8 @@ static motus_status check_share(const options *o, motus_error *err)
     };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (others[i].given) {
-            complain(err, MOTUS_ARGUMENT, "--share and %s exclude each other", others[i].name);
-            complain_hint(err, "--share computes nothing: it prints the model and its settings as an address has them");
+            fail(err, MOTUS_ARGUMENT, "--share and %s exclude each other", others[i].name);
+            hint(err, "--share computes nothing: it prints a link's model and settings");
             return MOTUS_ARGUMENT;
         }
     return MOTUS_OK;
@@ -285,32 +284,32 @@ static motus_status check(const options *o, motus_error *err)
     const char *machine = o->machine;
     if (machine && strcmp(machine, "auto") != 0 && strcmp(machine, "interpreter") != 0 &&
         strcmp(machine, "compiled") != 0) {
-        complain(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
-        complain_hint(err, "auto, interpreter or compiled");
+        fail(err, MOTUS_ARGUMENT, "--machine %s: there is no such machine", machine);
+        hint(err, "auto, interpreter or compiled");
         return MOTUS_ARGUMENT;
     }
     if (o->threads > MOTUS_THREADS_MAX) {
-        complain(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
-        complain_hint(err, "more threads than the computer has cores bring nothing");
+        fail(err, MOTUS_ARGUMENT, "--threads %lld: at most %d", (long long)o->threads, MOTUS_THREADS_MAX);
+        hint(err, "more threads than the computer has cores make nothing faster");
         return MOTUS_ARGUMENT;
     }
     if (o->plot_of && !o->plot) {
-        complain(err, MOTUS_ARGUMENT, "--plot-of says what to draw, and --plot is missing");
-        complain_hint(err, "add --plot fig.svg");
+        fail(err, MOTUS_ARGUMENT, "--plot-of needs --plot, which names the file");
+        hint(err, "add --plot fig.svg");
         return MOTUS_ARGUMENT;
     }
     if (o->verb == VERB_RUN && (o->columns || o->every_time > 0 || o->every_steps > 0) && !o->output) {
-        complain(err, MOTUS_ARGUMENT, "%s is about the CSV, and -o is missing", o->columns ? "--columns" : "--every");
-        complain_hint(err, "add -o traj.csv");
+        fail(err, MOTUS_ARGUMENT, "%s needs -o, which names the CSV", o->columns ? "--columns" : "--every");
+        hint(err, "add -o traj.csv");
         return MOTUS_ARGUMENT;
     }
     if (o->json && o->output && strcmp(o->output, "-") == 0) {
-        complain(err, MOTUS_ARGUMENT, "--json and -o - both want standard output");
-        complain_hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV",
-                      o->verb == VERB_LAB ? "lab.html" : "traj.csv");
+        fail(err, MOTUS_ARGUMENT, "--json and -o - both write to standard output");
+        hint(err, "write %s to a file: -o %s", o->verb == VERB_LAB ? "the page" : "the CSV",
+             o->verb == VERB_LAB ? "lab.html" : "traj.csv");
         return MOTUS_ARGUMENT;
     }
-    if (o->json && o->markdown) return complain(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
+    if (o->json && o->markdown) return fail(err, MOTUS_ARGUMENT, "--json and --markdown exclude each other");
     return o->share ? check_share(o, err) : MOTUS_OK;
 }
 
@@ -326,9 +325,9 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         }
         if (only_operands || word[0] != '-' || !word[1]) {
             if (o->operand) {
-                complain(err, MOTUS_ARGUMENT, "%s after %s: one %s at a time", word, o->operand,
-                         verb == VERB_METHODS ? "method" : "model");
-                complain_hint(err, "put what belongs together in quotes");
+                fail(err, MOTUS_ARGUMENT, "%s after %s: one %s at a time", word, o->operand,
+                     verb == VERB_METHODS ? "method" : "model");
+                hint(err, "put what belongs together in quotes");
                 return MOTUS_ARGUMENT;
             }
             o->operand = word;
@@ -342,10 +341,10 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         motus_status status = find(name, verb, &row, err);
         if (status) return status;
         const char *value = equals ? equals + 1 : NULL;
-        if (row->kind == FLAG && value) return complain(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
+        if (row->kind == FLAG && value) return fail(err, MOTUS_ARGUMENT, "%s takes no value", row->name);
         if (row->kind != FLAG && !value && i + 1 == argc) {
-            complain(err, MOTUS_ARGUMENT, "%s: its value is missing", row->name);
-            complain_hint(err, "%s %s: %s", row->name, row->argument, row->help);
+            fail(err, MOTUS_ARGUMENT, "%s: its value is missing", row->name);
+            hint(err, "%s %s: %s", row->name, row->argument, row->help);
             return MOTUS_ARGUMENT;
         }
         if (row->kind != FLAG && !value) value = argv[++i];

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Verbs, as bits, so that an option can say where it belongs. */
+/* Verbs, as bits, so that an option can have several. */
 enum {
     VERB_RUN = 1,
     VERB_COMPARE = 2,
@@ -40,7 +40,7 @@ typedef struct options {
     uint64_t seed;
     bool seeded; /* a seed was given */
     bool zip, fast, resume, force;
-    char *methods_text; /* what the items of `methods` point into */
+    char *methods_text; /* the items of `methods` point into it */
     bool json, quiet, help, markdown, emit_c, clear, share, no_open;
     int argc;
     char **argv; /* the whole command, for the header of files */
@@ -52,8 +52,7 @@ void options_free(options *);
 const char *options_verb(unsigned verb);
 /* The lines of --help for the options of a verb. */
 void options_help(FILE *, unsigned verb);
-/* "x,r.x,u[1,2]" into its parts: commas inside brackets do not count. The items point into *copy, which the caller
- * frees. */
+/* Splits "x,r.x,u[1,2]" at the commas outside brackets. The items point into *copy; the caller frees both. */
 motus_status options_split(const char *text, const char *option, char **copy, options_list *, motus_error *);
 
 #endif

@@ -1,21 +1,22 @@
 /* The figure of a comparison.
  *
- * Invariant: a method is the same curve (colour, dashes, marker) in every panel. Every panel draws one quantity of
- * the first cell of a variable, and the last one the first invariant.
+ * Invariant: a method has the same colour, dashes and marker in every panel. A panel draws the first cell of a
+ * variable; the last one draws the change of the first invariant.
  */
 #include "cli/overlay.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/record.h"
 
 #include <stdlib.h>
 
-enum { METHODS = 8, PANELS = 5, LOOKS = 50000 };
+enum { METHODS = 8, PANELS = 5, SAMPLES = 50000 };
 
 typedef struct slot {
     size_t panel, columns[2]; /* x and y of the curve */
-    bool timelike, drift;
+    bool timelike, change;
     size_t exact[2]; /* 0: none */
 } slot;
 
@@ -41,17 +42,17 @@ static bool add_slot(overlay *v, const char *title, const char *x, const char *y
 
 static bool add_variable(overlay *v, const motus_variable *var)
 {
-    figure_place p, truth;
+    figure_place p, exact_place;
     motus_column name[2] = {motus_default_column(), motus_default_column()};
     if (!figure_find(v->model, var, "", "", &p)) return true;
-    bool exact = figure_find(v->model, var, "exact ", "", &truth), plane = var->order == 2 && p.components > 1;
+    bool exact = figure_find(v->model, var, "exact ", "", &exact_place), plane = var->order == 2 && p.components > 1;
     size_t first = p.first, second = plane ? p.first + p.component_step : 0;
     if (motus_column_at(v->model->system, first, &name[0]) || motus_column_at(v->model->system, second, &name[1]))
         return true;
     slot s = plane ? (slot){.columns = {first, second}} : (slot){.columns = {0, first}, .timelike = true};
     if (exact) {
-        s.exact[0] = plane ? truth.first : 0;
-        s.exact[1] = plane ? truth.first + truth.component_step : truth.first;
+        s.exact[0] = plane ? exact_place.first : 0;
+        s.exact[1] = plane ? exact_place.first + exact_place.component_step : exact_place.first;
     }
     return plane ? add_slot(v, "motion", name[0].name, name[1].name, s) : add_slot(v, "motion", "t", name[0].name, s);
 }
@@ -67,21 +68,21 @@ static bool add_panels(overlay *v)
     size_t numbers;
     snprintf(title, sizeof title, "drift of %s", motus_invariant_name(system, 0, &numbers));
     return add_slot(v, title, "t", "change since the start",
-                    (slot){.columns = {0, load_invariant_column(v->model)}, .timelike = true, .drift = true});
+                    (slot){.columns = {0, load_invariant_column(v->model)}, .timelike = true, .change = true});
 }
 
 static bool add_curve(overlay *v, record *r, const slot *s, const size_t columns[2], const char *label, plot_role role)
 {
-    double *x = record_want(r, columns[0]), *y = x ? record_want(r, columns[1]) : NULL;
+    double *x = record_add(r, columns[0]), *y = x ? record_add(r, columns[1]) : NULL;
     plot_curve *c = y ? plot_curve_add(&v->plot.panels[s->panel], label, x, y, 0, 1) : NULL;
     if (!c) return false;
     c->role = role;
     c->timelike = s->timelike;
-    c->drift = s->drift;
+    c->change = s->change;
     return true;
 }
 
-/* One method once more, looked at: its curves in every panel, and from the first method the exact ones. */
+/* Runs one method again and records its curves for every panel; the first method's run records the exact ones too. */
 static motus_status run_method(overlay *v, const motus_compare_row *row, const options *o, stop_progress *progress,
                                motus_error *err)
 {
@@ -96,14 +97,14 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, const o
     if (status) return status;
     bool first = v->record_count == 0;
     record *r = &v->records[v->record_count++];
-    *r = record_for(motus_run_steps_total(run), LOOKS);
+    *r = record_for(motus_run_steps_total(run), SAMPLES);
     bool room = true;
     for (size_t i = 0; room && i < v->slot_count; i++) {
         const slot *s = &v->slots[i];
         room = add_curve(v, r, s, s->columns, row->method, PLOT_LINE);
         if (room && first && s->exact[1]) room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
     }
-    walk_watcher w = record_watcher(r);
+    walk_observer w = record_observer(r);
     status = room ? walk(run, motus_run_time(run), load_until(v->model, o), &w, 1, err) : complain_memory(err);
     for (size_t i = 0; i < v->slot_count; i++) {
         plot_panel *p = &v->plot.panels[v->slots[i].panel];
@@ -130,8 +131,8 @@ motus_status overlay_draw(const load *m, const motus_comparison *c, const option
             status = run_method(&v, c->rows[k], o, progress, err);
     }
     if (!status && v.record_count == 0)
-        status = complain(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,
-                          "no method got to the end: there is nothing to draw");
+        status = fail(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,
+                      "there is nothing to draw: every method failed before the end");
     if (!status) status = plot_draw(&v.plot, o->plot, file, err);
     if (!status && left && !o->quiet)
         complain_note("the figure shows the first %d methods; --methods chooses others", (int)METHODS);

@@ -1,4 +1,4 @@
-/* The figure of a comparison: the same motion by every method, over the exact one. */
+/* The figure of a comparison: the motion by each method, over the exact one. */
 #ifndef CLI_OVERLAY_H
 #define CLI_OVERLAY_H
 

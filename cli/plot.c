@@ -1,13 +1,13 @@
 /* Figures, as a script for gnuplot.
  *
- * Invariants: text enters the script in single quotes with quotes doubled and control characters gone, in terminals
- * set to noenhanced, so no name is ever a command; data are numbers in data blocks. Nothing is told by colour alone:
- * every curve of a panel has its own dashes and, from the second on, its own marker. Thinning keeps the smallest and
- * the largest value of every column of the picture.
+ * Invariants: text enters the script in single quotes, with quotes doubled and control characters replaced, in
+ * terminals set to noenhanced, so that no name is a command; data are numbers in data blocks. Curves differ by more
+ * than colour: each has its own dashes and, if there are several, its own marker. Thinning keeps the smallest and the
+ * largest value of every column of the picture.
  */
 #include "cli/plot.h"
 
-#include "cli/complain.h"
+#include "base/error.h"
 #include "cli/gnuplot.h"
 #include "cli/text.h"
 
@@ -18,8 +18,8 @@
 
 enum {
     COLUMNS = 2000,   /* of the picture, two values each */
-    PATH_GRID = 2500, /* points of a path nearer than 1/2500 of the picture are one */
-    PATH_MOST = 40000
+    PATH_GRID = 2500, /* points of a path nearer than 1/2500 of the picture are drawn as one */
+    PATH_MOST = 40000 /* points of a path, about */
 };
 
 typedef struct style {
@@ -79,13 +79,13 @@ static void quoted(FILE *out, const char *s)
     putc('\'', out);
 }
 
-/* Numbers that gnuplot can add and scale; the rest are gaps in a curve. */
+/* Whether gnuplot can scale the number without overflow; others are gaps in a curve. */
 static bool drawable(double v) { return isfinite(v) && fabs(v) < 1e290; }
 
 static void put_point(FILE *out, plot_curve *c, size_t i)
 {
     c->drawn++;
-    double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->drift ? c->y[0] : 0),
+    double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->change ? c->y[0] : 0),
            z = c->z ? c->z[i * c->stride] : 0;
     if (!drawable(x) || !drawable(y) || !drawable(z))
         putc('\n', out);
@@ -95,7 +95,7 @@ static void put_point(FILE *out, plot_curve *c, size_t i)
         fprintf(out, "%.12g %.10g\n", x, y);
 }
 
-/* Of every column of the picture the smallest and the largest value, in the order they came. */
+/* Draws the smallest and the largest value of every column of the picture, in their order in time. */
 static void put_timelike(FILE *out, plot_curve *c)
 {
     for (size_t bucket = 0; bucket < COLUMNS; bucket++) {
@@ -126,7 +126,7 @@ static double extent(const double *v, size_t count, size_t stride)
     return high > low ? high - low : 0;
 }
 
-/* Of a path every point that is a visible distance from the one before it. */
+/* Draws every point of a path that is a visible distance from the last one drawn. */
 static void put_path(FILE *out, plot_curve *c)
 {
     const double *axes[] = {c->x, c->y, c->z};
@@ -144,7 +144,7 @@ static void put_path(FILE *out, plot_curve *c)
         for (size_t a = 0; a < 3; a++)
             if (axes[a]) moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
         if (i + 1 < c->count && moved < 1) continue;
-        /* a path that fills the picture is cut down evenly once it has had its share */
+        /* of a path that fills the picture, only every `skip`th point follows the first PATH_MOST / 2 */
         if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count) continue;
         put_point(out, c, i);
         last = i;
@@ -191,7 +191,7 @@ static void put_data(FILE *out, plot_figure *f)
     }
 }
 
-/* One scale for both axes, unless the picture would be a thread. */
+/* Whether both axes have one scale: not if the picture would be more than 4 times as long as wide. */
 static bool one_scale(const plot_panel *p)
 {
     if (!p->spatial) return false;
@@ -211,12 +211,11 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
         fputs(" with lines lw 5 dt (18,7) lc rgb '#15803D'", out);
         return;
     }
-    /* with more curves than styles the markers go round at another pace than the dashes, so that no pair comes again
-     * soon */
+    /* with more curves than styles, each repetition of the dashes pairs them with other markers */
     int marker = styles[(index + index / STYLES) % STYLES].marker;
     bool marked = lines > 1 || p->logarithmic || c->count == 1;
     fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked && !c->z ? "linespoints" : "lines", s->dashes, s->colour);
-    /* in space gnuplot marks every point or none: the markers come as a curve of their own */
+    /* in space gnuplot marks every point or none, so put_curves() draws the markers as another curve */
     if (c->z) return;
     if (marked && p->logarithmic)
         fprintf(out, " pt %d ps 0.7", marker);
@@ -229,7 +228,7 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
     size_t lines = 0;
     for (size_t k = 0; k < p->curve_count; k++) lines += p->curves[k].role == PLOT_LINE;
     fputs(p->curve_count && p->curves[0].z ? "splot " : "plot ", out);
-    /* the truth first: what was computed is drawn over it */
+    /* the exact curves first, so that the others are drawn over them */
     bool first = true;
     for (int pass = 0; pass < 2; pass++) {
         size_t index = 0;
@@ -277,7 +276,7 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     quoted(out, p->y_label);
     fputs("\nset autoscale\n", out);
     fputs(solid ? "set border 31 lc rgb '#64748b'\n" : "set border 3 lc rgb '#64748b'\n", out);
-    /* outside, where it hides nothing; one curve alone is named by its axis */
+    /* the key lies outside, so that it hides no curve; a single curve is named by its axis */
     bool beside = p->curve_count > 6;
     if (p->curve_count < 2)
         fputs("unset key\n", out);
@@ -307,19 +306,19 @@ typedef struct layout {
 static layout arrange(const plot_figure *f)
 {
     bool square = false;
-    size_t crowd = 0;
+    size_t most_curves = 0;
     for (size_t i = 0; i < f->count; i++) {
         const plot_panel *p = &f->panels[i];
         square = square || p->spatial || p->heat || p->logarithmic;
-        crowd = p->curve_count > crowd ? p->curve_count : crowd;
+        most_curves = p->curve_count > most_curves ? p->curve_count : most_curves;
     }
     size_t columns = square ? (f->count > 1 ? 2 : 1) : f->count > 4 ? 2 : 1;
     size_t rows = (f->count + columns - 1) / columns;
     int width = columns == 1 ? (square ? 820 : 960) : square ? 660 : 760;
     int height = f->count == 1 ? (square ? 680 : 480) : square ? 500 : 280;
-    if (crowd > 12) { /* as tall as the names are many, and room beside them */
+    if (most_curves > 12) { /* room for the names beside the panel */
         width += 320;
-        height = height < (int)crowd * 20 + 120 ? (int)crowd * 20 + 120 : height;
+        height = height < (int)most_curves * 20 + 120 ? (int)most_curves * 20 + 120 : height;
     }
     return (layout){rows, columns, width * (int)columns, height * (int)rows + 40};
 }
@@ -336,8 +335,8 @@ static size_t format_of(const char *path)
 motus_status plot_check(const char *path, motus_error *err)
 {
     if (format_of(path) == 3) {
-        complain(err, MOTUS_ARGUMENT, "--plot %s: the ending names no format", path);
-        complain_hint(err, "end the name in .svg, .png or .pdf");
+        fail(err, MOTUS_ARGUMENT, "--plot %s: the name's ending is not a known format", path);
+        hint(err, "end the name in .svg, .png or .pdf");
         return MOTUS_ARGUMENT;
     }
     return gnuplot_check(err);

@@ -10,23 +10,23 @@ enum { PLOT_LABEL = MOTUS_NAME_MAX + 128 };
 
 typedef enum plot_role {
     PLOT_LINE, /* one of several: its own colour, dashes and marker */
-    PLOT_EXACT /* the truth: green, thick, behind the others */
+    PLOT_EXACT /* the exact motion: green, thick, behind the others */
 } plot_role;
 
-/* Numbers that somebody else keeps until the figure is written: x[i * stride] and so on. */
+/* A curve through the points (x[i * stride], y[i * stride]); the caller owns the numbers. */
 typedef struct plot_curve {
     char label[PLOT_LABEL];
     plot_role role;
     const double *x, *y, *z; /* z: NULL in the plane */
     size_t count, stride;
-    bool drift;    /* y less its first value is what is drawn */
+    bool change;   /* draws y minus its first value */
     bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
     size_t drawn;  /* points left after thinning; set by plot_draw() */
 } plot_curve;
 
 typedef struct plot_panel {
     char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL];
-    bool spatial;     /* both axes are places: one scale if the shape allows it */
+    bool spatial;     /* both axes are positions: one scale if the shape allows it */
     bool logarithmic; /* both axes; every point is marked */
     plot_curve *curves;
     size_t curve_count;
@@ -42,14 +42,13 @@ typedef struct plot_figure {
     size_t count;
 } plot_figure;
 
-/* NULL when there is no memory. A new panel makes earlier panel pointers invalid, a new curve earlier curve
- * pointers. */
+/* NULL: out of memory. A new panel makes earlier panel pointers invalid, a new curve earlier curve pointers. */
 plot_panel *plot_panel_add(plot_figure *, const char *title, const char *x_label, const char *y_label);
 plot_curve *plot_curve_add(plot_panel *, const char *label, const double *x, const double *y, size_t count,
                            size_t stride);
 void plot_free(plot_figure *);
 
-/* Whether the name ends in a known format and gnuplot is there: to be asked before long work. */
+/* Checks before long work that the name ends in a known format and that gnuplot is installed. */
 motus_status plot_check(const char *path, motus_error *);
 /* Draws into the file (finished by the caller), in the format that `path` ends in. */
 motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error *);

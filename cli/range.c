@@ -1,8 +1,8 @@
-/* Values at equal distances or in equal ratios.
+/* Linearly or logarithmically spaced values.
  *
  * Invariant: the first and the last value are exactly those given. Only the four operations and fma() are used, so
- * the values are the same on every machine. All is carried to 106 bits, and ends are taken for the decimals that were
- * typed, so that the values are those that one would type: 0.15 in 0:1:101, and decades in equal ratios.
+ * the values are the same on every machine. Numbers are carried to 106 bits, and an end counts as the decimal that was
+ * typed, so that the values equal typed ones: 0.15 in 0:1:101, powers of ten in log:0.001:1:4.
  */
 #include "cli/range.h"
 
@@ -46,7 +46,7 @@ static range_pair root(range_pair q, uint64_t n)
 {
     double low = 1, high = q.high;
     for (double middle; (middle = low + (high - low) / 2) > low && middle < high;) {
-        /* an overflow is not a number in 106 bits, and not below q */
+        /* an overflow gives NaN, which is not below q */
         if (power((range_pair){middle, 0}, n).high < q.high)
             low = middle;
         else
@@ -61,8 +61,7 @@ static range_pair root(range_pair q, uint64_t n)
     return r;
 }
 
-/* The shortest decimal that reads as `value`, which is what was typed: 0.1 is a tenth. Nobody types more extreme
- * ones. */
+/* The shortest decimal that reads as `value`, which is the typed one: 0.1 is a tenth. Beyond 1e±280, `value`. */
 static range_pair as_typed(double value)
 {
     if (!(fabs(value) > 1e-280 && fabs(value) < 1e280)) return (range_pair){value, 0};
@@ -86,9 +85,9 @@ static range_pair as_typed(double value)
             double *part = &digits[count-- > 8];
             *part = *part * 10 + (*s - '0');
         }
-    range_pair whole = sum(copysign(digits[1] * 1e8, value), copysign(digits[0], value)),
+    range_pair all = sum(copysign(digits[1] * 1e8, value), copysign(digits[0], value)),
                scale = power((range_pair){10, 0}, (uint64_t)abs(power_of_ten));
-    return power_of_ten < 0 ? quotient(whole, scale) : product(whole, scale);
+    return power_of_ten < 0 ? quotient(all, scale) : product(all, scale);
 }
 
 range range_linear(double from, double to, uint64_t count)
@@ -109,7 +108,7 @@ static double between(const range *r, uint64_t k)
     range_pair n = {(double)r->last, 0}, a = product(r->low, (range_pair){(double)(r->last - k), 0}),
                b = product(r->high, (range_pair){(double)k, 0});
     range_pair s = sum(a.high, b.high), v = sum(s.high, s.low + (a.low + b.low));
-    /* what 106 bits leave of a difference that is 0 */
+    /* a difference that is 0 but for the rounding to 106 bits */
     if (fabs(v.high) < 0x1p-99 * (fabs(a.high) + fabs(b.high))) return 0;
     return quotient(v, n).high;
 }

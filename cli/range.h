@@ -1,4 +1,4 @@
-/* Values at equal distances or in equal ratios, each rounded once. */
+/* Linearly or logarithmically spaced values, each rounded once. */
 #ifndef CLI_RANGE_H
 #define CLI_RANGE_H
 
@@ -12,10 +12,9 @@ typedef struct range_pair {
 
 typedef struct range {
     double from, to;
-    uint64_t last; /* the number of the last value; the first is 0 */
+    uint64_t last; /* the index of the last value; the first is 0 */
     bool logarithmic;
-    /* the ends, as the decimals they were typed; logarithmic: the smaller end and the ratio, without sign */
-    range_pair low, high;
+    range_pair low, high; /* the ends as typed decimals; logarithmic: the smaller |end| and the ratio */
 } range;
 
 range range_linear(double from, double to, uint64_t count);

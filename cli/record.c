@@ -1,25 +1,24 @@
 /* Columns of a run kept in memory.
  *
- * Invariant: the arrays have their full length from the start, so pointers into them are good for the life of the
- * record.
+ * Invariant: the arrays have their full length from the start, so pointers into them are valid for the record's life.
  */
 #include "cli/record.h"
 
 #include <stdlib.h>
 
-record record_for(int64_t steps, int64_t looks)
+record record_for(int64_t steps, int64_t samples)
 {
     record r = {0};
-    if (looks <= 1) {
+    if (samples <= 1) {
         r.room = 1;
         return r;
     }
-    r.stride = steps / looks + 1;
+    r.stride = steps / samples + 1;
     r.room = (size_t)(steps / r.stride) + 2;
     return r;
 }
 
-double *record_want(record *r, size_t column)
+double *record_add(record *r, size_t column)
 {
     size_t *columns = realloc(r->columns, (r->count + 1) * sizeof *columns);
     if (!columns) return NULL;
@@ -44,9 +43,9 @@ static motus_status take(void *context, const double *values, motus_error *err)
     return MOTUS_OK;
 }
 
-walk_watcher record_watcher(record *r)
+walk_observer record_observer(record *r)
 {
-    return (walk_watcher){.stride = r->stride, .columns = r->columns, .count = r->count, .take = take, .context = r};
+    return (walk_observer){.stride = r->stride, .columns = r->columns, .count = r->count, .take = take, .context = r};
 }
 
 void record_free(record *r)

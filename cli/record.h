@@ -1,4 +1,4 @@
-/* Columns of a run kept in memory, one array each, at a bounded number of steps. */
+/* Columns of a run in memory, one array each, at a bounded number of steps. */
 #ifndef CLI_RECORD_H
 #define CLI_RECORD_H
 
@@ -12,11 +12,11 @@ typedef struct record {
     int64_t stride;
 } record;
 
-/* For at most `looks` looks at a run of `steps` steps; looks = 1: at the end only. */
-record record_for(int64_t steps, int64_t looks);
-/* One more column: its array, which stays where it is. NULL when there is no memory. */
-double *record_want(record *, size_t column);
-walk_watcher record_watcher(record *);
+/* For at most `samples` samples of a run of `steps` steps; 1: at the end only. */
+record record_for(int64_t steps, int64_t samples);
+/* Adds a column and returns its array, which is never moved. NULL: out of memory. */
+double *record_add(record *, size_t column);
+walk_observer record_observer(record *);
 void record_free(record *);
 
 #endif

@@ -1,11 +1,12 @@
 /* motus run: one integration.
  *
- * Invariant: files get their names at the very end, all of them after the last thing that can fail, so that a run
- * either leaves everything it was asked for or nothing. The motion does not depend on what is looked at.
+ * Invariant: files get their names after the last call that can fail, so that a run leaves all of them or none. The
+ * motion does not depend on what is observed.
  */
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/csv.h"
-#include "cli/drift.h"
+#include "cli/deviation.h"
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
@@ -27,7 +28,7 @@ typedef struct job {
     stop_progress progress;
     double start, until;
     csv csv;
-    drift drift;
+    deviation deviation;
     figure figure;
     file_out files[FILES];
 } job;
@@ -37,19 +38,19 @@ static motus_status check_names(const options *o, motus_error *err)
     const char *in[] = {o->operand, o->restart}, *out[] = {o->output, o->plot, o->save_state};
     for (size_t i = 0; i < 3; i++) {
         for (size_t k = 0; out[i] && k < 2; k++)
-            /* a restart state may be replaced by the next one; standard input and output share the name - */
+            /* --save-state may replace the file of --restart; - is both standard input and standard output */
             if (in[k] && strcmp(out[i], "-") != 0 && !(i == 2 && k == 1) && file_same(out[i], in[k]))
-                return complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
+                return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", in[k]);
         for (size_t k = i + 1; out[i] && k < 3; k++)
             if (out[k] && file_same(out[i], out[k]))
-                return complain(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
+                return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
     }
     if (o->json && o->plot && strcmp(o->plot, "-") == 0)
-        return complain(err, MOTUS_ARGUMENT, "--json and --plot - both want standard output");
+        return fail(err, MOTUS_ARGUMENT, "--json and --plot - both write to standard output");
     if (o->save_state && strcmp(o->save_state, "-") == 0)
-        return complain(err, MOTUS_ARGUMENT, "--save-state needs the name of a file");
+        return fail(err, MOTUS_ARGUMENT, "--save-state needs the name of a file");
     if (o->operand && o->restart && strcmp(o->operand, "-") == 0 && strcmp(o->restart, "-") == 0)
-        return complain(err, MOTUS_ARGUMENT, "model and restart state cannot both be standard input");
+        return fail(err, MOTUS_ARGUMENT, "model and restart state cannot both be standard input");
     return o->plot ? plot_check(o->plot, err) : MOTUS_OK;
 }
 
@@ -64,7 +65,7 @@ static motus_status restart(job *j, motus_error *err)
     return status;
 }
 
-/* The library keeps the motion apart from a last, shortened step: the state goes on along the same grid of steps. */
+/* The library saves the state before a shorter last step, so that a restarted run has the same grid of steps. */
 static motus_status save(job *j, motus_error *err)
 {
     const char *text;
@@ -93,7 +94,7 @@ static motus_status begin(job *j, motus_error *err)
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
     j->until = load_until(&j->model, o);
-    status = drift_begin(&j->drift, &j->model, j->run, err);
+    status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
     if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, err);
     const char *const names[FILES] = {o->output, o->plot, o->save_state};
@@ -103,13 +104,13 @@ static motus_status begin(job *j, motus_error *err)
     return status;
 }
 
-/* When the rows of the CSV come: the options say it, or the model, or every step. */
-static walk_watcher rows_watcher(job *j)
+/* The rows of the CSV: as the options say, else the model, else every step. */
+static walk_observer rows_observer(job *j)
 {
     const options *o = j->options;
     motus_settings settings = motus_default_settings();
     motus_settings_of(j->model.system, &settings);
-    walk_watcher w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
+    walk_observer w = {.columns = j->csv.columns, .count = j->csv.count, .take = csv_row, .context = &j->csv};
     bool ours = o->every_time > 0 || o->every_steps > 0;
     double period = ours ? o->every_time : settings.every_time > 0 ? settings.every_time : 0;
     int64_t steps = ours ? o->every_steps : settings.every_steps;
@@ -120,23 +121,24 @@ static walk_watcher rows_watcher(job *j)
 
 static motus_status go(job *j, motus_error *err)
 {
-    walk_watcher watchers[3 + FIGURE_WATCHERS];
+    walk_observer observers[3 + FIGURE_OBSERVERS];
     size_t count = 0;
     int64_t steps = motus_run_steps_total(j->run);
-    if (j->drift.count > 0) watchers[count++] = drift_watcher(&j->drift, drift_stride(&j->model, steps));
+    if (j->deviation.count > 0)
+        observers[count++] = deviation_observer(&j->deviation, deviation_stride(&j->model, steps));
     if (j->options->output) {
-        watchers[count] = rows_watcher(j);
-        if (j->drift.count > 0 && watchers[count].stride > 0) {
-            watchers[count + 1] = drift_watcher(&j->drift, watchers[count].stride);
+        observers[count] = rows_observer(j);
+        if (j->deviation.count > 0 && observers[count].stride > 0) {
+            observers[count + 1] = deviation_observer(&j->deviation, observers[count].stride);
             count++;
         }
         count++;
     }
     if (j->options->plot) {
-        figure_watchers(&j->figure, watchers + count);
-        count += FIGURE_WATCHERS;
+        figure_observers(&j->figure, observers + count);
+        count += FIGURE_OBSERVERS;
     }
-    return walk(j->run, j->start, j->until, watchers, count, err);
+    return walk(j->run, j->start, j->until, observers, count, err);
 }
 
 static motus_status finish(job *j, double seconds, motus_error *err)
@@ -145,7 +147,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
     if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
-    summary s = {&j->model, o, j->run, &j->drift, j->start, seconds};
+    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds};
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
@@ -153,11 +155,10 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     if (!status) status = file_flush_output(err);
     for (int i = 0; !status && i < FILES; i++) status = file_keep(&j->files[i], err);
     if (!status && !o->quiet && o->plot && j->figure.left_out)
-        complain_note("the figure shows a choice: there is more than it has room for");
+        complain_note("the figure shows only some cells or panels: there are more than it has room for");
     return status;
 }
 
-/* The text of the compiled machine, for reading. */
 static motus_status emit(const options *o, motus_error *err)
 {
     load model;
@@ -188,7 +189,7 @@ motus_status run_verb(const options *o, motus_error *err)
     }
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);
-    drift_free(&j.drift);
+    deviation_free(&j.deviation);
     csv_free(&j.csv);
     motus_run_destroy(j.run);
     load_free(&j.model);

@@ -1,11 +1,12 @@
-/* The fragment of an address of the lab.
+/* The fragment of a link to the lab.
  *
- * Invariant: whatever the model and the command line hold, the fragment is made of A-Z a-z 0-9 - . _ ~ ( ) , * % = &
- * alone, and decoding it gives the same bytes back, which are UTF-8.
+ * Invariant: the fragment consists of # A-Z a-z 0-9 - . _ ~ ( ) , * % = & alone, and decoding it gives the same bytes,
+ * which are UTF-8.
  */
 #include "cli/share.h"
 
 #include "base/utf8.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/text.h"
@@ -13,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* key=value; the keys are letters */
 typedef struct item {
     char key;
     const char *value;
@@ -52,7 +52,7 @@ char *share_file_url(const char *path)
     return url;
 }
 
-/* The first byte that is no UTF-8, or NULL. */
+/* The first byte that is not UTF-8, or NULL. */
 static const char *foreign(const char *s)
 {
     uint32_t c;
@@ -67,13 +67,13 @@ static motus_status check_item(const item *i, const options *o, size_t *total, m
 {
     const char *bad = foreign(i->value);
     if (bad && i->key == 'm')
-        return load_complain(i->value, bad, o->operand, "a byte that is not UTF-8, and has no place in a link", err);
-    if (bad) return complain(err, MOTUS_ARGUMENT, "%s: this is not UTF-8, and has no place in a link", i->value);
+        return load_complain(i->value, bad, o->operand, "this byte is not UTF-8, so it cannot be in a link", err);
+    if (bad) return fail(err, MOTUS_ARGUMENT, "%s: this is not UTF-8, so it cannot be in a link", i->value);
     *total += strlen(i->value);
     if (*total > SHARE_TEXT_MAX) {
-        complain(err, MOTUS_LIMIT, "the model and its settings are longer than %zu bytes: too long for a link",
-                 SHARE_TEXT_MAX);
-        complain_hint(err, "hand on the file itself, or leave out comments and tables");
+        fail(err, MOTUS_LIMIT, "the model and its settings are longer than %zu bytes: too long for a link",
+             SHARE_TEXT_MAX);
+        hint(err, "share the file itself, or remove comments and tables");
         return MOTUS_LIMIT;
     }
     return MOTUS_OK;
@@ -121,8 +121,8 @@ static char *methods_of(const options *o)
     return out;
 }
 
-/* A number of the command line as the language writes it: as it was typed where that says the same there, in digits
- * elsewhere (.5, 1.). */
+/* A number of the command line as the language reads it: as typed if the language reads the same value, else its
+ * digits (for .5 and 1.). */
 static void number_of(double value, const char *typed, char *out, size_t size)
 {
     motus_text_def def = motus_default_text();
@@ -174,8 +174,7 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
     return status;
 }
 
-/* What compare would find wrong before it computes: a method that nobody knows. Any method that fits then stands for
- * the others. */
+/* Checks that the methods exist, as compare would; *fits: one that admits the model, for check_run(). */
 static motus_status check_methods(const load *m, const options *o, const char **fits, motus_error *err)
 {
     const motus_method *found;
@@ -188,7 +187,7 @@ static motus_status check_methods(const load *m, const options *o, const char **
     return status;
 }
 
-/* What a run would find wrong before its first step. */
+/* Checks the request by creating the run that it describes. */
 static motus_status check_run(const load *m, const options *o, motus_error *err)
 {
     motus_run_def def = motus_default_run();
@@ -196,7 +195,7 @@ static motus_status check_run(const load *m, const options *o, motus_error *err)
     def.method = o->method;
     def.step = o->step;
     def.until = o->until;
-    def.machine = "interpreter"; /* nothing is to be compiled for this */
+    def.machine = "interpreter"; /* compiles nothing */
     motus_status status = o->verb == VERB_COMPARE ? check_methods(m, o, &def.method, err) : MOTUS_OK;
     if (!status) status = motus_run_create(m->system, &def, &run, err);
     motus_run_destroy(run);

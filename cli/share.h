@@ -1,10 +1,9 @@
-/* The fragment of an address of the lab: a model and what a command says beyond it, as data.
+/* The fragment of a link to the lab: a model and the settings of a command, as data.
  *
  *     #v=1&m=<model>&s=<name=expression>&s=…&a=<method,method>&h=<step>&T=<until>
  *
- * In this order; only v, the version, is always there. Values are UTF-8, percent-encoded but for A-Z a-z 0-9 - . _ ~
- * ( ) , * so that a fragment can leave neither the quotes of a shell nor those of HTML, where & alone has to be
- * written &amp;.
+ * In this order; all but v, the version, are optional. Values are UTF-8, percent-encoded except A-Z a-z 0-9 - . _ ~
+ * ( ) , * so that a fragment cannot end a quoted string of a shell or of HTML, where only & has to be escaped.
  */
 #ifndef CLI_SHARE_H
 #define CLI_SHARE_H
@@ -17,7 +16,7 @@
 motus_status share_fragment(const load *, const options *, char **fragment, motus_error *);
 /* file:// and an absolute path; NULL: out of memory. The caller frees it. */
 char *share_file_url(const char *path);
-/* run --share and compare --share: the fragment in place of the computation. */
+/* run --share and compare --share: prints the fragment instead of computing. */
 motus_status share_verb(const options *, motus_error *);
 
 #endif

@@ -1,6 +1,6 @@
 /* Another program as a child process.
  *
- * Invariant: there is no shell; arguments[0] is the program, and each argument arrives as it is.
+ * Invariant: there is no shell, so each argument arrives unchanged.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/spawn.h"

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
-/* Starts the program of that name, by PATH unless it has a slash, with these descriptors as its input, output and
- * messages. SIGPIPE, which motus ignores, ends it as usual. apart: in a process group of its own, for which Ctrl-C
- * in the terminal is not meant. 0, or the number of the error. */
+/* Starts the program arguments[0], found by PATH unless it has a slash, with these descriptors as its standard input,
+ * output and error. SIGPIPE, which motus ignores, has its default action there. apart: in a process group of its own,
+ * so that Ctrl-C does not reach it. Returns 0 or an errno. */
 int spawn_program(pid_t *, char *const arguments[], const int streams[3], bool apart);
 
 #endif

@@ -1,7 +1,8 @@
-/* Requests to stop, and progress.
+/* Signals that stop the program, and progress.
  *
- * Invariant: a handler only notes the signal; work ends at the next look, temporary files are removed, and then the
- * program dies of that same signal, so that a shell and its loops stop as well. A second signal kills at once.
+ * Invariant: the handler only stores the signal; work ends when it next asks stop_requested(), temporary files are
+ * removed, and then the program raises that signal again, so that a shell and its loops stop as well. A second signal
+ * kills at once.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/stop.h"
@@ -12,37 +13,37 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The one variable of the program that changes: a signal handler has no other way to speak. */
-static volatile sig_atomic_t asked;
+/* The program's one global that changes: a signal handler has no other way to report. */
+static volatile sig_atomic_t requested;
 
-static void note(int number) { asked = number; }
+static void store(int number) { requested = number; }
 
-void stop_watch(void)
+void stop_catch_signals(void)
 {
-    static const int asking[] = {SIGINT, SIGTERM, SIGHUP};
+    static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction action = {0}, before;
     sigemptyset(&action.sa_mask);
-    action.sa_handler = note;
+    action.sa_handler = store;
     action.sa_flags = (int)SA_RESETHAND;
-    for (size_t i = 0; i < sizeof asking / sizeof *asking; i++)
-        if (sigaction(asking[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(asking[i], &action, NULL);
-    /* a reader that went away shows as a failed write, after which temporary files can still be removed */
+    for (size_t i = 0; i < sizeof caught / sizeof *caught; i++)
+        if (sigaction(caught[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(caught[i], &action, NULL);
+    /* with SIGPIPE ignored, a closed pipe is a failed write, after which temporary files can be removed */
     action.sa_handler = SIG_IGN;
     action.sa_flags = 0;
     sigaction(SIGPIPE, &action, NULL);
 }
 
-bool stop_requested(void) { return asked != 0; }
+bool stop_requested(void) { return requested != 0; }
 
-void stop_reader_gone(void) { asked = SIGPIPE; }
+void stop_reader_gone(void) { requested = SIGPIPE; }
 
 void stop_obey(void)
 {
-    if (!asked) return;
+    if (!requested) return;
     fflush(stderr);
-    signal((int)asked, SIG_DFL);
-    raise((int)asked);
+    signal((int)requested, SIG_DFL);
+    raise((int)requested);
 }
 
 double stop_clock(void)
@@ -73,11 +74,11 @@ static void show(const stop_progress *p, double fraction, double spent)
 
 int stop_progress_hook(void *context, double fraction)
 {
-    enum { PATIENCE_MS = 500, REFRESH_MS = 100 };
+    enum { FIRST_MS = 500, REFRESH_MS = 100 };
     stop_progress *p = context;
     if (p->terminal) {
         double now = stop_clock(), spent = now - p->began;
-        if (spent * 1000 > PATIENCE_MS && (now - p->shown) * 1000 > REFRESH_MS) {
+        if (spent * 1000 > FIRST_MS && (now - p->shown) * 1000 > REFRESH_MS) {
             show(p, p->span > 0 ? p->from + p->span * fraction : fraction, spent);
             p->shown = now;
         }

@@ -1,33 +1,34 @@
-/* Ctrl-C and other requests to stop, and the line of progress that long work shows. */
+/* Ctrl-C and other signals that stop the program, and the progress line of long work. */
 #ifndef CLI_STOP_H
 #define CLI_STOP_H
 
 #include <stdbool.h>
 
-/* From now on the signals ask, they do not kill: to be called where work begins that looks at the answer (the hook
- * below, stop_requested()). Before, while a model is read, they kill as ever. */
-void stop_watch(void);
+/* From now on SIGINT, SIGTERM and SIGHUP set stop_requested() instead of killing. To be called where work begins that
+ * asks for it; before, while a model is read, they kill. */
+void stop_catch_signals(void);
 bool stop_requested(void);
-void stop_reader_gone(void); /* whoever read standard output went away: to be treated like SIGPIPE */
-/* When a signal asked: die of it, as whoever sent it expects. Call after everything is cleaned up; else returns. */
+void stop_reader_gone(void); /* standard output was closed by its reader: request a stop as if by SIGPIPE */
+/* If a stop was requested, raises its signal again with the default action, so that the parent process learns of it.
+ * Call when everything is cleaned up. */
 void stop_obey(void);
 
-/* Progress of long work on standard error, when that is a terminal. */
+/* The progress of long work on standard error, if that is a terminal. */
 typedef struct stop_progress {
     const char *what;
     double began, shown; /* seconds; shown 0: not yet */
     bool terminal;
-    /* Work in parts: the hook's fraction is of a part that begins at `from` and has the length `span` of the whole,
-     * of which `before` was done when this began. span 0: one part. With a unit, a bar and the rate are shown:
-     * `amount` of it is the whole. */
-    double from, span, before, amount;
-    const char *unit;
+    /* Work in parts: the hook's fraction is of the present part, which goes from `from` to `from` + `span` of all the
+     * work; `before` of it was done by an earlier command. span 0: one part. */
+    double from, span, before;
+    const char *unit; /* with a unit, a bar and the rate are shown, too */
+    double amount;    /* of the unit: all the work */
 } stop_progress;
 stop_progress stop_progress_begin(const char *what, bool quiet);
-/* The library's hook: context is a stop_progress; other than 0 when a signal asks to stop. */
+/* The library's progress hook: context is a stop_progress; not 0 if a stop was requested. */
 int stop_progress_hook(void *context, double fraction);
 void stop_progress_end(stop_progress *);
 
-double stop_clock(void); /* seconds of a clock that never jumps */
+double stop_clock(void); /* seconds of a monotonic clock */
 
 #endif

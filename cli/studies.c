@@ -1,9 +1,10 @@
-/* What compare and converge do alike.
+/* What compare and converge share.
  *
  * Invariant: a picture that cannot be drawn, or would overwrite the model, is refused before anything is computed.
  */
 #include "cli/studies.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/plot.h"
 #include "cli/text.h"
@@ -13,7 +14,7 @@ motus_status studies_begin(studies *s, const char *what, const options *o, motus
     *s = (studies){.options = o};
     motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
-        status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+        status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
     if (status) return status;
     *def = motus_default_study();
@@ -33,7 +34,7 @@ void studies_title(const studies *s, const char *reference, double error)
     const bool colours = complain_colours(1);
     printf("%s%s%s, errors against ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
     text_put(stdout, reference ? reference : "nothing");
-    if (error > 0) printf(" (itself good to %.1g)", error);
+    if (error > 0) printf(" (error %.1g)", error);
     putchar('\n');
 }
 

@@ -1,4 +1,4 @@
-/* What compare and converge do alike: load a model, study it, show what was found. */
+/* What compare and converge share: load a model, study it, show the result. */
 #ifndef CLI_STUDIES_H
 #define CLI_STUDIES_H
 
@@ -12,10 +12,10 @@ typedef struct studies {
     stop_progress progress;
 } studies;
 
-/* Loads the model and fills the definition. The progress is shown as that of `what` until stop_progress_end(). */
+/* Loads the model and fills the definition. Progress is shown under the name `what` until stop_progress_end(). */
 motus_status studies_begin(studies *, const char *what, const options *, motus_study_def *, motus_error *);
 
-/* The first line of the tables: of what, and against what it is judged. */
+/* Prints the first line of the tables: the model and the reference. */
 void studies_title(const studies *, const char *reference, double error);
 
 typedef struct studies_ways {
@@ -24,7 +24,8 @@ typedef struct studies_ways {
     motus_status (*tables)(const studies *, const void *result, motus_error *);
 } studies_ways;
 
-/* The picture, then JSON or tables, so that nothing is printed of what failed; the picture gets its name last. */
+/* Draws the picture, then prints JSON or tables, so that nothing is printed if the picture fails; the picture gets its
+ * name last. */
 motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
 
 #endif

@@ -1,10 +1,11 @@
-/* What `motus run` says about a finished run.
+/* What `motus run` prints of a finished run.
  *
- * Invariant: the values shown are read from the run by column, so that they are those of the CSV; all of them are
- * read before the first is printed, so that a failure leaves no half of an answer.
+ * Invariant: values are read from the run by column, so that they are those of the CSV; all are read before the first
+ * is printed, so that a failure prints nothing.
  */
 #include "cli/summary.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
 #include "cli/table.h"
@@ -14,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHOWN = 12 }; /* numbers of one name, for people */
+enum { SHOWN = 12 }; /* numbers of one name in a table */
 
 static motus_status values_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
 {
@@ -31,7 +32,7 @@ static motus_status values_of(const summary *s, size_t first, size_t count, doub
     return status;
 }
 
-/* ---- for people ---- */
+/* ---- tables ---- */
 
 static size_t exact_column(const summary *s, size_t variable, bool velocity, size_t offset)
 {
@@ -43,22 +44,22 @@ static size_t exact_column(const summary *s, size_t variable, bool velocity, siz
     return p.first + offset;
 }
 
-/* Rows of columns [first, first + count), at most SHOWN of them. */
+/* Adds rows for columns [first, first + count), at most SHOWN of them. */
 static motus_status rows(const summary *s, table *t, size_t first, size_t count, size_t variable, bool velocity,
                          bool state, motus_error *err)
 {
-    bool truth = state && motus_has_exact(s->model->system);
+    bool exact = state && motus_has_exact(s->model->system);
     for (size_t k = 0; k < count && k < SHOWN; k++) {
         motus_column c = motus_default_column();
         double value[2] = {NAN, NAN};
-        size_t columns[2] = {first + k, truth ? exact_column(s, variable, velocity, k) : 0};
+        size_t columns[2] = {first + k, exact ? exact_column(s, variable, velocity, k) : 0};
         motus_status status = motus_column_at(s->model->system, columns[0], &c);
-        if (status) return complain(err, status, "column %zu has no name", columns[0]);
+        if (status) return fail(err, status, "column %zu has no name", columns[0]);
         status = motus_run_values(s->run, columns, columns[1] ? 2 : 1, value, err);
         if (status) return status;
         table_cell(t, c.name);
         table_exact(t, value[0]);
-        if (!truth) continue;
+        if (!exact) continue;
         if (columns[1])
             table_exact(t, value[1]);
         else
@@ -69,18 +70,18 @@ static motus_status rows(const summary *s, table *t, size_t first, size_t count,
         char more[64];
         snprintf(more, sizeof more, "… and %zu more", count - SHOWN);
         table_cell(t, more);
-        for (int i = 0; i < (truth ? 3 : 1); i++) table_cell(t, "");
+        for (int i = 0; i < (exact ? 3 : 1); i++) table_cell(t, "");
     }
     return MOTUS_OK;
 }
 
 static table *state_table(const summary *s, motus_error *err, motus_status *status)
 {
-    bool truth = motus_has_exact(s->model->system);
-    table *t = table_create(truth ? "lllr" : "ll");
+    bool exact = motus_has_exact(s->model->system);
+    table *t = table_create(exact ? "lllr" : "ll");
     table_cell(t, "state");
     table_cell(t, "value");
-    if (truth) {
+    if (exact) {
         table_cell(t, "exact");
         table_cell(t, "error");
     }
@@ -112,19 +113,19 @@ static table *quantity_table(const summary *s, motus_error *err, motus_status *s
 
 static table *invariant_table(const summary *s)
 {
-    if (s->drift->count == 0) return NULL;
+    if (s->deviation->count == 0) return NULL;
     table *t = table_create("lllr");
     table_cell(t, "invariant");
     table_cell(t, "at the start");
     table_cell(t, "at the end");
     table_cell(t, "largest drift");
-    for (size_t k = 0; k < s->drift->count && k < SHOWN; k++) {
+    for (size_t k = 0; k < s->deviation->count && k < SHOWN; k++) {
         motus_column c = motus_default_column();
-        bool known = motus_column_at(s->model->system, s->drift->columns[k], &c) == MOTUS_OK;
+        bool known = motus_column_at(s->model->system, s->deviation->columns[k], &c) == MOTUS_OK;
         table_cell(t, known ? c.name : "");
-        table_exact(t, s->drift->initial[k]);
-        table_exact(t, s->drift->final[k]);
-        table_number(t, s->drift->most[k], -2);
+        table_exact(t, s->deviation->initial[k]);
+        table_exact(t, s->deviation->final[k]);
+        table_number(t, s->deviation->most[k], -2);
     }
     return t;
 }
@@ -150,7 +151,7 @@ static void head(const summary *s, FILE *out, bool colours)
 motus_status summary_print(const summary *s, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    /* with the CSV on standard output, this is a message */
+    /* if the CSV is on standard output, the summary is a message */
     bool data = s->options->output && strcmp(s->options->output, "-") == 0;
     FILE *out = data ? stderr : stdout;
     bool colours = complain_colours(data ? 2 : 1), printed = true;
@@ -172,7 +173,7 @@ motus_status summary_print(const summary *s, motus_error *err)
 
 /* ---- JSON ---- */
 
-/* One number of a vector or a scalar, or a list of components. */
+/* One cell: a number, or a list of components. */
 static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector,
                       size_t *left)
 {
@@ -246,10 +247,10 @@ static void invariants_json(json *j, const summary *s)
         const char *name = motus_invariant_name(s->model->system, k, &numbers);
         double most = 0;
         for (size_t i = at; i < at + numbers; i++)
-            if (!(s->drift->most[i] <= most) && !isnan(most)) most = s->drift->most[i];
+            if (!(s->deviation->most[i] <= most) && !isnan(most)) most = s->deviation->most[i];
         json_open(j, name, '{');
-        numbers_json(j, "initial", s->drift->initial + at, numbers);
-        numbers_json(j, "final", s->drift->final + at, numbers);
+        numbers_json(j, "initial", s->deviation->initial + at, numbers);
+        numbers_json(j, "final", s->deviation->final + at, numbers);
         json_number(j, "max_drift", most);
         json_close(j, '}');
         at += numbers;

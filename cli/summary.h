@@ -1,8 +1,8 @@
-/* What `motus run` says about a finished run: for people, or as JSON. */
+/* What `motus run` prints of a finished run: tables, or JSON. */
 #ifndef CLI_SUMMARY_H
 #define CLI_SUMMARY_H
 
-#include "cli/drift.h"
+#include "cli/deviation.h"
 #include "cli/load.h"
 
 #define SUMMARY_STATE_MAX ((size_t)1000000) /* numbers of the state in JSON */
@@ -11,7 +11,7 @@ typedef struct summary {
     const load *model;
     const options *options;
     motus_run *run;
-    const drift *drift;
+    const deviation *deviation;
     double start, seconds;
 } summary;
 

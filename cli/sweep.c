@@ -1,10 +1,11 @@
 /* motus sweep: one model, many trajectories.
  *
- * Invariant: what is in memory is one batch, whatever the number of trajectories; the rows of a batch are written
- * before the next begins; no file is touched before everything that was asked for is known to be right.
+ * Invariant: one batch of trajectories is in memory, however many there are; its rows are written before the next
+ * begins; no file is touched before the request is checked.
  */
 #include "cli/sweep.h"
 
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/stop.h"
@@ -17,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A batch: as large as these allow, and so long that a kill costs little. */
+/* The bounds of a batch; its duration bounds the work that a kill loses. */
 enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
 typedef struct batch {
@@ -49,7 +50,7 @@ static void batch_free(batch *b)
     free(b->room);
 }
 
-/* Larger or smaller, in whole lanes, towards the time that a batch should take. */
+/* Changes the count, a multiple of the lanes, towards BATCH_MS for a batch. */
 static void batch_adapt(batch *b, double seconds)
 {
     double wanted = (double)b->count * fmin(8, BATCH_MS * 1e-3 / fmax(seconds, 1e-6));
@@ -57,15 +58,15 @@ static void batch_adapt(batch *b, double seconds)
     b->count = blocks * b->lanes < b->most ? blocks * b->lanes : b->most;
 }
 
-static motus_status look_every(sweep *s, motus_error *err)
+static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
     s->every = o->every_steps > 0 ? o->every_steps : 1;
     if (o->every_time > 0) {
         s->every = walk_steps_of(o->every_time, s->step);
         if (s->every <= 0) {
-            complain(err, MOTUS_ARGUMENT, "--every %g: this is no whole number of steps of %g", o->every_time, s->step);
-            complain_hint(err, "a sweep looks at steps: --every \"10 steps\"");
+            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a whole number of steps of %g", o->every_time, s->step);
+            hint(err, "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"");
             return MOTUS_ARGUMENT;
         }
     }
@@ -103,7 +104,7 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
 static motus_status check_options(const options *o, motus_error *err)
 {
     if (o->threads > INT_MAX || o->lanes > INT_MAX)
-        return complain(err, MOTUS_ARGUMENT, "%s is too large", o->threads > INT_MAX ? "--threads" : "--lanes");
+        return fail(err, MOTUS_ARGUMENT, "%s is too large", o->threads > INT_MAX ? "--threads" : "--lanes");
     return sweep_file_check(o, err);
 }
 
@@ -115,7 +116,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     if (!status) status = grid_read(&s->grid, o, err);
     for (size_t k = 0; !status && o->output && k < s->grid.count; k++)
         if (s->grid.axes[k].path && file_same(s->grid.axes[k].path, o->output))
-            status = complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
+            status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (status) return status;
     motus_settings settings = motus_default_settings();
@@ -126,7 +127,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
         return complain(err, MOTUS_ARGUMENT,
                         "--until is one end for all, and --vary until one for each: leave one out");
     s->columns = 2 + s->grid.count + s->records.count;
-    status = look_every(s, err);
+    status = read_every(s, err);
     if (!status) status = create(s, progress, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
@@ -152,7 +153,7 @@ static motus_status go(sweep *s, sweep_file *f, stop_progress *p, motus_error *e
         status = motus_ensemble_run(s->ensemble, count, (const double *const *)b.values, b.results, b.stopped, err);
         if (!status) status = sweep_file_rows(f, count, b.values, b.results, b.stopped, err);
         if (!status && f->rows < s->grid.total && stop_progress_hook(p, 1))
-            status = complain(err, MOTUS_CANCELLED, "cancelled");
+            status = fail(err, MOTUS_CANCELLED, "cancelled");
         batch_adapt(&b, stop_clock() - began);
     }
     batch_free(&b);
@@ -183,7 +184,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
 static void report(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble *e = s->ensemble;
-    bool output = strcmp(f->path, "-") == 0; /* then this is a message */
+    bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX];
     double seconds = motus_ensemble_seconds(e), work = (double)(f->rows - f->found) * (double)motus_ensemble_steps(e);
@@ -198,7 +199,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
             motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
             motus_ensemble_threads(e) == 1 ? "" : "s");
     fprintf(out, "%llu trajectories", (unsigned long long)s->grid.total);
-    if (f->found > 0) fprintf(out, ", %llu of them were there", (unsigned long long)f->found);
+    if (f->found > 0) fprintf(out, ", %llu of them found in the file", (unsigned long long)f->found);
     fprintf(out, ": %s, integration %s", all, inside);
     if (work > 0 && seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", seconds / work * 1e9);
     putc('\n', out);
@@ -208,11 +209,10 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     }
 }
 
-/* What to say of rows that are there when the rest could not be made. */
-static void say_unfinished(const sweep *s, const sweep_file *f)
+static void note_unfinished(const sweep *s, const sweep_file *f)
 {
     if (f->regular && f->rows < s->grid.total)
-        complain_note("%llu of %llu trajectories are in %s; the same command with --resume goes on",
+        complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
                       (unsigned long long)f->rows, (unsigned long long)s->grid.total, f->path);
 }
 
@@ -228,7 +228,7 @@ static motus_status finish(const sweep *s, sweep_file *f, double began, motus_er
         report(s, f, wall);
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
-        complain_note("%llu of %llu trajectories left the finite numbers: their column `stopped` says when",
+        complain_note("%llu of %llu trajectories diverged: their column `stopped` has the time",
                       (unsigned long long)f->stopped, (unsigned long long)s->grid.total);
     return status;
 }
@@ -249,7 +249,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
         if (!status)
             status = finish(&s, &f, began, err);
         else if (open)
-            say_unfinished(&s, &f);
+            note_unfinished(&s, &f);
     }
     sweep_file_close(&f);
     free(s.head);

@@ -1,11 +1,12 @@
-/* The rows of a sweep, written as they come.
+/* The file of a sweep's rows.
  *
- * Invariant: whatever ends the program, the file holds its head and whole rows, but for a torn last one after a kill
- * or a power cut, which --resume cuts off. A write that failed is taken back to the last whole row. A .npy says in
- * its head how many rows are there, and says so after they are.
+ * Invariant: however the program ends, the file holds its head and complete rows; only a kill or a power cut may leave
+ * an incomplete last one, which --resume removes. After a failed write the file is cut to its last complete row. The
+ * head of a .npy has the number of rows; it is written after them.
  */
 #define _XOPEN_SOURCE 700
 #define _DEFAULT_SOURCE
+#include "base/error.h"
 #include "cli/complain.h"
 #include "base/decimal.h"
 #include "cli/file.h"
@@ -29,38 +30,38 @@ static bool ends_with(const char *s, const char *end)
     return n >= m && strcmp(s + n - m, end) == 0;
 }
 
-/* What can be said of the name alone, before anything is computed. */
+/* Checks the name before anything is computed. */
 motus_status sweep_file_check(const options *o, motus_error *err)
 {
     const char *path = o->output ? o->output : "-";
     bool output = strcmp(path, "-") == 0;
-    if (!*path) return complain(err, MOTUS_ARGUMENT, "the name of an output file is empty");
+    if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
     if (o->force && o->resume) {
-        complain(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
-        complain_hint(err, "--resume goes on with the file, --force replaces it");
+        fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
+        hint(err, "--resume continues the file, --force replaces it");
         return MOTUS_ARGUMENT;
     }
     if (output && (o->resume || o->force)) {
-        complain(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
-        complain_hint(err, "add -o FILE");
+        fail(err, MOTUS_ARGUMENT, "%s needs a file", o->resume ? "--resume" : "--force");
+        hint(err, "add -o FILE");
         return MOTUS_ARGUMENT;
     }
     if (output && o->json) {
-        complain(err, MOTUS_ARGUMENT, "--json and the rows both want standard output");
-        complain_hint(err, "write the rows to a file: -o sweep.csv");
+        fail(err, MOTUS_ARGUMENT, "--json and the rows both go to standard output");
+        hint(err, "write the rows to a file: -o sweep.csv");
         return MOTUS_ARGUMENT;
     }
     if (o->operand && !output && file_same(path, o->operand))
-        return complain(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     struct stat about;
     if (output || stat(path, &about) != 0) return MOTUS_OK;
-    if (S_ISDIR(about.st_mode)) return complain(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
+    if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
     if (!S_ISREG(about.st_mode) && (o->resume || ends_with(path, ".npy")))
-        return complain(err, MOTUS_ARGUMENT, "%s is no regular file: %s", path,
-                        o->resume ? "there is nothing to go on with" : "a .npy has to be one");
+        return fail(err, MOTUS_ARGUMENT, "%s is no regular file: %s", path,
+                    o->resume ? "there is nothing to continue" : "a .npy has to be one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
-        complain(err, MOTUS_ARGUMENT, "%s is there already", path);
-        complain_hint(err, "--resume goes on with it, --force replaces it");
+        fail(err, MOTUS_ARGUMENT, "%s exists", path);
+        hint(err, "--resume continues it, --force replaces it");
         return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;
@@ -70,10 +71,10 @@ static motus_status cannot_write(const sweep_file *f, int code, motus_error *err
 {
     bool output = strcmp(f->path, "-") == 0;
     if (code == EPIPE && output) stop_reader_gone();
-    return complain(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
+    return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* 0 or what went wrong; *written: how many bytes went out before. */
+/* Returns 0 or an errno; *written: how many bytes were written before it. */
 static int write_all(int descriptor, const char *bytes, size_t count, size_t *written)
 {
     for (*written = 0; *written < count;) {
@@ -84,8 +85,8 @@ static int write_all(int descriptor, const char *bytes, size_t count, size_t *wr
     return 0;
 }
 
-/* Rows that begin in `bytes` and are whole within `count` of them; *end: where the last ends. */
-static uint64_t whole_rows(const sweep_file *f, const char *bytes, size_t count, size_t *end)
+/* The number of complete rows in `count` bytes; *end: where the last of them ends. */
+static uint64_t complete_rows(const sweep_file *f, const char *bytes, size_t count, size_t *end)
 {
     uint64_t rows = 0;
     size_t width = f->sweep->columns * sizeof(double);
@@ -130,7 +131,7 @@ static motus_status put_npy_head(sweep_file *f, motus_error *err)
     return pwrite(f->descriptor, head, sizeof head, 0) == (ssize_t)sizeof head ? MOTUS_OK : cannot_write(f, errno, err);
 }
 
-/* The text beside a .npy; it is there before the first row. */
+/* Writes the head of a .npy to the .json beside it, before the first row. */
 static motus_status put_beside(const sweep_file *f, motus_error *err)
 {
     char *path = malloc(strlen(f->path) + sizeof ".json");
@@ -162,7 +163,7 @@ static motus_status put_head(sweep_file *f, motus_error *err)
 static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
 {
     motus_status status = sweep_resume(f, end, err);
-    if (status || f->bytes == 0) /* 0: not even a head is there */
+    if (status || f->bytes == 0) /* 0: the head is missing or incomplete */
         return status ? status : put_head(f, err);
     f->found = f->rows;
     if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0) return cannot_write(f, errno, err);
@@ -184,23 +185,23 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     }
     struct stat about;
     f->descriptor = open(f->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (f->descriptor < 0) /* a pipe or a printer is not to be read from */
+    if (f->descriptor < 0) /* a pipe or a device may not be readable */
         f->descriptor = open(f->path, O_WRONLY | O_CLOEXEC);
     if (f->descriptor < 0 || fstat(f->descriptor, &about) != 0) return cannot_write(f, errno, err);
     f->regular = S_ISREG(about.st_mode);
     if (!f->regular) return put_head(f, err);
     if (flock(f->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        complain(err, MOTUS_FILE, "%s is being written by another program", f->path);
-        complain_hint(err, "wait for that sweep, or stop it");
+        fail(err, MOTUS_FILE, "%s is being written by another program", f->path);
+        hint(err, "wait for that sweep, or stop it");
         return MOTUS_FILE;
     }
-    /* once more, with nobody else at it */
+    /* checked again under the lock */
     motus_status status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
-/* The rows in the buffer; of those that do not all find room, the whole ones stay. *rows: that are in the file. */
+/* Writes the rows in the buffer. After a failure the file keeps the complete ones. *rows: in the file. */
 static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
 {
     size_t written, end;
@@ -211,7 +212,7 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
         f->bytes += written;
         return MOTUS_OK;
     }
-    *rows += whole_rows(f, f->buffer, written, &end);
+    *rows += complete_rows(f, f->buffer, written, &end);
     f->bytes += end;
     if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
     return cannot_write(f, code, err);
@@ -254,7 +255,7 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, double *const *values,
                              const double *stopped, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    uint64_t rows = f->rows; /* that are in the file */
+    uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
     for (size_t i = 0; !status && i < count; i++) {
         (f->npy ? npy_row : csv_row)(f, i, values, results, stopped[i]);
         f->rows++;

@@ -1,8 +1,7 @@
-/* What stands above the rows of a sweep: what was asked for, in one line; its fingerprint; the names of the columns.
+/* The head of a sweep's file: the command in one line, its fingerprint, the names of the columns.
  *
- * Invariant: every byte follows from what decides the numbers; not from the machine, the threads, the name of the
- * file or how often the work was interrupted. So two files of the same sweep are equal, and a fingerprint that
- * differs says that the numbers would.
+ * Invariant: the head depends only on what the numbers depend on: not on the machine, the threads, the name of the
+ * file or interruptions. So two files of the same sweep are equal, and different fingerprints mean different numbers.
  */
 #define _XOPEN_SOURCE 700
 #include "cli/complain.h"
@@ -15,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FNV-1a, 64 bits: against mistakes, not against malice. */
+/* FNV-1a, 64 bits: detects mistakes, not attacks. */
 static void mix(uint64_t *hash, const void *bytes, size_t count)
 {
     const unsigned char *s = bytes;
@@ -77,7 +76,7 @@ static motus_status option_number(file_out *f, const char *name, double value, m
     return option(f, name, text, err);
 }
 
-/* A command that makes these rows, with nothing left to the model or to defaults. */
+/* A command that makes these rows, with every setting of the model and every default written out. */
 static motus_status command(const sweep *s, file_out *f, motus_error *err)
 {
     const options *o = s->options;

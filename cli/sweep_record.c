@@ -1,10 +1,11 @@
-/* What --record asks for.
+/* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
  *
  * Invariant: a name stands for all its numbers, as in --columns of motus run.
  */
 #include "base/near.h"
+#include "base/error.h"
 #include "cli/complain.h"
 #include "cli/sweep.h"
 #include "cli/text.h"
@@ -48,11 +49,11 @@ static motus_status unknown(const char *item, const char *word, size_t length, m
             near = reductions[i].word;
         }
     }
-    complain(err, MOTUS_ARGUMENT, "--record %s: %s cannot be recorded", item, given);
+    fail(err, MOTUS_ARGUMENT, "--record %s: %s cannot be recorded", item, given);
     if (near)
-        complain_hint(err, "did you mean %s(...)?", near);
+        hint(err, "did you mean %s(...)?", near);
     else
-        complain_hint(err, "final, min, max, mean, time_of_min and time_of_max can");
+        hint(err, "final, min, max, mean, time_of_min and time_of_max can");
     return MOTUS_ARGUMENT;
 }
 

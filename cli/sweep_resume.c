@@ -1,8 +1,9 @@
-/* What an interrupted sweep left: its whole rows, counted from the beginning to the first that is not one.
+/* The complete rows in the file of an interrupted sweep, from its beginning to the first that is not one.
  *
- * Invariant: a file with another fingerprint, or that is no sweep, is refused and not touched.
+ * Invariant: a file with another fingerprint, or that is not a sweep's, is refused and not changed.
  */
 #define _XOPEN_SOURCE 700
+#include "base/error.h"
 #include "cli/complain.h"
 #include "base/decimal.h"
 #include "cli/file.h"
@@ -16,7 +17,7 @@
 
 enum { CHUNK = 1 << 20 };
 
-/* Up to `count` bytes from `place`; fewer at the end of the file; -1: cannot be read. */
+/* Reads up to `count` bytes from `place`; fewer at the end of the file; -1: cannot be read. */
 static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t place, motus_error *err)
 {
     size_t done = 0;
@@ -24,7 +25,7 @@ static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t pl
         ssize_t got = pread(f->descriptor, out + done, count - done, (off_t)(place + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
-            complain(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
+            fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
             return -1;
         }
         if (got == 0) break;
@@ -33,24 +34,24 @@ static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t pl
     return (ssize_t)done;
 }
 
-static motus_status another(const sweep_file *f, const char *said, motus_error *err)
+static motus_status another(const sweep_file *f, const char *command, motus_error *err)
 {
-    complain(err, MOTUS_STATE, said ? "%s was made by another sweep" : "%s is not the beginning of a sweep", f->path);
-    if (said)
-        complain_hint(err, "it says: %.300s", said);
+    fail(err, MOTUS_STATE, command ? "%s was made by another sweep" : "%s is not the beginning of a sweep", f->path);
+    if (command)
+        hint(err, "it was made by: %.300s", command);
     else
-        complain_hint(err, "--force replaces it");
+        hint(err, "--force replaces it");
     return MOTUS_STATE;
 }
 
 /* ---- CSV ---- */
 
-/* The length of the head, or 0 where the file ends within it. Another way to the same model (the first line) is no
- * other sweep. */
+/* The length of the head, or 0 if the file ends within it. A first line that differs, as by another path to the same
+ * model, does not matter: the fingerprint decides. */
 static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, motus_error *err)
 {
     const sweep *s = f->sweep;
-    size_t room = s->head_length + 65536; /* a longer way to the model than ours */
+    size_t room = s->head_length + 65536; /* its path to the model may be longer */
     char *text = malloc(room + 1);
     if (!text) return complain_memory(err);
     ssize_t got = read_at(f, text, room, 0, err);
@@ -79,9 +80,9 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
     return status;
 }
 
-/* One row as far as it is read. */
+/* A row while it is read. */
 typedef struct scan {
-    char number[DECIMAL_MAX]; /* the number it should begin with */
+    char number[DECIMAL_MAX]; /* the index it has to begin with */
     size_t at, commas;
     bool good, stopped;
 } scan;
@@ -139,7 +140,7 @@ static motus_status csv_rows(sweep_file *f, motus_error *err)
 
 /* ---- .npy ---- */
 
-/* The text beside it has to be ours, or at least its fingerprint. */
+/* Checks the fingerprint in the .json beside it. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
     char *path = malloc(strlen(f->path) + sizeof ".json"), *text = NULL, key[64];
@@ -147,7 +148,7 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     sprintf(path, "%s.json", f->path);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
-    if (status) complain_hint(err, "it says which sweep %s belongs to; --force begins anew", f->path);
+    if (status) hint(err, "it identifies the sweep of %s; --force begins anew", f->path);
     free(path);
     snprintf(key, sizeof key, "\"fingerprint\": \"%s\"", f->sweep->fingerprint);
     if (!status && !strstr(text, key)) {
@@ -160,7 +161,7 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     return status;
 }
 
-/* The last number of a row says whether it stopped. */
+/* Counts the rows whose last number, the time at which the trajectory stopped, is not NaN. */
 static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, motus_error *err)
 {
     size_t at_once = width < CHUNK ? CHUNK / width : 1;

@@ -1,7 +1,7 @@
-/* A table for people.
+/* A table of text.
  *
- * Invariant: cells are kept in safe form, in one row-major list; a table that ran out of memory remembers it and
- * prints nothing.
+ * Invariant: cells are kept as text_safe() makes them, in one row-major list; a table that ran out of memory prints
+ * nothing.
  */
 #include "cli/table.h"
 

@@ -1,4 +1,4 @@
-/* A table for people: columns as wide as their widest cell, measured as a terminal shows them. */
+/* A table of text: each column as wide as its widest cell on a terminal. */
 #ifndef CLI_TABLE_H
 #define CLI_TABLE_H
 
@@ -7,15 +7,15 @@
 
 typedef struct table table;
 
-/* `align`: one letter a column, 'l' or 'r'. NULL when there is no memory; every call takes NULL. */
+/* `align`: one letter a column, 'l' or 'r'. NULL: out of memory; every call takes NULL. */
 table *table_create(const char *align);
 void table_destroy(table *);
 /* The next cell, row by row; the first row is the heading. */
 void table_cell(table *, const char *text);
-void table_number(table *, double value, int digits); /* brief; "-" for NaN */
-void table_exact(table *, double value);              /* shortest that reads back the same */
+void table_number(table *, double value, int digits); /* as text_brief() */
+void table_exact(table *, double value);              /* the shortest decimal that reads back the same */
 void table_integer(table *, long long value);
-/* false when memory ran out on the way. */
+/* False: memory ran out while the table was made. */
 bool table_print(const table *, FILE *, int indent, bool colours);
 /* The same as a Markdown table. */
 bool table_markdown(const table *, FILE *);

@@ -1,7 +1,7 @@
-/* Text as people see it.
+/* Text for a terminal.
  *
- * Invariant: what leaves text_safe() and text_put() is valid UTF-8 without control characters, whatever bytes came in.
- * The program never calls setlocale(), so printf writes a point everywhere.
+ * Invariant: text_safe() and text_put() write valid UTF-8 without control characters, whatever bytes they get. The
+ * program never calls setlocale(), so printf writes a decimal point everywhere.
  */
 #include "cli/text.h"
 
@@ -78,7 +78,7 @@ size_t text_width(const char *s)
     return width;
 }
 
-/* Words of a line in lines of at most `width` columns; where the line ends. */
+/* Wraps one line; returns where it ends. */
 static const char *wrap_line(FILE *out, const char *s, size_t indent, size_t width)
 {
     char word[512];

@@ -1,4 +1,4 @@
-/* Text as people see it: made safe for a terminal, measured in columns, numbers for tables. */
+/* Text for a terminal: made safe, measured in columns; numbers for tables. */
 #ifndef CLI_TEXT_H
 #define CLI_TEXT_H
 
@@ -16,14 +16,14 @@ size_t text_decode(const char *s, uint32_t *character);
 /* A copy that is safe for a terminal, cut at a whole character if it does not fit. */
 void text_safe(const char *s, char *out, size_t size);
 void text_put(FILE *out, const char *s);
-/* Columns that the safe form takes on a terminal. */
+/* The columns that text_safe(s) takes on a terminal. */
 size_t text_width(const char *s);
-/* The words of each line of `s` in lines of at most `width` columns, each indented. */
+/* Wraps each line of `s` at `width` columns, indented. */
 void text_wrap(FILE *out, const char *s, size_t indent, size_t width);
 
-/* For tables: `digits` significant ones, negative: always with an exponent; "-" for NaN. */
+/* |digits| significant digits, if negative always with an exponent; "-" for NaN. */
 void text_brief(double value, int digits, char out[DECIMAL_MAX]);
-/* For people: "12.3 ms", "4.56 s". */
+/* "12.3 ms", "4.56 s". */
 void text_seconds(double seconds, char out[DECIMAL_MAX]);
 
 /* A JSON object to a stream, up to json_end(); failures show in ferror(). */

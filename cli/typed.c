@@ -1,4 +1,4 @@
-/* Numbers as people type them on a command line. */
+/* Numbers on the command line. */
 #include "cli/typed.h"
 
 #include "base/decimal.h"
@@ -51,7 +51,6 @@ bool typed_count(const char *s, int64_t *count, const char **rest)
     uint64_t n;
     size_t length = decimal_read_whole(s, SIZE_MAX, &n);
     if (length == 0) return false;
-    /* 1e6 is how people write a million */
     if (s[length] == 'e' || s[length] == 'E' || s[length] == '.') {
         double d;
         length = decimal_read(s, SIZE_MAX, &d);

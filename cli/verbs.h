@@ -1,4 +1,4 @@
-/* The verbs: each does its work and returns a status; what failed is in the error. */
+/* The verbs of the program. */
 #ifndef CLI_VERBS_H
 #define CLI_VERBS_H
 

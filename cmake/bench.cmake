@@ -1,7 +1,7 @@
-# The bench, build/bench/bench; see bench/bench.c. It is no part of `all`.
+# The benchmarks, build/bench/bench (bench/bench.c). Not in `all`.
 #
-# The hand-written files get the flags that the compiled machine gives to its texts; the peers get what their users would give them. A
-# peer that is not installed leaves its lines "not measured".
+# The hand-written files get the flags of the compiled machine; the other libraries get the flags that their users would give. Where
+# one is not installed, its lines read "not measured".
 
 file(GLOB bench_sources CONFIGURE_DEPENDS bench/*.c bench/hand/*.c bench/peers/*.c)
 list(REMOVE_ITEM bench_sources ${PROJECT_SOURCE_DIR}/bench/functions.c)
@@ -21,7 +21,7 @@ else()
   target_compile_options(motus_bench PRIVATE -Wno-unknown-pragmas)
 endif()
 
-# name, header, libraries: the macro BENCH_name where all of them are there
+# name, header, libraries: defines BENCH_name if all of them are found
 function(bench_peer name header)
   find_path(BENCH_${name}_INCLUDE ${header})
   set(libraries "")

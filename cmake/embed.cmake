@@ -1,4 +1,4 @@
-# The texts that compiled models are made of, as C strings: cmake -DOUT=… -DROOT=… -P embed.cmake
+# Writes the sources that compiled models include as C strings: cmake -DOUT=… -DROOT=… -P embed.cmake
 file(GLOB texts RELATIVE ${ROOT} ${ROOT}/step/*.h ${ROOT}/step/*.def ${ROOT}/step/functions/*.h ${ROOT}/machine/text/*.h)
 list(APPEND texts core/scalar.h)
 set(rows "")

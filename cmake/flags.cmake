@@ -1,4 +1,4 @@
-# The flags of every object of ours, as an interface target, and what the hot files get on top.
+# The compiler flags of every object, as an interface target, and the additional ones of files with hot loops.
 #
 # -ffp-contract=off: fused multiply-adds are written in the source, where they are part of the result; the compiler adds none.
 # -fno-math-errno: sqrt and friends are instructions, not calls. Neither flag changes the value of any operation.
@@ -6,17 +6,17 @@ add_library(motus_flags INTERFACE)
 target_compile_options(motus_flags INTERFACE
   -std=c17 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic)
 if(CMAKE_C_COMPILER_ID MATCHES "Clang")
-  # A loop that clang was asked to make vector code of and cannot is no mistake.
+  # A loop that clang cannot vectorise as asked is no error.
   target_compile_options(motus_flags INTERFACE -Wno-pass-failed)
 endif()
 if(MOTUS_WERROR)
   target_compile_options(motus_flags INTERFACE -Werror)
 endif()
 
-# -fno-trapping-math: nobody looks at the exception flags, so a loop may compute both sides of a choice; values stay as they are.
+# -fno-trapping-math: the code reads no exception flags, so a loop may compute both sides of a choice; no value changes.
 set(hot -O3 -fno-trapping-math)
 if(MOTUS_SANITIZE)
-  # Speed is not what a sanitized build is for, and -O3 would only make its compilation slow.
+  # -O3 would make compiling slow, and a sanitized build need not be fast.
   set(hot "")
   target_compile_options(motus_flags INTERFACE
     -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
@@ -26,8 +26,8 @@ if(MOTUS_FUZZ)
   target_compile_options(motus_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# Instruction sets for which the kernels are built; the library chooses among them when it starts. FMA changes no bits: the
-# sources call fma() where they mean it, and without the instruction the C library computes the same value.
+# Instruction sets for which the kernels are built; the library chooses one when it starts. The FMA instruction changes no bits: the
+# sources call fma() explicitly, and without the instruction the C library computes the same value.
 set(isas base)
 set(isa_flags_base "")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)

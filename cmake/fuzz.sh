@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs every fuzzer of build/fuzz/test for FUZZ_SECONDS over test/corpus. What it finds new stays in build/fuzz, so that the
-# committed corpus changes only by hand. A crash leaves its input there too, and prints the command that repeats it.
+# Runs every fuzzer of build/fuzz/test for FUZZ_SECONDS over test/corpus. New inputs go to build/fuzz, so that the committed corpus
+# changes only by hand. After a crash the input is there too, and the script prints the command that repeats it.
 set -u
 cd "$(dirname "$0")/.."
 seconds=${FUZZ_SECONDS:-60}

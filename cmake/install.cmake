@@ -1,4 +1,4 @@
-# What is installed, and how others find it: motus.pc and find_package(motus), both of which may be moved with their prefix.
+# What is installed. Other projects find it by motus.pc or find_package(motus); the prefix may be moved.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS motus_static motus_shared EXPORT motus
@@ -25,7 +25,7 @@ install(FILES ${PROJECT_BINARY_DIR}/motus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 install(FILES doc/motus.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES README.md LICENSE doc/manual.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/motus FILES_MATCHING PATTERN "*.motus")
-# The page is there when `make lab` has built it.
+# Only if `make lab` has built it.
 install(FILES ${PROJECT_BINARY_DIR}/lab/motus-lab.html DESTINATION ${CMAKE_INSTALL_DATADIR}/motus OPTIONAL)
 install(FILES doc/completions/motus.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME motus)
 install(FILES doc/completions/_motus DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

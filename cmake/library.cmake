@@ -1,14 +1,14 @@
-# libmotus, static and shared, from the folders of HOUSE.md that make up the library.
+# libmotus, static and shared.
 #
-# The kernels are the same text compiled once for each instruction set, with ISA naming it; they are left out of the plain glob.
+# A kernel is compiled once for each instruction set, named by the macro ISA; so it is removed from the plain list of sources.
 set(kernels core/stepper_body.c lang/tape/tape_kernels.c lang/tape/tape_run.c)
 
 file(GLOB library_sources CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   base/*.c core/*.c lang/*/*.c machine/*.c api/*.c study/*.c)
-# The page's module takes machine/nowhere.c in place of the compiled machine (lab/core/CMakeLists.txt).
+# machine/nowhere.c replaces the compiled machine in the page's module (lab/core/CMakeLists.txt).
 list(REMOVE_ITEM library_sources ${kernels} machine/nowhere.c)
 
-# The texts of step/ and machine/text/ travel in the library: the compiled machine compiles them again, with a model between them.
+# The library contains the texts of step/ and machine/text/, because the compiled machine compiles them with a model.
 file(GLOB step_texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/step/*.h ${PROJECT_SOURCE_DIR}/step/*.def
   ${PROJECT_SOURCE_DIR}/step/functions/*.h ${PROJECT_SOURCE_DIR}/machine/text/*.h)
 list(APPEND step_texts ${PROJECT_SOURCE_DIR}/core/scalar.h)
@@ -41,14 +41,14 @@ foreach(kernel IN LISTS kernels)
   endif()
 endforeach()
 
-# The other files whose loops grow with the state. (The stepper's loops are in its kernel.)
+# Other files with loops over the state. (The stepper's loops are in its kernel.)
 foreach(source IN LISTS library_sources)
   if(source MATCHES "^(core/solver|lang/tape/|machine/)")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${hot})
   endif()
 endforeach()
 
-# The texts once more, for single steps that somebody looks into: small is better than fast.
+# The step of the trace runs once per call, so it is compiled for size.
 set_property(SOURCE core/trace_body.c APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-Os>)
 
 add_library(motus_static STATIC ${objects})
@@ -65,6 +65,6 @@ set_target_properties(motus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSI
 set_target_properties(motus_static PROPERTIES EXPORT_NAME static)
 set_target_properties(motus_shared PROPERTIES EXPORT_NAME shared)
 if(NOT MOTUS_SANITIZE)
-  # A symbol that is missing shows when the library is made, not in the program that uses it.
+  # Reports a missing symbol when the library is linked, not in the program that uses it.
   target_link_options(motus_shared PRIVATE LINKER:--no-undefined)
 endif()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the table of methods between its markers in doc/manual.md, from the rows of the program itself.
+# Writes the table of methods, from `motus methods --markdown`, between its markers in doc/manual.md.
 set -eu
 cd "$(dirname "$0")/.."
 table=$(mktemp)

@@ -1,8 +1,8 @@
 #!/bin/sh
-# What a target needs from outside: looks whether it is there; what is missing is installed by apt-get where this user may
-# install (root, or sudo without a password), and otherwise the line to run is printed and the exit status is 1.
+# Checks that the packages which a target needs are installed. Missing ones are installed by apt-get if this user may do so (root, or
+# sudo without a password); otherwise the script prints the command that installs them, and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|format|tidy ...        --check: only look, and say
+#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|format|tidy ...        --check: install nothing
 set -eu
 check_only=no
 if [ "${1-}" = --check ]; then check_only=yes; shift; fi
@@ -11,9 +11,9 @@ missing=
 add() { case " $missing " in *" $1 "*) ;; *) missing="$missing $1" ;; esac; }
 # command, package
 tool() { command -v "$1" >/dev/null 2>&1 || add "$2"; }
-# header, package: asked of the compiler, which knows where it looks
+# header, package: the compiler searches its own include path
 header() { command -v cc >/dev/null 2>&1 && echo "#include <$1>" | cc -E - >/dev/null 2>&1 || add "$2"; }
-# module, package; Debian's Python may stand behind another one
+# module, package; Debian's Python may not be the first in PATH
 module() { for python in python3 /usr/bin/python3; do "$python" -c "import $1" 2>/dev/null && return; done; add "$2"; }
 fuzzer_runs() {
     echo '#include <stddef.h>
@@ -21,7 +21,7 @@ fuzzer_runs() {
     { (void)p; (void)n; return 0; }' | clang -fsanitize=fuzzer,address,undefined -x c - -o /dev/null 2>/dev/null
 }
 
-# The page's core: clang, lld, the C library for WebAssembly and the compiler's runtime for it.
+# Links a program for WebAssembly, which needs clang, lld, a C library and the compiler's runtime for it.
 wasm_links() {
     echo '#include <stdlib.h>
     long double take(const char *p) { return strtold(p, NULL); }' |
@@ -48,11 +48,11 @@ done
 [ -n "$missing" ] || exit 0
 
 if ! command -v apt-get >/dev/null 2>&1; then
-    echo "motus needs what Debian calls:$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/; s/wasi/wasi-libc libclang-rt-dev-wasm32/'); install it, then run this again." >&2
+    echo "motus needs these packages (Debian's names):$(echo "$missing" | sed 's/clang-runtime/libclang-rt-dev/; s/wasi/wasi-libc libclang-rt-dev-wasm32/'); install it, then run this again." >&2
     exit 1
 fi
-# clang's sanitizer and fuzzer runtimes are a package of their own, but part of clang on Ubuntu 22.04. Where apt has no lists yet, it
-# cannot be asked.
+# The package with clang's sanitizer and fuzzer runtimes: clang itself on Ubuntu 22.04, else one of its own. Without package lists, apt
+# knows neither.
 runtime() {
     if apt-cache show libclang-rt-dev >/dev/null 2>&1; then echo libclang-rt-dev
     elif apt-cache show clang >/dev/null 2>&1 || grep -q '^VERSION_ID="22.04"' /etc/os-release 2>/dev/null; then echo clang
@@ -74,14 +74,14 @@ elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then as='sudo 
 fi
 if [ $check_only = yes ] || [ "$as" = none ]; then
     sudo=sudo; [ "$(id -u)" = 0 ] && sudo=
-    echo "Something that motus needs is missing. Run this, then the same command again:" >&2
+    echo "motus needs packages that are not installed. Run this, then the same command again:" >&2
     echo "    ${sudo:+$sudo }apt-get update && ${sudo:+$sudo }apt-get install -y $(packages)" >&2
     exit 1
 fi
 echo "motus: installing what is missing ($(packages))" >&2
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# The lists may be old or absent; without them the runtime's package cannot be named either.
+# The package lists may be old or absent.
 $as env DEBIAN_FRONTEND=noninteractive apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 # shellcheck disable=SC2046
 $as env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(packages) >"$log" 2>&1 ||

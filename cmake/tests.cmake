@@ -1,11 +1,11 @@
-# The test programs, in <build>/test/. A file of test/ with a main() is a program of that name; a file without one is help that
-# the programs may call; fuzz_*.c are libFuzzer harnesses. Tests see the inside of the library, so they link it statically.
+# The test programs, in <build>/test/. A file of test/ with a main() is a program of that name; files without one form a library that
+# the programs may call; fuzz_*.c are libFuzzer harnesses. Tests call internal functions, so they link libmotus statically.
 if(MOTUS_SANITIZE AND CMAKE_CROSSCOMPILING)
   message(FATAL_ERROR "sanitized tests cannot be cross-compiled")
 endif()
 
 include(CheckCSourceCompiles)
-# clang has no _Float128 in C before version 15; the laws, which measure orders far above round-off with it, are then left to gcc.
+# The laws need _Float128, which clang has from version 15 on; with an older one they are not built.
 check_c_source_compiles("__extension__ typedef _Float128 wide; int main(void) { wide w = 1; return (int)w - 1; }" HAVE_FLOAT128)
 
 file(GLOB test_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/*.c test/cli/*.c)
@@ -49,7 +49,7 @@ if(MOTUS_TESTS)
     if(test_help)
       target_link_libraries(${name} PRIVATE test_help motus_static)
     endif()
-    # What a script calls is a tool, not a test of its own.
+    # Called by scripts, not a test by itself.
     if(file MATCHES "^test/cli/")
       set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test/tool)
     else()
@@ -64,8 +64,8 @@ if(MOTUS_TESTS)
   target_sources(range_test PRIVATE cli/range.c)
 endif()
 
-# MPFR judges the elementary functions. Built twice: with what every machine of this kind has and, vectors in registers, with all that
-# this one has. No vector leaves the object, so how one would be passed is of no interest.
+# The elementary functions against MPFR, built twice: for the base instruction set and for this machine's. -Wno-psabi: vectors are not
+# passed between objects, so their calling convention does not matter.
 if(TARGET functions_test)
   add_executable(functions_native_test test/functions_test.c)
   motus_test_flags(functions_native_test)

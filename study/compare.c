@@ -1,9 +1,9 @@
 /* Every method side by side: motus_compare.
  *
- * Each method runs from the start to `until`, then a new run goes from where it ended back to the start; in between
- * it is looked at at times where a step of its own falls, so no number here is interpolated. At equal step all
- * methods share these times; at equal work each has its own, and the truth is made for them. Invariant: the result is
- * one block; a row whose method failed says so and holds NaN where nothing was measured.
+ * Each method runs from the start to `until`, then a new run goes from there back to the start. States are compared
+ * at ends of steps, so nothing is interpolated: at equal step all methods share these times; at equal work each has
+ * its own, and the reference solution is computed at them. Invariant: the result is one allocation; a row whose
+ * method failed has its status and note, and NaN for what was not measured.
  */
 #include "probe.h"
 #include "remarks.h"
@@ -13,15 +13,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LOOKS_MAX 2048 /* at the invariants of one run */
+#define SAMPLES_MAX 2048 /* of the invariants along one run */
 #define REMARKS_MAX 4096
 #define NAME_MAX_LONG 128
-#define WORK_TRIES 4 /* to find the step that spends the wanted evaluations */
-#define WORK_CLOSE 0.02
-#define PROBES 5        /* states along the motion at which the equations are asked */
-#define TRUTH_SHARE 0.1 /* of the progress */
-/* The trend that rounding may explain: each evaluation rounds the state by some ulps at random. */
-#define ROUNDING 8.0
+#define WORK_TRIES 4        /* to find the step that spends the wanted evaluations */
+#define WORK_CLOSE 0.02     /* relative: near enough to the wanted evaluations */
+#define PROBES 5            /* states along the motion at which properties of the equations are measured */
+#define REFERENCE_SHARE 0.1 /* of the progress */
+#define ROUNDING 8.0        /* ulps by which an evaluation may round the state: a random walk over the run */
 
 typedef struct row_text {
     char method[MOTUS_NAME_MAX], note[MOTUS_TEXT_MAX];
@@ -33,7 +32,7 @@ typedef struct invariant_name {
 typedef struct result {
     motus_comparison seen; /* first: the handle the user holds */
     motus_allocator allocator;
-    char reference[TRUTH_TEXT_MAX], remarks[REMARKS_MAX];
+    char reference[SOLUTION_TEXT_MAX], remarks[REMARKS_MAX];
     motus_compare_row *rows;
     motus_drift *drifts;                /* rows × invariants */
     const motus_compare_row **row_list; /* to each of them: what the user reads */
@@ -45,16 +44,16 @@ typedef struct result {
 typedef struct compare {
     study s;
     motus_study_def def;
-    truth truth;
+    solution reference;
     double step; /* equal step */
     size_t invariants, columns;
     size_t *first; /* invariants + 1: where in `column` each one begins */
     size_t *column;
     double *column_scale;
-    double *t, *drift; /* looks_max: times; one number's way from its start */
-    double *series;    /* looks_max × columns */
-    size_t looks, looks_max;
-    double *y, *a, *own_truth;
+    double *t, *deviation; /* samples_max: times; the change of one number since the start */
+    double *series;        /* samples_max × columns */
+    size_t samples, samples_max;
+    double *y, *a, *own_reference;
     double *roundoff; /* rows × invariants */
     remarks_fact *facts;
     const char **methods;
@@ -138,38 +137,38 @@ static motus_status find_columns(compare *c)
             return no_memory(c, "the columns of the invariants");
     }
     size_t most = c->columns ? STUDY_NUMBERS_MAX / c->columns : 0;
-    c->looks_max = most > LOOKS_MAX ? LOOKS_MAX : most;
+    c->samples_max = most > SAMPLES_MAX ? SAMPLES_MAX : most;
     c->column_scale = take(s->allocator, c->columns, sizeof(double));
-    c->t = take(s->allocator, c->looks_max, sizeof(double));
-    c->drift = take(s->allocator, c->looks_max, sizeof(double));
-    c->series = take(s->allocator, c->looks_max * c->columns, sizeof(double));
+    c->t = take(s->allocator, c->samples_max, sizeof(double));
+    c->deviation = take(s->allocator, c->samples_max, sizeof(double));
+    c->series = take(s->allocator, c->samples_max * c->columns, sizeof(double));
     c->y = take(s->allocator, s->numbers, sizeof(double));
     c->a = take(s->allocator, s->numbers, sizeof(double));
-    if (!c->column_scale || !c->t || !c->drift || !c->series || !c->y || !c->a)
-        return no_memory(c, "the looks at the invariants");
+    if (!c->column_scale || !c->t || !c->deviation || !c->series || !c->y || !c->a)
+        return no_memory(c, "the samples of the invariants");
     return MOTUS_OK;
 }
 
 /* The invariants along a run ------------------------------------------------------------------------------------- */
 
-static motus_status look_at_invariants(compare *c, motus_run *run, motus_error *err)
+static motus_status observe_invariants(compare *c, motus_run *run, motus_error *err)
 {
-    if (!c->columns || c->looks >= c->looks_max) return MOTUS_OK;
-    c->t[c->looks] = motus_run_time(run);
-    motus_status status = motus_run_values(run, c->column, c->columns, c->series + c->looks * c->columns, err);
-    c->looks += status == MOTUS_OK;
+    if (!c->columns || c->samples >= c->samples_max) return MOTUS_OK;
+    c->t[c->samples] = motus_run_time(run);
+    motus_status status = motus_run_values(run, c->column, c->columns, c->series + c->samples * c->columns, err);
+    c->samples += status == MOTUS_OK;
     return status;
 }
 
-/* The worst number of invariant k. */
-static motus_drift drift_of(compare *c, size_t k, int64_t evaluations, double *roundoff)
+/* Of invariant k, the number that deviates most. */
+static motus_drift deviation_of(compare *c, size_t k, int64_t evaluations, double *roundoff)
 {
     motus_drift d = {c->out->names[k].text, NAN, NAN, NAN, NAN, 0};
     size_t worst = c->first[k];
     double largest = 0;
     for (size_t j = c->first[k]; j < c->first[k + 1]; j++) {
         double most = 0, size = 0;
-        for (size_t i = 0; i < c->looks; i++) {
+        for (size_t i = 0; i < c->samples; i++) {
             double value = c->series[i * c->columns + j];
             most = study_larger(most, fabs(value - c->series[j]));
             size = study_larger(size, fabs(value));
@@ -179,12 +178,12 @@ static motus_drift drift_of(compare *c, size_t k, int64_t evaluations, double *r
         largest = size;
         d.max_drift = most;
     }
-    if (c->looks == 0 || c->first[k] == c->first[k + 1]) return d;
+    if (c->samples == 0 || c->first[k] == c->first[k + 1]) return d;
     *roundoff = ROUNDING * DBL_EPSILON * (c->column_scale[worst] + largest) * sqrt((double)evaluations + 1);
     d.initial = c->series[worst];
-    d.final = c->series[(c->looks - 1) * c->columns + worst];
-    for (size_t i = 0; i < c->looks; i++) c->drift[i] = c->series[i * c->columns + worst] - d.initial;
-    trend_result trend = trend_find(c->t, c->drift, c->looks, *roundoff);
+    d.final = c->series[(c->samples - 1) * c->columns + worst];
+    for (size_t i = 0; i < c->samples; i++) c->deviation[i] = c->series[i * c->columns + worst] - d.initial;
+    trend_result trend = trend_find(c->t, c->deviation, c->samples, *roundoff);
     d.trend = trend.trend;
     d.trending = trend.trending;
     return d;
@@ -222,7 +221,7 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
         double spent = run ? (double)motus_run_evaluations(run) : 0;
         motus_run_destroy(run);
         if (study_fatal(status)) return row_failed(c, k, status, &e);
-        /* A run that failed spends what it spends; the row will say so. */
+        /* If the run failed, the row's own run will fail too and report it. */
         if (status != MOTUS_OK || spent <= 0 || fabs(spent - wanted) <= WORK_CLOSE * wanted) return MOTUS_OK;
         int64_t next = (int64_t)fmax(1, floor((double)n * wanted / spent));
         if (next == n) return MOTUS_OK;
@@ -232,52 +231,52 @@ static motus_status equal_work_step(compare *c, size_t k, const char *method, do
     return MOTUS_OK;
 }
 
-/* On by one interval of the grid (or to the end), looking at the invariants `looks` times. */
-static motus_status advance(compare *c, motus_run *run, int64_t per, int64_t looks, bool last, double *seconds,
+/* Advances by one interval of the grid (or to the end) and takes `samples` samples of the invariants. */
+static motus_status advance(compare *c, motus_run *run, int64_t per, int64_t samples, bool last, double *seconds,
                             motus_error *e)
 {
     motus_status status = MOTUS_OK;
-    for (int64_t i = 0; i < looks && status == MOTUS_OK && !(last && motus_run_done(run)); i++) {
+    for (int64_t i = 0; i < samples && status == MOTUS_OK && !(last && motus_run_done(run)); i++) {
         double began = study_seconds();
-        status = last && i + 1 == looks ? motus_run_finish(run, e) : motus_run_step(run, per / looks, e);
+        status = last && i + 1 == samples ? motus_run_finish(run, e) : motus_run_step(run, per / samples, e);
         *seconds += study_seconds() - began;
-        if (status == MOTUS_OK) status = look_at_invariants(c, run, e);
+        if (status == MOTUS_OK) status = observe_invariants(c, run, e);
     }
     return status;
 }
 
 static motus_status forward(compare *c, size_t k, motus_run *run, const study_grid *g, int64_t per,
-                            const double *truth_rows, motus_error *e)
+                            const double *reference_rows, motus_error *e)
 {
     study *s = &c->s;
     motus_compare_row *row = &c->out->rows[k];
-    int64_t looks = 1;
-    while (2 * looks <= per && (2 * looks * (int64_t)g->points) < (int64_t)c->looks_max) looks *= 2;
-    c->looks = 0;
+    int64_t samples = 1;
+    while (2 * samples <= per && (2 * samples * (int64_t)g->points) < (int64_t)c->samples_max) samples *= 2;
+    c->samples = 0;
     double x = 0, v = 0;
-    motus_status status = look_at_invariants(c, run, e);
+    motus_status status = observe_invariants(c, run, e);
     for (size_t p = 0; p < g->points && status == MOTUS_OK; p++) {
-        status = advance(c, run, per, looks, p + 1 == g->points, &row->seconds, e);
-        if (status == MOTUS_OK) status = study_look(s, run, c->y, e);
-        if (status != MOTUS_OK || !truth_rows) continue;
-        study_distance d = study_measure(s, c->y, truth_rows + p * s->numbers);
+        status = advance(c, run, per, samples, p + 1 == g->points, &row->seconds, e);
+        if (status == MOTUS_OK) status = study_state(s, run, c->y, e);
+        if (status != MOTUS_OK || !reference_rows) continue;
+        study_distance d = study_measure(s, c->y, reference_rows + p * s->numbers);
         x = study_larger(x, d.x);
         v = study_larger(v, d.v);
         row->error_final_x = d.x;
         row->error_final_v = d.v;
     }
-    if (status == MOTUS_OK && truth_rows) {
+    if (status == MOTUS_OK && reference_rows) {
         row->error_max_x = x;
         row->error_max_v = v;
         if (!isnan(c->acceleration))
-            c->facts[k].miss = c->y[c->axis] - truth_rows[(g->points - 1) * s->numbers + c->axis];
+            c->facts[k].miss = c->y[c->axis] - reference_rows[(g->points - 1) * s->numbers + c->axis];
     } else {
         row->error_final_x = row->error_final_v = NAN;
     }
     return status;
 }
 
-/* From c->y at `until` back to the start, in the same steps in reverse: a short last step comes first. */
+/* Runs from c->y at `until` back to the start with the same steps in reverse order: a shorter last step comes first. */
 static motus_status backward(compare *c, size_t k, const char *method, int64_t total, double last_step, motus_error *e)
 {
     study *s = &c->s;
@@ -297,7 +296,7 @@ static motus_status backward(compare *c, size_t k, const char *method, int64_t t
         motus_run *run = NULL;
         status = study_run(s, method, steps[leg], legs[leg], legs[leg + 1], c->y, &run, e);
         if (status == MOTUS_OK) status = motus_run_finish(run, e);
-        if (status == MOTUS_OK) status = study_look(s, run, c->y, e);
+        if (status == MOTUS_OK) status = study_state(s, run, c->y, e);
         motus_run_destroy(run);
     }
     if (status == MOTUS_OK) row->reversal = study_measure(s, c->y, s->start).scaled;
@@ -328,29 +327,29 @@ static motus_status make_row(compare *c, size_t k)
     int64_t per, total = motus_run_steps_total(run);
     double last_step = fabs(motus_run_last_step(run));
     c->facts[k].last_step = last_step;
-    double whole = (double)(total - (last_step > 0));
-    c->facts[k].expected = 0.5 * c->acceleration * (whole * row->step * row->step + last_step * last_step);
+    double full_steps = (double)(total - (last_step > 0));
+    c->facts[k].expected = 0.5 * c->acceleration * (full_steps * row->step * row->step + last_step * last_step);
     study_grid g = study_grid_of(s, row->step, total, last_step, &per);
-    const double *truth_rows = c->truth.known ? c->truth.rows + s->numbers : NULL;
-    if (c->def.evaluations > 0 && truth_rows) {
-        give(s->allocator, c->own_truth);
-        c->own_truth = take(s->allocator, g.points * s->numbers, sizeof(double));
-        status = c->own_truth ? truth_on(s, &c->truth, &g, c->own_truth)
-                              : no_memory(c, "the truth at the times of a method");
-        truth_rows = c->own_truth;
+    const double *reference_rows = c->reference.known ? c->reference.rows + s->numbers : NULL;
+    if (c->def.evaluations > 0 && reference_rows) {
+        give(s->allocator, c->own_reference);
+        c->own_reference = take(s->allocator, g.points * s->numbers, sizeof(double));
+        status = c->own_reference ? solution_on(s, &c->reference, &g, c->own_reference)
+                                  : no_memory(c, "the reference solution at the times of a method");
+        reference_rows = c->own_reference;
     }
     if (status != MOTUS_OK) {
         motus_run_destroy(run);
         return status;
     }
-    status = forward(c, k, run, &g, per, truth_rows, &e);
+    status = forward(c, k, run, &g, per, reference_rows, &e);
     row->steps = motus_run_steps(run);
     row->evaluations = motus_run_evaluations(run);
     motus_run_destroy(run);
     if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     motus_drift *drifts = c->out->drifts + k * c->invariants;
     for (size_t i = 0; i < c->invariants; i++)
-        drifts[i] = drift_of(c, i, row->evaluations, &c->roundoff[k * c->invariants + i]);
+        drifts[i] = deviation_of(c, i, row->evaluations, &c->roundoff[k * c->invariants + i]);
 
     study_part(s, base + span / 2, span / 2);
     status = backward(c, k, method, total, last_step, &e);
@@ -365,15 +364,15 @@ static motus_status make_row(compare *c, size_t k)
 
 /* The comparison ------------------------------------------------------------------------------------------------- */
 
-/* Asks the equations themselves, at states along the motion: what rounding does to the invariants, the fastest rate,
- * and whether the acceleration is constant. */
-static motus_status ask(compare *c, const study_grid *g)
+/* Measures at states along the motion by how much rounding changes the invariants, the fastest rate, and the constant
+ * acceleration if there is one. */
+static motus_status probe_motion(compare *c, const study_grid *g)
 {
     study *s = &c->s;
     double direction = s->until > s->from ? 1 : -1;
-    size_t count = c->truth.known ? PROBES : 1;
+    size_t count = c->reference.known ? PROBES : 1;
     c->rate = c->acceleration = NAN;
-    if (motus_analysis_of(s->system, &c->analysis) != MOTUS_OK) return no_memory(c, "what the equations are like");
+    if (motus_analysis_of(s->system, &c->analysis) != MOTUS_OK) return no_memory(c, "the analysis of the equations");
     if (c->analysis.constant && probe_acceleration(s, s->from, s->start, c->a))
         for (size_t k = 0; k < s->nx; k++)
             if (k == 0 || fabs(c->a[k]) > fabs(c->acceleration)) {
@@ -383,7 +382,7 @@ static motus_status ask(compare *c, const study_grid *g)
     for (size_t p = 0; p < count; p++) {
         size_t r = count > 1 ? p * g->points / (count - 1) : 0;
         double t = r == g->points ? s->until : s->from + direction * (double)r * g->interval;
-        const double *y = r == 0 ? s->start : c->truth.rows + r * s->numbers;
+        const double *y = r == 0 ? s->start : c->reference.rows + r * s->numbers;
         double rate = probe_rate(s, t, y);
         c->rate = p == 0 ? rate : study_larger(c->rate, rate);
         if (c->columns) {
@@ -401,8 +400,8 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
     motus_settings_of(system, &settings);
     c->step = isnan(c->def.step) ? settings.step : c->def.step;
     if (c->def.evaluations == 0 && !(c->step > 0)) {
-        fail(err, MOTUS_ARGUMENT, "nothing says with which step to compare");
-        hint(err, "say in the model, for example, step 0.01");
+        fail(err, MOTUS_ARGUMENT, "the comparison has no step: neither its definition nor the model says step");
+        hint(err, "write in the model, for example, step 0.01");
         return MOTUS_ARGUMENT;
     }
     motus_status status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
@@ -422,21 +421,22 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
 static motus_status compare_all(compare *c)
 {
     study *s = &c->s;
-    study_grid g = truth_grid(s, c->def.evaluations > 0 ? NAN : c->step);
-    study_part(s, 0, TRUTH_SHARE);
-    motus_status status = truth_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, 0, &c->truth);
-    if (status == MOTUS_OK) status = ask(c, &g);
+    study_grid g = solution_grid(s, c->def.evaluations > 0 ? NAN : c->step);
+    study_part(s, 0, REFERENCE_SHARE);
+    motus_status status =
+        solution_find(s, &g, c->def.evaluations > 0 ? c->def.evaluations : s->total, 0, &c->reference);
+    if (status == MOTUS_OK) status = probe_motion(c, &g);
     for (size_t k = 0; k < c->count && status == MOTUS_OK; k++) {
-        double share = (1 - TRUTH_SHARE) / (double)c->count;
-        study_part(s, TRUTH_SHARE + share * (double)k, share);
+        double share = (1 - REFERENCE_SHARE) / (double)c->count;
+        study_part(s, REFERENCE_SHARE + share * (double)k, share);
         status = make_row(c, k);
     }
     if (status != MOTUS_OK) return status;
-    snprintf(c->out->reference, sizeof c->out->reference, "%s", c->truth.text);
-    c->out->seen.reference_error = c->truth.error;
+    snprintf(c->out->reference, sizeof c->out->reference, "%s", c->reference.text);
+    c->out->seen.reference_error = c->reference.error;
     remarks_view view = {.s = s,
                          .analysis = c->analysis,
-                         .truth = &c->truth,
+                         .reference = &c->reference,
                          .rows = c->out->rows,
                          .facts = c->facts,
                          .count = c->count,
@@ -461,9 +461,9 @@ motus_status motus_compare(motus_system *system, const motus_study_def *given, m
     if (status == MOTUS_OK) status = compare_all(&c);
     if (c.s.allocator) {
         const motus_allocator *a = c.s.allocator;
-        truth_free(&c.s, &c.truth);
-        void *blocks[] = {c.first, c.column, c.column_scale, c.t,        c.drift, c.series,
-                          c.y,     c.a,      c.own_truth,    c.roundoff, c.facts, (void *)c.methods};
+        solution_free(&c.s, &c.reference);
+        void *blocks[] = {c.first, c.column, c.column_scale,  c.t,        c.deviation, c.series,
+                          c.y,     c.a,      c.own_reference, c.roundoff, c.facts,     (void *)c.methods};
         for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) give(a, blocks[k]);
         if (status == MOTUS_OK)
             *comparison = &c.out->seen;

@@ -1,46 +1,46 @@
 /* Error against step, the observed order and its certificate: motus_converge.
  *
- * Every method runs over the same motion with T/8, T/16, … and is compared with the truth at the same INTERVALS
- * times; its error is the largest over these times and over all numbers of the state, each in units of how far its
- * variable moves. Where even T/8 is so fine for a high order that too few points lie above round-off, the row begins
- * at T/4, T/2 or T, and all of it is compared at as many times. Orders from 4 on also run with steps between, because
- * few doublings fit between instability and round-off there. Steps are halved until round-off is reached or the work
- * is spent, never only until the slope looks right. Which points the slope is taken from is said at the top of fit.c.
+ * Every method runs over the same motion with steps T/8, T/16, … and is compared with the reference solution at the
+ * same INTERVALS times; its error is the largest over these times and over all numbers of the state, each in units of
+ * how far its variable moves. Where T/8 is so fine for a high order that too few points lie above round-off, the row
+ * begins at T/4, T/2 or T, and is compared at that many times. Orders from 4 on also run with steps between these,
+ * because few halvings lie between instability and round-off there. Steps are shortened until round-off is reached or
+ * the work is spent; the slope does not decide when to stop. fit.c says which points the slope is fitted to.
  *
- * If the model's motion lasts so many turns that low orders would need steps without number, a shorter beginning of
- * it is taken, and the result says so. Invariant: the result is one block, and the same on every machine: no decision
- * depends on a clock.
+ * If the motion has so many oscillations that low orders would need too many steps, only its beginning is taken, and
+ * the result says so. Invariant: the result is one allocation, and the same on every machine: no decision depends on
+ * a clock.
  */
 #include "fit.h"
 #include "probe.h"
-#include "truth.h"
+#include "solution.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define INTERVALS 8 /* a power of 2 */
 #define POINTS_MAX 80
-#define POINTS_LEAST 7 /* before anything is concluded */
-#define STEPS_LEAST 32 /* in an interval: taken whatever they cost */
-#define FINE_ORDER 4   /* from here on four steps an octave */
-/* The bound on the work (study_work) is first 2^18 evaluations of one oscillator per method. A method that is
- * neither at round-off by then nor shows a slope that has come to rest gets EXTENSION times as much. */
+#define POINTS_LEAST 7 /* measured before the fit may end the row */
+#define STEPS_LEAST 32 /* per interval: runs with no more than these ignore the bound on the work */
+#define FINE_ORDER 4   /* from this order on four steps an octave */
+/* The bound on the work (study_work) of a method is first that of 2^18 evaluations of one oscillator. A method that
+ * has reached neither round-off nor a steady slope by then gets EXTENSION times as much. */
 #define WORK 4.7e6
 #define EXTENSION 8
-#define REST 0.03
-#define COARSE_ENOUGH 1e-4 /* a row whose coarsest error is larger than this lacks no coarse steps */
-/* Of the motion, in radians: above TURNS_MOST it is cut to about TURNS_GOOD. Of the fastest thing in it that could
- * move, excited or not: more than STIFF_MOST would leave explicit methods no stable step. And where the motion is at
- * its most violent, low orders need very short steps: no more than VIOLENT_MOST of such turns. */
-#define TURNS_MOST 12.0
-#define TURNS_GOOD 8.0
+#define STEADY 0.03        /* the largest slope_change of a steady slope */
+#define COARSE_ENOUGH 1e-4 /* a row whose coarsest error is larger than this needs no coarser steps */
+/* The bounds on the length of the motion, in radians. Of the motion itself: above PHASE_MOST it is cut to about
+ * PHASE_GOOD. At the fastest rate of the linearised motion, excited or not: beyond STIFF_MOST explicit methods would
+ * have no stable step. At the largest speed of the motion, where low orders need very short steps: PEAK_MOST. */
+#define PHASE_MOST 12.0
+#define PHASE_GOOD 8.0
 #define STIFF_MOST 2000.0
-#define VIOLENT_MOST 200.0
-#define SURVEY 64        /* intervals of the look at the whole motion */
-#define SURVEY_PROBES 8  /* states of it whose fastest rate is asked */
-#define SURVEY_TRUST 0.1 /* of the motion's size: a survey less certain tells only of the start */
-#define REFERENCE_MAX (TRUTH_TEXT_MAX + 320)
-#define TRUTH_SHARE 0.1 /* of the progress */
+#define PEAK_MOST 200.0
+#define SURVEY 64        /* intervals of the survey: a rough solution of the full motion */
+#define SURVEY_PROBES 8  /* states of the survey at which the fastest rate is computed */
+#define SURVEY_TRUST 0.1 /* of the motion's size: of a survey with a larger error only the start is used */
+#define REFERENCE_MAX (SOLUTION_TEXT_MAX + 320)
+#define REFERENCE_SHARE 0.1 /* of the progress */
 
 typedef struct row_text {
     char method[MOTUS_NAME_MAX], certificate[MOTUS_TEXT_MAX];
@@ -60,9 +60,9 @@ typedef struct result {
 typedef struct converge {
     study s;
     motus_study_def def;
-    truth truth;
+    solution reference;
     study_grid grid;
-    double whole;  /* the model's own end, where a shorter one is taken; NaN otherwise */
+    double uncut;  /* the model's own end, where the motion was cut; NaN otherwise */
     double *table; /* INTERVALS × numbers */
     const char **methods;
     size_t count;
@@ -114,47 +114,46 @@ static study_grid even_grid(const study *s, double until, size_t intervals)
                         .points = intervals};
 }
 
-/* Down to 1, 2 or 5 times a power of ten: a duration that a reader can take in. */
+/* Down to 1, 2 or 5 times a power of ten. */
 static double round_down(double duration)
 {
-    double whole = 1, parts = 1;
-    while (10 * whole <= duration) whole *= 10;
-    while (1 / parts > duration) parts *= 10;
-    double power = whole / parts, digit = duration / power;
+    double above = 1, below = 1;
+    while (10 * above <= duration) above *= 10;
+    while (1 / below > duration) below *= 10;
+    double power = above / below, digit = duration / power;
     return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
 
-/* How long the motion may be, from how fast it changes and how fast it could. */
+/* Chooses the end of the motion from its speed along a survey and from the fastest rate of the linearised motion. */
 static motus_status choose_end(converge *c, double *until)
 {
     study *s = &c->s;
     *until = s->until;
-    c->whole = NAN;
-    if (!isnan(c->def.until)) /* asked for in so many words */
-        return MOTUS_OK;
+    c->uncut = NAN;
+    if (!isnan(c->def.until)) return MOTUS_OK; /* the user chose the end */
     study_grid g = even_grid(s, s->until, SURVEY);
-    truth survey;
-    motus_status status = truth_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
-    double turns = 0, violent = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
+    solution survey;
+    motus_status status = solution_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
+    double phase_rate = 0, peak = 0, stiff = 0, direction = s->until > s->from ? 1 : -1;
     bool trusted = survey.known && survey.scaled < SURVEY_TRUST;
     for (size_t r = 0; r <= (trusted ? SURVEY : 0) && status == MOTUS_OK; r++) {
         double t = s->from + direction * (double)r * g.interval;
         const double *y = survey.rows + r * s->numbers;
         double speed = 2 * probe_speed(s, t, y);
-        violent = fmax(violent, speed); /* a NaN does not count */
-        turns += isnan(speed) ? 0 : speed / (trusted ? SURVEY + 1 : 1);
+        peak = fmax(peak, speed); /* a NaN does not count */
+        phase_rate += isnan(speed) ? 0 : speed / (trusted ? SURVEY + 1 : 1);
         if (r % (SURVEY / SURVEY_PROBES) == 0) stiff = fmax(stiff, probe_rate(s, t, y));
     }
-    truth_free(s, &survey);
+    solution_free(s, &survey);
     if (status == MOTUS_OK) status = study_broken(s);
     if (status != MOTUS_OK) return status;
     double duration = fabs(s->until - s->from);
     double longest = duration;
-    if (turns * duration > TURNS_MOST) longest = TURNS_GOOD / turns;
-    if (violent * longest > VIOLENT_MOST) longest = VIOLENT_MOST / violent;
+    if (phase_rate * duration > PHASE_MOST) longest = PHASE_GOOD / phase_rate;
+    if (peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
     if (stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
     if (longest == duration) return MOTUS_OK;
-    c->whole = s->until;
+    c->uncut = s->until;
     *until = s->from + direction * round_down(longest);
     return MOTUS_OK;
 }
@@ -189,14 +188,14 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     }
     double error = 0;
     for (size_t p = 0, every = INTERVALS / g->intervals; p < g->intervals; p++) {
-        const double *at = c->truth.rows + (p + 1) * every * s->numbers;
+        const double *at = c->reference.rows + (p + 1) * every * s->numbers;
         error = study_larger(error, study_measure(s, c->table + p * s->numbers, at).scaled);
     }
     point->error = isfinite(error) ? error : NAN;
     return MOTUS_OK;
 }
 
-/* The points of a row, from `intervals` steps on, and their fit. */
+/* The points of a row, the coarsest with `intervals` steps, and their fit. */
 static motus_status measure_all(converge *c, const motus_method *card, const char *method, size_t intervals,
                                 motus_converge_row *row, motus_point *points, fit_order_result *fit, motus_error *e,
                                 motus_status *failed)
@@ -209,7 +208,8 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
         int64_t per = steps_per_interval((int64_t)i, row->declared);
         double next = study_work(s, card, (double)intervals * (double)per, -1), spent;
         if (per > STEPS_LEAST && work + next > bound) {
-            bool shown = fit->settled || fit->verdict == FIT_EXACT || (fit->verdict == FIT_SLOPE && fit->unrest < REST);
+            bool shown =
+                fit->settled || fit->verdict == FIT_EXACT || (fit->verdict == FIT_SLOPE && fit->slope_change < STEADY);
             if (shown || bound > WORK || work + next > EXTENSION * WORK) break;
             bound = EXTENSION * WORK;
         }
@@ -218,7 +218,7 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
         if (status != MOTUS_OK) return status;
         work += fmax(next, spent);
         row->point_count = i + 1;
-        *fit = fit_order(points, row->point_count, duration, s->noise, c->truth.scaled);
+        *fit = fit_order(points, row->point_count, duration, s->noise, c->reference.scaled);
         if (row->point_count > POINTS_LEAST && (fit->settled || fit->verdict == FIT_EXACT)) break;
     }
     return MOTUS_OK;
@@ -281,7 +281,7 @@ static motus_status make_row(converge *c, size_t k)
     size_t finite = 0;
     for (size_t i = 0; i < row->point_count; i++) finite += !isnan(points[i].error);
     if (finite == 0 && failed != MOTUS_OK) {
-        row->status = failed; /* at no step did it run: the last sentence says why */
+        row->status = failed; /* every run failed: the message is that of the last */
         snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
         return MOTUS_OK;
     }
@@ -289,39 +289,40 @@ static motus_status make_row(converge *c, size_t k)
     return MOTUS_OK;
 }
 
-/* All ------------------------------------------------------------------------------------------------------------ */
+/* All methods ---------------------------------------------------------------------------------------------------- */
 
 static void describe(converge *c)
 {
     result *r = c->out;
-    int n = snprintf(r->reference, sizeof r->reference, "%s", c->truth.text);
-    if (!isnan(c->whole) && n > 0 && (size_t)n < sizeof r->reference)
+    int n = snprintf(r->reference, sizeof r->reference, "%s", c->reference.text);
+    if (!isnan(c->uncut) && n > 0 && (size_t)n < sizeof r->reference)
         snprintf(r->reference + n, sizeof r->reference - (size_t)n,
-                 "; until %.6g, not %.6g: a longer motion has too many turns for every order to show above round-off",
-                 c->grid.until, c->whole);
-    r->seen.reference_error = c->truth.scaled;
+                 "; until %.6g, not %.6g: over a longer motion low orders would need too many steps to converge",
+                 c->grid.until, c->uncut);
+    r->seen.reference_error = c->reference.scaled;
 }
 
 static motus_status converge_all(converge *c)
 {
     study *s = &c->s;
     double until;
-    study_part(s, 0, TRUTH_SHARE / 2);
+    study_part(s, 0, REFERENCE_SHARE / 2);
     motus_status status = choose_end(c, &until);
     if (status != MOTUS_OK) return status;
     c->grid = even_grid(s, until, INTERVALS);
-    study_part(s, TRUTH_SHARE / 2, TRUTH_SHARE / 2);
-    if ((status = truth_find(s, &c->grid, INTERVALS, 0, &c->truth)) != MOTUS_OK) return status;
-    if (!c->truth.known) {
+    study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
+    if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
+    if (!c->reference.known) {
         fail(s->err, MOTUS_DIVERGED,
-             "no method of high order followed the motion to %.6g: there is nothing to measure errors against", until);
+             "there is no reference solution to measure errors against: every method of high order failed before %.6g",
+             until);
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
-        double share = (1 - TRUTH_SHARE) / (double)c->count;
-        study_part(s, TRUTH_SHARE + share * (double)k, share);
+        double share = (1 - REFERENCE_SHARE) / (double)c->count;
+        study_part(s, REFERENCE_SHARE + share * (double)k, share);
         if ((status = make_row(c, k)) != MOTUS_OK) return status;
         passed = passed && c->out->rows[k].passed;
     }
@@ -337,7 +338,7 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     if (!system || !convergence)
         return fail(err, MOTUS_ARGUMENT, "motus_converge needs a system and a place for its result");
     *convergence = NULL;
-    converge c = {.whole = NAN};
+    converge c = {.uncut = NAN};
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
     if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, 0, err);
@@ -345,7 +346,7 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
     if (status == MOTUS_OK) status = make_result(&c);
     if (status == MOTUS_OK) status = converge_all(&c);
     if (c.s.allocator) {
-        truth_free(&c.s, &c.truth);
+        solution_free(&c.s, &c.reference);
         give(c.s.allocator, c.table);
         give(c.s.allocator, (void *)c.methods);
         if (status == MOTUS_OK)

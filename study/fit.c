@@ -1,35 +1,23 @@
 /* The observed order of a method from its errors at a sequence of steps.
  *
- * The rule that chooses the points of a fit (nothing is chosen by hand; the declared order has no part in it; points
- * run coarse to fine):
+ * The rule that chooses the points of the fit (points run coarse to fine; the declared order has no part in it):
  *
- * 1. A point counts if its run ended and its error is below FIT_CEILING of the motion's size, and if its step is at
- * most half of
- *     the shortest at which this failed: close to its limit of stability a method is not itself.
- * 2. Round-off. It is at least the error of the truth. The rest is read off the errors: where the slope to the next
- * point and to
- *     the one after it falls below FIT_FLAT, half of what the lowest order would show, while the error is already
- *         below FIT_PLATEAU
- *     (or below n² roundings, the worst that a sum of sums can make of them), the plateau begins, and its first
- *         errors are the
- *     round-off. Where no plateau was reached, it is taken for what a random walk of n roundings may come to,
- *         FIT_WALK sqrt(n) of
- *     one. Points that do not stand FIT_CLEARANCE times above it, or lie on the plateau, do not count: the remaining
- *         share of
- *     round-off, 1/30, bends a local slope by less than the certificate's margin.
- * 3. Of what is left, the finest are nearest to the limit that the order speaks of. The finest FIT_POINTS_MIN are
- * taken, and
- *     as many more as it takes to span an octave; the range is carried on to coarser steps as long as the local slope
- *         stays within
- *     FIT_STEADY (FIT_STEADY_PART of a high order) of the slope across these. So coarse points that are better
- *         (superconvergent) or
- *     worse (not yet asymptotic) than the order are left out by the same rule.
- * 4. At least FIT_POINTS_MIN points; the order is the least-squares slope of log error against log step. If its
- * standard error is
- *     above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
+ * 1. A point counts if its run ended with an error below FIT_CEILING of the motion's size, and if its step is at most
+ *    half of the shortest at which that failed: close to its stability limit a method does not show its order.
+ * 2. Round-off is at least the error of the reference solution. The rest is measured: the plateau begins where the
+ *    slope to the next point and to the one after it falls below FIT_FLAT, half of what order 1 would show, while the
+ *    error is below FIT_PLATEAU (or below n² roundings, the worst for a sum of sums); its first errors are the
+ *    round-off. Where no plateau was reached, round-off is taken for a random walk of n roundings, FIT_WALK sqrt(n)
+ *    of one. Points below FIT_CLEARANCE times it, or on the plateau, do not count: the remaining share of round-off,
+ *    1/30, bends a local slope by less than the certificate's margin.
+ * 3. The order is a limit of small steps, so the finest FIT_POINTS_MIN of these points are taken, and as many more as
+ *    span an octave; then coarser ones as long as the local slope stays within FIT_STEADY (FIT_STEADY_PART of a high
+ *    order) of the slope across these. This leaves out coarse points that are better than the order (superconvergent)
+ *    and those that are worse (not yet asymptotic).
+ * 4. With at least FIT_POINTS_MIN points, the order is the least-squares slope of log error against log step. If its
+ *    standard error is above FIT_ROUGHNESS, the errors follow no power of the step and there is no slope.
  *
- * A method is exact here if every error lies under the line that rounding n steps can explain, at coarse steps as at
- * fine ones.
+ * A method is exact here if every error, at coarse and fine steps, is within what rounding n steps can explain.
  */
 #include "fit.h"
 #include <math.h>
@@ -43,7 +31,7 @@
 #define FIT_STEADY 0.05
 #define FIT_STEADY_PART 0.02
 #define FIT_ROUGHNESS 0.5
-#define OCTAVE 1.999 /* 2, but for the rounding of steps */
+#define OCTAVE 1.999 /* 2, less the rounding of steps */
 #define EXACT_STEPS 8.0
 #define FIT_MARGIN 0.15 /* the certificate's */
 #define FIT_POINTS_MAX 128
@@ -94,15 +82,15 @@ static size_t plateau(const motus_point *points, size_t count, double duration, 
             points[i].error > fmax(FIT_PLATEAU, noise * steps * steps))
             continue;
         if (local_slope(&points[i], &points[i + 1]) >= FIT_FLAT) continue;
-        /* A flat stretch may come from a dip where terms cancel; if two points on it is no better, this is
-         * round-off. */
+        /* The error before a flat stretch may be small because terms cancel there; if the point after the next is no
+         * better either, this is round-off. */
         if (i + 2 == count || !counts(&points[i + 2]) || local_slope(&points[i], &points[i + 2]) < FIT_FLAT) return i;
     }
     return count;
 }
 
-/* At every step, coarse or fine, no more than rounding explains: each step rounds once or twice, a recursion of
- * second order sums its sums, and the truth has its own error. */
+/* Whether rounding explains the error at every step: each step rounds once or twice, a recursion of second order sums
+ * its sums, and the reference solution has its own error. */
 static bool exact_everywhere(const motus_point *points, size_t count, double duration, double noise,
                              double reference_error)
 {
@@ -116,12 +104,12 @@ static bool exact_everywhere(const motus_point *points, size_t count, double dur
     return finite >= FIT_POINTS_MIN;
 }
 
-/* The points that count and stand clear of the round-off, which is found here, coarse to fine. */
+/* The points that count and lie clear of round-off, coarse to fine; sets r->floor to the round-off found. */
 static size_t find_clear(motus_point *points, size_t count, double duration, double noise, fit_order_result *r,
                          motus_point **clear)
 {
     size_t flat = plateau(points, count, duration, noise), n = 0;
-    /* A flat stretch at the very end may still turn out to be a dip. */
+    /* A flat stretch of the last two points may still be such a cancellation. */
     r->settled = flat + 2 < count;
     if (flat < count) {
         double level = 0;
@@ -132,7 +120,7 @@ static size_t find_clear(motus_point *points, size_t count, double duration, dou
     for (size_t i = 0; i < count && i <= flat && n < FIT_POINTS_MAX; i++) {
         double walk = r->settled ? 0 : noise * (1 + FIT_WALK * sqrt(duration / points[i].step));
         if (points[i].error >= FIT_CEILING || (n == 0 && isnan(points[i].error))) {
-            n = 0; /* whatever was small before this was so by accident */
+            n = 0; /* the errors at coarser steps were small by accident */
             longest = points[i].step / OCTAVE;
         } else if (counts(&points[i]) && points[i].step <= longest &&
                    points[i].error >= FIT_CLEARANCE * fmax(r->floor, walk)) {
@@ -144,7 +132,7 @@ static size_t find_clear(motus_point *points, size_t count, double duration, dou
 
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error)
 {
-    fit_order_result r = {.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .unrest = INFINITY};
+    fit_order_result r = {.verdict = FIT_FEW, .observed = NAN, .standard_error = NAN, .slope_change = INFINITY};
     for (size_t i = 0; i < count; i++) points[i].used = 0;
     r.floor = fmax(noise, reference_error);
     if (exact_everywhere(points, count, duration, noise, reference_error)) {
@@ -160,7 +148,7 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
     size_t least = n - FIT_POINTS_MIN;
     while (least > 0 && clear[least]->step < OCTAVE * clear[n - 1]->step) least--;
     double middle = local_slope(clear[least], clear[n - 1]), steady = fmax(FIT_STEADY, FIT_STEADY_PART * fabs(middle));
-    r.unrest = fabs(local_slope(clear[n - 2], clear[n - 1]) - local_slope(clear[n - 3], clear[n - 2]));
+    r.slope_change = fabs(local_slope(clear[n - 2], clear[n - 1]) - local_slope(clear[n - 3], clear[n - 2]));
     while (least > 0 && fabs(local_slope(clear[least - 1], clear[least]) - middle) <= steady) least--;
 
     double lx[FIT_POINTS_MAX] = {0}, ly[FIT_POINTS_MAX] = {0};
@@ -183,7 +171,7 @@ fit_order_result fit_order(motus_point *points, size_t count, double duration, d
 int fit_passes(double observed, double standard_error, int declared)
 {
     double margin = FIT_MARGIN;
-    /* From order 6 on few points lie above round-off, and the fit itself says how well it knows its slope. */
+    /* From order 6 on few points lie above round-off, so the slope is as uncertain as its standard error. */
     if (declared >= 6) margin = fmax(margin, 2 * standard_error);
     return observed >= declared - margin;
 }

@@ -1,4 +1,4 @@
-/* Straight lines through points, and the observed order: see fit.c for the rule that chooses the points. */
+/* Straight lines through points, and the observed order of a method. fit.c states the rule that chooses the points. */
 #ifndef STUDY_FIT_H
 #define STUDY_FIT_H
 
@@ -11,8 +11,8 @@ typedef struct fit_result {
 fit_result fit_line(const double *x, const double *y, size_t count);
 
 typedef enum fit_verdict {
-    FIT_SLOPE, /* observed and standard_error hold */
-    FIT_EXACT, /* round-off at every step */
+    FIT_SLOPE, /* observed and standard_error are set */
+    FIT_EXACT, /* nothing but round-off at every step */
     FIT_FEW,   /* fewer than FIT_POINTS_MIN points between instability and round-off */
     FIT_ROUGH  /* the errors follow no power of the step */
 } fit_verdict;
@@ -24,13 +24,13 @@ typedef struct fit_order_result {
     double observed, standard_error; /* NaN unless FIT_SLOPE */
     size_t above;                    /* points between instability and round-off */
     double floor;                    /* the round-off found, in the errors' units */
-    /* by how much the two finest local slopes in use differ: large far from the limit */
-    double unrest;
-    int settled; /* the plateau of round-off has been reached: finer steps teach nothing */
+    double slope_change;             /* difference of the two finest local slopes in use */
+    int settled;                     /* the plateau of round-off has been reached: finer steps add nothing */
 } fit_order_result;
 
 /* points: coarse to fine, runs over `duration`, errors relative to the size of the motion, NaN where a run failed;
- * `used` is set. noise: the rounding of one number, in the same units; reference_error: that of the truth. */
+ * sets their `used`. noise: the rounding of one number, in the same units; reference_error: the error of the
+ * reference solution. */
 fit_order_result fit_order(motus_point *points, size_t count, double duration, double noise, double reference_error);
 
 /* Whether an observed order meets the declared one. */

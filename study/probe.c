@@ -1,15 +1,14 @@
-/* See probe.h. One step of explicit Euler from (x, v) with step 1 ends at v + a: that is how an experiment that sees
- * only the public calls reads an acceleration.
+/* One step of explicit Euler from (x, v) with step 1 ends at the velocity v + a: so the public calls give a.
  *
- * Invariant: a probe never changes the system, and what it cannot find out is NaN or false, not an error.
+ * Invariant: a probe never changes the system; what it cannot compute is NaN or false, not an error.
  */
 #include "probe.h"
 #include <math.h>
 
 #define RATE_ITERATIONS 32     /* even: the square of an oscillator's Jacobian is -ω² */
-#define RATE_FORGET 8          /* iterations until the fastest direction rules */
+#define RATE_FORGET 8          /* iterations that are not averaged: the fastest direction does not dominate yet */
 #define RATE_OFFSET 1e-5       /* of the size of the motion: rounding and curvature both stay below 1e-4 */
-#define RATE_NUMBERS_MAX 20000 /* beyond that an iteration costs too much for what it tells: fewer of them */
+#define RATE_NUMBERS_MAX 20000 /* larger states take fewer iterations, since each costs too much */
 #define RATE_LEAST 1e-9
 #define PATTERNS 4
 #define PATTERN_OFFSET 0x1p-20
@@ -18,7 +17,7 @@ bool probe_acceleration(study *s, double t, const double *y, double *a)
 {
     motus_run *run = NULL;
     motus_error ignored = motus_default_error();
-    motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, y, &run, &ignored);
+    motus_status status = study_run(s, STUDY_SIMPLEST, 1, t, t + 1, y, &run, &ignored);
     if (status == MOTUS_OK) status = motus_run_step(run, 1, &ignored);
     if (status == MOTUS_OK) status = motus_run_state(run, NULL, a, &ignored);
     motus_run_destroy(run);
@@ -31,14 +30,14 @@ bool probe_acceleration(study *s, double t, const double *y, double *a)
     return ok;
 }
 
-/* A fixed, even scatter of directions: nothing here may depend on a random seed. */
+/* A fixed, even scatter of directions, so that no result depends on a random seed. */
 static double scatter(size_t k)
 {
     double u = fmod(0.6180339887498949 * (double)(k + 1), 1);
     return u < 0.5 ? -0.5 - u : u;
 }
 
-/* out = J u, both in units of scale; false where it cannot be had. */
+/* out = J u, both in units of scale; false where it cannot be computed. */
 static bool jacobian(study *s, double t, const double *y, const double *u, double *out, double *moved, double *plus,
                      double *minus)
 {
@@ -83,7 +82,7 @@ double probe_rate(study *s, double t, const double *y)
             break;
         }
         for (size_t k = 0; k < n; k++) size = fmax(size, fabs(next[k]));
-        if (!(size > 0)) { /* a constant force: the linearised motion only coasts */
+        if (!(size > 0)) { /* J u = 0: the force is constant */
             rate = 0;
             break;
         }
@@ -104,7 +103,7 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     double *moved = room, *before = moved + s->numbers, *after = before + column_count;
     for (int pattern = -1; pattern < PATTERNS; pattern++) {
-        /* Each pattern flips its signs in a rhythm of its own, so that opposite contributions do not always cancel. */
+        /* The signs differ from pattern to pattern, so that opposite contributions do not always cancel. */
         for (size_t k = 0; k < s->numbers; k++) {
             double sign = pattern < 0 ? 0 : scatter((size_t)(pattern + 1) * (k + 1)) > 0 ? 1 : -1;
             moved[k] = y[k] * (1 + sign * PATTERN_OFFSET);
@@ -112,7 +111,7 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
         motus_run *run = NULL;
         motus_error ignored = motus_default_error();
         double *out = pattern < 0 ? before : after;
-        motus_status status = study_run(s, STUDY_PLAINEST, 1, t, t + 1, moved, &run, &ignored);
+        motus_status status = study_run(s, STUDY_SIMPLEST, 1, t, t + 1, moved, &run, &ignored);
         if (status == MOTUS_OK) status = motus_run_values(run, columns, column_count, out, &ignored);
         motus_run_destroy(run);
         study_note(s, status);

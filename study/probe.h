@@ -1,21 +1,20 @@
-/* Questions to the equations themselves, asked through runs of one step: the acceleration, the fastest rate of the
- * linearised motion, and by how much a rounded state changes an invariant. */
+/* Properties of the equations, measured by runs of one step: the acceleration, the fastest rate of the linearised
+ * motion, and by how much rounding of the state changes an invariant. */
 #ifndef STUDY_PROBE_H
 #define STUDY_PROBE_H
 
 #include "study.h"
 
-/* a (nv numbers) at (t, y). False where it cannot be had. */
+/* a (nv numbers) at (t, y). False where it cannot be computed. */
 bool probe_acceleration(study *, double t, const double *y, double *a);
 /* The largest |eigenvalue| of the Jacobian of (x', v') at (t, y), by power iteration: ω of the fastest oscillation,
- * or the fastest decay or growth. 0 where there is none to speak of, NaN where it cannot be had. Uses the study's
- * scale. */
+ * or the fastest decay or growth. 0 if it is negligible, NaN where it cannot be computed. Uses the study's scale. */
 double probe_rate(study *, double t, const double *y);
-/* How fast the state changes at (t, y), in units of its size: half of ω for an oscillation at its fastest. NaN where
- * it cannot be had. */
+/* How fast the state changes at (t, y), in units of its size per time: at most ω/2 for an oscillation. NaN where it
+ * cannot be computed. */
 double probe_speed(study *, double t, const double *y);
 /* Raises scale[c] to at least the change of column c when every number of the state at (t, y) changes by its own
- * size. What rounding does to column c is some DBL_EPSILON of it. */
+ * size: rounding the state changes column c by about DBL_EPSILON scale[c]. */
 motus_status probe_columns(study *, double t, const double *y, const size_t *columns, size_t column_count,
                            double *scale);
 

@@ -1,24 +1,24 @@
-/* The truth as a handle: motus_reference.
+/* The reference solution at any time, as a handle: motus_reference.
  *
- * The truth is found once, as compare finds it, and its rows at the points of the grid are kept. At any other time it
- * is the same method, with steps no larger than the one that was found good, from the last kept state before that
- * time (or from the last answer, if that is nearer). Invariant: the error of an answer does not add up over answers:
+ * The solution is computed once, as compare computes it, and its rows at the points of the grid are kept. A state at
+ * any other time is computed by the same method, with steps no larger than the solution's, from the last kept row
+ * before that time (or from the last answer, if that is nearer). Invariant: the errors of answers do not accumulate:
  * each is less than one interval of the grid away from a kept row.
  */
-#include "truth.h"
+#include "solution.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#define ROUNDING_OF_TIME (8 * DBL_EPSILON) /* of its size: times that are equal but for their rounding */
+#define ROUNDING_OF_TIME (8 * DBL_EPSILON) /* relative: two times nearer than this are the same time */
 
 struct motus_reference {
     study s;
-    truth truth;
+    solution solution;
     study_grid grid;
-    double *y;  /* the last answer, */
-    double t;   /*   at this time; NaN: none yet */
-    bool holds; /* the system, whose numbers its answers rest on */
+    double *y;  /* the last answer */
+    double t;   /* its time; NaN: none yet */
+    bool holds; /* has called motus_system_hold, so that the system's numbers cannot change */
 };
 
 static double direction_of(const study *s) { return s->until > s->from ? 1 : -1; }
@@ -30,7 +30,7 @@ static double time_of_row(const motus_reference *r, size_t row)
     return row == r->grid.points ? r->s.until : r->s.from + direction_of(&r->s) * (double)row * r->grid.interval;
 }
 
-/* The last kept row that is not after t. */
+/* The index of the last kept row that is not after t. */
 static size_t row_before(const motus_reference *r, double t)
 {
     double way = (t - r->s.from) * direction_of(&r->s);
@@ -45,11 +45,11 @@ static motus_status go(motus_reference *r, double from, double t, motus_error *e
 {
     study *s = &r->s;
     double way = fabs(t - from), step = way;
-    if (!r->truth.exact) step = way / fmax(1, ceil(way / r->truth.step * (1 - ROUNDING_OF_TIME)));
+    if (!r->solution.exact) step = way / fmax(1, ceil(way / r->solution.step * (1 - ROUNDING_OF_TIME)));
     motus_run *run = NULL;
-    motus_status status = study_run(s, r->truth.method, step, from, t, r->y, &run, err);
+    motus_status status = study_run(s, r->solution.method, step, from, t, r->y, &run, err);
     if (status == MOTUS_OK) status = motus_run_finish(run, err);
-    if (status == MOTUS_OK) status = study_look(s, run, r->y, err);
+    if (status == MOTUS_OK) status = study_state(s, run, r->y, err);
     motus_run_destroy(run);
     return status;
 }
@@ -57,16 +57,16 @@ static motus_status go(motus_reference *r, double from, double t, motus_error *e
 static motus_status answer(motus_reference *r, double t, motus_error *err)
 {
     study *s = &r->s;
-    /* The exact motion needs no neighbour: it is taken from the start, in one step. */
-    size_t row = r->truth.exact ? 0 : row_before(r, t);
+    /* The exact motion takes one step from the start, at no loss of accuracy. */
+    size_t row = r->solution.exact ? 0 : row_before(r, t);
     double from = time_of_row(r, row), direction = direction_of(s);
     /* false for NaN */
-    bool onward = !r->truth.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;
+    bool onward = !r->solution.exact && (r->t - from) * direction > 0 && (t - r->t) * direction >= 0;
     if (onward)
         from = r->t;
     else
-        memcpy(r->y, r->truth.rows + row * s->numbers, s->numbers * sizeof(double));
-    r->t = NAN; /* until it is there */
+        memcpy(r->y, r->solution.rows + row * s->numbers, s->numbers * sizeof(double));
+    r->t = NAN; /* stays so if the run fails */
     motus_status status = same_time(from, t) ? MOTUS_OK : go(r, from, t, err);
     if (status == MOTUS_OK) r->t = t;
     return status;
@@ -89,7 +89,7 @@ motus_status motus_reference_at(motus_reference *r, const double *times, size_t 
         if (!within(s, times[k])) {
             status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k],
                           s->from, s->until);
-            hint(err, "a reference knows the motion between its start and its end");
+            hint(err, "ask for times between the start and the end of the reference");
         }
     const modes host = modes_enter();
     for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
@@ -114,16 +114,16 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     r->t = NAN;
     r->y = take(s->allocator, s->numbers, sizeof(double));
     if (!r->y) return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
-    r->grid = truth_grid(s, step);
-    if ((status = truth_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->truth)) != MOTUS_OK)
+    r->grid = solution_grid(s, step);
+    if ((status = solution_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->solution)) != MOTUS_OK)
         return status;
-    if (!r->truth.known) {
-        fail(err, MOTUS_DIVERGED, "no method of high order followed the motion to %.6g: its truth is not known",
+    if (!r->solution.known) {
+        fail(err, MOTUS_DIVERGED, "there is no reference solution: every method of high order failed before %.6g",
              s->until);
         hint(err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }
-    /* What was lent for this call alone. */
+    /* The caller's error and hook are valid during this call only. */
     s->err = NULL;
     s->progress = NULL;
     s->context = NULL;
@@ -152,16 +152,16 @@ motus_status motus_reference_create(motus_system *system, const motus_study_def 
     return status;
 }
 
-double motus_reference_error(const motus_reference *r) { return r ? r->truth.error : NAN; }
+double motus_reference_error(const motus_reference *r) { return r ? r->solution.error : NAN; }
 
-const char *motus_reference_name(const motus_reference *r) { return r ? r->truth.text : ""; }
+const char *motus_reference_name(const motus_reference *r) { return r ? r->solution.text : ""; }
 
 void motus_reference_destroy(motus_reference *r)
 {
     if (!r) return;
     const motus_allocator *allocator = r->s.allocator;
     if (r->holds) motus_system_hold(r->s.system, false);
-    truth_free(&r->s, &r->truth);
+    solution_free(&r->s, &r->solution);
     give(allocator, r->y);
     study_close(&r->s);
     give(allocator, r);

@@ -1,7 +1,7 @@
-/* The remarks under a comparison. Each paragraph asks the measured numbers and the methods' rows whether its reason
- * holds here; what they do not bear out is not said. No name of a model and no name of a method decides anything.
+/* The remarks under a comparison: each is written only if the measured numbers and the methods' rows confirm it; the
+ * names of models and methods decide nothing.
  *
- * Invariant: the text is whole sentences, one a line; a sentence that does not fit is left out.
+ * Invariant: the text is complete sentences, one a line; a sentence that does not fit is left out.
  */
 #include "remarks.h"
 #include <float.h>
@@ -12,15 +12,15 @@
 
 #define LINE_MAX_BYTES 900
 #define NAMES_SHOWN 6
-#define CLOSE 1e-6    /* relative: a predicted and a measured amount are the same */
-#define FAR 100.0     /* this many times larger is another kind of number */
-#define RETURNED 1e-7 /* of the motion's size: a way back that ends nearer than this did return */
+#define CLOSE 1e-6    /* relative: a measured amount nearer than this to the predicted one confirms it */
+#define FAR 100.0     /* times the rounding: an amount above this is not rounding */
+#define RETURNED 1e-7 /* of the motion's size: a run back that ends nearer than this to the start has returned */
 
 typedef struct sheet {
     char *text;
     size_t size, length;
 } sheet;
-/* Says whether row k belongs to the group a sentence speaks of. */
+/* Whether a sentence applies to row k. */
 typedef bool member(const remarks_view *, size_t k, size_t invariant);
 
 static void say(sheet *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -56,10 +56,10 @@ static size_t names(const remarks_view *v, member *is, size_t invariant, char *o
 
 static bool ran(const remarks_view *v, size_t k) { return v->rows[k].status == MOTUS_OK; }
 
-/* What `steps` steps may round a position or velocity by. */
+/* How much rounding may change a position or velocity of row k over the run. */
 static double rounding(const remarks_view *v, size_t k)
 {
-    return 4 * DBL_EPSILON * v->s->magnitude * (8 + sqrt((double)v->rows[k].evaluations)) + 4 * v->truth->error;
+    return 4 * DBL_EPSILON * v->s->magnitude * (8 + sqrt((double)v->rows[k].evaluations)) + 4 * v->reference->error;
 }
 
 /* Constant acceleration ------------------------------------------------------------------------------------------ */
@@ -93,7 +93,7 @@ static bool on_the_parabola(const remarks_view *v, size_t k, size_t unused)
 static void constant_acceleration(const remarks_view *v, sheet *out)
 {
     char behind[LINE_MAX_BYTES / 2], ahead[LINE_MAX_BYTES / 2];
-    if (isnan(v->acceleration) || v->acceleration == 0 || !v->truth->known) return;
+    if (isnan(v->acceleration) || v->acceleration == 0 || !v->reference->known) return;
     motus_column axis = motus_default_column();
     motus_column_at(v->s->system, 1 + v->axis, &axis);
     size_t n = names(v, lags, 0, behind, sizeof behind), m = names(v, leads, 0, ahead, sizeof ahead);
@@ -105,16 +105,13 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
     if (n && m)
         say(out,
             "The acceleration is constant (%.6g in %.60s): %s fall%s behind the exact motion, %s run%s ahead of it, by "
-            "equal and "
-            "opposite amounts, %s = %.6g at the end. The one moves each step with the velocity at its beginning, the "
-            "other with the "
-            "velocity at its end, and the truth lies midway.",
+            "equal and opposite amounts, %s = %.6g at the end. The first kind moves each step with the velocity at its "
+            "beginning, the second with the velocity at its end; the mean of both is exact.",
             v->acceleration, axis.name, behind, n == 1 ? "s" : "", ahead, m == 1 ? "s" : "", formula, most);
     else if (n || m)
         say(out,
             "The acceleration is constant (%.6g in %.60s): %s miss%s the exact motion by %s = %.6g at the end, since "
-            "each step "
-            "is made with the velocity at its %s.",
+            "each step is made with the velocity at its %s.",
             v->acceleration, axis.name, n ? behind : ahead, n + m == 1 ? "es" : "", formula, most,
             n ? "beginning" : "end");
     n = names(v, on_the_parabola, 0, behind, sizeof behind);
@@ -124,8 +121,7 @@ static void constant_acceleration(const remarks_view *v, sheet *out)
     if (n)
         say(out,
             "Exact to round-off: %s (largest error %.2g). The motion is a parabola in t, and a method of second or "
-            "higher order "
-            "follows a polynomial of second degree without error, at any step.",
+            "higher order integrates a polynomial of second degree without error, at any step.",
             behind, largest);
 }
 
@@ -176,17 +172,17 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
             worst = k;
     if (n)
         say(out,
-            "%.80s: with %s it grows without bound (%s%sfrom %.6g to %.6g here): no step is short enough for %s on an "
-            "oscillation, the stability limit is 0, and each step enlarges it.",
+            "%.80s: with %s it grows without bound (%s%sfrom %.6g to %.6g here): %s stability limit is 0, so "
+            "each step enlarges an oscillation, however short the step.",
             name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial,
-            drift(v, worst, i)->final, n == 1 ? "it" : "them");
+            drift(v, worst, i)->final, n == 1 ? "its" : "their");
     n = names(v, stays, i, list, sizeof list);
-    /* A symplectic method follows a neighbouring energy only where there is an energy: no velocity terms. */
+    /* There is a modified energy only if the force does not depend on the velocity. */
     if (n && !v->analysis.velocity_dependent)
         say(out,
-            "%.80s: with %s it swings, by at most %.3g, and shows no trend: a symplectic method conserves a "
-            "neighbouring energy, "
-            "so what it has lost comes back.",
+            "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "
+            "conserves "
+            "a modified energy.",
             name, list, largest_drift(v, stays, i));
     n = names(v, drifts, i, list, sizeof list);
     if (n)
@@ -231,20 +227,18 @@ static void way_back(const remarks_view *v, sheet *out)
     if (n && m)
         say(out,
             "Run backward from the end, %s return%s to the start within %.2g of the motion's size, being reversible; "
-            "%s %s not, and "
-            "miss%s it by up to %.2g.",
+            "%s %s not, and miss%s it by up to %.2g.",
             there, n == 1 ? "s" : "", worst_reversal(v, returns), lost, m == 1 ? "is" : "are", m == 1 ? "es" : "",
             worst_reversal(v, loses_the_way));
     n = names(v, strays, 0, there, sizeof there);
     if (n)
         say(out,
-            "%s %s reversible, yet miss%s the start by %.2g of the motion's size: on the way there and back the motion "
-            "itself "
-            "enlarges every rounding.",
+            "%s %s reversible, yet miss%s the start by %.2g of the motion's size: the motion is so sensitive that it "
+            "enlarges rounding errors.",
             there, n == 1 ? "is" : "are", n == 1 ? "es" : "", worst_reversal(v, strays));
 }
 
-/* Steps that are too long, and truths that are not good enough --------------------------------------------------- */
+/* Steps that are too long, references that are not accurate enough ---------------------------------------------- */
 
 static void too_long(const remarks_view *v, sheet *out)
 {
@@ -255,9 +249,8 @@ static void too_long(const remarks_view *v, sheet *out)
         bool lost = r->status == MOTUS_DIVERGED || !(r->error_max_x <= FAR * fmax(v->s->magnitude, DBL_MIN));
         if (lost)
             say(out,
-                "%s: the step %.6g is outside its stability limit: the fastest rate of the motion is about %.4g, times "
-                "the step "
-                "%.3g, and the method bears %.4g.",
+                "%s: the step %.6g is beyond its stability limit: the fastest rate of the motion is about %.4g, times "
+                "the step %.3g, and the method is stable up to %.4g.",
                 r->method, r->step, v->rate, r->step * v->rate, card->stability_limit);
     }
 }
@@ -265,22 +258,21 @@ static void too_long(const remarks_view *v, sheet *out)
 static bool as_good_as_the_reference(const remarks_view *v, size_t k, size_t unused)
 {
     (void)unused;
-    return ran(v, k) && fmax(v->rows[k].error_max_x, v->rows[k].error_max_v) <= 3 * v->truth->error;
+    return ran(v, k) && fmax(v->rows[k].error_max_x, v->rows[k].error_max_v) <= 3 * v->reference->error;
 }
 
 static void reference(const remarks_view *v, sheet *out)
 {
     char list[LINE_MAX_BYTES / 2];
-    if (!v->truth->known) {
-        say(out, "There is nothing to judge by, and errors are not shown: no exact motion is known, and no method of "
-                 "high order followed "
-                 "the motion to the end.");
+    if (!v->reference->known) {
+        say(out, "Errors are not shown, since there is no reference solution: no exact motion is known, and every "
+                 "method of high order failed before the end.");
         return;
     }
-    size_t n = v->truth->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
+    size_t n = v->reference->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
     if (n)
-        say(out, "The reference is itself known to %.2g only: the error%s shown for %s may be the reference's.",
-            v->truth->error, n == 1 ? "" : "s", list);
+        say(out, "The reference has an error of %.2g itself: the error%s shown for %s may be the reference's.",
+            v->reference->error, n == 1 ? "" : "s", list);
 }
 
 void remarks_write(const remarks_view *v, char *text, size_t size)

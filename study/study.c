@@ -1,4 +1,4 @@
-/* The ground the experiments stand on: progress, runs along a grid, and the size of a motion.
+/* What the experiments share: progress, runs along a grid, and the size of a motion.
  *
  * Invariant: a study owns no run between calls; each walk creates its run and destroys it.
  */
@@ -11,11 +11,11 @@
 #include <string.h>
 #include <time.h>
 
-#define TELL_SECONDS 0.01        /* between two calls of the progress hook */
+#define PROGRESS_SECONDS 0.01    /* between two calls of the progress hook */
 #define EVALUATION_OVERHEAD 16.0 /* of an evaluation, in numbers */
-#define SOLVE_PASSES 4.0
-#define SOLVE_FLOPS 3e4 /* of elimination that take as long as an evaluation */
-#define STILL 1e-10     /* a group that moves less than this part of its size does not move */
+#define SOLVE_PASSES 4.0         /* evaluations for each stage of a solve */
+#define SOLVE_FLOPS 3e4          /* of elimination that take as long as an evaluation */
+#define AT_REST 1e-10            /* a group that moves less than this part of its size is at rest */
 
 double study_seconds(void)
 {
@@ -37,12 +37,12 @@ double study_larger(double a, double b) { return isnan(a) || isnan(b) ? NAN : a 
 
 bool study_fatal(motus_status status) { return status == MOTUS_CANCELLED || status == MOTUS_MEMORY; }
 
-void study_note(study *s, motus_status status) { s->starved = s->starved || status == MOTUS_MEMORY; }
+void study_note(study *s, motus_status status) { s->out_of_memory = s->out_of_memory || status == MOTUS_MEMORY; }
 
 motus_status study_broken(const study *s)
 {
     if (s->cancelled) return MOTUS_CANCELLED;
-    return s->starved ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
+    return s->out_of_memory ? fail(s->err, MOTUS_MEMORY, "%s", motus_status_text(MOTUS_MEMORY)) : MOTUS_OK;
 }
 
 /* Progress ------------------------------------------------------------------------------------------------------- */
@@ -57,9 +57,9 @@ static motus_status tick(study *s, double fraction)
 {
     if (!s->progress || s->cancelled) return s->cancelled ? MOTUS_CANCELLED : MOTUS_OK;
     double now = study_seconds();
-    if (s->told >= 0 && now - s->told < TELL_SECONDS) return MOTUS_OK;
-    s->told = now;
-    /* Some parts are gone over again, with a shorter step: progress waits there and never goes back. */
+    if (s->called >= 0 && now - s->called < PROGRESS_SECONDS) return MOTUS_OK;
+    s->called = now;
+    /* A part that is repeated with a shorter step does not set progress back. */
     s->reached = fmin(1, fmax(s->reached, s->base + s->span * fraction));
     s->cancelled = s->progress(s->context, s->reached) != 0;
     if (!s->cancelled) return MOTUS_OK;
@@ -107,7 +107,7 @@ static void find_groups(study *s)
 motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
 {
     *s = (study){
-        .system = system, .err = err, .progress = def->progress, .context = def->context, .told = -1, .span = 1};
+        .system = system, .err = err, .progress = def->progress, .context = def->context, .called = -1, .span = 1};
     s->allocator = motus_system_allocator(system);
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);
@@ -117,8 +117,8 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     s->from = isnan(settings.from) ? 0 : settings.from;
     s->until = isnan(def->until) ? settings.until : def->until;
     if (isnan(s->until)) {
-        fail(err, MOTUS_ARGUMENT, "nothing says until when");
-        hint(err, "say in the model, for example, until 10");
+        fail(err, MOTUS_ARGUMENT, "the study has no end: neither its definition nor the model says until");
+        hint(err, "write in the model, for example, until 10");
         return MOTUS_ARGUMENT;
     }
 
@@ -131,12 +131,12 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     find_groups(s);
 
-    /* The start is wherever a run says it starts, so that a model's rules about it are not written twice. */
+    /* A trial run says where the start is, so that the model's rules about it are in one place. */
     motus_run *run = NULL;
     double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
     if (!(trial > 0)) trial = 1;
-    motus_status status = study_run(s, STUDY_PLAINEST, trial, NAN, s->until, NULL, &run, err);
-    if (status == MOTUS_OK) status = study_look(s, run, s->start, err);
+    motus_status status = study_run(s, STUDY_SIMPLEST, trial, NAN, s->until, NULL, &run, err);
+    if (status == MOTUS_OK) status = study_state(s, run, s->start, err);
     if (status == MOTUS_OK) {
         s->from = motus_run_time(run);
         s->total = motus_run_steps_total(run);
@@ -179,7 +179,7 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
         const motus_method *m = NULL;
         if (all) {
             m = motus_method_at(k);
-            /* The exact motion is what the others are compared with. */
+            /* The others are compared with the exact motion. */
             if (strcmp(m->family, "exact") != 0 && study_admits(s, m->name)) (*names)[(*count)++] = m->name;
             continue;
         }
@@ -191,7 +191,7 @@ motus_status study_methods(study *s, const motus_study_def *def, const char ***n
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     if (*count == 0) {
         fail(s->err, MOTUS_METHOD, "no method admits this model");
-        hint(s->err, "see what the analysis says about each");
+        hint(s->err, "motus check, or motus_method_admits, says why each does not");
         return MOTUS_METHOD;
     }
     return MOTUS_OK;
@@ -220,17 +220,17 @@ motus_status study_run(study *s, const char *method, double step, double start, 
 
 study_grid study_grid_of(const study *s, double step, int64_t total, double last_step, int64_t *per)
 {
-    int64_t whole = total - (last_step > 0);
+    int64_t full = total - (last_step > 0);
     int64_t most = (int64_t)(STUDY_NUMBERS_MAX / s->numbers);
     most = most > 2 * STUDY_SAMPLES ? 2 * STUDY_SAMPLES : most < 2 ? 2 : most;
-    for (*per = 1; whole / *per >= most;) *per *= 2;
+    for (*per = 1; full / *per >= most;) *per *= 2;
     study_grid g = {.from = s->from, .until = s->until, .interval = step * (double)*per};
-    g.intervals = (size_t)(whole / *per);
-    g.points = g.intervals + (whole % *per != 0 || last_step > 0 || whole == 0);
+    g.intervals = (size_t)(full / *per);
+    g.points = g.intervals + (full % *per != 0 || last_step > 0 || full == 0);
     return g;
 }
 
-motus_status study_look(study *s, motus_run *run, double *y, motus_error *err)
+motus_status study_state(study *s, motus_run *run, double *y, motus_error *err)
 {
     return motus_run_state(run, y, y + s->nx, err);
 }
@@ -245,10 +245,10 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     for (; status == MOTUS_OK && done < g->points; done++) {
         double began = study_seconds();
-        /* The last point is reached by finishing, so that it is `until` to the bit. */
+        /* motus_run_finish makes the last time equal to `until` to the bit. */
         status = done + 1 == g->points ? motus_run_finish(run, err) : motus_run_step(run, per, err);
         cost->seconds += study_seconds() - began;
-        if (status == MOTUS_OK) status = study_look(s, run, out + done * s->numbers, err);
+        if (status == MOTUS_OK) status = study_state(s, run, out + done * s->numbers, err);
         if (status != MOTUS_OK) break;
     }
     for (size_t k = done * s->numbers; k < g->points * s->numbers; k++) out[k] = NAN;
@@ -283,7 +283,7 @@ void study_scale(study *s, const double *rows, size_t count)
     s->magnitude = 0;
     for (size_t g = 0; g < s->groups; g++) {
         s->magnitude = fmax(s->magnitude, size[g]);
-        if (!(moves[g] > STILL * size[g])) moves[g] = size[g] > 0 ? size[g] : 1;
+        if (!(moves[g] > AT_REST * size[g])) moves[g] = size[g] > 0 ? size[g] : 1;
         s->noise = fmax(s->noise, DBL_EPSILON * size[g] / moves[g]);
     }
     for (size_t k = 0; k < s->numbers; k++) s->scale[k] = moves[s->group[k]];

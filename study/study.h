@@ -1,9 +1,9 @@
-/* What the experiments share. They are written with the public calls alone: whoever can read motus.h can read these
- * files.
+/* What the experiments share: the motion under study, progress, runs along a grid of times. Studies use the public
+ * calls of motus.h alone.
  *
- * A state here is one row of numbers, y = (x, v): the positions, then the velocities and companions. Invariant:
- * whatever a study takes it takes through the system's hooks, and every walk ends in CANCELLED soon after the user's
- * progress hook asked for that.
+ * A state here is one row of numbers, y = (x, v): the positions, then the velocities and first-order variables.
+ * Invariant: all memory comes from the system's hooks, and every run ends in CANCELLED soon after the user's progress
+ * hook asked for that.
  */
 #ifndef STUDY_STUDY_H
 #define STUDY_STUDY_H
@@ -15,11 +15,9 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-/* Truth and trajectories are looked at about this often; fewer when the states are long. */
-#define STUDY_SAMPLES 100
+#define STUDY_SAMPLES 100 /* the usual number of times at which trajectories are compared; fewer for long states */
 #define STUDY_NUMBERS_MAX ((size_t)1 << 22) /* in one table of samples: 32 MiB */
-/* Admits every force and needs no solve: asked where runs start, and what the acceleration is. */
-#define STUDY_PLAINEST "explicit-euler"
+#define STUDY_SIMPLEST "explicit-euler"     /* admits every force and needs no solve: used for trial runs and probes */
 
 typedef struct study {
     motus_system *system;
@@ -27,23 +25,21 @@ typedef struct study {
     motus_error *err;
     size_t nx, nv, numbers; /* numbers = nx + nv */
     double from, until;
-    int64_t total; /* steps of the trial run up to `until`, and the size of its shortened last one */
-    double last_step;
-    double *start; /* the state at `from` */
-    /* to which group a number belongs; positions and velocities of a variable are two */
-    size_t *group;
-    double *scale; /* by how much each number moves; set by study_scale */
+    int64_t total;    /* steps of the trial run up to `until` */
+    double last_step; /* the size of its shorter last step, 0 if it has none */
+    double *start;    /* the state at `from` */
+    size_t *group;    /* of each number; a variable's positions are one group, its velocities another */
+    double *scale;    /* of each number: how far its group moves; set by study_scale */
     size_t groups;
-    /* the rounding of the largest value of a group, in units of its scale: largest of all */
-    double noise;
+    double noise;     /* the rounding of a group's largest value in units of its scale, at most over the groups */
     double magnitude; /* the largest value */
     double *work;     /* 2 numbers + 2 groups: working space of study_scale */
     int (*progress)(void *context, double fraction);
     void *context;
-    double base, span;    /* the part of the whole that the present walk is */
-    double reached, told; /* the fraction and the moment of the last call */
+    double base, span;      /* where the present part of the study begins, and its length, as fractions of it */
+    double reached, called; /* the fraction and the clock at the last call of progress */
     bool cancelled;
-    bool starved; /* memory ran out where an answer could only be "unknown" */
+    bool out_of_memory; /* in a call that could only answer "unknown" */
 } study;
 
 /* Times at which trajectories are compared: from + k interval, k = 1 … intervals, and `until` if that is not among
@@ -53,57 +49,57 @@ typedef struct study_grid {
     size_t intervals, points;     /* points = intervals, or intervals + 1 */
 } study_grid;
 
-/* What a walk along a grid cost. */
+/* The cost of a walk along a grid. */
 typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
 } study_cost;
 
-/* The definition as this library knows it, checked. */
+/* The definition in this version's layout, checked. */
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err);
-/* Finds the start, the end and the groups; `step` is only a hint for the trial run. study_close in any case. */
+/* Finds the start, the end and the groups; `step` is the trial run's if it is above 0. Call study_close in any case. */
 motus_status study_open(study *, motus_system *, const motus_study_def *, double step, motus_error *err);
 void study_close(study *);
 
 bool study_admits(study *, const char *method);
-/* The methods to be studied: those named, or every admitted one but the exact motion itself. */
+/* The methods to be studied: those named, or every admitted one but the exact motion. */
 motus_status study_methods(study *, const motus_study_def *, const char ***names, size_t *count);
 
-/* The next walk is this part of the whole. */
+/* What follows takes progress from `base` to `base` + `span`. */
 void study_part(study *, double base, double span);
-/* Notes a failure that a probe or a survey met, and hands it on as the study's: OK unless memory ran out or the user
- * cancelled. */
+/* Remembers if a call that returns no status ran out of memory. */
 void study_note(study *, motus_status);
+/* The status of all calls so far: OK unless memory ran out or the user cancelled. */
 motus_status study_broken(const study *);
 /* True for what ends the study and not only the row: memory and cancellation. */
 bool study_fatal(motus_status);
 
-/* A run of the study: progress goes through its hook. x and v may be NULL: the model's start. */
+/* A run that reports progress through the study. y NULL: from the model's start. */
 motus_status study_run(study *, const char *method, double step, double start, double until, const double *y,
                        motus_run **, motus_error *err);
 /* The grid of a run of `total` steps, of which the last is shorter if last_step > 0; *per: steps in an interval, a
- * power of 2, so that the times of coarser and finer runs are the same numbers. */
+ * power of 2, so that the times of coarser and finer runs are equal to the bit. */
 study_grid study_grid_of(const study *, double step, int64_t total, double last_step, int64_t *per);
-/* The state now as one row. */
-motus_status study_look(study *, motus_run *, double *y, motus_error *err);
-/* `per` steps in each interval; out: points × numbers, NaN from a failure on. A failure is the walk's, not the study's,
- * unless study_fatal. */
+/* The run's state as one row. */
+motus_status study_state(study *, motus_run *, double *y, motus_error *err);
+/* Runs a method along a grid with `per` steps in each interval; out: points × numbers, NaN from a failure on. A
+ * failure ends the study only if study_fatal. */
 motus_status study_walk(study *, const char *method, const study_grid *, int64_t per, double *out, study_cost *,
                         motus_error *err);
-/* What so many steps and evaluations cost, in numbers of a state updated by one evaluation; a rough measure, but the
- * same on every machine. evaluations < 0: a guess before the run. */
+/* An estimate of the cost of so many steps and evaluations, the same on every machine; its unit is one number of one
+ * evaluation. evaluations < 0: not known yet. */
 double study_work(const study *, const motus_method *, double steps, double evaluations);
-double study_seconds(void); /* a steady clock */
+double study_seconds(void); /* a monotonic clock */
 
-/* scale: for each number how far its group moved over the rows (the first is the start); what never moves has the
- * size of its values, or 1. */
+/* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to the size of its
+ * values, or 1. Sets noise and magnitude. */
 void study_scale(study *, const double *rows, size_t count);
-/* The largest |p - q| of two states among positions, among velocities, and of all in units of scale. NaN wins. */
+/* The largest |p - q| of two states among positions, among velocities, and of all in units of scale; NaN if any is. */
 typedef struct study_distance {
     double x, v, scaled;
 } study_distance;
 study_distance study_measure(const study *, const double *p, const double *q);
-/* The larger; a NaN in either wins, so that what is unknown never looks small. */
+/* The larger; NaN if either is, so that an unknown error never counts as small. */
 double study_larger(double, double);
 
 #endif

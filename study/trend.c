@@ -1,13 +1,12 @@
-/* The trend of an invariant: a drift that neither its oscillation nor rounding explains.
+/* The trend of an invariant: a change that neither its oscillation nor rounding explains.
  *
- * Neighbouring samples of an oscillation are not independent, so a line through all of them believes itself far too
- * much. The run is cut into BLOCKS; their means average the oscillation away. There are two ways to be a trend:
- *   - the drift oscillates about its line (CROSSINGS or more), and the slope of the block means is beyond 4 of their
- *       standard errors;
- *   - no oscillation can be told, or growth is so uneven that a line does not fit it, but the means climb or fall
- *       practically without
- *     exception (nine pairs in ten agree).
- * Either way the trend must exceed what rounding explains. Invariant: the answer depends on the numbers given alone.
+ * Neighbouring samples of an oscillation are not independent, so the standard error of a line through all of them is
+ * far too small. The run is cut into BLOCKS, whose means average the oscillation away. There is a trend if
+ *   - the deviation oscillates about its line (CROSSINGS or more), and the slope of the block means is more than
+ *     TREND_ERRORS of their standard errors; or
+ *   - the block means rise or fall nearly always (TREND_AGREEMENT of the pairs): this finds growth without an
+ *     oscillation, or too uneven for a line.
+ * Either way the trend must exceed what rounding explains.
  */
 #include "trend.h"
 #include "fit.h"
@@ -21,18 +20,18 @@
 #define TREND_AGREEMENT 0.9
 #define TREND_SAMPLES_MIN 8
 
-/* How often the residual goes from well above its line to well below or back. Half of its mean size is well: so
- * short, high swings with long rests between them count as well as even ones. */
-static size_t swings(const double *t, const double *drift, size_t count, fit_result line)
+/* How often the residual goes from more than half its mean size above the line to as much below it, or back. The
+ * threshold makes short high peaks count as well as even swings. */
+static size_t swings(const double *t, const double *deviation, size_t count, fit_result line)
 {
     double mean = 0, before = 0;
     size_t crossings = 0;
     for (size_t i = 0; i < count; i++) {
-        double e = drift[i] - line.intercept - line.slope * t[i];
+        double e = deviation[i] - line.intercept - line.slope * t[i];
         mean += fabs(e) / (double)count;
     }
     for (size_t i = 0; i < count; i++) {
-        double e = drift[i] - line.intercept - line.slope * t[i];
+        double e = deviation[i] - line.intercept - line.slope * t[i];
         if (2 * fabs(e) <= mean) continue;
         crossings += before != 0 && (e > 0) != (before > 0);
         before = e;
@@ -40,15 +39,15 @@ static size_t swings(const double *t, const double *drift, size_t count, fit_res
     return crossings;
 }
 
-trend_result trend_find(const double *t, const double *drift, size_t count, double roundoff)
+trend_result trend_find(const double *t, const double *deviation, size_t count, double roundoff)
 {
     trend_result r = {NAN, 0};
-    fit_result line = fit_line(t, drift, count);
+    fit_result line = fit_line(t, deviation, count);
     if (count < 2 || isnan(line.slope)) return r;
     r.trend = line.slope * (t[count - 1] - t[0]);
     if (count < TREND_SAMPLES_MIN || !(fabs(r.trend) > roundoff)) return r;
 
-    size_t crossings = swings(t, drift, count, line);
+    size_t crossings = swings(t, deviation, count, line);
 
     double mt[BLOCKS], md[BLOCKS];
     size_t blocks = count < BLOCKS ? count : BLOCKS;
@@ -57,7 +56,7 @@ trend_result trend_find(const double *t, const double *drift, size_t count, doub
         mt[b] = md[b] = 0;
         for (size_t i = first; i < end; i++) {
             mt[b] += t[i] / (double)(end - first);
-            md[b] += drift[i] / (double)(end - first);
+            md[b] += deviation[i] / (double)(end - first);
         }
     }
     fit_result means = fit_line(mt, md, blocks);

@@ -1,6 +1,6 @@
-/* One JSON value, written as it goes.
+/* Writes one JSON value piece by piece.
  *
- * Invariant: whatever strings and numbers come in, what goes out is valid JSON in valid UTF-8, on one line.
+ * Invariant: the output is valid JSON in valid UTF-8 on one line, whatever the strings and numbers are.
  */
 #include "tell/json.h"
 
@@ -12,7 +12,7 @@
 
 static void put(json *j, const char *text) { j->write(j->to, text, strlen(text)); }
 
-/* A character that must not stand for itself. */
+/* Writes a character that JSON does not allow in a string. */
 static void escape(json *j, uint32_t c)
 {
     static const char digits[] = "0123456789abcdef";
@@ -45,7 +45,7 @@ static void quoted(json *j, const char *s, size_t length)
     put(j, "\"");
 }
 
-/* What stands before a value. */
+/* Writes the comma and the key before a value. */
 static void begin(json *j, const char *key)
 {
     if (j->comma) put(j, ", ");

@@ -1,4 +1,4 @@
-/* One JSON value, written as it goes (RFC 8259), to whoever takes the bytes. Commas come by themselves. */
+/* Writes one JSON value (RFC 8259) piece by piece, with its commas, to a callback. */
 #ifndef TELL_JSON_H
 #define TELL_JSON_H
 
@@ -7,15 +7,15 @@
 #include <stdint.h>
 
 typedef struct json {
-    void (*write)(void *to, const char *bytes, size_t count); /* notes its failures itself */
+    void (*write)(void *to, const char *bytes, size_t count); /* keeps its failures itself */
     void *to;
-    bool comma; /* a value stands before this place in the same brackets */
+    bool comma; /* a value precedes in the same brackets */
 } json;
 
-/* key: NULL in a list, and for the whole value. */
+/* key: NULL in a list, and for the outermost value. */
 void json_open(json *, const char *key, char bracket);   /* '{' or '[' */
 void json_close(json *, char bracket);                   /* '}' or ']' */
-void json_end(json *);                                   /* '}' of the whole, and a newline */
+void json_end(json *);                                   /* '}' of the outermost object, and a newline */
 void json_string(json *, const char *key, const char *); /* NULL: null; bytes that are not UTF-8 become U+FFFD */
 void json_part(json *, const char *key, const char *, size_t length);
 void json_number(json *, const char *key, double); /* shortest exact form; null for NaN and infinities */

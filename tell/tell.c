@@ -1,12 +1,12 @@
-/* What is told of a result.
+/* Results as JSON.
  *
- * Invariant: the keys are those of --json, which scripts read: they stay, and what is new gets a new one.
+ * Invariant: scripts read these keys, so a key keeps its name and meaning; new numbers get new keys.
  */
 #include "tell/tell.h"
 
 #include <string.h>
 
-/* The parts of a text between `separator`s, empty ones left out. */
+/* Writes the list of the parts of a text between separators, without empty ones. */
 static void parts(json *j, const char *key, const char *text, char separator)
 {
     const char separators[] = {separator, 0};

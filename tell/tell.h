@@ -1,7 +1,7 @@
-/* What is told of a result, by the program (--json) and to the page: one description of each.
+/* Results as JSON, the same for the program (--json) and for the page.
  *
- * Each function writes members of an object that is open. What the page alone wants stands in lab/core/, what the
- * program alone tells with its verb.
+ * Each function writes members into an open object. What only the page needs is in lab/core/; what only a verb of the
+ * program needs is in its file.
  */
 #ifndef TELL_TELL_H
 #define TELL_TELL_H
@@ -12,14 +12,14 @@
 void tell_methods(json *, const motus_method *only); /* the catalogue; NULL: all of it */
 void tell_variables(json *, const motus_system *);
 void tell_analysis(json *, const motus_system *);
-void tell_admissions(json *, const motus_system *); /* each method, and why not */
+void tell_admissions(json *, const motus_system *); /* whether each method admits the model, and if not, why */
 void tell_comparison(json *, const motus_comparison *);
 void tell_convergence(json *, const motus_convergence *);
-void tell_error(json *, const motus_error *, const char *message); /* message: with the hint in it, or without */
+void tell_error(json *, const motus_error *, const char *message); /* message: the error's, with or without its hint */
 
 /* "x, t": what a force may depend on. */
 const char *tell_forces(motus_forces);
-/* Why a method does not admit a model, without its name and that it does not, which stand beside it. */
+/* The reason in the message of a method that does not admit a model, without "METHOD does not admit this model: ". */
 const char *tell_reason(const char *message, const char *method);
 
 #endif

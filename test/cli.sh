@@ -75,7 +75,7 @@ that "--machine compiled is named" [ "$(jq -r .machine <<<"$run_compiled")" = co
 that "motus cache --clear" [ "$(XDG_CACHE_HOME=$PWD/cache "$motus" cache --clear --json | jq .removed)" = 1 ]
 gives "--emit-c" 0 "$motus" run $osc --emit-c
 that "--emit-c prints the loop" says advance_run
-refuses "motus cache alone" 2 "what is to be done" "$motus" cache
+refuses "motus cache alone" 2 "motus cache needs --clear" "$motus" cache
 refuses "--set of a parameter to the time" 2 "cannot depend on a state" "$motus" run $oscillator --set F=t
 refuses "--machine abacus" 2 "there is no such machine" "$motus" run $osc --machine abacus
 for bad in 0 -1 nan inf 1e999 0,1 0x10 1/0 abc '' 1e-2x; do refuses "--step '$bad'" 2 "--step" "$motus" run $osc --step "$bad"; done
@@ -86,9 +86,9 @@ for bad in F '=3' ''; do refuses "--set '$bad'" 2 "--set" "$motus" run $osc --se
 refuses "--set of an unknown name" 2 "G" "$motus" run $osc --set G=1
 refuses "--set of a quantity" 2 "energy" "$motus" run $osc --set energy=1
 refuses "--methods with a hole" 2 "a name is missing" "$motus" compare $osc --methods verlet,,rk4
-refuses "--columns without -o" 2 "-o is missing" "$motus" run $osc --columns x
-refuses "--every without -o" 2 "-o is missing" "$motus" run $osc --every 0.1
-refuses "--plot-of without --plot" 2 "--plot is missing" "$motus" run $osc --plot-of "x,x'"
+refuses "--columns without -o" 2 "needs -o" "$motus" run $osc --columns x
+refuses "--every without -o" 2 "needs -o" "$motus" run $osc --every 0.1
+refuses "--plot-of without --plot" 2 "needs --plot" "$motus" run $osc --plot-of "x,x'"
 gives "--json and -o -" 2 "$motus" run $osc -o - --json
 that "... is an error object" holds '.error.kind == "argument" and (.error.message | length > 9) and .error.line == 0 and .error.column == 0'
 that "an error object has these keys and no others" holds '(keys == ["error"]) and (.error | keys == ["column","kind","line","message"])'

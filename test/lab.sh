@@ -73,7 +73,7 @@ that "... and is made of harmless characters" eval "! head -n 1 '$out' | LC_ALL=
 that "... every % with two digits in upper case" eval "! sed 's/%[0-9A-F][0-9A-F]//g' '$out' | grep -q %"
 cp "$out" nasty.fragment
 printf "# \xe9t\xe9\n" | cat - osc.motus >latin.motus
-refuses "a text that is not UTF-8" 2 "latin.motus:1:3: a byte that is not UTF-8" "$motus" run latin.motus --share
+refuses "a text that is not UTF-8" 2 "latin.motus:1:3: this byte is not UTF-8" "$motus" run latin.motus --share
 refuses "... in --set" 2 "not UTF-8" "$motus" run osc.motus --set $'F=1 # \xff' --share
 # the bound is of the text, to the byte
 room=$((65536 - $(stat -c %s osc.motus) - $(printf '%s' F=0.2 | wc -c) - 1 - 2))
@@ -144,7 +144,7 @@ refuses "lab with a method that does not fit" 2 "forest-ruth" "$motus" lab "$roo
 refuses "lab of a text that is not UTF-8" 2 "latin.motus:1:3: " "$motus" lab ../latin.motus
 refuses "lab of a long model" 2 "longer than 65536 bytes" "$motus" lab "../full.motus" --set F=0.25
 for option in --set=F=1 --method=rk4 --methods=rk4 --step=0.1 --until=1; do
-    refuses "${option%%=*} without a model" 2 "${option%%=*} is about a model" "$motus" lab "$option"
+    refuses "${option%%=*} without a model" 2 "${option%%=*} needs a model" "$motus" lab "$option"
 done
 refuses "--no-open elsewhere" 2 "motus run takes no --no-open" "$motus" run ../osc.motus --no-open
 refuses "a model that is not there" 1 "cannot read" "$motus" lab nowhere.motus
@@ -184,7 +184,7 @@ sed 's/<meta name="motus-start" content="">//' page.html >none.html
 refuses "a page without a place for the start" 1 "none.html is not the page of the lab" page none.html
 sed '/motus-start/p' page.html >two.html
 refuses "a page with two" 1 "two.html is not the page of the lab" page two.html
-refuses "a page that was written already" 1 "its place for a start is not empty" page osc-lab.html
+refuses "a page that was written already" 1 "its motus-start is not empty" page osc-lab.html
 head -c 85 page.html >torn.html
 refuses "a page torn in that place" 1 "torn.html is not the page of the lab" page torn.html
 { cat page.html; printf '\0'; } >zero.html
@@ -197,7 +197,7 @@ that "... nothing was written" absent never.html
 mkdir -p tree/lab prefix/bin prefix/share/motus
 cp "$motus" tree/motus && cp "$motus" prefix/bin/motus
 for program in tree/motus prefix/bin/motus; do
-    refuses "$program: no page anywhere" 1 "the page of the lab is not there" env MOTUS_LAB_PAGE= "$program" lab osc.motus
+    refuses "$program: no page anywhere" 1 "the page of the lab is missing" env MOTUS_LAB_PAGE= "$program" lab osc.motus
     that "... says what makes it" says "make lab builds it" "$err"
 done
 cp page.html tree/lab/motus-lab.html

@@ -1,8 +1,8 @@
-/* The experiments: the rule that finds a slope, the detector of trends, and the studies on motions whose truth is
- * known.
+/* The studies: the rule that finds a slope, the detector of trends, and compare and converge on motions with a known
+ * solution.
  *
- * The first part feeds the pure functions errors that are made up, so that methods which are not what they say can be
- * tried too; the second runs the studies on callback systems and texts.
+ * The first part gives the pure functions synthetic errors, and so tests wrongly declared orders too; the second runs
+ * the studies on callback systems and texts.
  */
 #include "motus.h"
 #include "study/fit.h"
@@ -17,7 +17,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-/* Made-up errors ------------------------------------------------------------------------------------------------- */
+/* Synthetic errors ----------------------------------------------------------------------------------------------- */
 
 #define POINTS 40
 
@@ -78,7 +78,7 @@ static void plateau_is_left_out(void **state)
             assert_int_equal(f.verdict, FIT_SLOPE);
             assert_true(f.settled);
             assert_true(fabs(f.observed - p) < 0.1);
-            /* the same fit over everything would be far off: the rule did something */
+            /* a fit over all points would be far off */
             double x[POINTS], y[POINTS];
             for (size_t i = 0; i < n; i++) {
                 x[i] = log(points[i].step);
@@ -111,13 +111,13 @@ static void large_errors_are_left_out(void **state)
     size_t n = make(points, 28, 1.4142135623730951, r);
     fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 0);
     assert_int_equal(f.verdict, FIT_SLOPE);
-    /* Errors as large as the motion have no order, even where they look it; nor has the octave next to them. */
+    /* Errors as large as the motion, and the octave next to them, do not count, whatever their slope. */
     for (size_t i = 0; i + 1 < n; i++)
         if (points[i].error >= 0.1) assert_false(points[i].used || points[i + 1].used);
     assert_true(points[n - 1].used);
 }
 
-static void a_lower_order_is_seen(void **state)
+static void a_lower_order_is_detected(void **state)
 {
     (void)state;
     for (int p = 2; p <= 8; p++) {
@@ -130,13 +130,13 @@ static void a_lower_order_is_seen(void **state)
     }
 }
 
-static void the_truth_s_error_is_a_floor(void **state)
+static void the_reference_error_is_a_floor(void **state)
 {
     (void)state;
     motus_point points[POINTS];
     recipe r = {.coefficient = 0.05, .order = 4, .unstable = INFINITY};
     size_t n = make(points, 20, 1.4142135623730951, r);
-    /* A truth known to 1e-7 leaves the points below 3e-6 out, though they look perfect. */
+    /* A reference error of 1e-7 excludes the points below 3e-6, though they lie on a line. */
     fit_order_result f = fit_order(points, n, 8, DBL_EPSILON, 1e-7);
     assert_int_equal(f.verdict, FIT_SLOPE);
     for (size_t i = 0; i < n; i++) assert_true(!points[i].used || points[i].error >= 3e-6);
@@ -187,7 +187,7 @@ static void line_by_hand(void **state)
     fit_result f = fit_line((double[]){0, 1, 2}, (double[]){1, 3, 2}, 3);
     assert_true(fabs(f.slope - 0.5) < 1e-15 && fabs(f.intercept - 1.5) < 1e-15);
     assert_true(fabs(f.slope_error - sqrt(0.75)) < 1e-15);
-    /* far from the origin nothing is lost */
+    /* no cancellation far from the origin */
     f = fit_line((double[]){1e9, 1e9 + 1, 1e9 + 2}, (double[]){1, 3, 5}, 3);
     assert_true(fabs(f.slope - 2) < 1e-12);
     assert_true(isnan(fit_line((double[]){1, 1}, (double[]){0, 1}, 2).slope));
@@ -247,7 +247,7 @@ static void rounding_is_no_trend(void **state)
     assert_true(trend_of(straight, 1e-12, 0, 1e-13).trending);
     assert_false(trend_of(straight, 1e-13, 0, 1e-12).trending);
     assert_true(isnan(trend_find((double[]){1}, (double[]){1}, 1, 0).trend));
-    /* too few looks to tell */
+    /* too few samples */
     assert_false(trend_find((double[]){0, 1, 2}, (double[]){0, 1, 2}, 3, 0).trending);
 }
 
@@ -422,7 +422,7 @@ static void every_number_of_a_spring(void **state)
     motus_system_destroy(s);
 }
 
-static void a_reference_stands_in_for_the_truth(void **state)
+static void a_reference_run_replaces_the_exact_motion(void **state)
 {
     (void)state;
     motus_callback_def known = spring_def(), unknown = spring_def();
@@ -445,8 +445,8 @@ static void a_reference_stands_in_for_the_truth(void **state)
     motus_system_destroy(b);
 }
 
-/* Where the force jumps no reference is good to round-off, and what it says of itself is all there is. */
-static void a_reference_knows_its_error(void **state)
+/* Where the force is discontinuous no reference reaches round-off; its error estimate must be honest there too. */
+static void the_error_estimate_holds_at_a_jump(void **state)
 {
     (void)state;
     motus_callback_def callback = spring_def();
@@ -458,7 +458,7 @@ static void a_reference_knows_its_error(void **state)
     motus_comparison *c = compare(s, &def);
     assert_true(c->reference_error > 1e-12 && c->reference_error < 1e-4);
     /* x = -1 + 2 cos t down to x = 0 at t = pi/3; from there, with v = -sqrt 3, x = 3/2 (1 - cos u) - sqrt 3 sin u */
-    double u = 2 - acos(0.5), truth = 1.5 * (1 - cos(u)) - sqrt(3) * sin(u);
+    double u = 2 - acos(0.5), exact = 1.5 * (1 - cos(u)) - sqrt(3) * sin(u);
     for (size_t k = 0; k < 3; k++) {
         motus_run_def run = motus_default_run();
         motus_run *r = NULL;
@@ -469,7 +469,7 @@ static void a_reference_knows_its_error(void **state)
         assert_int_equal(motus_run_create(s, &run, &r, NULL), MOTUS_OK);
         assert_int_equal(motus_run_finish(r, NULL), MOTUS_OK);
         assert_int_equal(motus_run_state(r, &x, NULL, NULL), MOTUS_OK);
-        NEAR(fabs(x - truth), c->rows[k]->error_final_x, c->reference_error);
+        NEAR(fabs(x - exact), c->rows[k]->error_final_x, c->reference_error);
         motus_run_destroy(r);
     }
     motus_comparison_destroy(c);
@@ -479,7 +479,7 @@ static void a_reference_knows_its_error(void **state)
 static const char parabola[] = "g = (0, -9.81)\nr'' = g\nr(0) = (0, 0)\nr'(0) = (1, 4.5)\n"
                                "exact r = r(0) + r'(0) t + g t^2/2\nstep 0.05\nuntil 3\n";
 
-static void eulers_miss_the_parabola(void **state)
+static void euler_methods_miss_the_parabola(void **state)
 {
     (void)state;
     motus_system *s = system_of_text(parabola);
@@ -498,7 +498,7 @@ static void eulers_miss_the_parabola(void **state)
     assert_non_null(strstr(c->remarks, "½ |a| h t = 0.73575"));
     assert_non_null(strstr(c->remarks, "parabola"));
     motus_comparison_destroy(c);
-    /* The reason is found in the numbers: one Euler alone has no opposite. */
+    /* With one of the Euler methods alone the remark about opposite errors is not made. */
     const char *one[] = {"explicit-euler"};
     motus_study_def def = study_of(one, 1, NAN, NAN);
     c = compare(s, &def);
@@ -508,7 +508,7 @@ static void eulers_miss_the_parabola(void **state)
     motus_system_destroy(s);
 }
 
-static void short_last_steps_and_ways_back(void **state)
+static void short_last_steps_and_reversal(void **state)
 {
     (void)state;
     motus_callback_def callback = spring_def();
@@ -522,7 +522,7 @@ static void short_last_steps_and_ways_back(void **state)
                 assert_int_equal(c->rows[k]->status, MOTUS_OK);
                 assert_int_equal(c->rows[k]->steps, few ? 1 : 67);
                 assert_non_null(strstr(c->rows[k]->note, "last step"));
-                /* The way back takes the short step first, or it would not be the way. */
+                /* The run back takes the shorter step first: else it would not reverse the run. */
                 if (k != 1 && !few) assert_true(c->rows[k]->reversal < 1e-13);
                 assert_true(few || c->rows[k]->error_final_x < 1e-3);
             }
@@ -549,13 +549,13 @@ static void equal_work(void **state)
         assert_true(r->error_max_x < 0.1);
     }
     assert_true(row_of(c, "kahan-li8")->step > 10 * row_of(c, "verlet")->step);
-    /* With enough work the higher order wins. */
+    /* At equal work, with enough of it, the higher order is more accurate. */
     assert_true(row_of(c, "kahan-li8")->error_max_x < 1e-6 * row_of(c, "verlet")->error_max_x);
     motus_comparison_destroy(c);
     motus_system_destroy(s);
 }
 
-static void rows_that_fail_say_so(void **state)
+static void failed_rows_have_status_and_note(void **state)
 {
     (void)state;
     motus_callback_def callback = spring_def();
@@ -589,7 +589,7 @@ static void rows_that_fail_say_so(void **state)
         assert_true(isnan(c->rows[k]->error_final_x));
         assert_true(c->rows[k]->steps < 2000);
     }
-    assert_non_null(strstr(c->remarks, "nothing to judge by"));
+    assert_non_null(strstr(c->remarks, "there is no reference solution"));
     motus_comparison_destroy(c);
     motus_system_destroy(s);
 }
@@ -602,7 +602,7 @@ static void a_step_beyond_the_limit(void **state)
     const char *methods[] = {"verlet", "implicit-midpoint"};
     motus_study_def def = study_of(methods, 2, 2.5, 1000);
     motus_comparison *c = compare(s, &def);
-    assert_non_null(strstr(c->remarks, "verlet: the step 2.5 is outside its stability limit"));
+    assert_non_null(strstr(c->remarks, "verlet: the step 2.5 is beyond its stability limit"));
     assert_null(strstr(c->remarks, "implicit-midpoint: the step"));
     motus_comparison_destroy(c);
     motus_system_destroy(s);
@@ -631,8 +631,7 @@ static void certificates(void **state)
         assert_int_equal(motus_method_find(r->method, &card, NULL), MOTUS_OK);
         for (size_t i = 0; i < r->point_count; i++) {
             used += r->points[i]->used != 0;
-            /* as the card says; where a step begins with the acceleration that ended the last one, one more for the
-             * first */
+            /* as the card says, and one more for the first step of a FSAL method */
             double expected = card->evaluations * round(5 / r->points[i]->step),
                    spent = (double)r->points[i]->evaluations;
             assert_true(card->evaluations ? spent == expected || spent == expected + 1 : spent > 0);
@@ -644,11 +643,10 @@ static void certificates(void **state)
     motus_system_destroy(s);
 }
 
-static void a_hidden_velocity_is_found_out(void **state)
+static void an_undeclared_velocity_costs_the_order(void **state)
 {
     (void)state;
-    /* The definition says that the force does not depend on the velocity, and it does: kick and drift then lose their
-     * order. */
+    /* The definition wrongly says that the force does not depend on the velocity: kick and drift lose their order. */
     motus_callback_def callback = spring_def();
     callback.acceleration = damped_accel;
     callback.exact = NULL;
@@ -707,7 +705,7 @@ static void long_motions_are_cut(void **state)
     assert_true(c->passed);
     assert_non_null(strstr(c->reference, "not 10000"));
     motus_convergence_destroy(c);
-    def.until = 60; /* asked for: taken */
+    def.until = 60; /* an end that the user gives is not cut */
     c = converge(s, &def);
     assert_null(strstr(c->reference, ", not "));
     NEAR(c->rows[0]->points[0]->step, 7.5, 0);
@@ -739,7 +737,7 @@ static void models_certify_every_method(void **state)
     }
 }
 
-static void the_notebook_s_error(void **state)
+static void the_error_of_verlet_to_twenty_digits(void **state)
 {
     (void)state;
     motus_system *s =
@@ -865,7 +863,7 @@ static void *spend(void *context, size_t bytes)
     purse *p = context;
     if (p->left == 0) {
         p->refused++;
-        p->left = -1; /* once only: whoever swallows it would go on and give a wrong answer */
+        p->left = -1; /* fails once only: code that ignores it would go on and return a wrong answer */
         return NULL;
     }
     p->left -= p->left > 0;
@@ -893,7 +891,7 @@ static void every_allocation_may_fail(void **state)
         motus_study_def def = study_of(methods, 1, 0.5, 4);
         def.evaluations = what == 0 ? 40 : 0;
         motus_status status = MOTUS_MEMORY;
-        /* Thousands of runs are made: the first failures one by one, then a scatter of them. */
+        /* There are thousands of allocations: the first ones fail one by one, then a sample of the rest. */
         for (long k = 0; status != MOTUS_OK; k = k < 60 ? k + 1 : k + k / 8) {
             motus_comparison *c = NULL;
             motus_convergence *v = NULL;
@@ -926,10 +924,10 @@ int main(void)
         cmocka_unit_test(slope_of_clean_errors),
         cmocka_unit_test(plateau_is_left_out),
         cmocka_unit_test(coarse_points_are_left_out),
-        cmocka_unit_test(a_lower_order_is_seen),
+        cmocka_unit_test(a_lower_order_is_detected),
         cmocka_unit_test(large_errors_are_left_out),
-        cmocka_unit_test(a_reference_knows_its_error),
-        cmocka_unit_test(the_truth_s_error_is_a_floor),
+        cmocka_unit_test(the_error_estimate_holds_at_a_jump),
+        cmocka_unit_test(the_reference_error_is_a_floor),
         cmocka_unit_test(noise_is_no_slope),
         cmocka_unit_test(exact_methods_have_no_slope),
         cmocka_unit_test(margins_of_the_certificate),
@@ -938,20 +936,20 @@ int main(void)
         cmocka_unit_test(drifts_are_trends),
         cmocka_unit_test(rounding_is_no_trend),
         cmocka_unit_test(every_number_of_a_spring),
-        cmocka_unit_test(a_reference_stands_in_for_the_truth),
-        cmocka_unit_test(eulers_miss_the_parabola),
-        cmocka_unit_test(short_last_steps_and_ways_back),
+        cmocka_unit_test(a_reference_run_replaces_the_exact_motion),
+        cmocka_unit_test(euler_methods_miss_the_parabola),
+        cmocka_unit_test(short_last_steps_and_reversal),
         cmocka_unit_test(equal_work),
-        cmocka_unit_test(rows_that_fail_say_so),
+        cmocka_unit_test(failed_rows_have_status_and_note),
         cmocka_unit_test(a_step_beyond_the_limit),
         cmocka_unit_test(certificates),
-        cmocka_unit_test(a_hidden_velocity_is_found_out),
+        cmocka_unit_test(an_undeclared_velocity_costs_the_order),
         cmocka_unit_test(a_jump_costs_the_order),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),
 #ifdef MOTUS_SOURCE_DIR
         cmocka_unit_test(models_certify_every_method),
-        cmocka_unit_test(the_notebook_s_error),
+        cmocka_unit_test(the_error_of_verlet_to_twenty_digits),
 #endif
         cmocka_unit_test(wrong_requests),
         cmocka_unit_test(progress_and_cancelling),

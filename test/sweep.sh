@@ -116,7 +116,7 @@ that "a name stands for all its numbers; a component varies" is "$(names)" "inde
 
 # --- a motion that leaves the finite numbers ---------------------------------------------------------------------------------------------
 gives "some that blow up" 0 "$motus" sweep blow.motus --vary k=-1,3,1,100,0 --record "x,max(x)"
-that "... are said" eval "says '3 of 5 trajectories left the finite numbers' '$err'"
+that "... are said" eval "says '3 of 5 trajectories diverged' '$err'"
 that "... their cells are empty, and the time is there" eval "rows | awk -F, '\$2 > 0 { bad += !(\$3 == \"\" && \$4 == \"\" && \$5 > 0 && \$5 < 4) } \$2 <= 0 { bad += !(\$3 != \"\" && \$4 != \"\" && \$5 == \"\") } END { exit bad || NR != 5 }'"
 for k in 3 100; do
     "$motus" run blow.motus --set k=$k --json >run.json 2>/dev/null
@@ -139,9 +139,9 @@ for how in "--threads 1" "--threads 2" "--lanes 1" "--lanes 4" "--machine interp
 done
 sh -c "$(head -n 1 whole.csv | sed "s|^# motus|'$motus'|") -q" >"$out"
 that "the first line is a command that makes the file" cmp whole.csv "$out"
-refuses "a file that is there" 2 "whole.csv is there already" "$motus" sweep "${ask[@]}" -o whole.csv
+refuses "a file that is there" 2 "whole.csv exists" "$motus" sweep "${ask[@]}" -o whole.csv
 that "... the remedies" eval "says --resume '$err' && says --force '$err'"
-refuses "... with another request as well" 2 "is there already" "$motus" sweep line.motus --vary a=1 -o whole.csv
+refuses "... with another request as well" 2 "exists" "$motus" sweep line.motus --vary a=1 -o whole.csv
 cp whole.csv copy.csv
 gives "--resume of a whole file" 0 "$motus" sweep "${ask[@]}" -o copy.csv --resume --json
 that "... does nothing" eval "cmp whole.csv copy.csv && holds '.resumed == 14 and .seconds == 0'"
@@ -190,7 +190,7 @@ other look "${ask[@]}" --every "2 steps"
 other parameter "${ask[@]}" --set "x(0)=0.1"
 other freedom "${ask[@]}" --fast
 other draw osc.motus --random F=0:0.5 --count 14 --record "x,max(energy)"
-that "... which it is, is said" says "it says: motus sweep osc.motus --vary F=0:0.5:7" "$err"
+that "... which it is, is said" says "it was made by: motus sweep osc.motus --vary F=0:0.5:7" "$err"
 sweep line.motus --random a=0:1 --count 9 --seed 1 -o seeded.csv -q
 refuses "--resume with another seed" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 9 --seed 2 -o seeded.csv --resume
 refuses "--resume with another count" 2 "another sweep" "$motus" sweep line.motus --random a=0:1 --count 10 --seed 1 -o seeded.csv --resume
@@ -242,7 +242,7 @@ for signal in KILL INT TERM HUP; do
     that "... and leaves rows ($count)" test "$count" -gt 0 -a "$count" -lt 20000
     if [ $signal != KILL ]; then
         that "... whole ones" eval "[ -z \"\$(tail -c 1 stopped.csv | tr -d '\n')\" ]"
-        that "... and says how to go on" eval "says '$count of 20000 trajectories are in stopped.csv; the same command with --resume goes on' '$err'"
+        that "... and says how to go on" eval "says '$count of 20000 trajectories are in stopped.csv; the same command with --resume continues' '$err'"
     fi
     sweep osc.motus --vary "F=@stopped.csv:F" --until 20 --record final -q >"$out"
     that "... right ones" cmp <(rows stopped.csv | head -n "$count" | cut -d, -f 1-4) <(rows | cut -d, -f 1-4)
@@ -279,7 +279,7 @@ that "... finished to the same bytes" eval "sweep \"\${long[@]}\" -o killed.npy 
 refuses "--resume of another .npy" 2 "was made by another sweep" "$motus" sweep "${ask[@]}" --step 0.02 -o whole.npy --resume
 rm cut.npy.json
 refuses "--resume of a .npy whose text is gone" 1 "cannot read cut.npy.json" "$motus" sweep "${ask[@]}" -o cut.npy --resume
-refuses "a .npy that is there" 2 "whole.npy is there already" "$motus" sweep "${ask[@]}" -o whole.npy
+refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -o whole.npy
 
 # --- JSON, and for people ------------------------------------------------------------------------------------------------------------
 gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
@@ -309,18 +309,18 @@ bad() {                      # name, words, arguments
     refuses "$name" 2 "$words" "$motus" sweep "$@" -o nothing.csv
     [ -e nothing.csv ] && { not_ok "... leaves no file"; rm nothing.csv; }
 }
-bad "nothing varies" "--vary or --random is missing" osc.motus
-bad "--vary without a name" "a name and what stands for it are missing" osc.motus --vary 0:1:3
-bad "an empty name" "missing" osc.motus --vary "=0:1:3"
+bad "nothing varies" "needs --vary or --random" osc.motus
+bad "--vary without a name" "this is not NAME=VALUE" osc.motus --vary 0:1:3
+bad "an empty name" "this is not NAME=VALUE" osc.motus --vary "=0:1:3"
 bad "a blank name" "the name is missing" osc.motus --vary " =0:1:3"
 bad "an unknown name" "G" osc.motus --vary G=0:1:3
 bad "a quantity" "energy" osc.motus --vary energy=0:1:3
 bad "a range without a count" "the count is missing" osc.motus --vary F=0:1
-bad "too many colons" "this is no range" osc.motus --vary F=0:1:2:3
-bad "log at the end" "log stands first" osc.motus --vary F=1:10:5:log
+bad "too many colons" "this is not a range" osc.motus --vary F=0:1:2:3
+bad "log at the end" "log has to come first" osc.motus --vary F=1:10:5:log
 for count in 0 -1 1.5 x '' 99999999999999999999; do bad "a count of '$count'" "--vary F=0:1:$count" osc.motus --vary "F=0:1:$count"; done
-bad "one value at two ends" "one value cannot be at both ends" osc.motus --vary F=0:1:1
-for ends in 0:1 -1:1 1:0; do bad "equal ratios from $ends" "equal ratios need two ends of the same sign" osc.motus --vary "F=log:$ends:3"; done
+bad "one value at two ends" "a count of 1 needs FROM and TO to be equal" osc.motus --vary F=0:1:1
+for ends in 0:1 -1:1 1:0; do bad "equal ratios from $ends" "a log range needs two ends of the same sign" osc.motus --vary "F=log:$ends:3"; done
 bad "300 decades" "300 decades" osc.motus --vary F=log:1e-200:1e200:3
 for number in x nan inf 1e999 0,1:2 1/0 '' 'sqrt(-1)' '(1' 'a b' 't' "1; x''=2" '(1, 2)'; do bad "a number '$number'" "--vary F=$number" osc.motus --vary "F=$number:1:3"; done
 bad "a line break in a number" "" osc.motus --vary $'F=1\nx(0)=2:1:3'
@@ -329,20 +329,20 @@ bad "a hole in a list" "nothing is not a constant" osc.motus --vary F=1,,2
 bad "varied twice" "F is varied twice" osc.motus --vary F=1,2 --vary F=3,4
 bad "set and varied" "F is both set and varied" osc.motus --vary F=1,2 --set F=3
 bad "--zip of different lengths" "F has 2 values, w has 3" osc.motus --vary F=1,2 --vary w=1,2,3 --zip
-bad "--zip of one" "--zip needs two" osc.motus --vary F=1,2 --zip
+bad "--zip of one" "--zip needs at least two" osc.motus --vary F=1,2 --zip
 bad "too many" "trajectories" osc.motus --vary F=0:1:1e9 --vary w=0:1:1e9
-bad "--random without --count" "how many trajectories" osc.motus --random F=0:1
-bad "--count without --random" "--count is about --random" osc.motus --vary F=1,2 --count 3
-bad "--seed without --random" "--seed is about --random" osc.motus --vary F=1,2 --seed 3
+bad "--random without --count" "--random needs --count" osc.motus --random F=0:1
+bad "--count without --random" "--count needs --random" osc.motus --vary F=1,2 --count 3
+bad "--seed without --random" "--seed needs --random" osc.motus --vary F=1,2 --seed 3
 for seed in -1 x 1.5 18446744073709551616 ''; do bad "--seed '$seed'" "--seed" osc.motus --random F=0:1 --count 2 --seed "$seed"; done
-bad "a distribution that is none" "this is no distribution" osc.motus --random F=gamma:1:2 --count 2
-bad "a negative deviation" "not negative" osc.motus --random F=normal:1:-2 --count 2
-bad "a draw of a list" "this is no distribution" osc.motus --random F=1,2 --count 2
+bad "a distribution that is none" "this is not a distribution" osc.motus --random F=gamma:1:2 --count 2
+bad "a negative deviation" "deviation is negative" osc.motus --random F=normal:1:-2 --count 2
+bad "a draw of a list" "this is not a distribution" osc.motus --random F=1,2 --count 2
 bad "an unknown record" "did you mean max(...)?" osc.motus --vary F=1,2 --record "mx(x)"
 bad "a record of nothing known" "xx" osc.motus --vary F=1,2 --record "max(xx)"
 bad "a record of an unknown name" "energi" osc.motus --vary F=1,2 --record energi
 bad "a hole in --record" "a name is missing" osc.motus --vary F=1,2 --record x,,energy
-bad "--every between steps" "no whole number of steps" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
+bad "--every between steps" "not a whole number of steps" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
 for threads in 0 -1 x 99999999999; do bad "--threads $threads" "--threads" osc.motus --vary F=1,2 --threads "$threads"; done
 bad "--machine abacus" "there is no such machine" osc.motus --vary F=1,2 --machine abacus
 bad "a method that does not fit" "forest-ruth" "$root/models/damped-cubic.motus" --vary "x(0)=1,2" --method forest-ruth
@@ -360,7 +360,7 @@ refuses "values from nowhere" 1 "cannot read nowhere.csv" "$motus" sweep osc.mot
 refuses "values from a folder" 1 "cannot read small" "$motus" sweep osc.motus --vary F=@small:1 -o nothing.csv
 bad "values without a column" "values.csv has several columns" osc.motus --vary F=@values.csv
 bad "an unknown column" "values.csv has no column c" osc.motus --vary F=@values.csv:c
-bad "a column too far" "the line has not so many columns" osc.motus --vary F=@values.csv:7
+bad "a column too far" "the line has too few columns" osc.motus --vary F=@values.csv:7
 bad "a column of words" "values.csv:3: x is not a finite number" osc.motus --vary F=@values.csv:3
 printf 'F\n1\nnan\n' >nan.csv
 bad "a value that is none" "nan.csv:3: nan is not a finite number" osc.motus --vary F=@nan.csv:F

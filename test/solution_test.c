@@ -1,6 +1,5 @@
-/* motus_reference: the truth at any times, on motions that are known in closed form, and the same truth that compare
- * and converge judge by. */
-#include "study/truth.h"
+/* motus_reference: its error on motions with a known solution, and that it is the reference solution of compare. */
+#include "study/solution.h"
 #include "test/given.h"
 
 #include <float.h>
@@ -23,7 +22,7 @@ static void at(motus_reference *r, const double *times, size_t count, double *x,
     must(motus_reference_at(r, times, count, x, v, &err), &err, "motus_reference_at");
 }
 
-/* Even, but not in order, and none of them a multiple of a step. */
+/* Evenly spread times, not in order, none a multiple of a step. */
 static void scatter(double *t, size_t count, double from, double until)
 {
     for (size_t k = 0; k < count; k++) t[k] = from + (until - from) * fmod(0.6180339887498949 * (double)(k + 1), 1);
@@ -48,9 +47,10 @@ static void exact_is_exact(void **state)
     motus_system_destroy(s);
 }
 
-/* The error between the points of the grid, where it was estimated, is not larger than there; at each answer the
- * state is rounded once more. */
-static void judge(const char *text, double from, double until, double (*truth)(double), double (*speed)(double))
+/* The estimated error of the grid's points also bounds the error between them; each answer rounds the state once
+ * more. */
+static void expect_within_bound(const char *text, double from, double until, double (*exact)(double),
+                                double (*speed)(double))
 {
     motus_system *s = given_text(text);
     motus_study_def def = motus_default_study();
@@ -63,12 +63,12 @@ static void judge(const char *text, double from, double until, double (*truth)(d
     scatter(t, MANY, from, until);
     at(r, t, MANY, x, v);
     for (size_t k = 0; k < MANY; k++)
-        if (!(fabs(x[k] - truth(t[k])) <= bound) || !(fabs(v[k] - speed(t[k])) <= bound))
-            fail_msg("%s at %g: %.1e and %.1e off, bound %.1e", motus_reference_name(r), t[k], x[k] - truth(t[k]),
+        if (!(fabs(x[k] - exact(t[k])) <= bound) || !(fabs(v[k] - speed(t[k])) <= bound))
+            fail_msg("%s at %g: %.1e and %.1e off, bound %.1e", motus_reference_name(r), t[k], x[k] - exact(t[k]),
                      v[k] - speed(t[k]), bound);
     for (size_t k = 0; k < MANY; k++) t[k] = from + (until - from) * (double)k / (MANY - 1);
     at(r, t, MANY, sorted_x, NULL);
-    for (size_t k = 0; k < MANY; k++) assert_true(fabs(sorted_x[k] - truth(t[k])) <= bound);
+    for (size_t k = 0; k < MANY; k++) assert_true(fabs(sorted_x[k] - exact(t[k])) <= bound);
     at(r, t, 0, NULL, NULL);
     motus_reference_destroy(r);
     motus_system_destroy(s);
@@ -82,18 +82,18 @@ static double damped_speed(double t)
     return -0.2 * damped_swing(t) - sqrt(0.96) * exp(-0.2 * t) * sin(sqrt(0.96) * t);
 }
 
-static void a_reference_knows_its_error(void **state)
+static void the_estimated_error_is_a_bound(void **state)
 {
     (void)state;
-    judge(spring, 0, 12.34, swing, swing_speed);
-    judge(damped, 0, 20, damped_swing, damped_speed);
-    judge(spring, 0, -5, swing, swing_speed); /* backward */
-    /* no step is given: its own choice */
-    judge("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 7\n", 0, 7, swing, swing_speed);
+    expect_within_bound(spring, 0, 12.34, swing, swing_speed);
+    expect_within_bound(damped, 0, 20, damped_swing, damped_speed);
+    expect_within_bound(spring, 0, -5, swing, swing_speed); /* backward */
+    /* no step is given: the library chooses one */
+    expect_within_bound("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 7\n", 0, 7, swing, swing_speed);
 }
 
-/* compare's largest error is the largest distance from these answers, to the bit: it is the same truth. */
-static void is_what_compare_judges_by(void **state)
+/* The largest error in compare is the largest distance from these answers, to the bit: the solution is the same. */
+static void is_the_reference_of_compare(void **state)
 {
     (void)state;
     /* the second from a start other than 0, so that times are rounded twice */
@@ -105,7 +105,7 @@ static void is_what_compare_judges_by(void **state)
         motus_study_def def = motus_default_study();
         def.methods = &method;
         def.method_count = 1;
-        /* 123 steps and 160, and no shorter one at the end: the grid of compare is every step */
+        /* 160 and 123 steps, none of them shorter: compare's grid is every step */
         def.until = k ? 14.0 : 10;
         def.step = k ? 0.1 : 0.0625;
         motus_comparison *c = NULL;
@@ -121,12 +121,12 @@ static void is_what_compare_judges_by(void **state)
         must(motus_run_create(s, &run_def, &run, &err), &err, "motus_run_create");
         double worst = 0, last = NAN;
         while (!motus_run_done(run)) {
-            double x, truth, t;
+            double x, reference, t;
             must(motus_run_step(run, 1, &err), &err, "step");
             must(motus_run_state(run, &x, NULL, &err), &err, "state");
             t = motus_run_time(run);
-            at(r, &t, 1, &truth, NULL);
-            last = fabs(x - truth);
+            at(r, &t, 1, &reference, NULL);
+            last = fabs(x - reference);
             worst = fmax(worst, last);
         }
         assert_true(worst == c->rows[0]->error_max_x && last == c->rows[0]->error_final_x && worst > 0);
@@ -137,9 +137,9 @@ static void is_what_compare_judges_by(void **state)
     }
 }
 
-/* At the points of the grid the answers are the rows that were found, to the bit, though their times are rounded once
- * more than the grid's. */
-static void kept_rows_are_given_back(void **state)
+/* At the points of the grid the answers are the kept rows, to the bit, though these times are rounded once more than
+ * the grid's. */
+static void kept_rows_are_returned_unchanged(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(1.7) = 1\nx'(1.7) = 0\nstep 0.1\nuntil 14\n");
@@ -147,23 +147,23 @@ static void kept_rows_are_given_back(void **state)
     motus_error err = motus_default_error();
     motus_study_def def = motus_default_study();
     study inner;
-    truth found;
+    solution found;
     must(study_open(&inner, s, &def, 0.1, &err), &err, "study_open");
-    const study_grid grid = truth_grid(&inner, 0.1);
-    must(truth_find(&inner, &grid, inner.total, 0, &found), &err, "truth_find");
+    const study_grid grid = solution_grid(&inner, 0.1);
+    must(solution_find(&inner, &grid, inner.total, 0, &found), &err, "solution_find");
     assert_int_equal(grid.points, 123);
     for (size_t k = 0; k <= grid.points; k++) {
         double t = 1.7 + (double)k * 0.1, x, v;
         at(r, &t, 1, &x, &v);
         assert_true(x == found.rows[2 * k] && v == found.rows[2 * k + 1]);
     }
-    truth_free(&inner, &found);
+    solution_free(&inner, &found);
     study_close(&inner);
     motus_reference_destroy(r);
     motus_system_destroy(s);
 }
 
-/* Several variables, companions among them: rows are as motus_run_state has them. */
+/* With several variables and a first-order one, answers have the layout of motus_run_state. */
 static void rows_are_states(void **state)
 {
     (void)state;
@@ -217,14 +217,14 @@ static void wrong_requests(void **state)
     motus_system_destroy(s);
 }
 
-/* A spring whose force fails, or takes its time, when it is told to. */
-typedef struct mood {
+/* A spring whose force fails, or takes a millisecond, as its control says. */
+typedef struct control {
     int fail, slow;
-} mood;
+} control;
 
-static int moody(void *context, double t, const double *x, const double *v, double *a)
+static int controlled_spring(void *context, double t, const double *x, const double *v, double *a)
 {
-    const mood *m = context;
+    const control *m = context;
     (void)t, (void)v;
     if (m->fail) return 1;
     if (m->slow) nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
@@ -232,7 +232,7 @@ static int moody(void *context, double t, const double *x, const double *v, doub
     return 0;
 }
 
-static motus_system *moody_system(mood *m)
+static motus_system *controlled_system(control *m)
 {
     static const double x[] = {1}, v[] = {0};
     motus_callback_def def = motus_default_callback();
@@ -241,19 +241,19 @@ static motus_system *moody_system(mood *m)
     def.positions = 1;
     def.x = x;
     def.v = v;
-    def.acceleration = moody;
+    def.acceleration = controlled_spring;
     def.depends_on_velocity = def.depends_on_time = 0;
     def.context = m;
     must(motus_system_from_callback(&def, &s, &err), &err, "callback");
     return s;
 }
 
-/* Nothing is left behind by an answer that could not be given. */
-static void a_failure_is_forgotten(void **state)
+/* After a failed answer, the next ones are right. */
+static void a_failure_leaves_no_trace(void **state)
 {
     (void)state;
-    mood m = {0};
-    motus_system *s = moody_system(&m);
+    control m = {0};
+    motus_system *s = controlled_system(&m);
     motus_study_def def = motus_default_study();
     def.until = 10;
     motus_reference *r = reference_of(s, &def);
@@ -273,12 +273,12 @@ static void a_failure_is_forgotten(void **state)
     motus_system_destroy(s);
 }
 
-/* The hook is lent for the search alone: an answer that takes long does not call it. */
+/* motus_reference_create calls the progress hook; motus_reference_at never does, however long it takes. */
 static void may_be_cancelled(void **state)
 {
     (void)state;
-    mood m = {0};
-    motus_system *s = moody_system(&m);
+    control m = {0};
+    motus_system *s = controlled_system(&m);
     motus_error e = motus_default_error();
     motus_study_def def = motus_default_study();
     def.until = 10;
@@ -305,13 +305,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_is_exact),
-        cmocka_unit_test(a_reference_knows_its_error),
-        cmocka_unit_test(is_what_compare_judges_by),
-        cmocka_unit_test(kept_rows_are_given_back),
+        cmocka_unit_test(the_estimated_error_is_a_bound),
+        cmocka_unit_test(is_the_reference_of_compare),
+        cmocka_unit_test(kept_rows_are_returned_unchanged),
         cmocka_unit_test(rows_are_states),
         cmocka_unit_test(wrong_requests),
-        cmocka_unit_test(a_failure_is_forgotten),
+        cmocka_unit_test(a_failure_leaves_no_trace),
         cmocka_unit_test(may_be_cancelled),
     };
-    return cmocka_run_group_tests_name("truth", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("solution", tests, NULL, NULL);
 }

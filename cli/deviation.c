@@ -1,9 +1,8 @@
-/* How far invariants moved along a run.
+/* The deviation of the invariants along a run.
  *
- * Invariant: `initial` is the value at the model's start, also of a run that was taken up again; a value that is no
- * number makes the largest drift no number.
+ * Invariant: `initial` is the value at the model's start, also of a restarted run; a NaN makes `most` NaN.
  */
-#include "cli/drift.h"
+#include "cli/deviation.h"
 
 #include "cli/complain.h"
 
@@ -11,20 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOKS = 1000, FEWEST_LOOKS = 16 };
-static const double numbers_looked_at = 1e7;
+enum { SAMPLES = 1000, FEWEST_SAMPLES = 16 };
+static const double numbers_sampled = 1e7;
 
-int64_t drift_stride(const load *m, int64_t steps)
+int64_t deviation_stride(const load *m, int64_t steps)
 {
-    double looks = numbers_looked_at / ((double)m->positions + (double)m->velocities + 1);
-    looks = fmax(FEWEST_LOOKS, fmin(LOOKS, looks));
-    int64_t stride = (int64_t)((double)steps / looks);
+    double samples = numbers_sampled / ((double)m->positions + (double)m->velocities + 1);
+    samples = fmax(FEWEST_SAMPLES, fmin(SAMPLES, samples));
+    int64_t stride = (int64_t)((double)steps / samples);
     return stride < 1 ? 1 : stride;
 }
 
-motus_status drift_begin(drift *d, const load *m, motus_run *run, motus_error *err)
+motus_status deviation_begin(deviation *d, const load *m, motus_run *run, motus_error *err)
 {
-    *d = (drift){.count = m->invariants};
+    *d = (deviation){.count = m->invariants};
     if (d->count == 0) return MOTUS_OK;
     d->columns = calloc(d->count, sizeof *d->columns);
     d->initial = calloc(d->count, sizeof *d->initial);
@@ -40,7 +39,7 @@ motus_status drift_begin(drift *d, const load *m, motus_run *run, motus_error *e
 static motus_status take(void *context, const double *values, motus_error *err)
 {
     (void)err;
-    drift *d = context;
+    deviation *d = context;
     for (size_t k = 0; k < d->count; k++) {
         double moved = fabs(values[k] - d->initial[k]);
         if (!(moved <= d->most[k]) && !isnan(d->most[k])) d->most[k] = moved;
@@ -49,16 +48,16 @@ static motus_status take(void *context, const double *values, motus_error *err)
     return MOTUS_OK;
 }
 
-walk_watcher drift_watcher(drift *d, int64_t stride)
+walk_observer deviation_observer(deviation *d, int64_t stride)
 {
-    return (walk_watcher){.stride = stride, .columns = d->columns, .count = d->count, .take = take, .context = d};
+    return (walk_observer){.stride = stride, .columns = d->columns, .count = d->count, .take = take, .context = d};
 }
 
-void drift_free(drift *d)
+void deviation_free(deviation *d)
 {
     free(d->columns);
     free(d->initial);
     free(d->final);
     free(d->most);
-    *d = (drift){0};
+    *d = (deviation){0};
 }

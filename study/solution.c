@@ -1,29 +1,28 @@
-/* The truth: the exact motion where it is known, else the most accurate of the methods of highest order, refined
- * until halving its step changes nothing but round-off.
+/* The reference solution: the exact motion where it is known, else a run of the most accurate method of high order,
+ * its step halved until the change is round-off.
  *
- * A reference of order p at steps h and h/2 differs by d; then the finer one is wrong by about d/(r-1), where r is
+ * Two runs of order p at steps h and h/2 differ by d; the error of the finer one is then about d/(r-1), where r is
  * the factor by which d fell at the last halving (2^p in theory, less where the force is not smooth enough for the
- * order). When d no longer falls, what is left is round-off, and d itself is the estimate. Where a force jumps, two
- * halvings may hit the jump alike and agree by accident; so the chosen reference is run once more with steps of two
- * thirds, and what that changes is the least that it is wrong by. Invariant: a truth that is `known` has finite rows
- * and an error estimate that was measured, not assumed.
+ * order). When d no longer falls, it is round-off, and d itself is the estimate. Where a force is discontinuous, two
+ * halvings may agree by accident; so the chosen method runs once more with steps of two thirds, and that difference
+ * is a lower bound of the estimate. Invariant: a solution that is `known` has finite rows and a measured error.
  */
-#include "truth.h"
+#include "solution.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define TRUTH_CANDIDATES 3
-#define TRUTH_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
-#define TRUTH_LEVELS 24      /* halvings of an interval */
-/* a difference that stops falling below this is round-off, above it a motion not yet resolved */
-#define TRUTH_SMALL 1e-6
-#define TRUTH_FALL 1.5 /* the least fall per halving that counts as one */
-/* The bound on the work (study_work). About a fifth of a second of a small model; or, where the judged methods
- * themselves work longer, as much as TRUTH_PASSES evaluations for each of their steps. */
-#define TRUTH_WORK 3e7
-#define TRUTH_PASSES 32
+#define SOLUTION_CANDIDATES 3
+#define SOLUTION_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
+#define SOLUTION_LEVELS 24      /* halvings of an interval */
+/* a difference that stops falling is round-off if it is below this, else the motion is not yet resolved */
+#define SOLUTION_SMALL 1e-6
+#define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
+/* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
+ * each step of the methods under study, if that is more. */
+#define SOLUTION_WORK 3e7
+#define SOLUTION_PASSES 32
 
 typedef struct candidate {
     const motus_method *card;
@@ -31,7 +30,7 @@ typedef struct candidate {
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
 } candidate;
 
-study_grid truth_grid(const study *s, double step)
+study_grid solution_grid(const study *s, double step)
 {
     int64_t per;
     if (isnan(step)) return study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
@@ -50,15 +49,14 @@ static size_t candidates(study *s, candidate *out)
                 highest = m->order > highest ? m->order : highest;
                 continue;
             }
-            if (m->order < highest - TRUTH_ORDERS_BELOW) continue;
-            /* Kept in falling order; equal orders stay in the order of the catalogue, the longest splittings
-             * (smallest constants) before shorter ones. */
+            if (m->order < highest - SOLUTION_ORDERS_BELOW) continue;
+            /* Sorted by falling order, then by falling stages: more stages have smaller error constants. */
             size_t at = count;
             while (at > 0 && (out[at - 1].card->order < m->order ||
                               (out[at - 1].card->order == m->order && out[at - 1].card->stages < m->stages)))
                 at--;
-            if (at >= TRUTH_CANDIDATES) continue;
-            count = count < TRUTH_CANDIDATES ? count + 1 : count;
+            if (at >= SOLUTION_CANDIDATES) continue;
+            count = count < SOLUTION_CANDIDATES ? count + 1 : count;
             memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
             out[at] = (candidate){.card = m, .scaled = NAN};
         }
@@ -82,7 +80,7 @@ static bool finite_rows(const study *s, const double *rows, size_t count)
     return true;
 }
 
-/* The largest differences of two tables; NaN where one of them is not there. */
+/* The largest differences of two tables; NaN where either holds NaN. */
 static study_distance apart(const study *s, const double *p, const double *q, size_t rows)
 {
     study_distance most = {0, 0, 0};
@@ -103,15 +101,15 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Halves the step until nothing but round-off is left, or the error is below `enough`, or the work is spent. *now and
- * *before are tables with room for the points (without the start); at the end *now holds the best. */
+/* Halves the step until only round-off is left, or the error is below `enough`, or the work is spent. *now and
+ * *before are tables with room for the points (without the start); at the end *now holds the best run. */
 static motus_status refine(study *s, const study_grid *g, double budget, double enough, candidate *c, double **now,
                            double **before)
 {
     double work = 0, cost = 0;
     study_distance d = {NAN, NAN, NAN}, last = d;
-    bool have = false; /* *before is a whole, finite table */
-    for (int level = 0; level < TRUTH_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
+    bool have = false; /* *before is a complete, finite table */
+    for (int level = 0; level < SOLUTION_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
         int64_t per = (int64_t)1 << level;
         study_cost spent;
         motus_error ignored = motus_default_error();
@@ -120,7 +118,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
-        /* A run that failed early was cheap, and says nothing about the price of the next. */
+        /* A run that failed early cost little; the next one may cost its full price. */
         double steps = (double)g->intervals * (double)per;
         cost = fmax(study_work(s, c->card, (double)spent.steps, (double)spent.evaluations),
                     study_work(s, c->card, steps, -1));
@@ -130,7 +128,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
-            if (last.scaled < TRUTH_SMALL && !(fall > TRUTH_FALL)) {
+            if (last.scaled < SOLUTION_SMALL && !(fall > SOLUTION_FALL)) {
                 estimate(c, last, 1, 2 * step);
                 double *swap = *now;
                 *now = *before;
@@ -139,7 +137,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             }
             if (have) {
                 double theory = ldexp(1, c->card->order);
-                estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, TRUTH_FALL), theory) - 1, step);
+                estimate(c, d, isnan(fall) ? 1 : fmin(fmax(fall, SOLUTION_FALL), theory) - 1, step);
                 if (d.scaled <= fmax(2 * s->noise, enough)) {
                     estimate(c, d, 1, step);
                     return MOTUS_OK;
@@ -154,30 +152,30 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         *now = *before;
         *before = swap;
     }
-    double *swap = *now; /* the newest was just put away */
+    double *swap = *now; /* the loop has just moved the newest table to *before */
     *now = *before;
     *before = swap;
     if (!have) c->scaled = NAN;
     return MOTUS_OK;
 }
 
-/* No reference knows its values better than they can be written. And its coefficients are rounded: what they should
- * sum up to is missed by an ulp or so, the same at every step size, so halving the step does not show it; it adds up
- * along the way a number goes. */
-static void own_rounding(const study *s, const study_grid *g, truth *t)
+/* The rounding that halving the step does not show: values are rounded when they are stored, and the method's
+ * coefficients are rounded too, so their sums are off by an ulp or so at every step size; that error grows with the
+ * distance which a number moves. */
+static void own_rounding(const study *s, const study_grid *g, solution *r)
 {
     for (size_t k = 0; k < s->numbers; k++) {
         double way = 0;
-        for (size_t r = 1; r <= g->points; r++)
-            way += fabs(t->rows[r * s->numbers + k] - t->rows[(r - 1) * s->numbers + k]);
-        t->error = fmax(t->error, DBL_EPSILON * (way + s->magnitude));
-        t->scaled = fmax(t->scaled, fmax(DBL_EPSILON * way / s->scale[k], s->noise));
+        for (size_t p = 1; p <= g->points; p++)
+            way += fabs(r->rows[p * s->numbers + k] - r->rows[(p - 1) * s->numbers + k]);
+        r->error = fmax(r->error, DBL_EPSILON * (way + s->magnitude));
+        r->scaled = fmax(r->scaled, fmax(DBL_EPSILON * way / s->scale[k], s->noise));
     }
 }
 
-/* Steps of two thirds (a third, if there is only one in an interval) share no point within an interval with those
- * they check. */
-static motus_status check(study *s, const study_grid *g, const candidate *c, truth *t, double *room)
+/* A run with steps of two thirds (a third, if an interval has one step): it shares no time within an interval with
+ * the run that it checks. */
+static motus_status check(study *s, const study_grid *g, const candidate *c, solution *r, double *room)
 {
     study_cost spent;
     motus_error ignored = motus_default_error();
@@ -187,22 +185,22 @@ static motus_status check(study *s, const study_grid *g, const candidate *c, tru
         if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
         return status;
     }
-    study_distance d = apart(s, room, t->rows + s->numbers, g->points);
+    study_distance d = apart(s, room, r->rows + s->numbers, g->points);
     if (status == MOTUS_OK && isfinite(d.scaled)) {
-        t->error = fmax(t->error, fmax(d.x, d.v));
-        t->scaled = fmax(t->scaled, d.scaled);
+        r->error = fmax(r->error, fmax(d.x, d.v));
+        r->scaled = fmax(r->scaled, d.scaled);
     }
     return MOTUS_OK;
 }
 
-static motus_status find_reference(study *s, const study_grid *g, int64_t steps, double enough, truth *t, double *kept,
-                                   double *now, double *before)
+static motus_status find_reference(study *s, const study_grid *g, int64_t steps, double enough, solution *r,
+                                   double *kept, double *now, double *before)
 {
-    candidate list[TRUTH_CANDIDATES + 1];
+    candidate list[SOLUTION_CANDIDATES + 1];
     size_t count = candidates(s, list);
     const candidate *best = NULL;
     double *best_table = NULL;
-    double budget = count ? fmax(TRUTH_WORK, study_work(s, list[0].card, 0, TRUTH_PASSES * (double)steps)) : 0;
+    double budget = count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
     double base = s->base, span = s->span;
     for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
         study_part(s, base + span * (double)k / (double)count, span / (double)count);
@@ -219,45 +217,45 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     study_part(s, base, span);
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     if (!best) {
-        snprintf(t->text, sizeof t->text, "none: no method followed the motion to the end");
+        snprintf(r->text, sizeof r->text, "none: every method of high order failed before the end");
         return MOTUS_OK;
     }
-    t->known = true;
-    t->order = best->card->order;
-    t->step = best->step;
-    snprintf(t->method, sizeof t->method, "%s", best->card->name);
-    snprintf(t->text, sizeof t->text, "%s at step %.6g", best->card->name, best->step);
-    memcpy(t->rows + s->numbers, best_table, g->points * s->numbers * sizeof(double));
-    study_scale(s, t->rows + s->numbers, g->points);
-    t->error = fmax(best->x, best->v);
-    t->scaled = best->scaled;
-    own_rounding(s, g, t);
-    return check(s, g, best, t, now);
+    r->known = true;
+    r->order = best->card->order;
+    r->step = best->step;
+    snprintf(r->method, sizeof r->method, "%s", best->card->name);
+    snprintf(r->text, sizeof r->text, "%s at step %.6g", best->card->name, best->step);
+    memcpy(r->rows + s->numbers, best_table, g->points * s->numbers * sizeof(double));
+    study_scale(s, r->rows + s->numbers, g->points);
+    r->error = fmax(best->x, best->v);
+    r->scaled = best->scaled;
+    own_rounding(s, g, r);
+    return check(s, g, best, r, now);
 }
 
-motus_status truth_find(study *s, const study_grid *g, int64_t steps, double enough, truth *t)
+motus_status solution_find(study *s, const study_grid *g, int64_t steps, double enough, solution *r)
 {
-    *t = (truth){.error = NAN, .scaled = NAN};
-    t->rows = take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
-    if (!t->rows)
+    *r = (solution){.error = NAN, .scaled = NAN};
+    r->rows = take(s->allocator, (g->points + 1) * s->numbers, sizeof(double));
+    if (!r->rows)
         return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
-    memcpy(t->rows, s->start, s->numbers * sizeof(double));
+    memcpy(r->rows, s->start, s->numbers * sizeof(double));
 
     const char *exact = exact_method(s);
     if (exact) {
         study_cost cost;
         motus_error ignored = motus_default_error();
-        motus_status status = study_walk(s, exact, g, 1, t->rows + s->numbers, &cost, &ignored);
+        motus_status status = study_walk(s, exact, g, 1, r->rows + s->numbers, &cost, &ignored);
         if (study_fatal(status)) {
             if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
             return status;
         }
-        if (status == MOTUS_OK && finite_rows(s, t->rows, g->points + 1)) {
-            study_scale(s, t->rows + s->numbers, g->points);
-            t->known = t->exact = true;
-            t->error = t->scaled = 0;
-            snprintf(t->method, sizeof t->method, "%s", exact);
-            snprintf(t->text, sizeof t->text, "exact");
+        if (status == MOTUS_OK && finite_rows(s, r->rows, g->points + 1)) {
+            study_scale(s, r->rows + s->numbers, g->points);
+            r->known = r->exact = true;
+            r->error = r->scaled = 0;
+            snprintf(r->method, sizeof r->method, "%s", exact);
+            snprintf(r->text, sizeof r->text, "exact");
             return MOTUS_OK;
         }
     }
@@ -265,25 +263,26 @@ motus_status truth_find(study *s, const study_grid *g, int64_t steps, double eno
     double *room = take(s->allocator, 3 * table, sizeof(double));
     if (!room)
         return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
-    motus_status status = find_reference(s, g, steps, enough, t, room, room + table, room + 2 * table);
+    motus_status status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
     give(s->allocator, room);
     return status;
 }
 
-motus_status truth_on(study *s, const truth *t, const study_grid *g, double *rows)
+motus_status solution_on(study *s, const solution *r, const study_grid *g, double *rows)
 {
     int64_t per = 1;
-    while (!t->exact && per < (int64_t)1 << TRUTH_LEVELS && g->interval / (double)per > t->step * (1 + 1e-9)) per *= 2;
+    while (!r->exact && per < (int64_t)1 << SOLUTION_LEVELS && g->interval / (double)per > r->step * (1 + 1e-9))
+        per *= 2;
     study_cost cost;
     motus_error ignored = motus_default_error();
-    motus_status status = study_walk(s, t->method, g, per, rows, &cost, &ignored);
+    motus_status status = study_walk(s, r->method, g, per, rows, &cost, &ignored);
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
     if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
     return status;
 }
 
-void truth_free(study *s, truth *t)
+void solution_free(study *s, solution *r)
 {
-    give(s->allocator, t->rows);
-    t->rows = NULL;
+    give(s->allocator, r->rows);
+    r->rows = NULL;
 }

@@ -1,0 +1,21 @@
+/* The deviation of the invariants from their initial values along a run (printed as "drift"). */
+#ifndef CLI_DEVIATION_H
+#define CLI_DEVIATION_H
+
+#include "cli/load.h"
+#include "cli/walk.h"
+
+typedef struct deviation {
+    size_t count; /* numbers of all invariants */
+    size_t *columns;
+    double *initial, *final, *most;
+} deviation;
+
+motus_status deviation_begin(deviation *, const load *, motus_run *, motus_error *);
+walk_observer deviation_observer(deviation *, int64_t stride);
+/* A stride at which observing costs little beside stepping: about a thousand samples, fewer where the state is
+ * large. */
+int64_t deviation_stride(const load *, int64_t steps);
+void deviation_free(deviation *);
+
+#endif

@@ -1,0 +1,31 @@
+/* The reference solution that errors are measured against: the exact motion, or a run with an estimated error. */
+#ifndef STUDY_SOLUTION_H
+#define STUDY_SOLUTION_H
+
+#include "study.h"
+
+#define SOLUTION_TEXT_MAX 192
+
+typedef struct solution {
+    bool known, exact;
+    char method[MOTUS_NAME_MAX]; /* the method of its run; "" if nothing is known */
+    int order;
+    double step;                  /* of the reference run; 0 for the exact motion */
+    double error;                 /* its estimated error, largest component; 0 for the exact motion */
+    double scaled;                /* the same in units of the motion's size */
+    double *rows;                 /* (points + 1) × numbers: the start, then the grid's points; owned */
+    char text[SOLUTION_TEXT_MAX]; /* "exact", "kahan-li8 at step 0.05" or why there is none */
+} solution;
+
+/* The times at which methods are compared with the solution: steps of size `step`, or (NaN) STUDY_SAMPLES equal
+ * intervals. */
+study_grid solution_grid(const study *, double step);
+/* If no method finds the solution, the status is OK and `known` is false. steps: how many steps the methods under
+ * study take (for the bound on the work). enough: an error, in units of the motion's size, that need not be improved;
+ * 0 for the best. Sets the study's scale. Call solution_free in any case. */
+motus_status solution_find(study *, const study_grid *, int64_t steps, double enough, solution *);
+/* The solution on another grid of the same motion (grid->points rows), at steps no larger than solution->step. */
+motus_status solution_on(study *, const solution *, const study_grid *, double *rows);
+void solution_free(study *, solution *);
+
+#endif
