@@ -19,7 +19,7 @@ static const model_definition *definition(const motus_system *s, const column_gr
 
 static bool of_state(motus_column_kind kind)
 {
-    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION ||
+    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_FIRST_ORDER ||
            kind == MOTUS_COLUMN_EXACT;
 }
 
@@ -31,7 +31,7 @@ static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t it
 
 static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool prime)
 {
-    int order = kind == MOTUS_COLUMN_COMPANION ? 1 : 2;
+    int order = kind == MOTUS_COLUMN_FIRST_ORDER ? 1 : 2;
     for (uint32_t i = 0; i < s->state_count; i++)
         if (s->states[i].order == order)
             add(s, exact ? MOTUS_COLUMN_EXACT : kind, prime, i,
@@ -46,7 +46,7 @@ bool system_number_columns(motus_system *s)
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
     s->positions = s->column_count - 1;
     add_states(s, MOTUS_COLUMN_VELOCITY, false, true);
-    add_states(s, MOTUS_COLUMN_COMPANION, false, false);
+    add_states(s, MOTUS_COLUMN_FIRST_ORDER, false, false);
     s->velocities = s->column_count - 1 - s->positions;
     size_t largest = 1;
     for (int pass = 0; pass < 2; pass++)
@@ -60,7 +60,7 @@ bool system_number_columns(motus_system *s)
     if (s->problem.traits.has_exact) {
         add_states(s, MOTUS_COLUMN_POSITION, true, false);
         add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
-        add_states(s, MOTUS_COLUMN_COMPANION, true, false);
+        add_states(s, MOTUS_COLUMN_FIRST_ORDER, true, false);
         s->exact_x = arena_room(&s->arena, (s->problem.nx + 1) * sizeof(double));
         s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }

@@ -73,7 +73,7 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 bool system_sample_gyroscopic(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->companions || !s->model) return true;
+    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->first_order || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gyroscopic = symmetric(s, true, -1, &t->gyroscopic);
     modes_leave(m);
@@ -83,7 +83,7 @@ bool system_sample_gyroscopic(motus_system *s)
 static bool sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gradient || t->velocity || t->companions || !s->model) return true;
+    if (s->sampled_gradient || t->velocity || t->first_order || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gradient = symmetric(s, false, 1, &t->gradient);
     t->gradient = t->gradient || t->constant;
@@ -194,7 +194,7 @@ static void say_variables(words *w, const motus_system *s)
         if (st->dims) say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
         if (st->components) say(w, " of length %d", st->components);
         say(w, st->order == 2 ? "; its acceleration is given\n"
-                              : "; its rate of change is given (a first-order companion)\n");
+                              : "; its rate of change is given (a first-order variable)\n");
     }
 }
 
@@ -205,9 +205,9 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the acceleration is constant\n");
     else
         say(w, "the acceleration depends on %s%s%s\n",
-            t->companions && !t->velocity ? "the positions"
-            : t->velocity                 ? "the state and its velocity"
-                                          : "the positions",
+            t->first_order && !t->velocity ? "the positions"
+            : t->velocity                  ? "the state and its velocity"
+                                           : "the positions",
             t->time ? " and on time" : "", t->time ? "" : "; not on time");
     if (t->velocity && t->linear_v) {
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",

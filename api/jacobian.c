@@ -82,7 +82,7 @@ motus_status motus_run_jacobian(motus_run *r, double *da_dx, double *da_dv, motu
     if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_jacobian needs a run");
     const motus_system *s = r->system;
     if (s->velocities > MOTUS_JACOBIAN_MAX) {
-        fail(err, MOTUS_LIMIT, "the matrices of %zu velocities and companions are too large; the bound is %d",
+        fail(err, MOTUS_LIMIT, "a Jacobian of %zu velocities and first-order variables is too large; at most %d fit",
              s->velocities, MOTUS_JACOBIAN_MAX);
         hint(err, "linearise a smaller model of the same kind");
         return MOTUS_LIMIT;

@@ -86,7 +86,7 @@ static motus_status all_different(const motus_system *s, motus_error *err)
     give(&s->allocator, all);
     if (!twice) return MOTUS_OK;
     fail(err, MOTUS_NAME, "two things are called %s", twice);
-    hint(err, "positions, companions, quantities and invariants need names of their own");
+    hint(err, "positions, first-order variables, quantities and invariants need names of their own");
     return MOTUS_NAME;
 }
 
@@ -102,9 +102,9 @@ static motus_status check_counts(motus_callback_def *def, motus_error *err)
 motus_status stand_in_make(motus_system *s, motus_error *err)
 {
     motus_callback_def *def = &s->callback;
-    const size_t nx = def->positions, ns = def->companions;
+    const size_t nx = def->positions, ns = def->first_order;
     motus_status status = check_counts(def, err);
-    if (status == MOTUS_OK) status = copy_names(s, &def->names, nx + ns, "positions and companions", err);
+    if (status == MOTUS_OK) status = copy_names(s, &def->names, nx + ns, "positions and first-order variables", err);
     if (status == MOTUS_OK) status = copy_names(s, &def->quantity_names, def->quantities, "quantities", err);
     if (status == MOTUS_OK) status = copy_names(s, &def->invariant_names, def->invariants, "invariants", err);
     if (status != MOTUS_OK) return status;

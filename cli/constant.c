@@ -1,7 +1,7 @@
 /* Constant expressions on the command line.
  *
  * Invariant: what is more than a number is read by the language itself, as the initial value of a model of one
- * companion, so it means what it means in a model.
+ * first-order variable, so it means what it means in a model.
  */
 #include "cli/constant.h"
 

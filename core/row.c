@@ -43,7 +43,7 @@ static bool also_called(const motus_method *card, const char *name, size_t lengt
     return false;
 }
 
-/* Names first: whoever knows them, and runs of a study do, should not wait for the aliases. */
+/* Names before aliases, because a study looks up names alone and often. */
 static const row *find(const char *name, size_t length)
 {
     for (size_t k = 0; k < methods_count; k++)
@@ -175,24 +175,25 @@ static const char *reason(const row *row, const traits *traits)
                    : "the model has no exact line, and its exact motion is not recognised";
     if (row->gyroscopic) {
         if (!traits->velocity)
-            return "the acceleration does not depend on the velocity: there is no magnetic term to turn by";
-        if (traits->companions) return "the model has first-order companions, which Boris' rotation does not cover";
+            return "the acceleration does not depend on the velocity, so the Boris rotation has no v × B to rotate by";
+        if (traits->first_order)
+            return "the Boris rotation does not cover first-order variables, and the model has some";
         if (!traits->gyroscopic || !traits->linear_v)
-            return "the velocity term is not of the form v × B: it is not antisymmetric, so it does work";
+            return "the velocity term is not of the form v × B: its matrix is not antisymmetric, so it does work";
         return "";
     }
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
-        return traits->companions ? "the acceleration or a companion's rate depends on a velocity or a companion, and "
-                                    "this method's kicks must not"
-                                  : "the acceleration depends on the velocity, and this method's kicks must not";
+        return traits->first_order
+                   ? "the right sides depend on a velocity or a first-order variable, and this method's kicks must not"
+                   : "the acceleration depends on the velocity, and this method's kicks must not";
     if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
     return "";
 }
 
-/* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */
+/* How far `other` is from the row `wanted`: by order first, then by the properties that its card states. */
 static int unlike(const motus_method *wanted, const motus_method *other)
 {
-    int order = wanted->order == 0 ? 2 : wanted->order; /* exact has none: offer the first choice */
+    int order = wanted->order == 0 ? 2 : wanted->order; /* exact has no order: offer order 2 */
     return 8 * abs(order - other->order) + 4 * (wanted->symplectic > other->symplectic) +
            4 * (wanted->reversible > other->reversible) + 2 * (other->evaluations == 0);
 }

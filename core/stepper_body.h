@@ -29,8 +29,9 @@ typedef struct stepper_body {
     int (*run)(work *, whole steps);                /* advance_run */
     int (*sync)(work *, real *x, real *v, real *a); /* advance_sync */
     int (*check)(work *);                           /* advance_check */
+    int (*observe)(work *);                         /* advance_observe */
     void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
-    /* What a compiled body calls back for. */
+    /* A compiled body calls these of the library's. */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);

@@ -45,8 +45,8 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 
 #include "core/texts.h"
 
-#define STEPPER_BODY(name)                                                                                 \
-    {                                                                                                      \
-        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, family_dense, \
-            solve_factor, solve_back, solve_apply, solve_diagonal                                          \
+#define STEPPER_BODY(name)                                                                                    \
+    {                                                                                                         \
+        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, advance_observe, \
+            family_dense, solve_factor, solve_back, solve_apply, solve_diagonal                               \
     }

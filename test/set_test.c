@@ -456,7 +456,7 @@ static void callbacks(void **state)
     motus_error err = motus_default_error();
     for (int named = 0; named < 2; named++) {
         motus_callback_def def = motus_default_callback();
-        def.positions = 2, def.companions = 1, def.x = x, def.v = v, def.acceleration = hang, def.start = -1.5;
+        def.positions = 2, def.first_order = 1, def.x = x, def.v = v, def.acceleration = hang, def.start = -1.5;
         def.names = named ? names : NULL;
         motus_system *s = NULL, *c = NULL, *t = NULL;
         must(motus_system_from_callback(&def, &s, &err), &err, "callback");
