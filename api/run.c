@@ -72,7 +72,7 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled) return status;
     const double worth = choice_worth(s, r->card, (double)r->timing.total);
-    if (automatic && worth < CHOICE_LOOK) return MOTUS_OK;
+    if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     const bool kept = automatic && worth < 1;
     const char *why;
     status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);

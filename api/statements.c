@@ -1,4 +1,4 @@
-/* The statements of a model: what kind each is, where it stands, and how it looks in print. */
+/* The statements of a model: their kinds, their lines, and their MathML. */
 #include "api/system.h"
 #include "lang/model/symbols.h"
 #include "lang/typeset/typeset.h"

@@ -260,18 +260,18 @@ static void refusals(void **state)
         motus_status status;
         const char *message, *hint;
     } cases[] = {{"q", 1, {1}, MOTUS_NAME, "neither a parameter nor an initial value", ""},
-                 {"energy", 1, {1}, MOTUS_NAME, "neither", "computed along the way"},
+                 {"energy", 1, {1}, MOTUS_NAME, "neither", "is a quantity"},
                  {"x", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
                  {"x(1)", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
-                 {"w.x", 1, {1}, MOTUS_NAME, "neither", "as a whole"},
+                 {"w.x", 1, {1}, MOTUS_NAME, "neither", "by its name alone"},
                  {"x''(0)", 1, {1}, MOTUS_NAME, "neither", ""},
                  {"", 1, {1}, MOTUS_NAME, "neither", ""},
                  {"(0)", 1, {1}, MOTUS_NAME, "neither", ""},
-                 {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, and 2 are given", ""},
-                 {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, and 1 are given", ""},
+                 {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, but the call gives 2", ""},
+                 {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, but the call gives 1", ""},
                  {"k", 1, {NAN}, MOTUS_ARGUMENT, "not a finite number", ""},
                  {"x(0)", 1, {INFINITY}, MOTUS_ARGUMENT, "not a finite number", ""},
-                 {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""},
+                 {"k", 1, {0}, MOTUS_ARGUMENT, "d depends on k", ""},
                  {"T", 1, {3}, MOTUS_ARGUMENT, "T decides `step`", "`set`"},
                  {"x'(0)", 1, {1}, MOTUS_ARGUMENT, "does not meet the initial value", ""}};
     motus_system *s = given_text(text), *before = given_text(text);
