@@ -1,6 +1,6 @@
-/* The catalogue: finding a row by its name and saying which problems it admits. The rows themselves are in methods.c.
+/* The catalogue: finds a row by its name, and tells which problems a row admits. The rows are in methods.c.
  *
- * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order
+ * Invariant: every refusal gives the reason and names the nearest method that admits the problem, of the same order
  * where there is one.
  */
 #include "base/near.h"
@@ -22,7 +22,7 @@ bool row_adaptive(const chosen *method) { return method->row->adaptive; }
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
-/* Letter case aside, and '_' is as good as '-'. */
+/* Whether two names are equal in any letter case, with '_' for '-'. */
 static bool same(const char *a, size_t length, const char *b, size_t b_length)
 {
     if (length != b_length) return false;
@@ -119,12 +119,12 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
             s = NULL;
         if (!s || *s != ')' || *blanks(s + 1)) {
             fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers, beta and gamma", name, out->row->card.name);
-            hint(err, "write %s(1/4, 1/2), or %s alone for just that", out->row->card.name, out->row->card.name);
+            hint(err, "write %s(1/4, 1/2), or %s alone for the same", out->row->card.name, out->row->card.name);
             return MOTUS_METHOD;
         }
     }
     if (out->argument[0] > 1 || out->argument[1] > 1) {
-        fail(err, MOTUS_METHOD, "\"%s\": beta and gamma lie between 0 and 1", name);
+        fail(err, MOTUS_METHOD, "\"%s\": beta and gamma must be between 0 and 1", name);
         hint(err, "usual choices: (1/4, 1/2) stable at every step, (1/6, 1/2) linear acceleration, (0, 1/2) explicit");
         return MOTUS_METHOD;
     }
@@ -138,7 +138,7 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
 motus_status row_choose(const char *name, chosen *out, const motus_method **card, motus_error *err)
 {
     chosen result = {0};
-    if (!name) return fail(err, MOTUS_METHOD, "no method is named");
+    if (!name) return fail(err, MOTUS_METHOD, "the name of the method is NULL");
     const char *start = blanks(name);
     size_t length = strcspn(start, "( \t");
     const char *rest = blanks(start + length);
