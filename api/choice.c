@@ -10,8 +10,9 @@ motus_status choice_method(motus_system *s, const char *name, chosen *chosen, co
     motus_settings_of(s, &set);
     motus_status status = row_choose(name ? name : set.method ? set.method : "verlet", chosen, card, err);
     if (status != MOTUS_OK) return status;
-    const bool may_turn = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
-    if (may_turn && !system_sample_gyroscopic(s))
+    /* also where Boris is not chosen: it may be the method that the refusal names */
+    const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
+    if (may_need && !system_sample_gyroscopic(s))
         return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     return row_admits(chosen, &s->problem.traits, err);
 }
@@ -21,7 +22,7 @@ motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled,
     *automatic = !wanted || !strcmp(wanted, "auto");
     *compiled = *automatic || !strcmp(wanted, "compiled");
     if (*compiled || !strcmp(wanted, "interpreter")) return MOTUS_OK;
-    fail(err, MOTUS_ARGUMENT, "there is no machine %s", wanted);
+    fail(err, MOTUS_ARGUMENT, "there is no machine called %s", wanted);
     hint(err, "the machines are auto, interpreter and compiled");
     return MOTUS_ARGUMENT;
 }
@@ -39,13 +40,13 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
     if (!*why) return compiled_machine(s->compiled, chosen, out, err);
     if (!must) return MOTUS_OK;
     fail(err, MOTUS_TOOL, "the model could not be compiled: %s", *why);
-    hint(err, "--machine interpreter needs no compiler");
+    hint(err, "the interpreter needs no compiler: --machine interpreter, or \"interpreter\" in the definition");
     return MOTUS_TOOL;
 }
 
 /* Below this much work for the interpreter, compiling (some 0.1 s when the cache is cold) does not pay. */
 #define WORTH_COMPILING 1e8
-/* What a compiler takes grows with the text: this much work for each operation that stands in it. */
+/* A compiler's time grows with the text: this much work for each operation in it. */
 #define WORTH_AN_OPERATION 1e6
 
 double choice_worth(const motus_system *s, const motus_method *card, double steps)

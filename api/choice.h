@@ -1,21 +1,21 @@
-/* What a run and an ensemble choose alike: the method, and the machine. */
+/* The choice of the method and of the machine, the same for runs and ensembles. */
 #ifndef API_CHOICE_H
 #define API_CHOICE_H
 
 #include "api/system.h"
 
-/* The method by its name (NULL: the model's, or verlet), if it admits the system; what only sampled states can tell
- * is found out first. */
+/* The method by its name (NULL: the model's, or verlet), if it admits the system. Samples the velocity term first where
+ * the answer depends on it. */
 motus_status choice_method(motus_system *, const char *name, chosen *, const motus_method **card, motus_error *);
-/* "auto" (or NULL), "interpreter" or "compiled"? */
+/* Reads the name of a machine: "auto" (or NULL), "interpreter" or "compiled". */
 motus_status choice_machine(const char *wanted, bool *automatic, bool *compiled, motus_error *);
-/* Compiles the model for a method, or finds it compiled; with `kept`, only finds. *why: NULL, and *out is the
- * machine; or why there is none: where it was asked for by name (`must`), that is an error. */
+/* Compiles the model for a method, or finds it compiled; with `kept` it only searches. *why: NULL, and *out is the
+ * machine; or the reason why there is none, which is an error where the caller asked for it by name (`must`). */
 motus_status choice_compile(motus_system *, const chosen *, bool must, bool kept, machine *out, const char **why,
                             motus_error *);
-/* Whether so many steps of a model are worth a compiler's time: 1 and more; from CHOICE_LOOK on it is worth a look
- * whether that was done before. */
+/* The work of so many steps relative to the compiler's. At 1 and more compiling pays; at CHOICE_KEPT and more it
+ * pays to search for an object that was compiled before. */
 double choice_worth(const motus_system *, const motus_method *, double steps);
-#define CHOICE_LOOK 0.01
+#define CHOICE_KEPT 0.01
 
 #endif

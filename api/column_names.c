@@ -1,4 +1,4 @@
-/* Names of columns, read: "x", "r'.y", "x[3]'", "exact x" and the columns they stand for. */
+/* Finds the columns that a name stands for: "x", "r'.y", "x[3]'", "exact x". */
 #include "api/columns.h"
 
 #include "base/near.h"
@@ -14,7 +14,7 @@ typedef struct column_name { /* a name taken apart: [exact] base [indices] prime
     int component; /* 1-based, 0: none */
 } column_name;
 
-/* Indices end at INT32_MAX: a larger one is none, but that is not said here. */
+/* An index above INT32_MAX becomes one that no cell has. */
 static const char *read_index(const char *p, int64_t *value)
 {
     const bool minus = *p == '-';
@@ -58,7 +58,7 @@ static bool take_name(const char *p, column_name *n)
     return *p == 0 && n->component >= 0;
 }
 
-static const char *group_name(const motus_system *s, const column_group *g)
+static const char *range_name(const motus_system *s, const column_range *g)
 {
     switch (g->kind) {
     case MOTUS_COLUMN_TIME: return "t";
@@ -73,8 +73,8 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     fail(err, MOTUS_NAME, "there is no column %s", name);
     const char *best = NULL;
     int least = 7;
-    for (size_t i = 0; i < s->group_count; i++) {
-        const char *other = group_name(s, &s->groups[i]);
+    for (size_t i = 0; i < s->range_count; i++) {
+        const char *other = range_name(s, &s->ranges[i]);
         if (near_nearer(base, other, &least)) best = other;
     }
     motus_column c = motus_default_column();
@@ -85,8 +85,8 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     return MOTUS_NAME;
 }
 
-/* The columns of a group that the name stands for; false: there are none. */
-static bool select_columns(const motus_system *s, const column_group *g, column_name n, size_t *first, size_t *count)
+/* The columns of a range that the name stands for; false: there are none. */
+static bool select_columns(const motus_system *s, const column_range *g, column_name n, size_t *first, size_t *count)
 {
     *first = g->first;
     *count = g->count;
@@ -117,11 +117,15 @@ motus_status motus_column_find(const motus_system *s, const char *name, size_t *
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!s || !name || !first || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_column_find needs a system, a name and two places for the answer");
-    if (!take_name(name, &n)) return fail(err, MOTUS_NAME, "%s is not the name of a column", name);
-    for (size_t i = 0; i < s->group_count; i++) {
-        const column_group *g = &s->groups[i];
+    if (!take_name(name, &n)) {
+        fail(err, MOTUS_NAME, "%s is not the name of a column", name);
+        hint(err, "names are x, x', r.y, r'.y, x[3], x[3]', r[3].x, energy, exact x");
+        return MOTUS_NAME;
+    }
+    for (size_t i = 0; i < s->range_count; i++) {
+        const column_range *g = &s->ranges[i];
         size_t from, number;
-        if (strcmp(group_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) ||
+        if (strcmp(range_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) ||
             n.primes != (g->prime ? 1 : 0))
             continue;
         if (!select_columns(s, g, n, &from, &number)) break;

@@ -1,4 +1,4 @@
-/* Columns: one numbering of all that can be looked at, its values, and what each column is. */
+/* Columns: the one numbering of all numbers that can be observed, their values, and the description of each. */
 #include "api/columns.h"
 
 #include <math.h>
@@ -12,26 +12,26 @@ size_t system_place(const model_state *s, size_t cell, int component)
     return s->base + (size_t)component * s->hull + offset;
 }
 
-static const model_definition *definition(const motus_system *s, const column_group *g)
+static const model_definition *definition(const motus_system *s, const column_range *g)
 {
     return &s->definitions[g->item];
 }
 
 static bool of_state(motus_column_kind kind)
 {
-    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_COMPANION ||
+    return kind == MOTUS_COLUMN_POSITION || kind == MOTUS_COLUMN_VELOCITY || kind == MOTUS_COLUMN_FIRST_ORDER ||
            kind == MOTUS_COLUMN_EXACT;
 }
 
 static void add(motus_system *s, motus_column_kind kind, bool prime, uint32_t item, size_t count)
 {
-    s->groups[s->group_count++] = (column_group){kind, prime, item, s->column_count, count};
+    s->ranges[s->range_count++] = (column_range){kind, prime, item, s->column_count, count};
     s->column_count += count;
 }
 
 static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool prime)
 {
-    int order = kind == MOTUS_COLUMN_COMPANION ? 1 : 2;
+    int order = kind == MOTUS_COLUMN_FIRST_ORDER ? 1 : 2;
     for (uint32_t i = 0; i < s->state_count; i++)
         if (s->states[i].order == order)
             add(s, exact ? MOTUS_COLUMN_EXACT : kind, prime, i,
@@ -40,13 +40,13 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 
 bool system_number_columns(motus_system *s)
 {
-    s->groups = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->groups);
-    if (!s->groups) return false;
+    s->ranges = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->ranges);
+    if (!s->ranges) return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
     s->positions = s->column_count - 1;
     add_states(s, MOTUS_COLUMN_VELOCITY, false, true);
-    add_states(s, MOTUS_COLUMN_COMPANION, false, false);
+    add_states(s, MOTUS_COLUMN_FIRST_ORDER, false, false);
     s->velocities = s->column_count - 1 - s->positions;
     size_t largest = 1;
     for (int pass = 0; pass < 2; pass++)
@@ -60,30 +60,30 @@ bool system_number_columns(motus_system *s)
     if (s->problem.traits.has_exact) {
         add_states(s, MOTUS_COLUMN_POSITION, true, false);
         add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
-        add_states(s, MOTUS_COLUMN_COMPANION, true, false);
+        add_states(s, MOTUS_COLUMN_FIRST_ORDER, true, false);
         s->exact_x = arena_room(&s->arena, (s->problem.nx + 1) * sizeof(double));
         s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
-    s->look = arena_room(&s->arena, largest * sizeof(double));
+    s->observed = arena_room(&s->arena, largest * sizeof(double));
     return !s->arena.failed;
 }
 
-const column_group *columns_group(const motus_system *s, size_t k)
+const column_range *columns_range(const motus_system *s, size_t k)
 {
-    size_t low = 0, high = s->group_count;
+    size_t low = 0, high = s->range_count;
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
-        if (s->groups[middle].first <= k)
+        if (s->ranges[middle].first <= k)
             low = middle;
         else
             high = middle;
     }
-    return &s->groups[low];
+    return &s->ranges[low];
 }
 
 /* ---- values ---- */
 
-/* Moves every number that is seen outside, in the outside order; outer_x, outer_v may be NULL. */
+/* Calls `move` for every number of the outside order, in this order; outer_x, outer_v may be NULL. */
 static void each_number(const motus_system *s, double *x, double *v, double *outer_x, double *outer_v,
                         void (*move)(double *inner, double *outer))
 {
@@ -115,7 +115,7 @@ void system_inside(const motus_system *s, const double *in_x, const double *in_v
 
 const model_definition *system_definition(const motus_system *s, size_t column, size_t *number)
 {
-    const column_group *g = columns_group(s, column);
+    const column_range *g = columns_range(s, column);
     const size_t k = column - g->first, parts = columns_parts(definition(s, g)->components);
     *number = k % parts * (g->count / parts) + k / parts;
     return definition(s, g);
@@ -136,13 +136,13 @@ size_t system_number(const motus_system *s, size_t outer, bool of_v)
     return 0;
 }
 
-/* All quantities of a callback, or all its invariants. */
+/* Evaluates all quantities of a callback, or all its invariants. */
 static motus_status ask(motus_system *s, motus_column_kind kind, double t, const double *x, const double *v,
                         motus_error *err)
 {
     const motus_callback_def *def = &s->callback;
     const bool invariant = kind == MOTUS_COLUMN_INVARIANT;
-    const int answer = (invariant ? def->invariant : def->quantity)(def->context, t, x, v, s->look);
+    const int answer = (invariant ? def->invariant : def->quantity)(def->context, t, x, v, s->observed);
     if (!answer) return MOTUS_OK;
     return columns_callback_failed(invariant ? "invariant" : "quantity", t, answer, err);
 }
@@ -157,14 +157,14 @@ motus_status columns_callback_failed(const char *which, double t, int answer, mo
     return MOTUS_CALLBACK;
 }
 
-static motus_status evaluate(motus_system *s, const column_group *g, double t, double *x, double *v, motus_error *err)
+static motus_status evaluate(motus_system *s, const column_range *g, double t, double *x, double *v, motus_error *err)
 {
     const problem *p = &s->problem;
     switch (g->kind) {
     case MOTUS_COLUMN_QUANTITY:
     case MOTUS_COLUMN_INVARIANT:
         if (!s->model) return ask(s, g->kind, t, x, v, err);
-        if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->look))
+        if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
             return fail(err, MOTUS_MEMORY, "no memory to compute %s", definition(s, g)->name);
         return MOTUS_OK;
     case MOTUS_COLUMN_EXACT:
@@ -176,7 +176,7 @@ static motus_status evaluate(motus_system *s, const column_group *g, double t, d
 }
 
 /* The exact columns come from one evaluation, and so do all quantities, or invariants, of a callback. */
-static bool evaluated(const motus_system *s, const column_group *g, const column_group *done)
+static bool evaluated(const motus_system *s, const column_range *g, const column_range *done)
 {
     return g == done ||
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
@@ -185,13 +185,13 @@ static bool evaluated(const motus_system *s, const column_group *g, const column
 motus_status system_values(motus_system *s, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *err)
 {
-    const column_group *done = NULL;
-    if (s->problem.refresh) /* the end of a run is `until`, not t0 + n h: for all columns alike */
+    const column_range *done = NULL;
+    if (s->problem.refresh) /* at `until` itself, which may differ from t0 + n h by rounding */
         s->problem.refresh(s->problem.ctx, t, x, v);
     for (size_t i = 0; i < count; i++) {
         if (columns[i] >= s->column_count)
             return fail(err, MOTUS_ARGUMENT, "there is no column %zu; the system has %zu", columns[i], s->column_count);
-        const column_group *g = columns_group(s, columns[i]);
+        const column_range *g = columns_range(s, columns[i]);
         size_t k = columns[i] - g->first;
         if (g->kind == MOTUS_COLUMN_TIME) {
             out[i] = t;
@@ -210,9 +210,9 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
             out[i] = st->order == 2 && !g->prime ? from_x[at] : from_v[at];
         } else if (s->model) {
             size_t parts = columns_parts(definition(s, g)->components), hull = g->count / parts;
-            out[i] = s->look[k % parts * hull + k / parts];
+            out[i] = s->observed[k % parts * hull + k / parts];
         } else {
-            out[i] = s->look[definition(s, g)->slot + k];
+            out[i] = s->observed[definition(s, g)->slot + k];
         }
     }
     return MOTUS_OK;
@@ -220,7 +220,7 @@ motus_status system_values(motus_system *s, double t, double *x, double *v, cons
 
 /* ---- what a column is ---- */
 
-model_state columns_shape(const motus_system *s, const column_group *g)
+model_state columns_shape(const motus_system *s, const column_range *g)
 {
     if (of_state(g->kind)) return s->states[g->item];
     const model_definition *d = definition(s, g);
@@ -260,7 +260,7 @@ bool columns_find_cell(const model_state *s, const int64_t *index, size_t *cell)
     return s->cells.count > 0 && s->cells.offset[low] == offset;
 }
 
-/* The other way: the indices of a place in the hull. */
+/* The inverse: the indices of a place in the hull. */
 static void indices_of(const model_state *s, size_t offset, int64_t *index)
 {
     for (int d = s->dims - 1; d >= 0; d--) {
@@ -270,17 +270,17 @@ static void indices_of(const model_state *s, size_t offset, int64_t *index)
     }
 }
 
-/* Which quantity or invariant of the system this group is, from 0: groups of a kind stand together. */
-static size_t rank_of(const motus_system *s, const column_group *g)
+/* The number of the range's quantity or invariant, from 0: the ranges of a kind are neighbours. */
+static size_t rank_of(const motus_system *s, const column_range *g)
 {
     size_t rank = 0;
-    while (g > s->groups && g[-1].kind == g->kind) g--, rank++;
+    while (g > s->ranges && g[-1].kind == g->kind) g--, rank++;
     return rank;
 }
 
 static motus_column describe(const motus_system *s, size_t k)
 {
-    const column_group *g = columns_group(s, k);
+    const column_range *g = columns_range(s, k);
     motus_column c = {.kind = g->kind, .variable = g->item, .is_velocity = g->prime};
     if (g->kind == MOTUS_COLUMN_TIME) {
         snprintf(c.name, sizeof c.name, "t");
@@ -309,12 +309,12 @@ motus_status motus_column_at(const motus_system *s, size_t k, motus_column *out)
     return MOTUS_OK;
 }
 
-/* The group that a column's description is about; NULL: none. */
-static const column_group *group_of(const motus_system *s, const motus_column *c)
+/* The range that a column's description belongs to; NULL: none. */
+static const column_range *range_of(const motus_system *s, const motus_column *c)
 {
     size_t rank = 0;
-    for (size_t i = 0; i < s->group_count; i++) {
-        const column_group *g = &s->groups[i];
+    for (size_t i = 0; i < s->range_count; i++) {
+        const column_range *g = &s->ranges[i];
         if (g->kind != c->kind) continue;
         const size_t variable = of_state(g->kind) ? g->item : rank++;
         if (variable == c->variable && (g->kind != MOTUS_COLUMN_EXACT || g->prime == (c->is_velocity != 0))) return g;
@@ -330,8 +330,12 @@ motus_status motus_column_of(const motus_system *s, const motus_column *given, s
     motus_column c;
     motus_status status = motus_struct_read(MOTUS_DEF_COLUMN, given, &c, err);
     if (status != MOTUS_OK) return status;
-    const column_group *g = group_of(s, &c);
-    if (!g) return fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
+    const column_range *g = range_of(s, &c);
+    if (!g) {
+        fail(err, MOTUS_NAME, "there is no variable, quantity or invariant %zu of this kind", c.variable);
+        hint(err, "they count from 0: see motus_variable_count, motus_quantity_count, motus_invariant_count");
+        return MOTUS_NAME;
+    }
     if (g->kind == MOTUS_COLUMN_TIME) {
         *k = g->first;
         return MOTUS_OK;

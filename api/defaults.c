@@ -1,24 +1,24 @@
-/* Structs that pass between the caller and the library: what each is at first, and how large it was in each version.
- * And the words of statuses, which need no system.
+/* Structs that pass between the caller and the library: their defaults, and their size in each version. And the words
+ * of statuses.
  *
- * Invariants: the layout of a version begins with the whole layout of the version before, padding included, and what
- * it adds has no padding (which a caller's assignment need not copy) and means "as before" where it is zero. So a
- * struct of an older caller is a beginning of ours, and one of a newer caller is ours and zeros, unless it asks for
- * what this library does not have.
+ * Invariants: the layout of a version begins with the layout of the version before, padding included; what it adds
+ * has no padding (which an assignment by the caller need not copy) and means "as before" where it is zero. So a
+ * struct of an older caller is the beginning of ours, and a struct of a newer caller is ours and zeros, unless it
+ * sets a member that this library does not have.
  */
 #include "api/system.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A version that adds members adds its size at the end; the last one is the size of today. */
+/* A version that adds members adds its size at the end; the last one is the present size. */
 #define SIZES(type) (const uint32_t[]){sizeof(type)}, 1
 
 typedef struct layout {
     const char *type, *maker;
     const uint32_t *sizes;
     size_t count;
-    const void *start; /* what a new one holds, but for its size; NULL: zeros */
+    const void *start; /* the defaults, but for the size; NULL: zeros */
 } layout;
 
 static const layout layouts[] = {
@@ -61,13 +61,13 @@ void motus_default(motus_def_kind kind, void *made, uint32_t size)
     const layout *l = &layouts[kind];
     if (l->start) memcpy(made, l->start, size < size_now(l) ? size : size_now(l));
     if (kind == MOTUS_DEF_ERROR && size >= offsetof(motus_error, time) + sizeof(double))
-        ((motus_error *)made)->time = NAN; /* here: nearly all of an error is room for texts */
+        ((motus_error *)made)->time = NAN; /* not by `start`, because nearly all of an error is room for texts */
     memcpy(made, &size, sizeof size);
 }
 
 /* ---- sizes ---- */
 
-/* No version of any struct is larger. A size beyond it is none: it is what lay in memory that nobody filled. */
+/* No version of any struct is larger: a size beyond it was never filled in. */
 enum { SIZE_BOUND = 1 << 14 };
 
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made)
@@ -86,14 +86,14 @@ defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *mad
 static motus_status refuse(const layout *l, defaults_fit fit, uint32_t size, motus_error *err)
 {
     if (fit == SIZE_ASKS_MORE) {
-        fail(err, MOTUS_ARGUMENT, "the %s asks for something that motus %s does not have", l->type, MOTUS_VERSION);
-        hint(err, "leave what is new in it as motus_default_%s() makes it, or load a newer motus", l->maker);
+        fail(err, MOTUS_ARGUMENT, "the %s sets a member that motus %s does not have", l->type, MOTUS_VERSION);
+        hint(err, "leave the new members as motus_default_%s() makes them, or load a newer motus", l->maker);
         return MOTUS_ARGUMENT;
     }
     if (fit == SIZE_MISSING)
         fail(err, MOTUS_ARGUMENT, "the %s has no size", l->type);
     else
-        fail(err, MOTUS_ARGUMENT, "the %s has a size of no version, %lu bytes", l->type, (unsigned long)size);
+        fail(err, MOTUS_ARGUMENT, "the %s has a size that no version had, %lu bytes", l->type, (unsigned long)size);
     hint(err, "make it with motus_default_%s()", l->maker);
     return MOTUS_ARGUMENT;
 }
@@ -105,7 +105,7 @@ motus_status motus_struct_check(motus_def_kind kind, const void *made, motus_err
     return fit == SIZE_FITS ? MOTUS_OK : refuse(l, fit, size_said(made), err);
 }
 
-/* Whatever its size says, it has the members of the first version, so the refusal can be said in it. */
+/* Whatever its size, it has the members of the first version, so the refusal can be written to it. */
 bool motus_error_sound(motus_error *err) { return !err || motus_struct_check(MOTUS_DEF_ERROR, err, err) == MOTUS_OK; }
 
 static void copy(motus_def_kind kind, void *to, const void *from, uint32_t size)

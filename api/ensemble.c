@@ -78,7 +78,7 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
         out->place = system_number(s, r->column - 1, false);
         return true;
     case MOTUS_COLUMN_VELOCITY:
-    case MOTUS_COLUMN_COMPANION:
+    case MOTUS_COLUMN_FIRST_ORDER:
         out->kind = SOURCE_V;
         out->place = system_number(s, r->column - 1, true);
         return true;

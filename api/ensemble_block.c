@@ -40,7 +40,7 @@ static const double *row_of(const group *b, size_t column)
     const motus_system *s = b->w->system;
     motus_column c = motus_default_column();
     if (motus_column_at(s, column, &c) != MOTUS_OK ||
-        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
+        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_FIRST_ORDER))
         return NULL;
     const bool of_v = c.kind != MOTUS_COLUMN_POSITION;
     return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;

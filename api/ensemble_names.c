@@ -40,7 +40,7 @@ static motus_status initial_value(const motus_system *s, const char *name, const
     size_t first, count;
     motus_column c = motus_default_column();
     if (motus_column_find(s, bare, &first, &count, NULL) != MOTUS_OK || motus_column_at(s, first, &c) != MOTUS_OK ||
-        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_COMPANION))
+        (c.kind != MOTUS_COLUMN_POSITION && c.kind != MOTUS_COLUMN_VELOCITY && c.kind != MOTUS_COLUMN_FIRST_ORDER))
         return unknown(s, name, err);
     if (count > 1) {
         fail(err, MOTUS_SHAPE, "%s is %zu numbers, and one is varied at a time", name, count);
@@ -50,16 +50,16 @@ static motus_status initial_value(const motus_system *s, const char *name, const
     }
     const bool velocity = c.kind == MOTUS_COLUMN_VELOCITY;
     size_t at = first - 1, inner;
-    inner = system_number(s, at, velocity || c.kind == MOTUS_COLUMN_COMPANION);
+    inner = system_number(s, at, velocity || c.kind == MOTUS_COLUMN_FIRST_ORDER);
     if (!s->model) {
-        *place = velocity || c.kind == MOTUS_COLUMN_COMPANION ? s->problem.nx + inner : inner;
+        *place = velocity || c.kind == MOTUS_COLUMN_FIRST_ORDER ? s->problem.nx + inner : inner;
         return MOTUS_OK;
     }
     for (uint32_t i = 0; i < s->state_count; i++) {
         const model_state *st = &s->states[i];
         const size_t numbers = st->hull * (size_t)(st->components ? st->components : 1);
-        const bool of_v = velocity || c.kind == MOTUS_COLUMN_COMPANION;
-        if (inner < st->base || inner >= st->base + numbers || (st->order == 1) != (c.kind == MOTUS_COLUMN_COMPANION))
+        const bool of_v = velocity || c.kind == MOTUS_COLUMN_FIRST_ORDER;
+        if (inner < st->base || inner >= st->base + numbers || (st->order == 1) != (c.kind == MOTUS_COLUMN_FIRST_ORDER))
             continue;
         *place = s->model->arrays[st->start_array[of_v && st->order == 2]].base + (inner - st->base);
         return MOTUS_OK;

@@ -1,4 +1,4 @@
-/* What the program understood, in plain words; and the traits that only sampled states can show. */
+/* The analysis of a model in words, and the traits that only sampled states can show. */
 #include "api/system.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ static double random_number(uint64_t *state) /* splitmix64, to (-1, 1) */
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
-/* w·(J u) = sign · u·(J w) at random states and directions, to rounding: J is symmetric (sign 1) or antisymmetric
- * (-1). A derivative that is not fails at almost every state. Returns false where there is no memory to find out. */
+/* Tests w·(J u) = sign · u·(J w) at random states and directions, to rounding: whether J is symmetric (sign 1) or
+ * antisymmetric (-1). Another J fails at almost every state. False: there was no memory for the test. */
 static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 {
     problem *p = &s->problem;
@@ -30,7 +30,7 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
     double *x = take(&s->allocator, work, sizeof *x);
     if (!x) return false;
     double *v = x + n + 1, *u = v + n + 1, *w = u + n + 1, *ju = w + n + 1, *jw = ju + n + 1, *mask = jw + n + 1;
-    /* Only cells with an equation vary. */
+    /* Only cells with an equation are varied. */
     for (uint32_t i = 0; i < s->state_count; i++)
         for (size_t c = 0; c < s->states[i].cells.count; c++)
             for (int k = 0; k < (s->states[i].components ? s->states[i].components : 1); k++)
@@ -73,7 +73,7 @@ static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
 bool system_sample_gyroscopic(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->companions || !s->model) return true;
+    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->first_order || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gyroscopic = symmetric(s, true, -1, &t->gyroscopic);
     modes_leave(m);
@@ -83,7 +83,7 @@ bool system_sample_gyroscopic(motus_system *s)
 static bool sample_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
-    if (s->sampled_gradient || t->velocity || t->companions || !s->model) return true;
+    if (s->sampled_gradient || t->velocity || t->first_order || !s->model) return true;
     modes m = modes_enter();
     s->sampled_gradient = symmetric(s, false, 1, &t->gradient);
     t->gradient = t->gradient || t->constant;
@@ -161,7 +161,7 @@ static void note_load(void *ctx, const reference *r, const range *sums, int firs
 
 static node seed_one(graph *g, node leaf, void *which) { return leaf == *(node *)which ? graph_const(g, 1) : 0; }
 
-/* The coefficient of each velocity in each equation. */
+/* Writes the coefficient of each velocity in each equation. */
 static void say_coefficients(words *w, const model *m)
 {
     int shown = 0;
@@ -194,7 +194,7 @@ static void say_variables(words *w, const motus_system *s)
         if (st->dims) say(w, " of %zu %s", st->cells.count, st->components ? "vectors" : "numbers");
         if (st->components) say(w, " of length %d", st->components);
         say(w, st->order == 2 ? "; its acceleration is given\n"
-                              : "; its rate of change is given (a first-order companion)\n");
+                              : "; its rate of change is given (a first-order variable)\n");
     }
 }
 
@@ -205,15 +205,15 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the acceleration is constant\n");
     else
         say(w, "the acceleration depends on %s%s%s\n",
-            t->companions && !t->velocity ? "the positions"
-            : t->velocity                 ? "the state and its velocity"
-                                          : "the positions",
+            t->first_order && !t->velocity ? "the positions"
+            : t->velocity                  ? "the state and its velocity"
+                                           : "the positions",
             t->time ? " and on time" : "", t->time ? "" : "; not on time");
     if (t->velocity && t->linear_v) {
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
             t->constant_jv ? ", with constant coefficients" : "");
         say_coefficients(w, s->model);
-        if (t->gyroscopic) say(w, "the velocity term does no work (v × B): Boris' rotation applies\n");
+        if (t->gyroscopic) say(w, "the velocity term does no work (v × B): the Boris rotation applies\n");
     } else if (t->velocity) {
         say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the "
                "derived Jacobian\n");
@@ -233,7 +233,7 @@ static void say_forces(words *w, const motus_system *s)
 const char *motus_explain(motus_system *s)
 {
     if (!s) return "";
-    if (!s->model) return "the acceleration is a callback: nothing can be read off it\n";
+    if (!s->model) return "the acceleration is a callback: its form is not known\n";
     if (!system_sample_gyroscopic(s) || !sample_gradient(s)) return "";
     const traits *t = &s->problem.traits;
     const char **kept = &s->explanation[t->gyroscopic][t->gradient];
@@ -243,7 +243,7 @@ const char *motus_explain(motus_system *s)
     say_variables(&w, s);
     say_forces(&w, s);
     modes_leave(m);
-    if (!w.text || w.failed || s->arena.failed) return ""; /* the whole of it or nothing */
+    if (!w.text || w.failed || s->arena.failed) return ""; /* a part of the text would mislead */
     return *kept = w.text;
 }
 

@@ -1,7 +1,7 @@
-/* The equations linearised at the state of a run: motus_run_jacobian.
+/* The Jacobian matrices at the state of a run: motus_run_jacobian.
  *
  * One column at a time: the exact derivative in the direction of one number, or the difference quotient that the
- * solver of implicit methods takes. Invariant: the run is not changed, nor are its counts: looking is free.
+ * solver of implicit methods takes. Invariant: neither the run nor its counts change.
  */
 #include "api/run.h"
 
@@ -24,7 +24,7 @@ static motus_status failed(const jacobian *j, motus_error *err)
     return fail(err, MOTUS_CALLBACK, "the derivative callback reported a failure at t = %g", j->t);
 }
 
-/* image = the derivative by number `at` of v (in_v) or x. */
+/* image = the derivative with respect to number `at` of v (in_v) or of x. */
 static motus_status column(const jacobian *j, bool in_v, size_t at, double size, motus_error *err)
 {
     const problem *p = j->problem;
@@ -82,7 +82,7 @@ motus_status motus_run_jacobian(motus_run *r, double *da_dx, double *da_dv, motu
     if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_jacobian needs a run");
     const motus_system *s = r->system;
     if (s->velocities > MOTUS_JACOBIAN_MAX) {
-        fail(err, MOTUS_LIMIT, "the matrices of %zu velocities and companions are too large; the bound is %d",
+        fail(err, MOTUS_LIMIT, "a Jacobian of %zu velocities and first-order variables is too large; at most %d fit",
              s->velocities, MOTUS_JACOBIAN_MAX);
         hint(err, "linearise a smaller model of the same kind");
         return MOTUS_LIMIT;

@@ -1,4 +1,4 @@
-/* The legs of a run: another state to go on from, and what has been done in all of them. */
+/* The legs of a run: motus_run_set_state begins one at another state, motus_run_statistics counts over all of them. */
 #include "api/run.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     return MOTUS_OK;
 }
 
-/* The state that the leg begins with, in the inside order: mid_x, mid_v. */
+/* Writes the state that the leg begins with to mid_x and mid_v, in the inside order. */
 static motus_status compose(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &r->system->problem;
@@ -38,7 +38,7 @@ static motus_status set_state(motus_run *r, double t, const double *x, const dou
 {
     timing leg;
     const int64_t steps = stepper_steps(r->stepper);
-    motus_status status = run_timing(r->system, &r->chosen, fabs(r->h), r->until, t, &leg, err);
+    motus_status status = run_timing(r->system, &r->chosen, fabs(r->timing.h), r->timing.until, t, &leg, err);
     if (status == MOTUS_OK) status = compose(r, t, x, v, err);
     if (status == MOTUS_OK) status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
     if (status != MOTUS_OK) return status;
@@ -51,7 +51,7 @@ motus_status motus_run_set_state(motus_run *r, double t, const double *x, const 
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r) return fail(err, MOTUS_ARGUMENT, "motus_run_set_state needs a run");
-    if (r->observing) return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
+    if (r->observing) return run_refuse_move(err);
     if (isnan(t)) t = stepper_time(r->stepper);
     modes m = modes_enter();
     const motus_status status = set_state(r, t, x, v, err);

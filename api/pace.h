@@ -1,4 +1,4 @@
-/* Long work in pieces of some milliseconds, so that a caller can watch and cancel it. */
+/* Long work in pieces of some milliseconds, so that a caller can follow and cancel it. */
 #ifndef API_PACE_H
 #define API_PACE_H
 
@@ -7,13 +7,13 @@
 typedef struct pace {
     int64_t piece;  /* steps of the next piece; 0: not known yet */
     double seconds; /* that a piece should take */
-    /* After every piece; other than 0: enough. NULL: nobody watches, and there is one piece. */
+    /* Called after every piece; other than 0 cancels. NULL: all the work is one piece. */
     int (*tell)(void *ctx, double now);
     void *ctx;
 } pace;
 
-double pace_now(void); /* seconds of a clock that never goes back */
-/* As stepper_advance; MOTUS_CANCELLED, without a sentence, where `tell` wants no more. */
+double pace_now(void); /* in seconds, monotonic */
+/* As stepper_advance; MOTUS_CANCELLED, without a message, where `tell` cancels. */
 motus_status pace_advance(pace *, stepper *, stepper_limit, stepper_stop *why, motus_error *);
 
 #endif

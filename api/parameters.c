@@ -1,6 +1,6 @@
-/* What may be set: the parameters and the initial values of a model, as a page needs them for its sliders.
+/* The numbers that may be set: the parameters and the initial values of a model.
  *
- * Invariant: asking changes nothing, and numbers come in the order of columns: cell by cell, component by component.
+ * Invariant: the calls here change nothing. Numbers are in the order of columns: cell by cell, component by component.
  */
 #include "api/parameters.h"
 
@@ -36,7 +36,7 @@ static size_t cells_of(const model_definition *d)
     return cells;
 }
 
-/* Its first number in the pool; the others follow, component after component. */
+/* The place of its first number in the pool; the others follow, component by component. */
 static size_t place_of(const motus_system *s, const model_definition *d)
 {
     return d->list ? s->model->arrays[d->array].base : d->slot;
@@ -142,9 +142,9 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
     for (uint32_t i = 0; i < s->definition_count; i++) {
         const model_definition *d = &s->definitions[i];
         if (!strcmp(d->name, base) && d->kind == DEFINED_PARAMETER)
-            hint(err, "%s is set as a whole, by its name alone", base);
+            hint(err, "set all numbers of %s at once, by its name alone", base);
         else if (!strcmp(d->name, base))
-            hint(err, "%s is computed along the way: set what it is computed from", base);
+            hint(err, "%s is a quantity: set the parameters that it depends on", base);
         else if (d->kind == DEFINED_PARAMETER && near_likely(base, d->name))
             hint(err, "did you mean %s?", d->name);
         else
@@ -153,7 +153,8 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
     }
     for (uint32_t i = 0; i < s->state_count; i++)
         if (!strcmp(s->states[i].name, base))
-            hint(err, "an initial value is set as a whole: %s(%s)", base, decimal(s->start, at));
+            hint(err, "an initial value is named %s(%s), and all of its numbers are set at once", base,
+                 decimal(s->start, at));
     return MOTUS_NAME;
 }
 

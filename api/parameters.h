@@ -1,4 +1,4 @@
-/* What the name of a parameter or of an initial value stands for, as a whole. */
+/* The parameter or initial value that a name stands for, with all of its numbers. */
 #ifndef API_PARAMETERS_H
 #define API_PARAMETERS_H
 
@@ -12,12 +12,12 @@ typedef struct parameters_target {
     size_t first, span;                 /* of a model: its places in the pool, boundary cells included */
 } parameters_target;
 
-/* MOTUS_NAME, with a hint, where there is none. */
+/* MOTUS_NAME, with a hint: there is none of this name. */
 motus_status parameters_find(const motus_system *, const char *name, parameters_target *, motus_error *);
 parameters_target parameters_of(const motus_system *, const model_definition *);
 /* The place in the pool of number k, in the outside order. */
 size_t parameters_place(const parameters_target *, size_t k);
-/* "x'(0)" → "x'"; false where there is no such bracket. *start: what stands in it. */
+/* "x'(0)" → "x'" and *start, the number in the bracket; false: the name has no such bracket. */
 bool parameters_bracket(const char *name, char *bare, size_t size, double *start);
 
 #endif

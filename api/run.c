@@ -8,47 +8,48 @@
 #include <math.h>
 #include <string.h>
 
-#define STEPS_MAX 1e15 /* between the start and `until`; a nanosecond each would be eleven days */
+#define STEPS_MAX 1e15 /* from the start to `until`: eleven days at a nanosecond a step */
 
 /* ---- creation ---- */
 
-motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start, timing *r,
-                        motus_error *err)
+motus_status run_timing(const motus_system *s, const chosen *chosen, double step, double until, double start,
+                        timing *out, motus_error *err)
 {
     motus_settings set = motus_default_settings();
     motus_settings_of(s, &set);
     double h = isnan(step) ? set.step : step;
-    *r = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
+    *out = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
         hint(err, "write `step 0.01` in the model, or --step 0.01");
         return MOTUS_ARGUMENT;
     }
     if (!isfinite(h) || !(h > 0)) return fail(err, MOTUS_ARGUMENT, "the step is a positive number, not %g", h);
-    if (isnan(r->until)) {
+    if (isnan(out->until)) {
         fail(err, MOTUS_ARGUMENT, "no end is given");
         hint(err, "write `until 10` in the model, or --until 10");
         return MOTUS_ARGUMENT;
     }
-    if (!isfinite(r->until) || !isfinite(r->t0))
-        return fail(err, MOTUS_ARGUMENT, "start and end are finite numbers, not %g and %g", r->t0, r->until);
-    double q = fabs(r->until - r->t0) / h;
+    if (!isfinite(out->until) || !isfinite(out->t0))
+        return fail(err, MOTUS_ARGUMENT, "start and end are finite numbers, not %g and %g", out->t0, out->until);
+    double q = fabs(out->until - out->t0) / h;
     if (q > STEPS_MAX) {
-        fail(err, MOTUS_LIMIT, "from %g to %g in steps of %g are %.3g steps; at most %.0e are taken", r->t0, r->until,
-             h, q, STEPS_MAX);
+        fail(err, MOTUS_LIMIT, "from %g to %g in steps of %g are %.3g steps; at most %.0e are taken", out->t0,
+             out->until, h, q, STEPS_MAX);
         hint(err, "take a larger step or an earlier end");
         return MOTUS_LIMIT;
     }
-    r->h = r->until < r->t0 ? -h : h;
-    if (q > 0 && r->t0 + r->h == r->t0)
-        return fail(err, MOTUS_ARGUMENT, "the step %g is lost beside the time %g", h, r->t0);
-    const stepper_way way = stepper_way_of(r->t0, r->h, r->until);
-    r->whole = way.whole;
-    r->last = way.last;
-    r->total = way.whole + (way.last != 0);
-    if (r->last != 0 && row_uniform(chosen)) {
-        fail(err, MOTUS_METHOD, "%s takes equal steps only, and the last one would be %g", chosen->name, fabs(r->last));
-        hint(err, "choose a step that divides %g, or method verlet", fabs(r->until - r->t0));
+    out->h = out->until < out->t0 ? -h : h;
+    if (q > 0 && out->t0 + out->h == out->t0)
+        return fail(err, MOTUS_ARGUMENT, "the step %g is lost beside the time %g", h, out->t0);
+    const stepper_way way = stepper_way_of(out->t0, out->h, out->until);
+    out->whole = way.whole;
+    out->last = way.last;
+    out->total = way.whole + (way.last != 0);
+    if (out->last != 0 && row_uniform(chosen)) {
+        fail(err, MOTUS_METHOD, "%s takes equal steps only, and the last one would be %g", chosen->name,
+             fabs(out->last));
+        hint(err, "choose a step that divides %g, or method verlet", fabs(out->until - out->t0));
         return MOTUS_METHOD;
     }
     return MOTUS_OK;
@@ -56,12 +57,7 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
 
 void run_leg(motus_run *r, const timing *t)
 {
-    r->t0 = t->t0;
-    r->h = t->h;
-    r->until = t->until;
-    r->whole = t->whole;
-    r->total = t->total;
-    r->last = t->last;
+    r->timing = *t;
     r->legs++;
 }
 
@@ -75,8 +71,8 @@ static motus_status choose_machine(motus_run *r, const char *wanted, motus_error
     r->note = "";
     motus_status status = choice_machine(wanted, &automatic, &compiled, err);
     if (status != MOTUS_OK || !s->model || !compiled) return status;
-    const double worth = choice_worth(s, r->card, (double)r->total);
-    if (automatic && worth < CHOICE_LOOK) return MOTUS_OK;
+    const double worth = choice_worth(s, r->card, (double)r->timing.total);
+    if (automatic && worth < CHOICE_KEPT) return MOTUS_OK;
     const bool kept = automatic && worth < 1;
     const char *why;
     status = choice_compile(s, &r->chosen, !automatic, kept, &r->machine, &why, err);
@@ -112,15 +108,19 @@ static int tell(void *ctx, double now)
     motus_run *r = ctx;
     if (now - r->told < 0.01) return 0;
     r->told = now;
-    return r->progress(r->context, r->until != r->t0 ? (stepper_time(r->stepper) - r->t0) / (r->until - r->t0) : 1);
+    return r->progress(r->context, r->timing.until != r->timing.t0
+                                       ? (stepper_time(r->stepper) - r->timing.t0) / (r->timing.until - r->timing.t0)
+                                       : 1);
 }
 
-/* Up to n steps more, without an observer; n = 0 finds out whether there are any. */
+/* Up to n steps more, without calling the observer; n = 0 finds out whether the run is at its end. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
     r->synchronised = r->synchronised && n == 0;
-    const motus_status status = pace_advance(&r->pace, r->stepper, (stepper_limit){n, r->until}, &why, err);
+    const stepper_limit limit = {n, r->timing.until};
+    const motus_status status =
+        n > 0 ? pace_advance(&r->pace, r->stepper, limit, &why, err) : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL;
     if (isnan(r->first_step) && stepper_steps(r->stepper) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     return status == MOTUS_CANCELLED ? fail(err, status, "cancelled at t = %g", stepper_time(r->stepper)) : status;
@@ -135,11 +135,18 @@ static motus_status observe(motus_run *r, motus_error *err)
                   : MOTUS_OK;
 }
 
+motus_status run_refuse_move(motus_error *err)
+{
+    fail(err, MOTUS_ARGUMENT, "an observer cannot step, restore or set its run");
+    hint(err, "return a value other than 0, and change the run after the call that stepped it");
+    return MOTUS_ARGUMENT;
+}
+
 static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
 {
-    if (r->observing) return fail(err, MOTUS_ARGUMENT, "an observer may look at its run, and not move it");
+    if (r->observing) return run_refuse_move(err);
     if (n == 0 || (!r->observer && !isnan(r->first_step))) return advance(r, n, err);
-    /* One step at a time for the observer; and the first step of all, whose size is asked for. */
+    /* One step at a time where an observer is called; and the first step by itself, because its size is recorded. */
     motus_status status = MOTUS_OK;
     for (; n > 0 && status == MOTUS_OK && !r->arrived; n--) {
         status = advance(r, 1, err);
@@ -163,12 +170,9 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     if (p->nx) memcpy(r->x, s->x0, p->nx * sizeof(double));
     memcpy(r->v, s->v0, p->nv * sizeof(double));
     system_inside(s, def->x, def->v, r->x, r->v);
-    if (p->refresh && r->t0 != s->start) p->refresh(p->ctx, r->t0, r->x, r->v);
-    for (size_t k = 0; k < p->nv; k++)
-        if (!isfinite(r->v[k]) || (k < p->nx && !isfinite(r->x[k])))
-            return fail(err, MOTUS_ARGUMENT, "the initial state is not finite");
+    if (p->refresh && r->timing.t0 != s->start) p->refresh(p->ctx, r->timing.t0, r->x, r->v);
     motus_status status =
-        stepper_create(&r->machine, &r->chosen, r->t0, r->h, r->x, r->v, &r->allocator, &r->stepper, err);
+        stepper_create(&r->machine, &r->chosen, r->timing.t0, r->timing.h, r->x, r->v, &r->allocator, &r->stepper, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
@@ -236,13 +240,13 @@ double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) 
 double motus_run_time_of(const motus_run *r, int64_t step)
 {
     if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX)) return NAN;
-    return step >= r->total ? r->until : stepper_time_of(r->stepper, step);
+    return step >= r->timing.total ? r->timing.until : stepper_time_of(r->stepper, step);
 }
 
-double motus_run_step_size(const motus_run *r) { return r ? fabs(r->h) : NAN; }
+double motus_run_step_size(const motus_run *r) { return r ? fabs(r->timing.h) : NAN; }
 int64_t motus_run_steps(const motus_run *r) { return r ? stepper_steps(r->stepper) : 0; }
-int64_t motus_run_steps_total(const motus_run *r) { return r ? r->total : 0; }
-double motus_run_last_step(const motus_run *r) { return r ? fabs(r->last) : 0; }
+int64_t motus_run_steps_total(const motus_run *r) { return r ? r->timing.total : 0; }
+double motus_run_last_step(const motus_run *r) { return r ? fabs(r->timing.last) : 0; }
 int64_t motus_run_evaluations(const motus_run *r) { return r ? stepper_evaluations(r->stepper) : 0; }
 int64_t motus_run_iterations(const motus_run *r) { return r ? stepper_iterations(r->stepper) : 0; }
 const char *motus_run_method(const motus_run *r) { return r ? r->chosen.name : ""; }
@@ -303,7 +307,7 @@ motus_status motus_run_finish(motus_run *r, motus_error *err) { return motus_run
 /* To a time at or after t, with the step that leads there marked for dense output. */
 static motus_status go_to(motus_run *r, double t, motus_error *err)
 {
-    const double way = r->h < 0 ? -1 : 1;
+    const double way = r->timing.h < 0 ? -1 : 1;
     if (way * (t - stepper_time(r->stepper)) <= 0) return MOTUS_OK;
     const int64_t steps = stepper_steps_before(r->stepper, t);
     motus_status status = steps > 0 ? go_on(r, steps, err) : MOTUS_OK;
@@ -317,11 +321,11 @@ static motus_status go_to(motus_run *r, double t, motus_error *err)
 static motus_status sample(motus_run *r, const double *times, size_t n, const size_t *columns, size_t count,
                            double *out, motus_error *err)
 {
-    const double way = r->h < 0 ? -1 : 1;
+    const double way = r->timing.h < 0 ? -1 : 1;
     for (size_t i = 0; i < n; i++, out += count) {
         const double t = times[i];
-        if (!isfinite(t) || way * (t - r->until) > 0)
-            return fail(err, MOTUS_ARGUMENT, "the time %g lies beyond the end of the run, %g", t, r->until);
+        if (!isfinite(t) || way * (t - r->timing.until) > 0)
+            return fail(err, MOTUS_ARGUMENT, "the time %g lies beyond the end of the run, %g", t, r->timing.until);
         motus_status status = go_to(r, t, err);
         const bool here = stepper_time(r->stepper) == t;
         if (status == MOTUS_OK)

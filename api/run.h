@@ -1,13 +1,20 @@
-/* A run: a stepper on its way from the start to `until`.
+/* A run: a stepper between the start and `until`.
  *
- * Invariant: what happened to the motion is the stepper's to know (time, steps, whether it has arrived); the run
- * keeps what was read of it.
+ * Invariant: the stepper alone holds the time, the number of steps and the state; the run keeps copies of what was
+ * observed.
  */
 #ifndef API_RUN_H
 #define API_RUN_H
 
 #include "api/pace.h"
 #include "api/system.h"
+
+/* From the start to the end: whole steps, and a shorter last one. */
+typedef struct timing {
+    double t0, h, until;
+    double last;          /* size of the shorter last step, 0: there is none */
+    int64_t whole, total; /* whole steps up to `until`, and all, with the shorter one */
+} timing;
 
 struct motus_run {
     motus_system *system;
@@ -16,16 +23,14 @@ struct motus_run {
     motus_allocator allocator;
     chosen chosen;
     const motus_method *card;
-    double t0, h, until;
-    int64_t whole, total; /* whole steps up to `until`, and with the short one */
-    double last;          /* size of the short one, 0: none */
+    timing timing; /* of the present leg */
     stepper *stepper;
     bool arrived;
     int legs;          /* a leg begins at the start and at every motus_run_set_state */
     int64_t before;    /* steps taken in earlier legs */
     double first_step; /* size of the first step of all; NaN before it */
     int (*observer)(void *context, motus_run *);
-    bool observing;    /* the observer is at work */
+    bool observing;    /* the observer is being called */
     double *x, *v, *a; /* the synchronised state, valid while `synchronised` */
     bool synchronised, with_a;
     double *mid_x, *mid_v; /* a state between two steps */
@@ -38,17 +43,15 @@ struct motus_run {
     struct trace *trace; /* of the last step that was traced; NULL */
 };
 
-/* From the start to the end: whole steps, and a shorter last one. NaN: the model's. */
-typedef struct timing {
-    double t0, h, until, last;
-    int64_t whole, total;
-} timing;
+/* Fills in a timing. NaN: the model's. */
 motus_status run_timing(const motus_system *, const chosen *, double step, double until, double start, timing *,
                         motus_error *);
 motus_status run_sync(motus_run *, bool with_a, motus_error *);
-/* The stepper stands elsewhere: what was read of it no longer holds, and it may stand at the end. */
+/* Call it when the stepper was moved: forgets what was observed, and finds out whether the stepper is at the end. */
 motus_status run_moved(motus_run *, motus_error *);
-/* Takes over when the run's leg begins, and how long it is. */
+/* Begins a leg with this timing. */
 void run_leg(motus_run *, const timing *);
+/* MOTUS_ARGUMENT, for what an observer may not do with its run. */
+motus_status run_refuse_move(motus_error *);
 
 #endif

@@ -1,7 +1,7 @@
-/* Numbers of a system set without reading its text again: motus_system_set; and a system once more: motus_system_clone.
+/* motus_system_set, which sets numbers of a system without reading its text again, and motus_system_clone.
  *
- * Invariant: a system whose numbers were set has the numbers of one that was read with them in `set`, to the bit, and a
- * refusal leaves it as it was. What follows is computed by lang/vary.h, which ensembles use for the same.
+ * Invariant: a system whose numbers were set has, to the bit, the numbers of a system that was read with them in `set`;
+ * a refusal changes nothing. lang/model/vary.h computes the numbers that depend on them, as it does for ensembles.
  */
 #include "api/parameters.h"
 
@@ -11,14 +11,15 @@
 #include <math.h>
 #include <string.h>
 
-/* What one name sets: made when it is set first, and kept, so that setting again takes no memory that stays. */
+/* What a change of one parameter or initial value computes again. Made when it is set first, and kept, so that setting
+ * it again takes no more memory of the arena. */
 struct setting {
-    size_t first; /* of its places in the pool: tells it from the others */
+    size_t first; /* the first of its places in the pool, which identifies it */
     vary *vary;
     struct setting *next;
 };
 
-/* ---- all numbers of a model, put aside and back ---- */
+/* ---- a copy of all numbers of a model, to restore them ---- */
 
 static double *put_aside(const motus_system *s)
 {
@@ -31,7 +32,7 @@ static double *put_aside(const motus_system *s)
     return room;
 }
 
-/* What is bound a second time needs no memory, so this does not fail. */
+/* Binding again takes no memory, so this cannot fail. */
 static void put_back(motus_system *s, const double *room)
 {
     model *m = s->model;
@@ -48,11 +49,11 @@ static motus_status refuse_decision(const char *name, const char *what, motus_er
 {
     const char *quote = strchr(what, ' ') ? "" : "`"; /* a setting, by its word */
     fail(err, MOTUS_ARGUMENT, "%s decides %s%s%s, which is fixed when the text is read", name, quote, what, quote);
-    hint(err, "read the text again, with the value in `set` of its definition");
+    hint(err, "read the text again, with the value in `set` of motus_text_def");
     return MOTUS_ARGUMENT;
 }
 
-/* The setting of a target, made where it is not there yet. */
+/* Finds the setting of a target, or makes it. */
 static motus_status setting_of(motus_system *s, const char *name, const parameters_target *t, struct setting **out,
                                motus_error *err)
 {
@@ -75,7 +76,8 @@ static motus_status setting_of(motus_system *s, const char *name, const paramete
     return MOTUS_OK;
 }
 
-/* What a text would be refused for: numbers that follow and are not finite, an exact line that is no longer true. */
+/* Refuses what a text is refused for: numbers that depend on the change and are not finite, and an exact line that no
+ * longer obeys the equation. */
 static motus_status check(motus_system *s, const char *name, motus_error *err)
 {
     const model *m = s->model;
@@ -84,7 +86,7 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
         const parameters_target t = parameters_of(s, &m->definitions[i]);
         for (size_t k = 0; k < t.span; k++)
             if (!isfinite(m->pool[t.first + k]))
-                return fail(err, MOTUS_ARGUMENT, "%s follows from %s, and would not be a finite number",
+                return fail(err, MOTUS_ARGUMENT, "%s depends on %s, and would not be a finite number",
                             m->definitions[i].name, name);
     }
     for (uint32_t i = 0; i < s->state_count; i++)
@@ -93,7 +95,7 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
                 const size_t at = system_place(&s->states[i], c, k);
                 if (!isfinite(s->v0[at]) || (s->states[i].order == 2 && !isfinite(s->x0[at])))
                     return fail(err, MOTUS_ARGUMENT,
-                                "an initial value of %s follows from %s, and would not be a finite number",
+                                "an initial value of %s depends on %s, and would not be a finite number",
                                 s->states[i].name, name);
             }
     return analysis_exact(s->model, err);
@@ -119,7 +121,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
         status = fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     }
     if (status == MOTUS_OK)
-        s->sampled_gyroscopic = s->sampled_gradient = false; /* that was found out for other numbers */
+        s->sampled_gyroscopic = s->sampled_gradient = false; /* the samples were of other numbers */
     else
         put_back(s, own);
     if (status != MOTUS_OK && !before) vary_override(m, t->first, t->span, false);
@@ -142,15 +144,15 @@ motus_status motus_system_set(motus_system *s, const char *name, const double *v
     motus_status status = parameters_find(s, name, &t, err);
     if (status != MOTUS_OK) return status;
     if (count != t.count)
-        return fail(err, MOTUS_SHAPE, "%s is %zu number%s, and %zu are given", name, t.count, t.count == 1 ? "" : "s",
-                    count);
+        return fail(err, MOTUS_SHAPE, "%s is %zu number%s, but the call gives %zu", name, t.count,
+                    t.count == 1 ? "" : "s", count);
     for (size_t k = 0; k < count; k++)
         if (!isfinite(values[k]))
             return fail(err, MOTUS_ARGUMENT, "%s cannot be set: value %zu is not a finite number", name, k + 1);
     if (s->held) {
-        fail(err, MOTUS_ARGUMENT,
-             "%s cannot be set: %zu run%s, ensembles and references included, still use%s the system", name, s->held,
-             s->held == 1 ? "" : "s", s->held == 1 ? "s" : "");
+        fail(err, MOTUS_ARGUMENT, "%s cannot be set while %zu run%s, ensemble%s or reference%s use%s the system", name,
+             s->held, s->held == 1 ? "" : "s", s->held == 1 ? "" : "s", s->held == 1 ? "" : "s",
+             s->held == 1 ? "s" : "");
         hint(err, "destroy them first, or set it in a clone");
         return MOTUS_ARGUMENT;
     }
@@ -166,9 +168,9 @@ motus_status motus_system_set(motus_system *s, const char *name, const double *v
 
 void motus_system_hold(motus_system *s, bool on) { s->held += on ? 1 : (size_t)-1; }
 
-/* ---- once more ---- */
+/* ---- clones ---- */
 
-/* The numbers that were set, in a system read from the same text. */
+/* Copies the numbers that were set into a system read from the same text. */
 static motus_status take_over(const motus_system *from, motus_system *to, motus_error *err)
 {
     const model *m = from->model;
@@ -192,7 +194,7 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
     if (!s) return fail(err, MOTUS_ARGUMENT, "motus_system_clone needs a system");
     motus_system *made = NULL;
     motus_callback_def def = s->callback;
-    def.x = s->x0; /* what the caller gave was copied, and may be gone */
+    def.x = s->x0; /* the copies: the caller's arrays may be gone */
     def.v = s->v0;
     motus_status status =
         s->model ? motus_system_from_text(&s->text, &made, err) : motus_system_from_callback(&def, &made, err);
@@ -201,7 +203,7 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
         motus_system_destroy(made);
         return status;
     }
-    made->problem.traits = s->problem.traits; /* what was found out by sampling */
+    made->problem.traits = s->problem.traits; /* with the results of sampling */
     made->sampled_gyroscopic = s->sampled_gyroscopic;
     made->sampled_gradient = s->sampled_gradient;
     *out = made;

@@ -1,13 +1,13 @@
-/* By how much a step makes a motion grow: motus_stability.
+/* The spectral radius of one step: motus_stability.
  *
- * The rows themselves are asked, by steps of size 1 on x'' = 2 s x' - (s² + w²) x from two starts, (1, 0) and (0, 1),
- * which are columns of the step's matrix over (x, v). Several points are side by side in one state, as equations that
- * know nothing of each other. Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination
- * of the two, so that its step is a map of (x, v) all the same; Beeman's old acceleration is not, but after one step
- * it follows from the start as (x, v) do: then the matrix is that from step 1 to 2. Which of the two a method is, it
- * shows by itself: two steps are the square of one, or not.
+ * It is measured with the rows themselves, by steps of size 1 on x'' = 2 s x' - (s² + w²) x. The results from the two
+ * starts (1, 0) and (0, 1) are the columns of the step's matrix over (x, v). One state holds several points, as
+ * uncoupled equations. Two-step methods carry more than (x, v) from step to step. Verlet's d is a combination of x and
+ * v, so that its step is a map of (x, v) all the same. Beeman's old acceleration is not; but after one step it is a
+ * linear map of the start, as (x, v) are, so that the matrix can be taken from step 1 to step 2. A trial tells the two
+ * cases apart: in the first, two steps are the square of one.
  *
- * Invariant: no memory is taken but the stack's; a point that has no answer harms no other.
+ * Invariant: no memory is taken but the stack's; a point without a result does not affect the others.
  */
 #include "api/system.h"
 
@@ -15,7 +15,7 @@
 
 /* room for a stepper of POINTS points: gauss8, the largest, takes 16 KiB */
 enum { POINTS = 8, PLACES = 2 * POINTS, ROOM = 24 << 10 };
-/* two steps and the square of one differ by less: rounding. By more than 1e-3 where a method remembers */
+/* two steps and the square of one differ by less, by rounding; by more than 1e-3 where a method carries more */
 #define FORGETFUL 1e-6
 
 typedef struct matrix {
@@ -24,10 +24,10 @@ typedef struct matrix {
 
 typedef struct plane {
     chosen chosen;
-    bool remembers;
-    size_t count;                              /* points side by side */
-    double damping[PLACES], stiffness[PLACES]; /* of place k: v's and x's coefficient */
-    motus_allocator allocator;                 /* hands out `room`, and takes nothing back */
+    bool remembers;                            /* the method carries more than (x, v), as Beeman does */
+    size_t count;                              /* points in the state */
+    double damping[PLACES], stiffness[PLACES]; /* the coefficients of v and x in equation k */
+    motus_allocator allocator;                 /* hands out `room` and releases nothing */
     size_t used;
     _Alignas(64) char room[ROOM];
 } plane;
@@ -77,8 +77,8 @@ static void place(plane *p, size_t k, double re, double im)
     }
 }
 
-/* On the axis the force has no velocity in it: so it is told, and every method may be asked. One that wants a term v
- * × B gets one that is 0. */
+/* On the imaginary axis the force does not depend on the velocity, so every method that takes steps admits it; one that
+ * needs a gyroscopic term v × B gets a term that is 0. */
 static bool admitted(const plane *p, bool on_axis, traits *out)
 {
     *out = (traits){.velocity = !on_axis,
@@ -127,14 +127,14 @@ static matrix product(matrix a, matrix b)
                     a.vx * b.xv + a.vv * b.vv};
 }
 
-/* M with M first = next. */
+/* The matrix M with M first = next. */
 static matrix quotient(matrix next, matrix first)
 {
     const double d = determinant(first);
     return product(next, (matrix){first.vv / d, -first.xv / d, -first.vx / d, first.xx / d});
 }
 
-/* The larger of the eigenvalues' sizes. Half their difference is the root of `square`. */
+/* The larger absolute value of the two eigenvalues, half of whose difference is the square root of `square`. */
 static double radius_of(matrix m)
 {
     const double half = (m.xx + m.vv) / 2, apart = (m.xx - m.vv) / 2, square = apart * apart + m.xv * m.vx;
@@ -142,7 +142,7 @@ static double radius_of(matrix m)
     return isfinite(r) ? r : INFINITY;
 }
 
-/* At i/2, where every method's step is far from that of no force at all. */
+/* Finds out whether the method remembers, at z = i/2, where its step differs clearly from a step without a force. */
 static motus_status remember(plane *p, motus_error *err)
 {
     traits traits;
@@ -163,7 +163,7 @@ static motus_status remember(plane *p, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Points at[0 … count). If one of several fails, each is asked by itself. */
+/* The points at[0 … count). If one of several fails, each is computed by itself. */
 static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t count, const double *re,
                         const double *im, double *radius, motus_error *err)
 {
@@ -177,7 +177,9 @@ static motus_status ask(plane *p, const traits *traits, const size_t *at, size_t
         if (count == 1) radius[*at] = INFINITY;
         return MOTUS_OK;
     }
-    if (status != MOTUS_OK) return fail(err, status, "the stability of %s could not be computed", p->chosen.name);
+    if (status != MOTUS_OK)
+        return fail(err, status, "the stability of %s could not be computed: %s", p->chosen.name,
+                    motus_status_text(status));
     for (size_t k = 0; k < count; k++) radius[at[k]] = radius_of(p->remembers ? quotient(next[k], first[k]) : first[k]);
     return MOTUS_OK;
 }
@@ -208,8 +210,8 @@ static motus_status check(size_t count, const double *re, const double *im, motu
 {
     for (size_t k = 0; k < count; k++)
         if (!(hypot(re[k], im[k]) <= MOTUS_STABILITY_FAR))
-            return fail(err, MOTUS_ARGUMENT, "point %zu, %g + %g i, is not a number within %g of 0", k + 1, re[k],
-                        im[k], MOTUS_STABILITY_FAR);
+            return fail(err, MOTUS_ARGUMENT, "point %zu, %g + %g i, is not a finite number within %g of 0", k + 1,
+                        re[k], im[k], MOTUS_STABILITY_FAR);
     return MOTUS_OK;
 }
 

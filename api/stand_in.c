@@ -1,6 +1,7 @@
-/* What a callback's numbers are called: variables, quantities and invariants as a model has them, without expressions.
+/* The variables, quantities and invariants of a callback, in the form that a model has, without expressions.
  *
- * Invariant: names are copied, are names of the language and are all different, so a column can be found by its name.
+ * Invariant: names are copied, are names of the language and are all different, so that a column can be found by its
+ * name.
  */
 #include "api/stand_in.h"
 
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Read by the language's own lexer: letters of any alphabet, digits, _; not t. */
+/* Checks a name with the lexer of the language: letters of any alphabet, digits, _; not t. */
 static motus_status check_name(motus_system *s, const char *name, const char *of, size_t number, motus_error *err)
 {
     if (!name) return fail(err, MOTUS_ARGUMENT, "name %zu of the %s is NULL", number + 1, of);
@@ -22,7 +23,7 @@ static motus_status check_name(motus_system *s, const char *name, const char *of
     if (t.kind == TOKEN_NAME && t.at.from == 0 && t.at.to == length && strcmp(name, "t")) return MOTUS_OK;
     fail(err, MOTUS_NAME, "\"%s\" cannot be the name of one of the %s", name, of);
     if (!strcmp(name, "t"))
-        hint(err, "t is the time");
+        hint(err, "t is the time: take another name");
     else
         hint(err, "a name is letters, digits and _, at most %d bytes, and begins with a letter", MOTUS_NAME_MAX - 1);
     return MOTUS_NAME;
@@ -46,7 +47,7 @@ static motus_status copy_names(motus_system *s, const char *const **names, size_
     return s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the names") : MOTUS_OK;
 }
 
-/* Several numbers of one name are a family from 1 on. */
+/* Several numbers of one name become a family with indices from 1. */
 static void add_state(motus_system *s, const char *name, int order, size_t count, size_t base)
 {
     model_state *st = &s->states[s->state_count++];
@@ -86,7 +87,7 @@ static motus_status all_different(const motus_system *s, motus_error *err)
     give(&s->allocator, all);
     if (!twice) return MOTUS_OK;
     fail(err, MOTUS_NAME, "two things are called %s", twice);
-    hint(err, "positions, companions, quantities and invariants need names of their own");
+    hint(err, "positions, first-order variables, quantities and invariants need different names");
     return MOTUS_NAME;
 }
 
@@ -95,16 +96,17 @@ static motus_status check_counts(motus_callback_def *def, motus_error *err)
     if (!def->quantity) def->quantities = 0;
     if (!def->invariant) def->invariants = 0;
     if (def->quantities > MODEL_LIST_MAX || def->invariants > MODEL_LIST_MAX)
-        return fail(err, MOTUS_LIMIT, "at most %d quantities and invariants fit", MODEL_LIST_MAX);
+        return fail(err, MOTUS_LIMIT, "a callback has at most %d quantities and %d invariants", MODEL_LIST_MAX,
+                    MODEL_LIST_MAX);
     return MOTUS_OK;
 }
 
 motus_status stand_in_make(motus_system *s, motus_error *err)
 {
     motus_callback_def *def = &s->callback;
-    const size_t nx = def->positions, ns = def->companions;
+    const size_t nx = def->positions, ns = def->first_order;
     motus_status status = check_counts(def, err);
-    if (status == MOTUS_OK) status = copy_names(s, &def->names, nx + ns, "positions and companions", err);
+    if (status == MOTUS_OK) status = copy_names(s, &def->names, nx + ns, "positions and first-order variables", err);
     if (status == MOTUS_OK) status = copy_names(s, &def->quantity_names, def->quantities, "quantities", err);
     if (status == MOTUS_OK) status = copy_names(s, &def->invariant_names, def->invariants, "invariants", err);
     if (status != MOTUS_OK) return status;

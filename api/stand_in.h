@@ -1,10 +1,10 @@
-/* Variables, quantities and invariants of a callback, in place of a model's: see stand_in.c. */
+/* The variables, quantities and invariants of a callback: see stand_in.c. */
 #ifndef API_STAND_IN_H
 #define API_STAND_IN_H
 
 #include "api/system.h"
 
-/* Fills the system's states and definitions by its callback definition, whose names are copied. */
+/* Fills in the system's states and definitions from its callback definition, and copies the names. */
 motus_status stand_in_make(motus_system *, motus_error *);
 
 #endif

@@ -1,7 +1,7 @@
-/* Restart states: everything the next step needs, as text with hexadecimal numbers, exact to the bit.
+/* Restart states: everything that the next step needs, as text with hexadecimal numbers, exact to the bit.
  *
  *     motus-state 1
- *     system 9f3c…            what moves: hash of equations, parameters, boundary lines
+ *     system 9f3c…            hash of equations, parameters and boundary lines
  *     method verlet
  *     start 0x0p+0
  *     step 0x1.0624dd2f1a9fcp-10
@@ -9,9 +9,11 @@
  *     carry 2
  *     -0x1.a35…
  *     …
- *     end 51b0…               hash of all the bytes before: a state with a changed byte is no state
+ *     end 51b0…               hash of all the bytes before, so that a changed byte is found
  */
 #include "api/run.h"
+
+#include "base/decimal.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -19,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_ROOM = 32, HEAD_ROOM = 512 };
+enum { NUMBER_ROOM = 32, HEAD_ROOM = 512, EXPONENT_MAX = 1100 };
 
 #define MIX_START UINT64_C(0xCBF29CE484222325)
 static uint64_t mix(uint64_t h, const void *bytes, size_t n) /* FNV-1a */
@@ -63,7 +65,7 @@ static uint64_t mix_outputs(uint64_t h, const model *m, const output *o, size_t 
 static uint64_t fingerprint(const motus_system *s)
 {
     uint64_t h = MIX_START;
-    /* Of one width everywhere: the page has a narrower size_t, and the same state. */
+    /* As 64 bits: in WebAssembly size_t is narrower, and the hash must be the same. */
     h = mix_number(mix_number(h, (int64_t)s->problem.nx), (int64_t)s->problem.nv);
     const model *m = s->model;
     if (!m) return h;
@@ -82,7 +84,7 @@ static uint64_t fingerprint(const motus_system *s)
     return mix(h, m->pool, m->pool_count * sizeof *m->pool);
 }
 
-/* Exact, and with a point whatever the locale: printf's %a is not. */
+/* Exact, with a decimal point in every locale, which printf's %a has not. */
 static int write_hex(char *out, size_t size, double v)
 {
     uint64_t bits;
@@ -113,9 +115,11 @@ static bool read_hex(const char **at, const char *end, double *v)
         }
     if (p >= end || *p++ != 'p' || p >= end || (*p != '+' && *p != '-')) return false;
     bool below = *p++ == '-';
-    int exponent = 0, places = 0;
-    for (; p < end && *p >= '0' && *p <= '9' && places < 5; p++, places++) exponent = exponent * 10 + (*p - '0');
-    if (!places) return false;
+    uint64_t exponent_size;
+    const size_t places = decimal_read_whole(p, (size_t)(end - p), &exponent_size);
+    if (!places || exponent_size > EXPONENT_MAX) return false;
+    p += places;
+    const int exponent = (int)exponent_size;
     *v = ldexp((double)bits, (below ? -exponent : exponent) - shift);
     if (minus) *v = -*v;
     *at = p;
@@ -143,8 +147,8 @@ motus_status motus_run_save(motus_run *r, const char **text, size_t *length, mot
     }
     const stepper_count now = stepper_save(r->stepper, carry);
     char start[NUMBER_ROOM], h[NUMBER_ROOM];
-    write_hex(start, sizeof start, r->t0);
-    write_hex(h, sizeof h, r->h);
+    write_hex(start, sizeof start, r->timing.t0);
+    write_hex(h, sizeof h, r->timing.h);
     size_t at = (size_t)snprintf(r->saved, room,
                                  "motus-state 1\nsystem %016" PRIx64 "\nmethod %s\nstart %s\nstep %s\nat %" PRId64
                                  " %" PRId64 " %" PRId64 "\ncarry %zu\n",
@@ -187,17 +191,16 @@ static bool line(reader *r, char *out, size_t size)
 
 static bool integer(reader *r, int64_t *v)
 {
-    int64_t n = 0;
-    const char *p = r->at;
-    for (; p < r->end && *p >= '0' && *p <= '9' && n < INT64_MAX / 16; p++) n = n * 10 + (*p - '0');
-    if (p == r->at) return false;
-    *v = n;
-    r->at = p;
+    uint64_t n;
+    const size_t length = decimal_read_whole(r->at, (size_t)(r->end - r->at), &n);
+    if (!length || n > INT64_MAX) return false;
+    *v = (int64_t)n;
+    r->at += length;
     return true;
 }
 
-/* True if the text ends in the hash of what comes before, which is then taken off. */
-static bool whole(reader *r)
+/* Whether the text ends in the hash of what comes before it; takes this last line off. */
+static bool undamaged(reader *r)
 {
     enum { CLOSING = 4 + 16 + 1 };
     char closing[CLOSING + 1];
@@ -209,8 +212,8 @@ static bool whole(reader *r)
 
 static motus_status unreadable(motus_error *err)
 {
-    fail(err, MOTUS_STATE, "this is not a restart state, or it is damaged");
-    hint(err, "write one with --save-state");
+    fail(err, MOTUS_STATE, "the text is not a restart state, or it is damaged");
+    hint(err, "take the text that motus_run_save or --save-state has written, unchanged");
     return MOTUS_STATE;
 }
 
@@ -220,7 +223,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     char system[40], method[MOTUS_NAME_MAX + 8], expected[40];
     double start, h;
     int64_t steps, evaluations, iterations, n;
-    if (!whole(&in) || !word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) ||
+    if (!undamaged(&in) || !word(&in, "motus-state 1\nsystem ") || !line(&in, system, sizeof system) ||
         !word(&in, "method ") || !line(&in, method, sizeof method) || !word(&in, "start ") ||
         !read_hex(&in.at, in.end, &start) || !word(&in, "\nstep ") || !read_hex(&in.at, in.end, &h) ||
         !word(&in, "\nat ") || !integer(&in, &steps) || !word(&in, " ") || !integer(&in, &evaluations) ||
@@ -236,9 +239,9 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     if (strcmp(method, r->chosen.name))
         return fail(err, MOTUS_STATE, "the restart state was written by method %s, and this run uses %s", method,
                     r->chosen.name);
-    if (start != r->t0 || h != r->h)
+    if (start != r->timing.t0 || h != r->timing.h)
         return fail(err, MOTUS_STATE, "the restart state has step %.17g from t = %.17g, and this run %.17g from %.17g",
-                    h, start, r->h, r->t0);
+                    h, start, r->timing.h, r->timing.t0);
     if ((size_t)n != stepper_carry(r->stepper)) return unreadable(err);
     double *carry = take(&r->allocator, (size_t)n + 1, sizeof *carry);
     if (!carry) return fail(err, MOTUS_MEMORY, "no memory for the restart state");
@@ -249,13 +252,13 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     const double t = stepper_time_saved(r->stepper, then, carry);
     if (!ok || in.at != in.end)
         status = unreadable(err);
-    else if (row_adaptive(&r->chosen) ? (t - r->until) * r->h > 0 : steps > r->whole)
-        status =
-            fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t, r->until);
+    else if (row_adaptive(&r->chosen) ? (t - r->timing.until) * r->timing.h > 0 : steps > r->timing.whole)
+        status = fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t,
+                      r->timing.until);
     else
         status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);
-    if (status != MOTUS_OK) return status; /* and the run is where it was */
+    if (status != MOTUS_OK) return status; /* the run has not changed */
     return run_moved(r, err);
 }
 
@@ -263,7 +266,8 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !text) return fail(err, MOTUS_ARGUMENT, "motus_run_restore needs a run and a text");
-    modes m = modes_enter(); /* before the first number is read: a subnormal must not be flushed */
+    if (r->observing) return run_refuse_move(err);
+    modes m = modes_enter(); /* before the numbers are read, so that no subnormal is flushed */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);
     return status;

@@ -1,4 +1,4 @@
-/* The statements of a model: what kind each is, where it stands, and how it looks in print. */
+/* The statements of a model: their kinds, their lines, and their MathML. */
 #include "api/system.h"
 #include "lang/model/symbols.h"
 #include "lang/typeset/typeset.h"
@@ -9,7 +9,7 @@ static motus_statement_kind kind_of(const model *m, const statement *s)
 {
     symbol named = {0};
     switch (s->kind) {
-    case STATEMENT_EQUATION: return s->primes == 2 ? MOTUS_STATEMENT_MOTION : MOTUS_STATEMENT_COMPANION;
+    case STATEMENT_EQUATION: return s->primes == 2 ? MOTUS_STATEMENT_MOTION : MOTUS_STATEMENT_FIRST_ORDER;
     case STATEMENT_START: return MOTUS_STATEMENT_START;
     case STATEMENT_EXACT: return MOTUS_STATEMENT_EXACT;
     case STATEMENT_INVARIANT: return MOTUS_STATEMENT_INVARIANT;

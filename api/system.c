@@ -1,4 +1,4 @@
-/* Systems: from a text or from a callback, and back to nothing. */
+/* Systems: made from a text or from a callback, described, and destroyed. */
 #include "api/stand_in.h"
 #include "lang/read/read.h"
 
@@ -25,11 +25,11 @@ void motus_system_destroy(motus_system *s)
     give(&a, s);
 }
 
-/* The text is copied: names in messages and cards point into it. */
+/* Copies the text, because messages and descriptions point into it. */
 static bool keep_text(motus_system *s, motus_text_def *def)
 {
     size_t n = def->length == SIZE_MAX ? strlen(def->text) : def->length;
-    if (n > SOURCE_BYTES_MAX) return true; /* refused in a moment, by read_model */
+    if (n > SOURCE_BYTES_MAX) return true; /* read_model refuses it */
     char *copy = arena_room(&s->arena, n + 1);
     const char **set = arena_room(&s->arena, (def->set_count + 1) * sizeof *set);
     if (!copy || !set) return false;
@@ -85,7 +85,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     return MOTUS_OK;
 }
 
-/* The initial values are copied, and are numbers. */
+/* Copies the initial values, and checks that they are finite. */
 static motus_status take_start(motus_system *s, const motus_callback_def *def, motus_error *err)
 {
     const size_t nx = s->problem.nx, nv = s->problem.nv;
@@ -97,7 +97,7 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
     memcpy(s->v0, def->v, nv * sizeof(double));
     for (size_t k = 0; k < nv; k++)
         if (!isfinite(s->v0[k]) || (k < nx && !isfinite(s->x0[k])) || !isfinite(def->start))
-            return fail(err, MOTUS_ARGUMENT, "the initial values are not all finite");
+            return fail(err, MOTUS_ARGUMENT, "the initial values and the start must be finite numbers");
     return MOTUS_OK;
 }
 
@@ -106,7 +106,7 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!out) return fail(err, MOTUS_ARGUMENT, "motus_system_from_callback needs a place for the system");
     *out = NULL;
-    if (!given) return fail(err, MOTUS_ARGUMENT, "there is no definition");
+    if (!given) return fail(err, MOTUS_ARGUMENT, "motus_system_from_callback needs a definition");
     motus_callback_def def;
     motus_status status = motus_struct_read(MOTUS_DEF_CALLBACK, given, &def, err);
     if (status != MOTUS_OK) return status;

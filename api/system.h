@@ -1,8 +1,8 @@
-/* A system behind the public handle: a problem, its machine, and the numbering of what can be looked at.
+/* A system behind the public handle: a problem, its machine, and the numbering of its columns.
  *
- * Two orders of the same numbers: inside, x and v as lang/model/model.h lays them out (component by component,
- * boundary cells included); outside, variable by variable, cell by cell, component by component, without boundary
- * cells.
+ * The numbers of a state have two orders. The inside order is that of x and v in lang/model/model.h: component by
+ * component, boundary cells included. The outside order is that of the public calls: variable by variable, cell by
+ * cell, component by component, without boundary cells.
  */
 #ifndef API_SYSTEM_H
 #define API_SYSTEM_H
@@ -11,59 +11,59 @@
 #include "base/modes.h"
 #include "machine/compiled.h"
 
-typedef struct column_group { /* columns of one name */
+typedef struct column_range { /* the columns of one name */
     motus_column_kind kind;
-    bool prime;    /* velocity of a variable, exact or not */
+    bool prime;    /* a velocity, exact or not */
     uint32_t item; /* number of the state or definition */
     size_t first, count;
-} column_group;
+} column_range;
 
 struct motus_system {
     motus_allocator allocator;
     arena arena;
-    model *model; /* NULL: a callback */
+    model *model; /* NULL: the system is from a callback */
     interpreter *interpreter;
-    motus_text_def text; /* what it was read from, in the arena */
+    motus_text_def text; /* the definition that it was read from, in the arena */
     motus_callback_def callback;
     calling calling;
     problem problem;
     machine machine;    /* the interpreter, or the callback */
-    compiled *compiled; /* once a run asks for it */
+    compiled *compiled; /* NULL until a run asks for it */
     double start;
     double *x0, *v0;
     model_state *states;
-    uint32_t state_count; /* the model's, or stand-ins for a callback's numbers */
+    uint32_t state_count; /* of the model, or made by stand_in.c for a callback */
     model_definition *definitions;
     uint32_t definition_count; /* likewise */
     size_t positions, velocities;
-    column_group *groups;
-    size_t group_count, column_count;
-    double *look; /* room for any one quantity or invariant; of a callback, for all of either */
+    column_range *ranges;
+    size_t range_count, column_count;
+    double *observed; /* room for one quantity or invariant; of a callback, for all quantities or all invariants */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;
-    size_t held; /* by so many: set.c */
+    size_t held; /* how many runs, ensembles and references use it: set.c */
     struct setting *settings;
-    const char *explanation[2][2]; /* by what sampling found: gyroscopic, gradient */
+    const char *explanation[2][2]; /* for each result of sampling: gyroscopic, gradient */
     char *equation;
-    char *mathml; /* of the statement asked for last, from the hooks */
+    char *mathml; /* of the statement typeset last, from the hooks */
 };
 
-/* Finds out what needs sampled states; called when someone asks. False: no memory, and it is not known yet. */
+/* Tests at sampled states whether the velocity term is gyroscopic, once, when the answer is needed. False: there was no
+ * memory, and the answer is not known. */
 bool system_sample_gyroscopic(motus_system *);
-/* defaults.c. Structs with a size; and how one fits that says its own, where versions had these, the last one
- * today's. */
+/* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);
-/* Between the two orders. */
+/* Copy between the two orders. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);
-/* Values of columns at a state (inside order; boundary cells may be refreshed). */
+/* Values of columns at a state in the inside order, whose driven boundary cells are refreshed. */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *);
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);
-/* The quantity or invariant of a column, and which of its numbers, in the inside order, that is. */
+/* The quantity or invariant of a column, and the column's number in it, in the inside order. */
 const model_definition *system_definition(const motus_system *, size_t column, size_t *number);
 size_t system_place(const model_state *, size_t cell, int component);
 

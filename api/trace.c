@@ -1,7 +1,7 @@
-/* One step opened up: the events that a machine tells, kept as entries with the numbers as they are seen outside.
+/* The trace of one step: the events that the stepper reports, kept as entries with their numbers in the outside order.
  *
- * Invariant: all memory is taken before the step, for the most that the row can tell, so a refusal leaves the run
- * where it was. An entry shares the numbers that its event left alone with the entry before.
+ * Invariant: all memory is taken before the step, for the most events that the row can report, so without memory the
+ * run is unchanged. An entry shares the numbers that its event does not change with the entry before it.
  */
 #include "api/run.h"
 
@@ -13,10 +13,10 @@ typedef struct trace {
     size_t count;
     motus_trace_entry *entry;
     const motus_trace_entry **list; /* to each of them: what the caller gets */
-    double *next;                   /* room for numbers that is not used yet */
+    double *next;                   /* the unused room for numbers */
 } trace;
 
-/* START and END, which hold the state; the closing kick and a step lean on them. */
+/* START and END, which hold the state; the closing kick and the step of a recurrence take numbers from them. */
 enum { TRACE_ENDS = 2 };
 
 static trace *make(motus_run *r)
@@ -89,7 +89,7 @@ static void see(void *ctx, const trace_event *e)
     if (e->v)
         out->v = keep_v(t, e->v);
     else if (recurrence || e->kind == MOTUS_EVENT_KICK)
-        out->v = NULL; /* known at the end */
+        out->v = NULL; /* `complete` fills it in */
     if (e->a)
         out->a = keep_v(t, e->a);
     else if (recurrence)
@@ -98,8 +98,9 @@ static void see(void *ctx, const trace_event *e)
     if (e->before_a) out->before_a = keep_v(t, e->before_a);
 }
 
-/* The state now. An acceleration that cannot be had here may be one that the method has no need of. */
-static motus_status look(motus_run *r, motus_event kind, motus_error *err)
+/* Adds an entry with the present state. Without the acceleration where it cannot be evaluated: the method may not need
+ * it here. */
+static motus_status observe(motus_run *r, motus_event kind, motus_error *err)
 {
     trace *t = r->trace;
     bool with_a = run_sync(r, true, NULL) == MOTUS_OK;
@@ -114,7 +115,7 @@ static motus_status look(motus_run *r, motus_event kind, motus_error *err)
     return MOTUS_OK;
 }
 
-/* What the end alone knew; and how many stages there were and what they took, at both ends. */
+/* Fills in what is known only after the step: the final velocity, the number of stages, the iterations. */
 static void complete(trace *t)
 {
     motus_trace_entry *end = &t->entry[t->count - 1];
@@ -131,14 +132,14 @@ static void complete(trace *t)
 static motus_status walk(motus_run *r, motus_error *err)
 {
     trace *t = make(r);
-    if (!t) return fail(err, MOTUS_MEMORY, "no memory for what happens in the step");
-    t->step = motus_run_steps(r) < r->whole ? r->h : r->last;
-    motus_status status = look(r, MOTUS_EVENT_START, err);
+    if (!t) return fail(err, MOTUS_MEMORY, "no memory for the trace of the step");
+    t->step = motus_run_steps(r) < r->timing.whole ? r->timing.h : r->timing.last;
+    motus_status status = observe(r, MOTUS_EVENT_START, err);
     if (status == MOTUS_OK)
-        status =
-            stepper_trace(r->stepper, r->until, &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
+        status = stepper_trace(r->stepper, r->timing.until,
+                               &(tracer){.ctx = t, .see = see, .x = r->mid_x, .v = r->mid_v}, err);
     if (status == MOTUS_OK) status = run_moved(r, err);
-    if (status == MOTUS_OK) status = look(r, MOTUS_EVENT_END, err);
+    if (status == MOTUS_OK) status = observe(r, MOTUS_EVENT_END, err);
     if (status == MOTUS_OK) complete(t);
     return status;
 }
@@ -148,6 +149,8 @@ motus_status motus_run_trace(motus_run *r, const motus_trace_entry *const **entr
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || !entries || !count)
         return fail(err, MOTUS_ARGUMENT, "motus_run_trace needs a run and places for the entries and their number");
+    if (r->observing) return run_refuse_move(err);
+
     *entries = NULL;
     *count = 0;
     if (motus_run_done(r)) return MOTUS_OK;

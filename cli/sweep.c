@@ -124,8 +124,7 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     s->step = isnan(o->step) ? settings.step : o->step;
     s->until = grid_has(&s->grid, "until") ? NAN : load_until(&s->model, o);
     if (isnan(s->until) && !isnan(o->until))
-        return complain(err, MOTUS_ARGUMENT,
-                        "--until is one end for all, and --vary until one for each: leave one out");
+        return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
     s->columns = 2 + s->grid.count + s->records.count;
     status = read_every(s, err);
     if (!status) status = create(s, progress, err);

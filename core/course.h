@@ -1,8 +1,8 @@
-/* The course of a trajectory, or of many side by side: an observation at the start, steps and observations in turn,
- * and one at the end.
+/* The course of one trajectory or of many: an observation at the start, steps and observations in turn, and an
+ * observation at the end.
  *
- * Invariant: every computation of a trajectory, one by one, in blocks or in lanes, is observed at the same states in
- * the same order.
+ * Invariant: a trajectory is observed at the same states in the same order, whether it is computed by itself, in a
+ * block or in lanes.
  */
 #ifndef CORE_COURSE_H
 #define CORE_COURSE_H
@@ -13,7 +13,7 @@ typedef struct course {
     void *ctx;
     double until;
     int64_t every; /* steps from one observation to the next; 0: the end alone is observed */
-    /* `advance` observes by itself on its way, after `every` steps, and not at the end */
+    /* `advance` observes after every `every` steps itself, but not at the end */
     bool observes;
     /* As stepper_advance. */
     motus_status (*advance)(void *ctx, stepper_limit, stepper_stop *why, motus_error *);

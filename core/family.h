@@ -1,5 +1,5 @@
-/* The functions of families.def, each by a switch over the row's family. A compiled model, which knows its family,
- * has none of them. */
+/* The functions of families.def, each by a switch over the row's family. A compiled model calls its family's functions
+ * directly instead. */
 #define FAMILY_SWITCH(CASE)   \
     switch (w->row->family) { \
         FAMILIES(CASE)        \

@@ -1,10 +1,9 @@
 /* THE METHODS. Every method is a row: its card, then its coefficients; the texts in step/ run them.
  *
- * Invariant: test/laws.c proves of every row what its card claims: order, symplecticity, reversibility,
- * evaluations, stability limit. Coefficients have as many digits as are known: 33 and more where there is a closed
- * form, 26 for Kahan-Li, 15 to 16 for Blanes-Moan and PEFRL, whose papers print no more. Every digit counts: the
- * laws allow half a unit in the last place that a K(…) prints; what has a closed form is written as one, K(7.0) /
- * K(24.0). Keys are those of doc/references.bib.
+ * Invariant: test/laws.c proves of every row what its card states: order, symplecticity, reversibility, evaluations,
+ * stability limit. A coefficient with a closed form is written as one, K(7.0) / K(24.0). The others have as many digits
+ * as are known: 26 for Kahan-Li, 15 to 16 for Blanes-Moan and PEFRL, whose papers print no more. Every digit matters:
+ * the laws allow half a unit in the last place that a K(…) prints. Keys are those of doc/references.bib.
  */
 #include "core/rows.h"
 
@@ -37,7 +36,7 @@ const row methods_table[] = {
        .title = "Verlet",
        .cite = "Verlet67, HLW03",
        .formula = "d₁ = h v₀ + h²/2 a₀;   x += d;   d += h² a(x, v, t);   v = (d + h²/2 a)/h\n"
-                  "velocity terms: the increment δ of d solves δ = h² a(x, (d + δ/2)/h, t)",
+                  "velocity terms: the implicit kick δ of d solves δ = h² a(x, (d + δ/2)/h, t)",
        .use = "The first choice: one evaluation a step, velocity terms included, and the summed form loses nothing to\n"
               "round-off at small steps." },
       .family = VERLET },
@@ -55,7 +54,7 @@ const row methods_table[] = {
        .use = "Verlet's positions with somewhat better velocities; known from molecular dynamics." },
       .family = BEEMAN },
 
-    /* Splitting: kicks v += b h a(x, t) and drifts x += c h v in turn. */
+    /* Splitting: kicks v += b h a(x, t) and drifts x += d h v in turn. */
     { .card = { CARD("symplectic-euler", "euler-cromer semi-implicit-euler", "splitting", 1, 1, 1, XT, 1, 0, 2.0),
        .title = "symplectic Euler",
        .cite = "Cromer81, deVogelaere56, HLW06 I.1.2",
@@ -212,7 +211,7 @@ const row methods_table[] = {
        .title = "Boris",
        .cite = "Boris70, Qin13",
        .formula = "x += h/2 v;   v' = v + h a(x, (v + v')/2, t + h/2);   x += h/2 v'\n"
-                  "for a = E + v × B the kick is Boris' half kick, rotation, half kick: "
+                  "for a = E + v × B the kick is half a kick by E, the Boris rotation, half a kick: "
                   "the Cayley form of the rotation",
        .use = "Charged particles: keeps phase-space volume, and energy where E = 0; stable beyond the gyration." },
       .family = SPLITTING, .gyroscopic = true, .splitting = {2, C(K(0.0), K(1.0)), C(K(0.5), K(0.5))} },
@@ -239,14 +238,14 @@ const row methods_table[] = {
     { .card = { CARD("ralston", "ralston2", "runge-kutta", 2, 2, 2, XVT, 0, 0, 0.0),
        .title = "Ralston",
        .cite = "Ralston62",
-       .formula = "nodes 0, 2/3;   weights 1/4, 3/4",
+       .formula = "abscissae 0, 2/3;   weights 1/4, 3/4",
        .use = "Order 2 with the smallest bound of the local error." },
       .family = RUNGE_KUTTA,
       .tableau = {2, C(K(0.0), K(2.0) / K(3.0)), C(K(2.0) / K(3.0)), C(K(0.25), K(0.75))} },
     { .card = { CARD("rk3", "kutta3", "runge-kutta", 3, 3, 3, XVT, 0, 0, 1.7320508075688773),
        .title = "RK3",
        .cite = "Kutta1901",
-       .formula = "nodes 0, 1/2, 1;   weights 1/6, 2/3, 1/6 (Simpson's rule)",
+       .formula = "abscissae 0, 1/2, 1;   weights 1/6, 2/3, 1/6 (Simpson's rule)",
        .use = "Order 3 for any force." },
       .family = RUNGE_KUTTA,
       .tableau = {3, C(K(0.0), K(0.5), K(1.0)), C(K(0.5),   K(-1.0), K(2.0)),
@@ -254,7 +253,7 @@ const row methods_table[] = {
     { .card = { CARD("rk4", "kutta4 runge-kutta", "runge-kutta", 4, 4, 4, XVT, 0, 0, 2.8284271247461901),
        .title = "RK4",
        .cite = "Kutta1901, HNW93 II.1 table 1.2",
-       .formula = "nodes 0, 1/2, 1/2, 1;   weights 1/6, 1/3, 1/3, 1/6",
+       .formula = "abscissae 0, 1/2, 1/2, 1;   weights 1/6, 1/3, 1/3, 1/6",
        .use = "The all-purpose method for short and middle times; energy decays slowly." },
       .family = RUNGE_KUTTA,
       .tableau = {4, C(K(0.0), K(0.5), K(0.5), K(1.0)), C(K(0.5),   K(0.0), K(0.5),   K(0.0), K(0.0), K(1.0)),
@@ -262,7 +261,7 @@ const row methods_table[] = {
     { .card = { CARD("rk4-38", "three-eighths rk38 kutta38", "runge-kutta", 4, 4, 4, XVT, 0, 0, 2.8284271247461901),
        .title = "RK4, 3/8",
        .cite = "Kutta1901, HNW93 II.1 table 1.2",
-       .formula = "nodes 0, 1/3, 2/3, 1;   weights 1/8, 3/8, 3/8, 1/8",
+       .formula = "abscissae 0, 1/3, 2/3, 1;   weights 1/8, 3/8, 3/8, 1/8",
        .use = "As rk4, with other error terms; which is better depends on the problem." },
       .family = RUNGE_KUTTA,
       .tableau = {4, C(K(0.0), K(1.0) / K(3.0), K(2.0) / K(3.0), K(1.0)),
@@ -329,7 +328,7 @@ const row methods_table[] = {
        .title = "exact",
        .cite = "",
        .formula = "the model's own exact line; or x = x₀ + v₀ τ + a τ²/2 where the acceleration is constant",
-       .use = "The truth, where it is known: no error but round-off." },
+       .use = "The exact motion, where it is known: no error but round-off." },
       .family = EXACT },
 };
 /* clang-format on */

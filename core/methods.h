@@ -4,7 +4,7 @@
 
 #include "core/system.h"
 
-/* the whole row; core/ and the laws test see inside (core/rows.h), nobody else needs to */
+/* its members are in core/rows.h, for core/, machine/ and the laws alone */
 typedef struct row row;
 
 /* A row together with the arguments it was called with: newmark(1/6, 1/2). */
@@ -17,13 +17,13 @@ typedef struct chosen {
 
 size_t row_count(void);
 const motus_method *row_card(size_t k);
-/* By name, alias, any letter case; "newmark(1/6, 0.5)": arguments are numbers or quotients of numbers. */
+/* Finds a row by name or alias, in any letter case; "newmark(1/6, 0.5)": arguments are numbers or quotients of two. */
 motus_status row_choose(const char *name, chosen *, const motus_method **card, motus_error *);
-/* MOTUS_OK, or MOTUS_METHOD with reason and nearest fitting method. */
+/* MOTUS_OK, or MOTUS_METHOD with the reason and the nearest method that admits the problem. */
 motus_status row_admits(const chosen *, const traits *, motus_error *);
 /* True: every step must have the same size, so `until` must be a whole number of steps away (verlet-literal). */
 bool row_uniform(const chosen *);
-/* True: step sizes follow from errors, so their number is not known beforehand. */
+/* True: step sizes follow from errors, so the number of steps is not known beforehand. */
 bool row_adaptive(const chosen *);
 
 #endif

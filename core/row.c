@@ -1,6 +1,6 @@
-/* The catalogue: finding a row by its name and saying which problems it admits. The rows themselves are in methods.c.
+/* The catalogue: finds a row by its name, and tells which problems a row admits. The rows are in methods.c.
  *
- * Invariant: what is refused is refused with the reason and with the nearest method that fits: of the same order
+ * Invariant: every refusal gives the reason and names the nearest method that admits the problem, of the same order
  * where there is one.
  */
 #include "base/near.h"
@@ -22,7 +22,7 @@ bool row_adaptive(const chosen *method) { return method->row->adaptive; }
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
-/* Letter case aside, and '_' is as good as '-'. */
+/* Whether two names are equal in any letter case, with '_' for '-'. */
 static bool same(const char *a, size_t length, const char *b, size_t b_length)
 {
     if (length != b_length) return false;
@@ -43,7 +43,7 @@ static bool also_called(const motus_method *card, const char *name, size_t lengt
     return false;
 }
 
-/* Names first: whoever knows them, and runs of a study do, should not wait for the aliases. */
+/* Names before aliases, because a study looks up names alone and often. */
 static const row *find(const char *name, size_t length)
 {
     for (size_t k = 0; k < methods_count; k++)
@@ -119,12 +119,12 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
             s = NULL;
         if (!s || *s != ')' || *blanks(s + 1)) {
             fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers, beta and gamma", name, out->row->card.name);
-            hint(err, "write %s(1/4, 1/2), or %s alone for just that", out->row->card.name, out->row->card.name);
+            hint(err, "write %s(1/4, 1/2), or %s alone for the same", out->row->card.name, out->row->card.name);
             return MOTUS_METHOD;
         }
     }
     if (out->argument[0] > 1 || out->argument[1] > 1) {
-        fail(err, MOTUS_METHOD, "\"%s\": beta and gamma lie between 0 and 1", name);
+        fail(err, MOTUS_METHOD, "\"%s\": beta and gamma must be between 0 and 1", name);
         hint(err, "usual choices: (1/4, 1/2) stable at every step, (1/6, 1/2) linear acceleration, (0, 1/2) explicit");
         return MOTUS_METHOD;
     }
@@ -138,7 +138,7 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
 motus_status row_choose(const char *name, chosen *out, const motus_method **card, motus_error *err)
 {
     chosen result = {0};
-    if (!name) return fail(err, MOTUS_METHOD, "no method is named");
+    if (!name) return fail(err, MOTUS_METHOD, "the name of the method is NULL");
     const char *start = blanks(name);
     size_t length = strcspn(start, "( \t");
     const char *rest = blanks(start + length);
@@ -175,24 +175,25 @@ static const char *reason(const row *row, const traits *traits)
                    : "the model has no exact line, and its exact motion is not recognised";
     if (row->gyroscopic) {
         if (!traits->velocity)
-            return "the acceleration does not depend on the velocity: there is no magnetic term to turn by";
-        if (traits->companions) return "the model has first-order companions, which Boris' rotation does not cover";
+            return "the acceleration does not depend on the velocity, so the Boris rotation has no v × B to rotate by";
+        if (traits->first_order)
+            return "the Boris rotation does not cover first-order variables, and the model has some";
         if (!traits->gyroscopic || !traits->linear_v)
-            return "the velocity term is not of the form v × B: it is not antisymmetric, so it does work";
+            return "the velocity term is not of the form v × B: its matrix is not antisymmetric, so it does work";
         return "";
     }
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
-        return traits->companions ? "the acceleration or a companion's rate depends on a velocity or a companion, and "
-                                    "this method's kicks must not"
-                                  : "the acceleration depends on the velocity, and this method's kicks must not";
+        return traits->first_order
+                   ? "the right sides depend on a velocity or a first-order variable, and this method's kicks must not"
+                   : "the acceleration depends on the velocity, and this method's kicks must not";
     if (traits->time && row->card.forces == MOTUS_FORCES_X) return "the acceleration depends on time";
     return "";
 }
 
-/* Distance of two rows for one who wanted `wanted`: order first, then what its card promises. */
+/* How far `other` is from the row `wanted`: by order first, then by the properties that its card states. */
 static int unlike(const motus_method *wanted, const motus_method *other)
 {
-    int order = wanted->order == 0 ? 2 : wanted->order; /* exact has none: offer the first choice */
+    int order = wanted->order == 0 ? 2 : wanted->order; /* exact has no order: offer order 2 */
     return 8 * abs(order - other->order) + 4 * (wanted->symplectic > other->symplectic) +
            4 * (wanted->reversible > other->reversible) + 2 * (other->evaluations == 0);
 }

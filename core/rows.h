@@ -1,8 +1,8 @@
-/* A row: one method, whole. Its card is what people see, its coefficients are what the texts of step/ run.
+/* A row: one method, with its card, which describes it to users, and its coefficients, which the texts of step/ use.
  *
- * Invariant: a row is constant and complete; nothing about a method is decided anywhere else. What follows from the
- * row and a step (times of kicks, h b_i) is computed once by step/work.h. An includer may define `coef` and K(x)
- * first: the same rows then have coefficients of 33 digits, which is how the laws see order 8 far above round-off.
+ * Invariant: a row is constant and complete; no other place decides anything about a method. step/plan.h computes once
+ * what follows from the row, and work_scale what follows from the step. An includer may define `coef` and K(x) first:
+ * the same rows then have coefficients of 33 digits, with which the laws measure order 8 far above round-off.
  */
 #ifndef CORE_ROWS_H
 #define CORE_ROWS_H

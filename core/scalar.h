@@ -5,7 +5,7 @@ typedef double clock;
 typedef int64_t whole;
 #define FMA(a, b, c) fma((a), (b), (c))
 #define ABS(x) fabs(x)
-/* an infinity or a NaN minus itself is a NaN; unlike isfinite, this becomes vector code */
+/* an infinity or a NaN minus itself is NaN; unlike isfinite, this can be vectorised */
 #define FINITE(x) ((x) - (x) == 0)
 #define EPSILON DBL_EPSILON
 #define SQRT_EPSILON 0x1p-26

@@ -1,7 +1,7 @@
 /* Linear systems of implicit methods: derivatives by colours, the band matrix of all stages, and its solution.
  *
- * Invariant: what is known to be constant is computed once; a factorisation is reused exactly where the matrix would
- * be the same.
+ * Invariant: a matrix that is known to be constant is computed once; a factorisation is reused only where the matrix
+ * is the same.
  */
 #include "core/solver.h"
 
@@ -12,7 +12,7 @@
 struct solver {
     const problem *problem;
     motus_allocator allocator;
-    size_t n, stride, lower, upper; /* n: stages × nv; bandwidths of the whole */
+    size_t n, stride, lower, upper; /* n: stages × nv; lower, upper: bandwidths of the matrix of all stages */
     int stages;
     bool use_x, use_v, constant;
     bool derived, factored;
@@ -60,7 +60,7 @@ static motus_status no_memory(motus_error *err)
     return fail(err, MOTUS_MEMORY, "out of memory for the matrix of the implicit equations");
 }
 
-/* Patterns, order and bandwidth; refuses before anything of the matrix' size is taken. */
+/* Patterns, order and bandwidth; refuses before it takes memory of the matrix's size. */
 static motus_status structure(solver *s, motus_error *err)
 {
     const problem *p = s->problem;
@@ -259,7 +259,7 @@ void solver_apply(const solver *s, double c, const double *y, double *out)
     const sparse *m = &s->v;
     memcpy(out, y, s->problem->nv * sizeof *out);
     if (!s->use_v) return;
-    /* the diagonal first: (1 + c j) y is one factor, as people write it */
+    /* the diagonal first: (1 + c j) y is one product, as in the formula */
     for (size_t k = 0; k < m->columns; k++)
         for (size_t e = m->start[k]; e < m->start[k + 1]; e++)
             if (m->row[e] == k) out[k] = (1 + c * m->value[e]) * y[k];

@@ -1,8 +1,8 @@
-/* Linear systems of implicit methods: (I - ax ⊗ da/dx - av ⊗ da/dv) z = r, by the structure that the problem tells.
+/* Linear systems of implicit methods: (I - ax ⊗ da/dx - av ⊗ da/dv) z = r, by the sparsity pattern of the problem.
  *
- * Pattern -> order (as it is if that is good, else reverse Cuthill-McKee) -> colours of columns -> derivatives by as
- * many directional ones as there are colours -> band matrix, LU with partial pivoting. Diagonal systems are
- * divisions, so a million damped masses cost O(N).
+ * Pattern -> order of the unknowns (the given one if its band is narrow, else reverse Cuthill-McKee) -> colours of
+ * columns -> one directional derivative for each colour -> band matrix, LU with partial pivoting. Diagonal systems are
+ * solved by divisions, so a million damped masses cost O(N).
  */
 #ifndef CORE_SOLVER_H
 #define CORE_SOLVER_H
@@ -18,20 +18,19 @@ typedef struct solver solver;
 motus_status solver_create(const problem *, int stages, bool use_x, bool use_v, bool constant, size_t stride,
                            const motus_allocator *, solver **, motus_error *);
 void solver_destroy(solver *);
-/* What was derived and factored holds no longer: the parameters have changed, or another motion begins. */
+/* Forgets derivatives and factors, because the parameters have changed or another motion begins. */
 void solver_forget(solver *);
-/* By how much y, one of numbers as large as `size`, is shifted for a difference quotient. A linear dependence has no
+/* The shift of y for a difference quotient, where the numbers are as large as `size`. A linear dependence has no
  * truncation error, so there the shift is as large as the numbers. */
 double solver_shift(double y, double size, bool linear);
 /* 0; 1: the callback failed; 2: singular. *evaluations grows by what difference quotients cost. */
 int solver_factor(solver *, const double *ax, const double *av, double t, double *x, double *v, int64_t *evaluations);
-/* The matrix that was factored last, where it is diagonal and the same for good; else NULL. solver_back divides by
- * it. */
+/* The matrix that was factored last, where it is diagonal and constant; else NULL. solver_back divides by it. */
 const double *solver_diagonal(const solver *);
 void solver_back(solver *, double *r);
 void solver_apply(const solver *, double c, const double *y, double *out); /* out = (I + c da/dv) y */
 
-/* The parts, each in its file. Columns of a sparse matrix: rows row[start[c]] … row[start[c+1]-1] of column c,
+/* The parts, each in a file of its own. Columns of a sparse matrix: rows row[start[c]] … row[start[c+1]-1] of column c,
  * ascending. */
 typedef struct sparse {
     size_t columns, *start;

@@ -1,8 +1,8 @@
 /* The structure of a linear system: its pattern, an order of the unknowns with a narrow band, and colours of its
  * columns.
  *
- * Invariant: everything is linear in the number of entries (times the degree, for colours), with no recursion; a
- * problem's pattern is only believed after its indices were checked.
+ * Invariant: the cost is linear in the number of entries (times the degree, for colours), without recursion; indices
+ * of a problem's pattern are checked before use.
  */
 #include "core/solver.h"
 
@@ -24,18 +24,18 @@ void solver_release(sparse *m, const motus_allocator *allocator)
 typedef struct gather {
     sparse *to;
     size_t rows, room;
-    bool filling, broken, torn;
+    bool filling, broken, inconsistent;
 } gather;
 
 /* First counts the entries of each column in start[c + 1], then fills them in, start[c] running ahead. A problem that
- * runs out of memory on the way may say less the first time than the second: then the pattern is torn. */
+ * runs out of memory may report fewer entries the first time than the second: then the pattern is inconsistent. */
 static void gather_entry(void *arg, size_t row, size_t column)
 {
     gather *g = arg;
     if (row >= g->rows || column >= g->to->columns)
         g->broken = true;
     else if (g->filling && g->to->start[column] >= g->room)
-        g->torn = true;
+        g->inconsistent = true;
     else if (g->filling)
         g->to->row[g->to->start[column]++] = (uint32_t)row;
     else
@@ -77,7 +77,7 @@ bool solver_pattern(const problem *p, bool in_v, sparse *m, const motus_allocato
     /* start[c] now is the end of column c: sort, drop doubles, close up */
     for (size_t c = 0; c < m->columns; c++) {
         const size_t end = m->start[c];
-        if (g.torn || end < first) return false;
+        if (g.inconsistent || end < first) return false;
         qsort(m->row + first, end - first, sizeof *m->row, ascending);
         m->start[c] = kept;
         for (size_t i = first; i < end; i++)
@@ -146,7 +146,7 @@ static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *mark
             if (marks[other] != unmarked) continue;
             marks[other] = mark;
             size_t at = tail++;
-            /* sorted by insertion; a hub's many neighbours stay as they come */
+            /* sorted by insertion; more than 64 neighbours stay in their order, for which this would be slow */
             if (tail - from <= 64)
                 for (; at > from && degree(g, queue[at - 1]) > degree(g, other); at--) queue[at] = queue[at - 1];
             queue[at] = other;

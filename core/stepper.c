@@ -4,9 +4,10 @@
  * core/stepper_body.c, compiled once per instruction set, does the arithmetic (its first lines say with which flags);
  * here the fastest one that this processor has is chosen when a stepper is made. It cannot change the bits.
  *
- * Invariant: after a failure the stepper stands at the last step whose state was finite. Every SNAPSHOT steps the
- * carried numbers are kept (of large systems, where that costs more beside a step, every SNAPSHOT_LARGE); a failure
- * goes back to them and takes the good steps once more, which is exact, since steps are deterministic.
+ * Invariant: after a failure the stepper stands at its last good step: the state there is finite, and where a callback
+ * computes the acceleration, it can be observed. The stepper keeps the carried numbers every SNAPSHOT steps (of large
+ * systems, where a copy costs more beside a step, every SNAPSHOT_LARGE). After a failure it goes back to them and
+ * takes the good steps once more, to the same bits, since steps are deterministic.
  */
 #include "core/stepper_parts.h"
 
@@ -17,7 +18,7 @@ enum { SNAPSHOT = 64, SNAPSHOT_LARGE = 256, CHECK_ALWAYS = 4096, LINE = 64 };
 
 const stepper_body *stepper_best_body(void)
 {
-#if defined ONE_COPY /* where size counts more: the one that could tell, too */
+#if defined ONE_COPY /* where size counts more than speed: the body of traced steps serves for all */
     return &trace_body;
 #elif defined __x86_64__
     __builtin_cpu_init();
@@ -118,19 +119,23 @@ void stepper_destroy(stepper *s)
 
 static void go_back(stepper *s) { stepper_put(s, s->at, s->snapshot); }
 
+/* A callback may be undefined at the end of a step, where some methods evaluate it only in the next step. So a step
+ * of a callback counts once the state after it can be observed. The next step reuses this evaluation. */
+static int settle(stepper *s) { return s->problem.returned && s->work.waits ? s->body->observe(&s->work) : STEP_OK; }
+
 /* Number of finished steps that led to a finite state: all, or all but the last one. */
 static int64_t good_steps(stepper *s, int bad)
 {
     return s->work.n - (bad == STEP_DIVERGED && s->body->check(&s->work));
 }
 
-/* From a failure after the snapshot to the last good step; says what the failure was. */
+/* Goes from a failure after the snapshot back to the last good step, and reports the failure. */
 static motus_status recover(stepper *s, int bad, motus_error *err)
 {
     work *w = &s->work;
     double t = time_now(w);
     int64_t good = good_steps(s, bad);
-    if (!w->check) { /* infinities may be some steps old, and may be what made the last step fail */
+    if (!w->check) { /* an infinity may be some steps old, and may have made the last step fail */
         const size_t which = w->which;
         const bool in_v = w->in_v;
         const int64_t end = w->n;
@@ -149,11 +154,16 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     const motus_status status = stepper_report(s, bad, t, err);
     go_back(s);
     if (s->body->run(w, good - w->n)) go_back(s);
+    if (settle(s) && w->n > s->at.steps) { /* the step before began with the evaluation that its state needs */
+        good = w->n - 1;
+        go_back(s);
+        if (s->body->run(w, good - w->n)) go_back(s);
+    }
     s->at.steps = -1;
     return status;
 }
 
-/* How many steps may follow before the next snapshot, which is made first if its time has come. */
+/* How many steps may follow before the next snapshot. Takes the snapshot first where one is due. */
 static int64_t room_of(stepper *s)
 {
     const work *w = &s->work;
@@ -171,7 +181,7 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     w->finite = false;
     if (s->library.tracing) trace_begin(w);
     int bad = body->run(w, steps);
-    /* a recovery that follows takes these steps once more, and does not tell them again */
+    /* a recovery takes these steps once more, and must not trace them again */
     s->library.tracing = NULL;
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
@@ -182,13 +192,14 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
     const int64_t end = steps < INT64_MAX - w->n ? w->n + steps : INT64_MAX;
     while (w->n < end && !(w->carried && w->t == w->until)) {
         const int64_t room = room_of(s), chunk = end - w->n < room ? end - w->n : room;
-        const int bad = take_steps(s, body, chunk);
+        int bad = take_steps(s, body, chunk);
+        if (!bad) bad = settle(s);
         if (bad) return recover(s, bad, err);
     }
     return MOTUS_OK;
 }
 
-/* The shorter last step begins a leg of its own from the synchronised state: two-step methods take it in their
+/* The shorter last step begins a leg of its own from the synchronised state, so two-step methods take it in their
  * one-step form. */
 static motus_status short_step(stepper *s, double last, const stepper_body *body, motus_error *err)
 {
@@ -203,7 +214,8 @@ static motus_status short_step(stepper *s, double last, const stepper_body *body
     s->at = stepper_get(s, s->snapshot);
     stepper_begin(s, t, last, x, v);
     s->shortened = true;
-    const int bad = take_steps(s, body, 1);
+    int bad = take_steps(s, body, 1);
+    if (!bad) bad = settle(s);
     if (!bad) return MOTUS_OK;
     status = stepper_report(s, bad, time_now(w), err);
     go_back(s);
@@ -214,7 +226,7 @@ static motus_status short_step(stepper *s, double last, const stepper_body *body
 stepper_way stepper_way_of(double t0, double h, double until)
 {
     if (isnan(until)) return (stepper_way){INT64_MAX, 0};
-    /* h and the quotient are rounded: a few roundings of q decide between a whole step and a sliver. */
+    /* h and the quotient are rounded, so a remainder of a few roundings of q is no step of its own. */
     const double q = fabs(until - t0) / fabs(h), n = nearbyint(q);
     if (fabs(q - n) <= 8 * 0x1p-52 * (q + 1)) return (stepper_way){(int64_t)n, 0};
     const double whole = floor(q);

@@ -1,11 +1,11 @@
-/* One trajectory of a problem by a row, on one core: the texts of step/ with real = double.
+/* One trajectory of a problem by a row: the texts of step/ with real = double.
  *
  * A trajectory is made of legs: a leg begins at a state and a time, and takes steps of the row from there. A new leg
- * begins when the caller says so (another state, after an event), and for the shorter last step before a limit that
- * lies between two whole steps. Invariant: the stepper alone knows what time it is. Observing never touches the main
- * line (the numbers that lead from a step to the next): `stepper_sync` works aside, so the bits of a trajectory do
- * not depend on when it was observed; and the main line of a leg is not touched by the shorter step at its end, so a
- * saved state goes on beyond the limit as if there had been none.
+ * begins when the caller sets another state, and for the shorter last step before a limit that lies between two whole
+ * steps. Invariant: the stepper alone holds the time. The main line are the numbers that lead from a step to the next.
+ * Observing does not change it: `stepper_sync` computes in other arrays, so the bits of a trajectory do not depend on
+ * when it was observed. Nor does the shorter step at the end of a leg, so a saved state goes on beyond the limit as if
+ * there had been none.
  */
 #ifndef CORE_STEPPER_H
 #define CORE_STEPPER_H
@@ -29,8 +29,8 @@ typedef struct machine {
 motus_status stepper_create(const machine *, const chosen *, double t0, double h, const double *x, const double *v,
                             const motus_allocator *, stepper **, motus_error *);
 void stepper_destroy(stepper *);
-/* A new leg from another state and time, with step h; the counters go on. What is known of the problem's derivatives
- * is forgotten. */
+/* Begins a new leg at another state and time, with step h; the counters go on. Forgets derivatives that were
+ * computed. */
 motus_status stepper_start(stepper *, double t0, double h, const double *x, const double *v, motus_error *);
 
 /* How far: so many steps, or up to a time (NaN: none), whichever comes first; and which it was. */
@@ -40,18 +40,18 @@ typedef struct stepper_limit {
 } stepper_limit;
 typedef enum stepper_stop { STOP_STEPS, STOP_UNTIL, STOP_FAILED } stepper_stop;
 
-/* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none. A few roundings of
- * the quotient make no step. */
+/* Whole steps of size h from t0 to `until`, and the size of the shorter one after them; 0: none, also where only a few
+ * roundings of the quotient are left. */
 typedef struct stepper_way {
     int64_t whole;
     double last;
 } stepper_way;
 stepper_way stepper_way_of(double t0, double h, double until);
 
-/* On to the limit; a last, shorter step is taken if the limit lies between two steps. DIVERGED, SOLVE and CALLBACK
- * name time and variable; the stepper then stands at the last good step. why may be NULL. */
+/* Takes steps up to the limit; the last one is shorter if the limit lies between two steps. DIVERGED, SOLVE and
+ * CALLBACK give the time and the variable; the stepper then stands at the last good step. why may be NULL. */
 motus_status stepper_advance(stepper *, stepper_limit, stepper_stop *why, motus_error *);
-/* One step on the way to `until`, to the same bits; what happens in it is told. */
+/* Takes one step towards `until`, to the same bits, and reports its events. */
 motus_status stepper_trace(stepper *, double until, const tracer *, motus_error *);
 /* The state at the present time, velocities synchronised. x, v of nx, nv numbers; a (may be NULL): the acceleration
  * there. */
@@ -75,9 +75,9 @@ motus_status stepper_sample(stepper *, double t, double *x, double *v, motus_err
  * known beforehand. */
 int64_t stepper_steps_before(const stepper *, double t);
 
-/* Everything that the next step of the leg needs, as `stepper_carry` numbers: saved and loaded into a stepper created
- * alike, the run goes on to the same bits. The counters travel too: *at. After a shorter last step this is the state
- * before it. */
+/* Everything that the next step of the leg needs, as `stepper_carry` numbers, and the counters. Loaded into a stepper
+ * that was created in the same way, it continues to the same bits. After a shorter last step this is the state before
+ * it. */
 typedef struct stepper_count {
     int64_t steps, evaluations, iterations;
 } stepper_count;
@@ -86,7 +86,7 @@ stepper_count stepper_save(const stepper *, double *carry);
 double stepper_time_saved(const stepper *, stepper_count, const double *carry); /* the time of a saved state */
 motus_status stepper_load(stepper *, stepper_count, const double *carry, motus_error *);
 
-/* Another body for a stepper, before its first step: how a test sees that all of them give the same bits. */
+/* Gives a stepper another body before its first step, for tests that all bodies give the same bits. */
 void stepper_use_body(stepper *, const stepper_body *);
 
 #endif

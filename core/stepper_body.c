@@ -6,7 +6,7 @@
  *     -DISA=avx512  -mavx512f -mavx512vl -mavx512dq -mavx2 -mfma -mprefer-vector-width=512        x86-64
  *
  * Invariant: all of them give the same bits, because every operation is written out, fma included; they differ in
- * speed alone. core/stepper.c chooses.
+ * speed alone. core/stepper.c chooses one.
  */
 #include "core/stepper_body.h"
 

@@ -1,5 +1,5 @@
-/* What core/stepper_body.c compiles to, once per instruction set, and the workspace that it works on: step/work.h
- * with real = double. */
+/* The functions that core/stepper_body.c compiles to, once per instruction set, and their workspace: step/work.h with
+ * real = double. */
 #ifndef CORE_STEPPER_BODY_H
 #define CORE_STEPPER_BODY_H
 
@@ -13,7 +13,7 @@
 #define ROWS
 #include "step/work.h"
 
-/* What the library's own bodies work with, found through work.library. tracing: of core/trace_body.h, while a step is
+/* The data of the library's own bodies, found through work.library. tracing: core/trace_body.h, while a step is
  * traced. */
 struct stepper_host {
     const problem *problem;
@@ -29,8 +29,9 @@ typedef struct stepper_body {
     int (*run)(work *, whole steps);                /* advance_run */
     int (*sync)(work *, real *x, real *v, real *a); /* advance_sync */
     int (*check)(work *);                           /* advance_check */
+    int (*observe)(work *);                         /* advance_observe */
     void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
-    /* What a compiled body calls back for. */
+    /* A compiled body calls these of the library's. */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
@@ -44,8 +45,8 @@ extern const stepper_body stepper_body_base;
 extern const stepper_body stepper_body_avx2, stepper_body_avx512;
 #endif
 
-/* A workspace without memory: what follows from the row, its arguments and the problem. With memory for
- * work_plan_size numbers, which must stay, its constants too. */
+/* A workspace without arrays: what follows from the row, its arguments and the problem. With memory for work_plan_size
+ * numbers, which the caller keeps, its constants too. */
 work stepper_plan(const problem *, const chosen *, coef *memory);
 /* Whether the matrix of the plan's linear systems is the same at every state and time. */
 bool stepper_fixed(const problem *, const work *plan);

@@ -1,7 +1,6 @@
-/* What the texts of step/ ask of their includer, for a problem, with real = double; and after it the texts.
+/* The functions that the texts of step/ need from their includer, for a problem, with real = double; then the texts.
  *
- * Included by the files that become a stepper_body, and by nothing else; such a file may define a TRACE of its own
- * first.
+ * Only files that define a stepper_body include it; such a file may define a TRACE of its own first.
  */
 static inline int accel(work *w, clock t, real *x, real *v, real *a)
 {
@@ -45,8 +44,8 @@ static inline void refresh_at(work *w, clock t, real *x, real *v)
 
 #include "core/texts.h"
 
-#define STEPPER_BODY(name)                                                                                 \
-    {                                                                                                      \
-        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, family_dense, \
-            solve_factor, solve_back, solve_apply, solve_diagonal                                          \
+#define STEPPER_BODY(name)                                                                                    \
+    {                                                                                                         \
+        name, work_plan, work_place, family_carry, advance_run, advance_sync, advance_check, advance_observe, \
+            family_dense, solve_factor, solve_back, solve_apply, solve_diagonal                               \
     }

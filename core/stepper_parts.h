@@ -1,5 +1,5 @@
-/* The stepper from inside: what stepper.c (life and motion), stepper_start.c (legs) and stepper_state.c (carry,
- * observation, dense output) share. */
+/* The stepper's struct and internal functions, shared by stepper.c (memory, steps, failures), stepper_start.c (legs)
+ * and stepper_state.c (carry, observation, dense output). */
 #ifndef CORE_STEPPER_PARTS_H
 #define CORE_STEPPER_PARTS_H
 
@@ -29,18 +29,18 @@ struct stepper {
     double *ends;
     double left_t;
     int64_t left_steps; /* stepper_steps at the left end */
-    bool left, right;   /* which of them hold */
+    bool left, right;   /* which of the two ends are valid */
 };
 
-/* The status for a STEP_ status, with the sentence: at time t. */
+/* The status and message for a STEP_ status at time t. */
 motus_status stepper_report(const stepper *, int bad, double t, motus_error *);
-/* The carried numbers into the main line; ends a shorter last step. */
+/* Copies the carried numbers into the main line; ends a shorter last step. */
 void stepper_put(stepper *, stepper_count, const double *carry);
 stepper_count stepper_get(const stepper *, double *carry);
 /* A leg's first state, without checks. */
 void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
-bool stepper_ends(stepper *); /* memory for dense output is there */
-/* The last step once more, with a mark before it. */
+bool stepper_ends(stepper *); /* takes the memory for dense output; false: there is none */
+/* Takes the last step once more, with a mark before it. */
 motus_status stepper_again(stepper *, motus_error *);
 
 #endif

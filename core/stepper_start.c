@@ -1,4 +1,4 @@
-/* Legs: where a stepper starts, and what is refused as a start. See stepper.h. */
+/* Legs: the start of a stepper, the checks of a start, and the messages of failures. See stepper.h. */
 #include "core/stepper_parts.h"
 
 #include <stdio.h>
@@ -28,12 +28,11 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
         hint(err, "with %s and step %s; try a smaller step, or look for a division by zero on the way", s->method.name,
              step);
     } else if (bad == STEP_SOLVE) {
-        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not settle",
+        status = fail(err, MOTUS_SOLVE, "%s could not solve its implicit equation at t = %s: %s does not converge",
                       s->method.name, time, name);
-        hint(err, "the step is %s; a smaller one brings the solution nearer to the starting guess", step);
+        hint(err, "the step is %s; take a smaller one, for which the starting guess is nearer to the solution", step);
     } else if (bad == STEP_STALLED) {
-        status =
-            fail(err, MOTUS_DIVERGED, "the step that the tolerance asks for no longer moves time on at t = %s", time);
+        status = fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s", time);
         hint(err, "the motion may have a singularity there; otherwise allow a larger error");
     } else {
         const bool here = s->problem.returned && *s->problem.returned > 0;
@@ -56,8 +55,8 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
 {
     char name[MOTUS_NAME_MAX];
     if (!isfinite(t0) || !isfinite(h) || h == 0 || t0 + h == t0) {
-        fail(err, MOTUS_ARGUMENT, "the step must be a finite number that moves time on");
-        hint(err, "choose a step that is not too small beside the time itself");
+        fail(err, MOTUS_ARGUMENT, "the step %g from t = %g must be finite, and large enough to change t", h, t0);
+        hint(err, "take a larger step");
         return MOTUS_ARGUMENT;
     }
     for (size_t k = 0; k < s->problem.nx; k++)
@@ -71,7 +70,7 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
     return MOTUS_OK;
 }
 
-/* The exact line describes one motion; a run that starts elsewhere is not it. */
+/* The exact line describes one motion only, so a run by it must start on this motion. */
 static motus_status check_exact(stepper *s, double t0, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &s->problem;
@@ -90,8 +89,8 @@ static motus_status check_exact(stepper *s, double t0, const double *x, const do
     give(&s->allocator, there);
     if (bad) return stepper_report(s, STEP_CALLBACK, t0, err);
     if (miss <= 1e-9 * (1 + size)) return MOTUS_OK;
-    fail(err, MOTUS_METHOD, "exact does not admit this start: the exact motion is elsewhere at that time");
-    hint(err, "start on it, or choose another method");
+    fail(err, MOTUS_METHOD, "exact does not admit this start: the exact motion has another state at t = %g", t0);
+    hint(err, "start on the exact motion, or choose another method");
     return MOTUS_METHOD;
 }
 

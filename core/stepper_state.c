@@ -1,4 +1,4 @@
-/* What a stepper's state is: time and counters, the numbers that lead on, observation, dense output. See stepper.h. */
+/* The state of a stepper: time and counters, the carried numbers, observation, dense output. See stepper.h. */
 #include "core/stepper_parts.h"
 
 #include <string.h>
@@ -158,8 +158,9 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
         marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
     if (status) return status;
     if (!marked(s, t)) {
-        fail(err, MOTUS_ARGUMENT, "the time %g lies behind the run, which is at %g", t, stepper_time(s));
-        hint(err, "a run looks back within its last step, no further");
+        fail(err, MOTUS_ARGUMENT, "the time %g lies before the last step of the run, which is at %g", t,
+             stepper_time(s));
+        hint(err, "give times within the last step or after it");
         return MOTUS_ARGUMENT;
     }
     status = s->right ? MOTUS_OK : keep_end(s, 1, err);

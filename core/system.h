@@ -1,8 +1,8 @@
-/* What a problem is: the one thing core/ (the stepper) and lang/ (the language) share.
+/* A problem: the equations that a stepper integrates. core/ (the stepper) and lang/ (the language) share this alone.
  *
  * x holds nx numbers: positions, boundary cells of families included. v holds nv >= nx numbers: the velocity of every
- * position, then the first-order companions s' = f, which are simply "velocities without a position". a has nv numbers.
- * A boundary cell is fixed or driven: its a is 0 and `refresh` (where there is one) writes its x and v for time t.
+ * position, then the first-order variables s' = f, which are velocities without a position. a has nv numbers. A
+ * boundary cell is fixed or driven: its a is 0 and `refresh` (where there is one) writes its x and v for time t.
  */
 #ifndef CORE_SYSTEM_H
 #define CORE_SYSTEM_H
@@ -14,29 +14,29 @@
 #include <stdbool.h>
 
 typedef struct traits {
-    bool velocity; /* a, or a companion's f, depends on v or on a companion */
+    bool velocity; /* a depends on v: on a velocity or a first-order variable */
     bool time;
     bool linear_v;    /* at most affine in v (companions count as v) */
     bool constant_jv; /* da/dv depends on parameters alone */
-    bool gyroscopic;  /* velocity && linear_v && da/dv antisymmetric, no companions in it */
+    bool gyroscopic;  /* velocity && linear_v && da/dv antisymmetric, without first-order variables */
     bool affine;      /* affine in (x, v) */
     bool constant;    /* a depends on parameters alone */
     bool gradient;
     bool smooth;
     bool has_exact;
-    bool companions; /* nv > nx */
+    bool first_order; /* there are first-order variables: nv > nx */
 } traits;
 
 typedef struct problem {
     void *ctx;
     size_t nx, nv;
     traits traits;
-    /* a = a(x, v, t); nonzero: the user's callback failed. May refresh driven boundary cells of x and v. */
+    /* a = a(x, v, t); other than 0: the user's callback failed. May refresh driven boundary cells of x and v. */
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);
     /* da = (da/dx) dx + (da/dv) dv at (t, x, v); dx or dv may be NULL (zero). NULL function: difference quotients. */
     int (*jvp)(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da);
-    /* Makes jvp ready for calls with dv alone (in_v) or dx alone; false: there was no memory for that, or for what
-     * `pattern` last told. NULL: it is ready. */
+    /* Makes jvp ready for calls with dv alone (in_v) or dx alone; false: there was no memory for that, or for the
+     * last call of `pattern`. NULL: jvp is always ready. */
     bool (*prepare)(void *ctx, bool in_v);
     /* Structure of da/dv (in_v) or da/dx (!in_v): calls emit(arg, row, column) for every entry that may be nonzero,
      * duplicates allowed. NULL function: dense. */
@@ -45,7 +45,7 @@ typedef struct problem {
     int (*exact)(void *ctx, double t, double *x, double *v);    /* NULL: unknown */
     /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
-    const int *returned; /* what the user's callback returned when it failed last; NULL: there is none */
+    const int *returned; /* what the user's callback returned when it failed last; NULL: there is no callback */
 } problem;
 
 #endif

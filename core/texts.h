@@ -1,6 +1,5 @@
-/* The texts of step/ in their order, with every family, for an includer that has defined their vocabulary (work.h
- * says which) and the functions that they ask for. Nothing here decides an operation on the state, so all includers
- * get the same bits.
+/* The texts of step/ in their order, with every family, for an includer that has defined the macros and functions that
+ * work.h lists. Nothing here is an operation on the state, so all includers get the same bits.
  */
 #include "step/dense.h"
 #include "step/newton.h"

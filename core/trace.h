@@ -1,8 +1,7 @@
-/* What is told of one step to whoever looks in: the kicks, drifts and stages that the method makes, one event after
- * the other.
+/* The trace of a step: an event for each kick, drift and stage of the method, in their order.
  *
- * Invariant: telling changes no bit of the step. Numbers are in the problem's order and live only until `see`
- * returns.
+ * Invariant: tracing changes no bit of the step. The numbers of an event are in the inside order, and are valid until
+ * `see` returns.
  */
 #ifndef CORE_TRACE_H
 #define CORE_TRACE_H
@@ -10,17 +9,16 @@
 #include "core/methods.h"
 
 typedef struct trace_event {
-    motus_event kind;                     /* START and END are the caller's, who can look at the state there */
+    motus_event kind;                     /* but START and END, for which the caller observes the state */
     int stage, stages;                    /* from 1 */
     int64_t iterations;                   /* of Newton's method, in this step so far */
-    double time;                          /* at which the slope was taken; of a drift: to which it leads */
+    double time;                          /* of the acceleration; of a drift: after it */
     double coefficient, weight, weight_x; /* in units of the step, all of them exactly as in the row */
     const double *row, *row_x;
-    /* After the event; NULL: unchanged. KICK and STEP: v NULL: that of the end of the step, where the closing kick
-     * waits; the slope then is that of the end as well. STEP and TAYLOR: the slope is that of the start, and not told
-     * again. */
+    /* After the event. NULL: unchanged. v NULL of KICK and STEP: the v and a of END, because the closing kick is not
+     * made in this step. a NULL of STEP and TAYLOR: the a of START. */
     const double *x, *v, *a;
-    const double *before_x, *before_a; /* of the step before, in recurrences */
+    const double *before_x, *before_a; /* of recurrences: one step before START */
 } trace_event;
 
 typedef struct tracer {
@@ -29,7 +27,7 @@ typedef struct tracer {
     double *x, *v; /* room for nx and nv numbers */
 } tracer;
 
-/* The most that one step can tell: events, arrays like x and like v in them, and numbers in the rows of stages. */
+/* The most that one step can report: events, arrays like x and like v in them, and numbers in the rows of stages. */
 typedef struct trace_room {
     size_t events, x, v, rows;
 } trace_room;

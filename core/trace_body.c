@@ -1,8 +1,8 @@
-/* The texts of step/ with a TRACE that tells what happens: the body that a stepper uses for a traced step.
+/* The texts of step/ with a TRACE that reports events: the body of a stepper for a traced step.
  *
- * Invariant: the operations on the state are the texts' own; what is told besides is read off their workspace after
- * each stage, or formed in the tracer's room and in arrays that no later operation reads. No formula of a step stands
- * here.
+ * Invariant: the operations on the state are the texts' own. The numbers of an event are read from the workspace after
+ * each stage, or computed in the tracer's room and in arrays that no later operation reads. This file has no formula of
+ * a step.
  */
 #include "core/stepper_parts.h"
 

@@ -1,4 +1,4 @@
-/* The stepper's body that tells: core/trace_body.c, and what it finds through the workspace while it does. */
+/* The stepper's body for traced steps: core/trace_body.c, and the data that it finds through the workspace. */
 #ifndef CORE_TRACE_BODY_H
 #define CORE_TRACE_BODY_H
 
@@ -11,7 +11,7 @@ typedef struct tracing {
 } tracing;
 
 extern const stepper_body trace_body;
-/* Before the step: keeps what the step will have overwritten when it is told. */
+/* Call it before the step: keeps numbers that the step overwrites and an event needs. */
 void trace_begin(work *);
 
 #endif

@@ -211,7 +211,7 @@ export class Answers {
     return { method, re: across, im: up, growth: this.growth(method, x, y) };
   }
 
-  /** Eigenvalues of the linearised first-order system (x, v)' = [[0, I], [da/dx, da/dv]] (x, v); companions are v's without an x. */
+  /** Eigenvalues of the linearised first-order system (x, v)' = [[0, I], [da/dx, da/dv]] (x, v); first-order variables are v's without an x. */
   private spectrum(ask: Requests['spectrum']['ask']): Spectrum[] {
     this.open(ask.model);
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab), n = nx + nv;

@@ -12,11 +12,11 @@ export interface Problem {
   readonly time: number | null; readonly variable: string;
 }
 
-export type ColumnKind = 'time' | 'position' | 'velocity' | 'companion' | 'quantity' | 'invariant' | 'exact';
+export type ColumnKind = 'time' | 'position' | 'velocity' | 'first-order' | 'quantity' | 'invariant' | 'exact';
 /** A number that can be looked at along a run; `variable` is the index of the variable, quantity or invariant it belongs to. */
 export interface Column { readonly name: string; readonly kind: ColumnKind; readonly variable: number }
 
-/** A state of the model: order 2 has x'' = …, order 1 is a companion. components 0: scalar. */
+/** A state of the model: order 2 has x'' = …, order 1 is a first-order variable. components 0: scalar. */
 export interface Variable { readonly name: string; readonly order: number; readonly components: number; readonly ranges: readonly (readonly [number, number])[]; readonly count: number }
 
 /** A parameter, or an initial value "x(0)", "r'(0)": what a slider moves. values: its numbers; components 0: scalar; list: [a, b] rather than (a, b). */

@@ -38,15 +38,15 @@ static int exact(void *ctx, double t, double *x, double *v)
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     const motus_callback_def *def = ((const calling *)ctx)->def;
-    const bool companion = k >= def->positions;
-    const size_t number = companion ? k - def->positions : k, all = companion ? def->companions : def->positions;
-    const char *prime = in_v && !companion ? "'" : "";
+    const bool first_order = k >= def->positions;
+    const size_t number = first_order ? k - def->positions : k, all = first_order ? def->first_order : def->positions;
+    const char *prime = in_v && !first_order ? "'" : "";
     if (def->names)
         snprintf(out, size, "%s%s", def->names[k], prime);
     else if (all == 1)
-        snprintf(out, size, "%s%s", companion ? "s" : "x", prime);
+        snprintf(out, size, "%s%s", first_order ? "s" : "x", prime);
     else
-        snprintf(out, size, "%s[%zu]%s", companion ? "s" : "x", number + 1, prime);
+        snprintf(out, size, "%s[%zu]%s", first_order ? "s" : "x", number + 1, prime);
 }
 
 motus_status callback_problem(calling *c, problem *p, motus_error *err)
@@ -54,15 +54,15 @@ motus_status callback_problem(calling *c, problem *p, motus_error *err)
     const motus_callback_def *def = c->def;
     if (!def->acceleration && !def->block)
         return fail(err, MOTUS_ARGUMENT, "the definition has no acceleration callback");
-    if (def->positions + def->companions == 0)
-        return fail(err, MOTUS_ARGUMENT, "the definition has neither positions nor companions");
-    if (def->positions > MODEL_NUMBERS_MAX || def->companions > MODEL_NUMBERS_MAX)
-        return fail(err, MOTUS_LIMIT, "at most %d positions and companions fit", MODEL_NUMBERS_MAX);
+    if (def->positions + def->first_order == 0)
+        return fail(err, MOTUS_ARGUMENT, "the definition has neither positions nor first-order variables");
+    if (def->positions > MODEL_NUMBERS_MAX || def->first_order > MODEL_NUMBERS_MAX)
+        return fail(err, MOTUS_LIMIT, "at most %d positions and first-order variables fit", MODEL_NUMBERS_MAX);
     if ((def->positions && !def->x) || !def->v)
         return fail(err, MOTUS_ARGUMENT, "the definition has no initial values");
     *p = (problem){.ctx = c,
                    .nx = def->positions,
-                   .nv = def->positions + def->companions,
+                   .nv = def->positions + def->first_order,
                    .accel = accel,
                    .jvp = def->derivative ? jvp : NULL,
                    .exact = def->exact ? exact : NULL,
@@ -73,7 +73,7 @@ motus_status callback_problem(calling *c, problem *p, motus_error *err)
                          .linear_v = def->linear_in_velocity || !def->depends_on_velocity,
                          .smooth = true,
                          .has_exact = def->exact != NULL,
-                         .companions = def->companions > 0};
+                         .first_order = def->first_order > 0};
     return MOTUS_OK;
 }
 

@@ -303,8 +303,8 @@ bool compose(emit *e, const composition *c)
     if (windowed)
         emit_add(t,
                  "#define ADVANCE_STEP __attribute__((noinline)) static\n#define WINDOWED 1\n#define LOCAL %d\n#define "
-                 "COMPANIONS %d\n",
-                 local, c->problem->traits.companions);
+                 "FIRST_ORDER %d\n",
+                 local, c->problem->traits.first_order);
     if (e->terms) emit_add(t, "#define accel_in compiled_accel_in\n#define accel_now compiled_accel_now\n");
     if (!lanes) add_text(t, "core/scalar.h");
     add_operations(e, width);

@@ -22,7 +22,7 @@ program *interpreter_derivative(model *, bool in_v);
 bool interpreter_rebind(interpreter *);
 
 /* A problem from a callback definition; both must outlive it. `zeros`, as many as there are velocities and
- * companions, stand in for a direction that is not given; needed where the definition has a derivative. */
+ * first-order variables, stand in for a direction that is not given; needed where the definition has a derivative. */
 typedef struct calling {
     const motus_callback_def *def;
     const double *zeros;

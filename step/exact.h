@@ -1,7 +1,7 @@
-/* EXACT: the motion itself, where it is known: by the formula of free fall from the start where the acceleration is
- * constant, else by the model's own exact line.
+/* EXACT: the exact motion: by the formula of free fall from the start where the acceleration is constant, else by the
+ * model's own exact line.
  *
- * Invariant: nothing leads from step to step but their number.
+ * Invariant: only the number of steps leads from a step to the next.
  */
 static int exact_step(work *w) { return (void)w, STEP_OK; }
 #define exact_accept step_is_final

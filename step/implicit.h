@@ -3,8 +3,8 @@
  * II.1; Newmark59].
  *
  * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
- * multiplied by h; they are iterated until they no longer change. Simplified Newton: one matrix a step, evaluated in
- * the middle of the stages, and again where it does not contract.
+ * multiplied by h; the iteration ends when they no longer change. Simplified Newton: one matrix a step, evaluated in
+ * the middle of the stages, and evaluated again where the iteration does not contract.
  */
 static inline void implicit_stage(work *w, int i)
 {
@@ -16,8 +16,8 @@ static inline void implicit_stage(work *w, int i)
     EACHV(k) V[k] = v[k] + tableau_sum(w, a, false, K, k, s);
 }
 
-/* The matrix at the mean of the unknown stages, as far as they are known: by Taylor's formula before the first
- * iteration. */
+/* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
+ * first. */
 static inline int implicit_matrix(work *w, truth *where)
 {
     const int first = FACT(w, known), all = FACT(w, stages), s = all - first;

@@ -1,8 +1,8 @@
-/* THE LOOP: steps one after the other, and whether the numbers are still finite.
+/* THE LOOP over steps, and the test whether the state is still finite.
  *
- * Invariant: n counts the steps that were finished.
+ * Invariant: n counts the finished steps.
  */
-/* Whether the main line is finite; of a small system in as few operations as possible. */
+/* Whether the main line is finite; in as few operations as possible where the system is small. */
 static inline bool advance_finite(const work *w)
 {
     const real *restrict x = w->x, *restrict v = w->v;
@@ -38,8 +38,8 @@ static inline int advance_check(work *w)
     return STEP_DIVERGED;
 }
 
-/* `steps` more, or up to w->until where time is carried; stops in the middle of a step that fails. Where a number is
- * no longer finite, advance_check says afterwards. */
+/* Takes `steps` more steps, or fewer up to w->until where time is carried; stops in the middle of a step that fails.
+ * advance_check then finds the number that is not finite. */
 static int advance_run(work *w, whole steps)
 {
     for (const whole end = w->n + steps; w->n < end;) {

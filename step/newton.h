@@ -7,13 +7,13 @@
  */
 enum { NEWTON_MAX = 100 };
 
-/* What follows from a correction; where none of them holds, the iteration goes on. */
+/* The verdict on a correction; where no member holds, the iteration goes on. */
 typedef struct newton_verdict {
     truth done, stuck, lost;
 } newton_verdict;
 
-/* Judges the correction r of `value` (`count` vectors each), an increment to `unit` times `base`. *before: the last
- * judgement; start with a negative number. */
+/* Judges the correction r of `value` (`count` vectors each), which will be added to `unit` times `base`. *before: the
+ * size of the previous correction; start with a negative number. */
 static inline newton_verdict newton_judge(work *w, const real *r, const real *value, int count, const real *base,
                                           clock unit, real *before)
 {
@@ -49,8 +49,7 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     return verdict;
 }
 
-/* y += r where the equation is open. That it is open in all lanes is the common case: then nothing waits for the
- * last judgement. */
+/* y += r where the equation is open. In the common case it is open in all lanes, and no lane needs a choice. */
 static inline void newton_correct(const work *w, truth open, real *restrict y, const real *restrict r)
 {
     if (!SOME(NOT(open)))

@@ -4,7 +4,7 @@
  * comes to use it.
  */
 
-/* What the present state needs before it can be read; fills a (and delta, or next_x). */
+/* Evaluates what the present state needs before it can be read: fills a (and delta, or next_x). */
 static int advance_observe(work *w)
 {
     if (!FACT(w, waits) || w->fresh) return STEP_OK;

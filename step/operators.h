@@ -1,9 +1,9 @@
 /* The operators kick, v += b h a, and drift, x += d h v, of stage i of a splitting row, on a problem of any size.
  *
- * Invariant: how the operators share their work changes no bit. A kick makes the drift of its stage in the same pass
- * over memory where it can (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the
- * closing kick of a step waits and becomes one with the opening kick of the next, which has the same acceleration. A
- * kick whose acceleration is known from an observation does not evaluate it again.
+ * Invariant: joining operators changes no bit of the state. A kick makes the drift of its stage in the same pass over
+ * memory where it can (kick_drifts). In a row that begins and ends with a kick (FSAL, first same as last) the closing
+ * kick of a step is joined with the opening kick of the next step, which has the same acceleration (kick_joint). A kick
+ * whose acceleration is known from an observation does not evaluate it again.
  */
 static inline coef kick_unit(const work *w, int i) { return w->unit[i]; }
 static inline coef drift_unit(const work *w, int i) { return w->unit[FACT(w, stages) + i]; }
@@ -15,7 +15,7 @@ static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, 
 static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }
 static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stages) - 1]; }
 
-/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is Boris' rotation, the Cayley
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is the Boris rotation, the Cayley
  * form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
 static int kick_implicit(work *w, int i)
 {

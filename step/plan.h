@@ -1,6 +1,6 @@
-/* The plan of a row and the places of the arrays, by the functions of its family. */
+/* The plan of a row, and the places of the arrays, by the functions of its family. */
 #ifdef ROWS
-/* Sizes and facts of the plan; with memory for work_plan_size numbers, which must stay, its constants too. row,
+/* Sizes and facts of the plan; with memory for work_plan_size numbers, which the caller keeps, its constants too. row,
  * velocity and linear must be set. */
 static void work_plan(work *w, const double argument[2], coef *memory)
 {

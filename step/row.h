@@ -9,10 +9,10 @@ typedef enum family { FAMILIES(FAMILY_NAME) } family;
 #undef FAMILY_NAME
 
 struct row {
-    ROW_CARD /* what people see */
+    ROW_CARD /* the description for users */
         family family;
     int arguments;    /* newmark takes two */
-    bool compensated; /* x and v carry error words: where truncation is so small that round-off would rule */
+    bool compensated; /* compensated addition: x and v carry error words, because truncation is below round-off */
     bool uniform;     /* every step must have the same size: no shorter last one */
     /* a step is a candidate that is accepted or refused, and the step size follows from its error */
     bool adaptive;

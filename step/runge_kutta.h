@@ -1,7 +1,7 @@
 /* RUNGE-KUTTA, explicit: X[i] = x + h Σ a[i][j] V[j], V[i] = v + h Σ a[i][j] K[j], K[i] = a(X[i], V[i], t + c[i] h)
  * [HNW93, II.1].
  *
- * Invariant: sums of increments are formed first, the smallest numbers among themselves, and added to the state once.
+ * Invariant: the sum over stages, of small numbers, is formed first and added to the state once.
  */
 static int runge_kutta_step(work *w)
 {

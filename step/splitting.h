@@ -62,13 +62,13 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
         kick[i] = count ? 0 : m->splitting.kick[i];
         drift[i] = count ? 0 : m->splitting.drift[i];
     }
-    for (int i = 0; i < count; i++) { /* neighbouring half drifts are one */
+    for (int i = 0; i < count; i++) { /* joins neighbouring half drifts */
         const coef weight = m->composition.weight[i < count - 1 - i ? i : count - 1 - i];
         drift[i] += weight / 2;
         kick[i + 1] = weight;
         drift[i + 1] += weight / 2;
     }
-    /* a kick happens at the time to which the drifts have come */
+    /* the abscissa of a kick: the sum of the drifts before it */
     for (int i = 0; i <= last; i++) {
         bool over = true;
         for (int j = i; j <= last; j++) over = over && drift[j] == 0;
@@ -91,8 +91,8 @@ static trace_room splitting_room(const work *w)
     return room;
 }
 
-/* Kick and drift may have been made in one pass: who sees the kick without positions knows that they still are what
- * they were. */
+/* A kick and its drift may have been made in one pass. The kick's event has no positions, because they are unchanged by
+ * it. */
 static void splitting_trace(work *w, int i)
 {
     if (i < 0) return;
@@ -100,7 +100,7 @@ static void splitting_trace(work *w, int i)
     const int last = w->stages - 1;
     if (kicks(w, i)) {
         const real *a = w->a;
-        /* the slope that solves the implicit kick: the increment is b h a */
+        /* the acceleration that solves the implicit kick: delta = b h a */
         if (w->solves) {
             EACHV(k) to->v[k] = w->delta[k] / kick_size(w, i);
             a = to->v;

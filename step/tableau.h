@@ -1,8 +1,8 @@
-/* What the families of tableaus share: where the constants of s stages lie in `unit` and `scaled`, and the sums over
- * stages.
+/* Shared by the families with a tableau: the places of the constants of s stages in `unit` and `scaled`, and the sums
+ * over stages.
  *
- * a (s × s, row by row) and b go with h; aa = A² and bb = bA, for positions formed from accelerations [HNW93, II.14],
- * go with h².
+ * a (s × s, row by row) and b are multiplied by h; aa = A² and bb = bA, for positions formed from accelerations [HNW93,
+ * II.14], by h².
  */
 static inline int tableau_a(const work *w, int i) { return i * FACT(w, stages); }
 static inline int tableau_b(const work *w) { return FACT(w, stages) * FACT(w, stages); }

@@ -2,8 +2,9 @@
  * x[n] - x[n-1], so that nothing is lost to round-off at small steps. The start is Taylor's, d = h v + h²/2 a.
  *
  * Invariant: velocities are formed at the time of the positions, v[n] = (x[n+1] - x[n-1])/2h, whatever the force
- * depends on. A force that depends on v is taken at that central difference, (d + delta/2)/h, delta being the change
- * of d that it causes. First-order variables are velocities without a position: d/h is their value half a step later.
+ * depends on. A force that depends on v is evaluated at that central difference, (d + delta/2)/h, where delta is the
+ * implicit kick, the change of d by this force. First-order variables are velocities without a position: d/h is their
+ * value half a step later.
  */
 static int verlet_observe(work *w)
 {
@@ -85,7 +86,7 @@ static void verlet_plan(work *w, const double argument[2], coef *unit, coef *c)
 #ifdef TRACING
 static trace_room verlet_room(const work *w) { return (void)w, (trace_room){.events = 1, .x = 2, .v = 2}; }
 
-/* Stage -1: before the step, whose end will have overwritten what the positions were one step earlier. */
+/* Stage -1: before the step, which overwrites the positions of one step earlier. */
 static void verlet_trace(work *w, int i)
 {
     const tracer *to = tracer_of(w);

@@ -2,30 +2,31 @@
  * row and a step.
  *
  * The texts of step/ include nothing. Before this one the includer defines
- *     real        a number, or a vector with one trajectory per lane clock time and step; apart from real, since
- *                 lanes may share them
- *     whole       a signed integer of 64 bits                             coef    a coefficient of a row
- *     FMA(a,b,c)  a b + c with one rounding                               ABS(x), FINITE(x), EPSILON, SQRT_EPSILON of
- *                                                                         real
- *     EACH(k)     a loop over the positions of `w` EACHV(k) over velocities, then first-order variables
- *     TRACE(w,i) called after stage i, of implicit stages when all are solved and not yet summed; empty unless the
- *         step is traced
- *     ROW(w,m), FACT(w,m)     members of the row and of `w` that never change. Without a definition they are read; a
- *                             compiled model makes them
- *                             constants, so that the compiler never translates what the model does not use
+ *     real            a number, or a vector with one trajectory per lane
+ *     clock           the type of times and steps; apart from real, since lanes may share them
+ *     whole           a signed integer of 64 bits
+ *     coef            the type of a row's coefficients
+ *     FMA(a, b, c)    a b + c with one rounding
+ *     ABS(x), FINITE(x), EPSILON, SQRT_EPSILON    of real
+ *     EACH(k)         a loop over the positions of `w`
+ *     EACHV(k)        a loop over its velocities, then its first-order variables
+ *     TRACE(w, i)     called after stage i; of implicit stages when all are solved and not yet summed. Empty unless the
+ *                     step is traced
+ *     ROW(w, m), FACT(w, m)    members of the row and of `w` that never change. Without a definition they are read; a
+ *                     compiled model makes them constants, so that the compiler drops what the model does not use
  * and, before the families, the functions
- *     accel(w, t, x, v, a)                  a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
- *     accel_in(w, i, x, v, a), accel_now(w, x, v, a)
- *                                           the same at the time of stage i, and of the present step. Macros of this
- *                                           file, unless the includer, who may have tabulated what depends on time
- *                                           alone, defines both
+ *     accel(w, t, x, v, a)          a = a(x, v, t); counts itself in w->evaluations; 0 or STEP_CALLBACK
+ *     accel_in(w, i, x, v, a)       the same at the time of stage i, and
+ *     accel_now(w, x, v, a)         at the time of the present step. Both are macros of this file unless the includer
+ *                                   defines both, because it has tabulated what depends on time alone
  *     solve_factor(w, where, s, ax, av, t, x, v)
- *                                           factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status.
- *                                           Lanes: where *where holds; it no longer does where the matrix is singular
- *     solve_back(w, r)                      r, stage after stage, becomes the solution
- *     solve_apply(w, c, y, out)             out = (I + c da/dv) y, of the last factored derivative
- *     exact_at(w, t, x, v), refresh_at(w, t, x, v)   the exact motion; driven boundary cells
- *     family_step(w) … family_dense(…)      the functions of families.def, of the row's family
+ *                                   factors I - (ax ⊗ da/dx + av ⊗ da/dv) for s stages; 0 or a STEP_ status. In lanes
+ *                                   only where *where holds; clears it where the matrix is singular
+ *     solve_back(w, r)              r, stage after stage, becomes the solution
+ *     solve_apply(w, c, y, out)     out = (I + c da/dv) y, with the derivative that was factored last
+ *     exact_at(w, t, x, v)          the exact motion
+ *     refresh_at(w, t, x, v)        writes driven boundary cells
+ *     family_step(w) … family_dense(…)    the functions of families.def, of the row's family
  *
  * Invariant: `x` and `v` (with their error words ex and ev, and `old`) are the main line; they change in a step and
  * nowhere else. `a` and `delta` belong to the state (x, v, n) while `fresh` is true; a step that begins with them
@@ -39,8 +40,8 @@
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
 
-/* Which trajectories of the workspace something holds for, and how many steps they have taken: as many of both as there
- * are clocks. */
+/* A mask says for which trajectories of the workspace something holds; ticks are how many steps they have taken. There
+ * are as many of both as there are clocks. */
 #ifndef EVERY
 typedef bool mask;
 typedef whole ticks;
@@ -50,9 +51,10 @@ typedef whole ticks;
 #endif
 #define CLOCK(number) ((clock){0} + (number))
 
-/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is
- * whether it holds for any. A step that cannot go on STOPs with its status; of lanes it marks those `where` it
- * cannot, SPOIL makes NaN of what they compute, and the others go on. BLAME says which entry of v it was. */
+/* The result of comparing reals: one bool, or one for each lane where real is a vector. PICK chooses lane by lane, and
+ * SOME tells whether it holds in any lane. STOP ends a step that cannot go on, with its status; of lanes it marks
+ * those `where` this holds, SPOIL sets their values to NaN, and the others go on. BLAME notes the entry of v that
+ * failed. */
 #ifndef ALWAYS
 typedef bool truth;
 #define ALWAYS true
@@ -71,7 +73,7 @@ typedef bool truth;
 #define NEVER NOT(ALWAYS)
 #define NOT(where) ((where) == 0)
 
-/* The outer indices that a tile is at, from … to-1, and how they move: tiled.h. Only machines that tile look at it. */
+/* The outer indices that a tile computes, from … to-1, and how they move: tiled.h. Only machines with tiles use it. */
 typedef struct window {
     whole from, to;
     /* their intersection is from … to; a strip moves down with every pass, a block's ends by `slope` */
@@ -91,8 +93,8 @@ typedef struct work {
     size_t nx, nv, stride;                  /* stride: distance of two arrays below; at least nv */
     bool velocity, linear;                  /* the acceleration depends on v; at most linearly */
     bool constant;                          /* it depends on parameters alone */
-    bool check;                             /* look for infinities after every step */
-    bool finite;                            /* whoever took the last steps saw that all is finite */
+    bool check;                             /* test after every step whether the state is finite */
+    bool finite;                            /* the machine found the state finite after the last steps */
     int threads;                            /* how many may share one evaluation, or the tiles of one sweep */
     whole evaluations, iterations, refused; /* refused: candidates that were not accepted */
 
@@ -105,25 +107,25 @@ typedef struct work {
     clock t, lost, until; /* carried only; no step passes `until` */
     clock next;           /* adaptive: the size that the next candidate should have */
 
-    /* The plan, without dimensions, from the row alone: constants, of which the first `linears` go with h and the
-     * `squares` behind them with h²; c: times of the stages. `scaled` are the same for the present h. */
+    /* The plan, without dimensions, from the row alone: `unit`, constants of which the first `linears` are multiplied
+     * by h and the next `squares` by h²; c: the abscissae of the stages. `scaled`: the constants for the present h. */
     int stages, linears, squares;
     const coef *unit, *c;
     const unsigned char *live;
     clock *scaled, hh, half_hh, per_h;
     clock *matrix; /* room for the coefficients of the coupled stages: 2 solves² */
-    int known;     /* implicit stages that are explicit after all (newmark's first) */
+    int known;     /* stages of an implicit row that are explicit (newmark's first) */
     int solves;    /* stages that are coupled in one equation; 0: nothing is solved */
     bool solves_x; /* that equation contains da/dx */
-    bool direct;   /* it is linear in the unknowns, or none: one solve is exact */
+    bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
     bool fused; /* a kick and the drift after it are made in one pass over memory */
-    bool waits; /* the state between two steps lacks something that an evaluation supplies */
+    bool waits; /* the state between two steps needs one more evaluation before it can be observed */
 
     bool fresh; /* the acceleration of the present state is known already, because it was observed */
-    whole owed_evaluations, owed_iterations; /* what it cost: counted when the method uses it */
-    int moved;                               /* drifts to come that a machine's PASS has made together with a kick */
+    whole owed_evaluations, owed_iterations; /* its cost: counted when a step uses it */
+    int moved;                               /* drifts that a machine's PASS has already made together with a kick */
     int order;                               /* adaptive: of the error estimate, which goes with h^(order + 1) */
     clock error;                             /* adaptive: the candidate's error, in units of what is allowed */
 
@@ -132,39 +134,38 @@ typedef struct work {
     real *delta, *r;    /* change of v by an implicit kick; residual */
     real *xs, *vs, *ks; /* stages: positions, velocities, accelerations */
 
-    /* the includer's: of what depends on time alone, from step `first` on; NULL where there is none now */
+    /* the includer's table of what depends on time alone, from step `first` on; NULL: there is none now */
     const clock *table;
     whole first;
-    /* the includer's: the matrix of an implicit kick, where it is diagonal and constant, for this slope */
+    /* the includer's matrix of an implicit kick for this slope, where it is diagonal and constant */
     const real *diagonal;
     clock slope;
 
-    size_t which; /* what went wrong: entry of v, or of x where !in_v */
+    size_t which; /* the number that failed: entry of v, or of x where !in_v */
     bool in_v;
     struct stepper_host *library;     /* the includer's: what the library's own bodies work with, */
     const struct compiled_host *host; /* and a compiled model's */
     window window;
 } work;
 
-/* 1: the arrays are so short that to copy them is nothing, and that they may then live in registers; known when the
- * text is compiled. */
+/* 1: the arrays are so short that copies cost nothing and that they fit into registers; known when the text is
+ * compiled. */
 #ifndef SMALL
 #define SMALL 0
 #endif
 
-/* A loop over stages; a compiled model may ask for it to be written out, so that every coefficient and every time is
- * a constant. */
+/* A loop over stages; a compiled model may unroll it, so that every coefficient and every time is a constant. */
 #ifndef EACH_STAGE
 #define EACH_STAGE(i, count) for (int i = 0; i < (count); i++)
 #endif
 
-/* Whether this is the first step since t0, for which some methods have a formula of its own. */
+/* Whether this is the first step since t0, for which some methods have another formula. */
 #ifndef FIRST
 #define FIRST(w) ((w)->n == 0)
 #endif
 
-/* y += c z, and the same with the error word e of y: compensated by Knuth's two-sum, exact whichever operand is
- * larger. */
+/* y += c z, and the same by compensated addition with the error word e of y: Knuth's two-sum, exact whichever operand
+ * is larger. */
 #define ADVANCE(y, c, z) ((y) = FMA((c), (z), (y)))
 #define ADVANCE_COMPENSATED(y, e, c, z)                                      \
     do {                                                                     \
@@ -175,12 +176,12 @@ typedef struct work {
 
 /* Time ------------------------------------------------------------------------------------------------------------ */
 
-/* Fixed: the time of the part c of step n, a clock or a vector of them. Both ends of a step are times t0 + n h, so
- * that a force that is evaluated there is the neighbouring step's too. */
+/* Fixed steps: the time t0 + (n + c) h at the fraction c of step n, a clock or a vector of them. Both ends of a step
+ * are computed as t0 + n h, so that the neighbouring step can use a force that was evaluated there. */
 #define TIME_FIXED(w, n, c) \
     ((c) == 0 || (c) == 1 ? (w)->t0 + ((n) + (c)) * (w)->h : ((w)->t0 + (n) * (w)->h) + (c) * (w)->h)
 
-/* The time of the part c of the present step. */
+/* The time at the fraction c of the present step. */
 static inline clock time_in(const work *w, coef c)
 {
     if (!FACT(w, carried)) return TIME_FIXED(w, (clock)w->n, c);
@@ -210,7 +211,7 @@ static inline void time_tick(work *w, mask good)
 #define accel_now(w, x, v, a) accel(w, time_now(w), x, v, a)
 #endif
 
-/* The acceleration at the start of a step, from where it is known already. */
+/* Whether the acceleration at the start of the step is known from an observation; counts it as used. */
 static inline bool work_reuse(work *w)
 {
     if (!w->fresh) return false;
@@ -262,7 +263,7 @@ static inline real *work_array(placing *p, int count)
     return array;
 }
 
-/* From one workspace to another, the numbers of all arrays but of the stages after the first. */
+/* Copies the numbers of all arrays, of the stages only the first, from one workspace to another. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
 #define MOVE(name) \
@@ -279,7 +280,7 @@ static inline void work_move(work *to, const work *from, size_t count)
 #undef MOVE
 }
 
-/* The arrays that lead a trajectory from step n to the next, as families.def has it. */
+/* The arrays that lead from a step to the next: name_carry in families.def. */
 enum { CARRY_MAX = 8 };
 static inline int work_carry_main(const work *w, real *list[CARRY_MAX])
 {
@@ -290,7 +291,8 @@ static inline int work_carry_main(const work *w, real *list[CARRY_MAX])
     return count;
 }
 
-/* What families have in common: the state as it is; a step that has moved it already; a state that lacks nothing. */
+/* Functions that several families share: the state is x and v as they are; the step has moved the state already; the
+ * state needs no evaluation before it is observed. */
 static inline int work_sync_main(work *w, real *x, real *v)
 {
     EACH(k) x[k] = w->x[k];

@@ -118,7 +118,7 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
     motus_callback_def def = motus_default_callback();
     *err = motus_default_error();
     def.positions = 2;
-    def.companions = 1;
+    def.first_order = 1;
     def.x = x;
     def.v = v;
     def.acceleration = pull;

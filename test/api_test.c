@@ -322,6 +322,7 @@ static void errors_of_every_size(void **state)
         REFUSES(motus_run_values(r, &column_one, 1, out, err));
         REFUSES(motus_run_jacobian(r, out, out, err));
         REFUSES(motus_run_save(r, &kept, &length, err));
+        REFUSES(motus_run_set_state(r, NAN, NULL, NULL, err));
         REFUSES(motus_run_trace(r, &entries, &count, err));
         REFUSES(motus_run_restore(r, saved, strlen(saved), err));
         REFUSES(motus_run_step(r, 1, err));
@@ -545,7 +546,7 @@ static void columns_are_found_by_their_own_names(void **state)
     assert_int_equal(motus_column_at(s, 14, &c), MOTUS_OK);
     assert_true(c.kind == MOTUS_COLUMN_VELOCITY && c.variable == 0 && c.is_velocity);
     assert_int_equal(motus_column_at(s, 23, &c), MOTUS_OK);
-    assert_int_equal(c.kind, MOTUS_COLUMN_COMPANION);
+    assert_int_equal(c.kind, MOTUS_COLUMN_FIRST_ORDER);
     motus_system_destroy(s);
 }
 
@@ -624,7 +625,7 @@ static void columns_by_cell_and_component(void **state)
     } cases[] = {{MOTUS_COLUMN_TIME, 0, {0}, 0, 0, "t"},
                  {MOTUS_COLUMN_POSITION, 0, {7}, 1, 0, "r[7].y"},
                  {MOTUS_COLUMN_VELOCITY, 0, {3}, 0, 0, "r[3]'.x"},
-                 {MOTUS_COLUMN_COMPANION, 1, {0}, 0, 0, "s"},
+                 {MOTUS_COLUMN_FIRST_ORDER, 1, {0}, 0, 0, "s"},
                  {MOTUS_COLUMN_QUANTITY, 0, {1, -1}, 0, 0, "u[1,-1]"},
                  {MOTUS_COLUMN_INVARIANT, 0, {0}, 0, 0, "e"},
                  {MOTUS_COLUMN_EXACT, 0, {2}, 1, 0, "exact r[2].y"},
@@ -635,7 +636,7 @@ static void columns_by_cell_and_component(void **state)
                  {MOTUS_COLUMN_POSITION, 0, {7}, 2, 0, NULL},
                  {MOTUS_COLUMN_POSITION, 0, {7}, -1, 0, NULL},
                  {MOTUS_COLUMN_POSITION, 1, {0}, 0, 0, NULL},
-                 {MOTUS_COLUMN_COMPANION, 1, {0}, 1, 0, NULL},
+                 {MOTUS_COLUMN_FIRST_ORDER, 1, {0}, 1, 0, NULL},
                  {MOTUS_COLUMN_QUANTITY, 1, {0}, 0, 0, NULL},
                  {MOTUS_COLUMN_QUANTITY, 0, {2, 0}, 0, 0, NULL},
                  {MOTUS_COLUMN_EXACT, 1, {0}, 0, 1, NULL},

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <time.h>
 
-/* Two positions and a companion; trajectory i has a stiffness of its own where `stiffness` is given. */
+/* Two positions and a first-order variable; trajectory i has a stiffness of its own where `stiffness` is given. */
 typedef struct world {
     const double *stiffness;
     atomic_int calls, widest;
@@ -57,7 +57,7 @@ static motus_system *given_callback(world *w, int how)
     motus_error err = motus_default_error();
     motus_system *s = NULL;
     def.positions = 2;
-    def.companions = 1;
+    def.first_order = 1;
     def.x = x;
     def.v = v;
     def.start = 0.5;

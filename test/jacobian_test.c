@@ -74,8 +74,8 @@ static void models_by_hand(void **state)
     motus_system_destroy(s);
 }
 
-/* Vectors in a family, an equation without a cell in between, a driven boundary, and a companion: rows and columns
- * are those of motus_run_state. */
+/* Vectors in a family, an equation without a cell in between, a driven boundary, and a first-order variable: rows
+ * and columns are those of motus_run_state. */
 static void a_family_by_hand(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static motus_system *callback_of(int with_slope, int linear, int *calls)
     motus_error err = motus_default_error();
     motus_callback_def def = motus_default_callback();
     def.positions = 2;
-    def.companions = 1;
+    def.first_order = 1;
     def.x = x;
     def.v = v;
     def.acceleration = pull;

@@ -36,7 +36,7 @@ static const char lattice[] =
     "= 1..N, j = 1..M\n"
     "u[0,j] = 0 for j = 1..M\nu[N+1,j] = 0 for j = 1..M\nu[i,0] = 0 for i = 1..N\nu[i,M+1] = 0 for i = 1..N\n"
     "u[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..M\nu[i,j]'(0) = 0 for i = 1..N, j = 1..M\nstep 0.1\nuntil 1\n";
-/* Companions, and a force of the velocity. */
+/* First-order variables, and a force of the velocity. */
 static const char damped[] =
     "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.05 x[i]' + 0.1 s[i] for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
     "s[i]' = -s[i] + x[i] + 0.1 (s[i+1] - s[i]) for i = 1..N\ns[N+1] = 0.5\nx[i](0) = sin(i) for i = 1..N\nx[i]'(0) = "
@@ -164,7 +164,7 @@ static void lattices(void **state)
     rows(lattice, LIST(text_of, "velocity-verlet", "verlet", "blanes-moan6", "rk4"), LIST(int, 10, 1201), 70);
 }
 
-static void companions(void **state)
+static void first_order_variables(void **state)
 {
     (void)state;
     rows(damped, LIST(text_of, "rk4", "heun"), LIST(int, 10, 7919), 41);
@@ -224,10 +224,11 @@ int main(void)
     if (!mkdtemp(cache)) return 1;
     setenv("XDG_CACHE_HOME", cache, 1);
     unsetenv("SUDO_UID");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(chains),     cmocka_unit_test(families),   cmocka_unit_test(lattices),
-        cmocka_unit_test(companions), cmocka_unit_test(untiled),    cmocka_unit_test(every_pair),
-        cmocka_unit_test(scattered),  cmocka_unit_test(divergence), cmocka_unit_test(threads_asked_for)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(chains),           cmocka_unit_test(families),
+                                       cmocka_unit_test(lattices),         cmocka_unit_test(first_order_variables),
+                                       cmocka_unit_test(untiled),          cmocka_unit_test(every_pair),
+                                       cmocka_unit_test(scattered),        cmocka_unit_test(divergence),
+                                       cmocka_unit_test(threads_asked_for)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     motus_cache_clear();
     char path[64];

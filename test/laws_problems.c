@@ -85,7 +85,7 @@ static void damped_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[1] += -(Q(0.2) + t * Q(0.1)) * dv[1] - Q(0.4) * (dx[0] * v[0] + x[0] * dv[0]);
 }
 
-/* Nonlinear in v, with a companion that acts back: s' = f(x, v, s, t). */
+/* Nonlinear in v, with a first-order variable that acts back: s' = f(x, v, s, t). */
 static void tangled(quad t, in x, in v, quad *a)
 {
     driven(t, x, v, a);

@@ -124,7 +124,7 @@ traits quad_traits(const quad_problem *p)
                     .gyroscopic = p->gyroscopic,
                     .gradient = p->gradient,
                     .smooth = true,
-                    .companions = p->nv > p->nx,
+                    .first_order = p->nv > p->nx,
                     .constant = p->nx == 0};
 }
 

@@ -18,6 +18,7 @@ static motus_system *system_of(const char *text)
 typedef struct witness {
     int seen, enough;
     double last;
+    char first[1000]; /* the restart state after the first step */
 } witness;
 
 static int watching(void *context, motus_run *r)
@@ -27,6 +28,13 @@ static int watching(void *context, motus_run *r)
     double x;
     assert_int_equal(motus_run_state(r, &x, NULL, &err), MOTUS_OK);
     assert_int_equal(motus_run_step(r, 1, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_set_state(r, NAN, &x, NULL, &err), MOTUS_ARGUMENT);
+    const char *saved;
+    size_t length;
+    const motus_trace_entry *const *entries;
+    if (!w->seen) snprintf(w->first, sizeof w->first, "%s", motus_run_save(r, &saved, &length, &err) ? "" : saved);
+    assert_int_equal(motus_run_restore(r, w->first, strlen(w->first), &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_trace(r, &entries, &length, &err), MOTUS_ARGUMENT);
     assert_true(motus_run_time(r) > w->last);
     w->last = motus_run_time(r);
     return ++w->seen == w->enough;
@@ -76,6 +84,28 @@ static void legs(void **state)
         motus_run_destroy(alone);
         motus_run_destroy(r);
     }
+    motus_system_destroy(s);
+}
+
+static int never(void *context, double fraction)
+{
+    (void)context, (void)fraction;
+    return 1;
+}
+
+/* Without steps there is no progress to tell, and nothing to cancel. */
+static void no_steps_are_not_cancelled(void **state)
+{
+    (void)state;
+    motus_system *s = system_of(oscillator);
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    const double x = 0.25;
+    def.step = 0.125, def.until = 2, def.progress = never;
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
+    assert_int_equal(motus_run_set_state(r, 1, &x, NULL, &err), MOTUS_OK);
+    motus_run_destroy(r);
     motus_system_destroy(s);
 }
 
@@ -155,7 +185,8 @@ static void back(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(legs), cmocka_unit_test(refused), cmocka_unit_test(observers),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(legs), cmocka_unit_test(refused),
+                                       cmocka_unit_test(no_steps_are_not_cancelled), cmocka_unit_test(observers),
                                        cmocka_unit_test(back)};
     return cmocka_run_group_tests_name("leg", tests, NULL, NULL);
 }

@@ -141,7 +141,7 @@ static void every_model(void **state)
 }
 
 /* What the text can contain: sums nested and masked, wrapped indices, driven boundaries, lists, conditions,
- * companions. */
+ * first-order variables. */
 static void every_construct(void **state)
 {
     (void)state;

@@ -160,7 +160,7 @@ static void callbacks_and_wrong_requests(void **state)
     motus_callback_def def = motus_default_callback();
     motus_error err = motus_default_error();
     def.positions = 2;
-    def.companions = 1;
+    def.first_order = 1;
     def.x = x;
     def.v = v;
     def.acceleration = none;

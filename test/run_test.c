@@ -2,8 +2,8 @@
  */
 #include "test/given.h"
 
-/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with companions and driven
- * boundary cells. */
+/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with first-order variables and
+ * driven boundary cells. */
 static const char *const texts[] = {
     "x'' = -x + x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\n",
     "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
@@ -104,9 +104,9 @@ static void samples_at_steps_are_the_state(void **state)
     each(samples_of);
 }
 
-/* Between two exact states only the polynomials err: h^6 in the position, h^5 in its velocity, h^4 in a companion. A
- * slope estimated from h and h/2 is off by O(h), half of which is left in the next one: twice their difference bounds
- * what is left. */
+/* Between two exact states only the polynomials err: h^6 in the position, h^5 in its velocity, h^4 in a first-order
+ * variable. A slope estimated from h and h/2 is off by O(h), half of which is left in the next one: twice their
+ * difference bounds what is left. */
 static void the_quintic_has_local_error_h_6(void **state)
 {
     (void)state;

@@ -260,18 +260,18 @@ static void refusals(void **state)
         motus_status status;
         const char *message, *hint;
     } cases[] = {{"q", 1, {1}, MOTUS_NAME, "neither a parameter nor an initial value", ""},
-                 {"energy", 1, {1}, MOTUS_NAME, "neither", "computed along the way"},
+                 {"energy", 1, {1}, MOTUS_NAME, "neither", "is a quantity"},
                  {"x", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
                  {"x(1)", 1, {1}, MOTUS_NAME, "neither", "x(0)"},
-                 {"w.x", 1, {1}, MOTUS_NAME, "neither", "as a whole"},
+                 {"w.x", 1, {1}, MOTUS_NAME, "neither", "by its name alone"},
                  {"x''(0)", 1, {1}, MOTUS_NAME, "neither", ""},
                  {"", 1, {1}, MOTUS_NAME, "neither", ""},
                  {"(0)", 1, {1}, MOTUS_NAME, "neither", ""},
-                 {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, and 2 are given", ""},
-                 {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, and 1 are given", ""},
+                 {"k", 2, {1, 1}, MOTUS_SHAPE, "k is 1 number, but the call gives 2", ""},
+                 {"w", 1, {1}, MOTUS_SHAPE, "w is 2 numbers, but the call gives 1", ""},
                  {"k", 1, {NAN}, MOTUS_ARGUMENT, "not a finite number", ""},
                  {"x(0)", 1, {INFINITY}, MOTUS_ARGUMENT, "not a finite number", ""},
-                 {"k", 1, {0}, MOTUS_ARGUMENT, "d follows from k", ""},
+                 {"k", 1, {0}, MOTUS_ARGUMENT, "d depends on k", ""},
                  {"T", 1, {3}, MOTUS_ARGUMENT, "T decides `step`", "`set`"},
                  {"x'(0)", 1, {1}, MOTUS_ARGUMENT, "does not meet the initial value", ""}};
     motus_system *s = given_text(text), *before = given_text(text);
@@ -456,7 +456,7 @@ static void callbacks(void **state)
     motus_error err = motus_default_error();
     for (int named = 0; named < 2; named++) {
         motus_callback_def def = motus_default_callback();
-        def.positions = 2, def.companions = 1, def.x = x, def.v = v, def.acceleration = hang, def.start = -1.5;
+        def.positions = 2, def.first_order = 1, def.x = x, def.v = v, def.acceleration = hang, def.start = -1.5;
         def.names = named ? names : NULL;
         motus_system *s = NULL, *c = NULL, *t = NULL;
         must(motus_system_from_callback(&def, &s, &err), &err, "callback");

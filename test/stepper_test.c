@@ -28,7 +28,7 @@ static int cubic_jvp(void *ctx, double t, double *x, double *v, const double *dx
     return 0;
 }
 
-/* Two coupled positions and a companion; with `tangle`, all of it nonlinear in the velocities. */
+/* Two coupled positions and a first-order variable; with `tangle`, all of it nonlinear in the velocities. */
 typedef struct mix {
     bool tangle;
 } mix;
@@ -57,8 +57,12 @@ static int turning(void *ctx, double t, double *x, double *v, double *a)
 
 static mix still = {false}, tangled = {true};
 static const problem problems[] = {
-    {.ctx = &still, .nx = 2, .nv = 3, .accel = mixed, .traits = {.time = true, .companions = true}},
-    {.ctx = &tangled, .nx = 2, .nv = 3, .accel = mixed, .traits = {.velocity = true, .time = true, .companions = true}},
+    {.ctx = &still, .nx = 2, .nv = 3, .accel = mixed, .traits = {.time = true, .first_order = true}},
+    {.ctx = &tangled,
+     .nx = 2,
+     .nv = 3,
+     .accel = mixed,
+     .traits = {.velocity = true, .time = true, .first_order = true}},
     {.nx = 3, .nv = 3, .accel = turning, .traits = {.velocity = true, .linear_v = true, .gyroscopic = true}},
 };
 enum { PROBLEMS = sizeof problems / sizeof *problems };

@@ -222,8 +222,9 @@ static void stormer(const step *s, const motus_trace_entry *e, const double *bef
     const bool first = e->kind == MOTUS_EVENT_TAYLOR, literal = !strcmp(s->method, "verlet-literal");
     assert_int_equal(first, before_x == NULL);
     assert_int_equal(first, e->before_x == NULL);
-    /* verlet-literal's velocities are differences of positions, and the companions' of integrals since the start:
-     * what these are rounded by, and with them the velocities at which every component's acceleration is taken. */
+    /* verlet-literal's velocities are differences of positions, and those of first-order variables of integrals
+     * since the start: what these are rounded by, and with them the velocities at which every component's
+     * acceleration is taken. */
     double around = 0;
     for (size_t k = 0; literal && k < s->nv; k++)
         around = fmax(around, ROUNDINGS * DBL_EPSILON *

@@ -195,7 +195,7 @@ static motus_system *from_callback(wall *w, bool velocity)
     motus_error err = motus_default_error();
     motus_system *s = NULL;
     def.positions = 2;
-    def.companions = 1;
+    def.first_order = 1;
     def.x = x;
     def.v = v;
     def.acceleration = spring;

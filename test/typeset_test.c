@@ -233,7 +233,7 @@ static void kinds(void **state)
                     {MOTUS_STATEMENT_BOUNDARY, 11, "u", "msub{u|2}=sin@{(t)}"},
                     {MOTUS_STATEMENT_START, 12, "u", "{msub{u|i}@{(0)}}=0 {for_i=1}"},
                     {MOTUS_STATEMENT_START, 13, "u", "{msubsup{u|i|′}@{(0)}}=0 {for_i=1}"},
-                    {MOTUS_STATEMENT_COMPANION, 14, "fed", "msup{fed|′}=x"},
+                    {MOTUS_STATEMENT_FIRST_ORDER, 14, "fed", "msup{fed|′}=x"},
                     {MOTUS_STATEMENT_START, 15, "fed", "{fed@{(0)}}=0"},
                     {MOTUS_STATEMENT_SETTING, 16, "until", "until_1"},
                     {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"}};

@@ -8,7 +8,7 @@ static void describe_columns(json *j, const motus_system *s)
 {
     static const char *const kinds[] = {
         [MOTUS_COLUMN_TIME] = "time",         [MOTUS_COLUMN_POSITION] = "position",
-        [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_COMPANION] = "companion",
+        [MOTUS_COLUMN_VELOCITY] = "velocity", [MOTUS_COLUMN_FIRST_ORDER] = "first-order",
         [MOTUS_COLUMN_QUANTITY] = "quantity", [MOTUS_COLUMN_INVARIANT] = "invariant",
         [MOTUS_COLUMN_EXACT] = "exact",
     };
@@ -82,7 +82,7 @@ static const char *method_of(const motus_settings *settings)
 static void describe_statements(json *j, motus_system *s)
 {
     static const char *const kinds[] = {
-        [MOTUS_STATEMENT_MOTION] = "motion",       [MOTUS_STATEMENT_COMPANION] = "companion",
+        [MOTUS_STATEMENT_MOTION] = "motion",       [MOTUS_STATEMENT_FIRST_ORDER] = "first-order",
         [MOTUS_STATEMENT_PARAMETER] = "parameter", [MOTUS_STATEMENT_QUANTITY] = "quantity",
         [MOTUS_STATEMENT_START] = "start",         [MOTUS_STATEMENT_BOUNDARY] = "boundary",
         [MOTUS_STATEMENT_EXACT] = "exact",         [MOTUS_STATEMENT_INVARIANT] = "invariant",

@@ -139,8 +139,7 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     }
     if (!select && (!subscripts(l, t, s->dims, &r, low, high) || (s->dims > 0 && !covered(l, s, t, low, high))))
         return wrong(l);
-    /* A companion lies in V and its derivative in A; a position, its velocity and its acceleration lie in X, V and A.
-     * */
+    /* A first-order variable and its rate are in V and A; a position, its velocity and acceleration in X, V and A. */
     int block = t->primes + (s->order == 1 ? BLOCK_V : BLOCK_X);
     value v = load(l, (uint16_t)(l->model->block[block] + s->array), s->components, &r);
     return select ? lower_component(l, v, t->item[0], t) : v;

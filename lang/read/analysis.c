@@ -25,7 +25,7 @@ static void read_traits(model *m)
                   .affine = true,
                   .constant = true,
                   .smooth = true,
-                  .companions = m->nv > m->nx,
+                  .first_order = m->nv > m->nx,
                   .time = m->driven};
     graph_shift shift = {(uint16_t)(3 * m->block_size), (uint16_t)(3 * m->block_size)};
     for (size_t i = 0; i < m->accel_count; i++) {

@@ -96,8 +96,8 @@ static bool classify_definitions(model *m)
     return true;
 }
 
-/* Complains about initial values and exact motions without an equation of motion, and about a companion's derivative at
- * the start. */
+/* Complains about initial values and exact motions without an equation of motion, and about an initial value for the
+ * rate of a first-order variable. */
 static bool check_orphans(model *m)
 {
     for (uint32_t i = 0; i < m->statements.count; i++) {

@@ -65,7 +65,8 @@ static bool equation(model *m, const statement *s, outputs *into)
     return true;
 }
 
-/* A motion that is given as a function of time: its value goes into x (a companion's into v), its derivative into v. */
+/* A motion that is given as a function of time: its value goes into x (of a first-order variable into v), its
+ * derivative into v. */
 static bool given_motion(model *m, const statement *s, lower_place place, const char *what, outputs *into, bool *timed)
 {
     const model_state *state = symbols_find(m, s->name).state;

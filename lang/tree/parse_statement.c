@@ -161,7 +161,7 @@ static void parse_left(parser *p, statement *s)
         s->primes = p->token.primes;
         if (s->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
-            HINT(p, "Newton's second law is of second order; bring in a first-order companion s' = … for more");
+            HINT(p, "Newton's second law is of second order; bring in a first-order variable s' = … for more");
             return;
         }
         advance(p);

@@ -55,7 +55,7 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
     window_move(w, w->host->tiling->around);
 }
 
-#if !COMPANIONS
+#if !FIRST_ORDER
 #define PASS_MOVE(name, twice)                                                                                       \
     __attribute__((noinline, flatten)) static void name(const compiled_host *host, clock t, const clock *T, real *x, \
                                                         real *v, real *a, const window *at, const window_put *how)   \
