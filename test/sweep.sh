@@ -114,6 +114,22 @@ sweep "$root/models/three-body-figure-eight.motus" --vary "r[1].x(0)=0.97" --unt
 sweep "$root/models/projectile.motus" --vary g.y=-9.81,-1.62 --record "r,max(r'.y)" -q >"$out" 2>"$err"
 that "a name stands for all its numbers; a component varies" is "$(names)" "index,g.y,r.x,r.y,max(r'.y),stopped"
 
+# Ends that differ: before the start, at it, within a step of it, between steps.
+for machine in compiled interpreter; do
+    sweep osc.motus --vary until=-1,0,0.004,0.5,1.237,30 --record "x,x'" --machine $machine -q >"ends-$machine.csv"
+done
+that "ends that differ: the same bits on both machines" is "$(cat ends-compiled.csv)" "$(cat ends-interpreter.csv)"
+while IFS=, read -r _ end x v _; do
+    "$motus" run osc.motus --until "$end" -o end.csv --columns "t,x,x'" -q
+    that "... and as a run until $end" is "$x,$v" "$(tail -n 1 end.csv | cut -d, -f2,3)"
+    rm -f end.csv
+done < <(rows ends-compiled.csv)
+sweep osc.motus --vary until=0:20:500 --record x -o ends-cut.csv -q
+cp ends-cut.csv ends-whole.csv
+truncate -s 3000 ends-cut.csv
+sweep osc.motus --vary until=0:20:500 --record x -o ends-cut.csv -q --resume
+that "... and resumed to the same bytes" cmp -s ends-cut.csv ends-whole.csv
+
 # --- a motion that leaves the finite numbers ---------------------------------------------------------------------------------------------
 gives "some that blow up" 0 "$motus" sweep blow.motus --vary k=-1,3,1,100,0 --record "x,max(x)"
 that "... are said" eval "says '3 of 5 trajectories diverged' '$err'"
@@ -327,6 +343,9 @@ bad "a line break in a number" "" osc.motus --vary $'F=1\nx(0)=2:1:3'
 that "... why is said" says "hint:" "$err"
 bad "a hole in a list" "nothing is not a constant" osc.motus --vary F=1,,2
 bad "varied twice" "F is varied twice" osc.motus --vary F=1,2 --vary F=3,4
+bad "the end for all, and for each" "leave one out" osc.motus --vary until=1,2 --until 3
+bad "an end too far" "until, value 2 of 2" osc.motus --vary until=1,1e17
+bad "an end within a step of equal ones" "until, value 2 of 2" osc.motus --vary until=1,1.001 --method verlet-literal
 bad "set and varied" "F is both set and varied" osc.motus --vary F=1,2 --set F=3
 bad "--zip of different lengths" "F has 2 values, w has 3" osc.motus --vary F=1,2 --vary w=1,2,3 --zip
 bad "--zip of one" "--zip needs at least two" osc.motus --vary F=1,2 --zip
