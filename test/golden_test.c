@@ -1,8 +1,8 @@
 /* Golden results: the bits of the state after 50 steps, for every model in models/ and every method that admits it,
- * as test/golden.txt has them. A change of any operation of the language's normal form, of a method's text or of a
- * row shows here; so does a machine that computes other bits.
+ * are those of test/golden.txt. Any change of the language's normal form, of a method's text or of a row changes
+ * them, as does a machine that computes other bits.
  *
- * `golden_test --write` writes the file anew.
+ * `golden_test --write` writes the file.
  */
 #include "test/given.h"
 
@@ -42,7 +42,7 @@ typedef struct line {
     uint64_t hash;
 } line;
 
-/* One line: the hash of x and v after the steps, or of the way in which they failed. */
+/* One line: the hash of x and v after the steps, or of the error. */
 static line compute(motus_system *s, const char *model, const char *method)
 {
     line l = {0};
@@ -148,7 +148,7 @@ static void a_model(void **state)
     if (wrong) fail_msg("%zu of %zu results have other bits", wrong, n);
 }
 
-/* Nothing on record that is no longer computed. */
+/* Every line of the file is still computed. */
 static void the_record_is_whole(void **state)
 {
     (void)state;
