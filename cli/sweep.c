@@ -65,7 +65,7 @@ static motus_status read_every(sweep *s, motus_error *err)
     if (o->every_time > 0) {
         s->every = walk_steps_of(o->every_time, s->step);
         if (s->every <= 0) {
-            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a whole number of steps of %g", o->every_time, s->step);
+            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a multiple of the step %g", o->every_time, s->step);
             hint(err, "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"");
             return MOTUS_ARGUMENT;
         }

@@ -220,7 +220,7 @@ static const char dragged_text[] =
     "k = 2\nc = 0.3\nw = x' - y'\ndrag = c w |w|\nx'' = -k x - drag\ny'' = -k y + drag\ns' = drag w\n"
     "x(0) = 1\nx'(0) = 0\ny(0) = -0.5\ny'(0) = 1\ns(0) = 0.25\ninvariant e = (x'^2 + y'^2 + k (x^2 + y^2))/2 + s\n";
 
-static void nonlinear_velocity_terms_and_companions(void **state)
+static void nonlinear_velocity_terms_and_first_order(void **state)
 {
     (void)state;
     static const char *const methods[] = {"verlet", "verlet-literal",   "newmark", "gauss4", "gauss6",
@@ -646,7 +646,7 @@ static int over_a_floor(void *context, double t, const double *x, const double *
 }
 
 /* Another run starts at the last good state, with smaller steps, and gets nearer to the floor. */
-static void a_run_goes_on_from_its_last_good_step(void **state)
+static void a_run_continues_from_its_last_good_step(void **state)
 {
     (void)state;
     static const char *const methods[] = {"velocity-verlet", "verlet", "rk4", "gauss4"};
@@ -755,7 +755,7 @@ static int decay(void *context, double t, const double *x, const double *v, doub
     return 0;
 }
 
-static void companions_alone(void **state)
+static void first_order_variables_alone(void **state)
 {
     (void)state;
     double v[2] = {1, 0};
@@ -786,17 +786,17 @@ int main(void)
         cmocka_unit_test(text_and_callback_give_the_same_bits),
         cmocka_unit_test(calls_are_counted),
         cmocka_unit_test(difference_quotients_stand_in_for_a_derivative),
-        cmocka_unit_test(nonlinear_velocity_terms_and_companions),
+        cmocka_unit_test(nonlinear_velocity_terms_and_first_order),
         cmocka_unit_test(linear_velocity_terms_take_one_step),
         cmocka_unit_test(a_failing_callback_stops_the_run_and_not_more),
         cmocka_unit_test(exact_and_invariant_callbacks),
         cmocka_unit_test(numbers_have_names),
         cmocka_unit_test(quantities_and_invariants),
         cmocka_unit_test(names_that_are_refused),
-        cmocka_unit_test(a_run_goes_on_from_its_last_good_step),
+        cmocka_unit_test(a_run_continues_from_its_last_good_step),
         cmocka_unit_test(errors_know_the_names),
         cmocka_unit_test(definitions_that_are_refused),
-        cmocka_unit_test(companions_alone),
+        cmocka_unit_test(first_order_variables_alone),
     };
     return cmocka_run_group_tests_name("callbacks", tests, NULL, NULL);
 }

@@ -192,7 +192,7 @@ static void trajectories_have_their_own_numbers(void **state)
     }
 }
 
-static void some_are_lost_and_some_fail(void **state)
+static void failures_end_their_own_trajectory(void **state)
 {
     (void)state;
     static double values[NAMES][COUNT];
@@ -312,7 +312,7 @@ static void observed(void **state)
         def.step = 0.001;
         def.progress = watch_quietly;
         def.context = &seen;
-        motus_ensemble *e = given_ensemble(s, &def, "watched");
+        motus_ensemble *e = given_ensemble(s, &def, "observed");
         double result[COUNT], *at[] = {result};
         motus_error err = motus_default_error();
         assert_int_equal(motus_ensemble_run(e, COUNT, list, at, NULL, &err), MOTUS_CANCELLED);
@@ -387,7 +387,7 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_trajectories),
                                        cmocka_unit_test(trajectories_have_their_own_numbers),
-                                       cmocka_unit_test(some_are_lost_and_some_fail),
+                                       cmocka_unit_test(failures_end_their_own_trajectory),
                                        cmocka_unit_test(threads_of_models),
                                        cmocka_unit_test(observed),
                                        cmocka_unit_test(blocks_are_fast)};

@@ -108,7 +108,7 @@ static void stops_alike(const char *text, const char *name, const double x[FEW],
         fail_msg("%s, step %g: %d stopped, of %d; at least %d should", method, step, stopped, 2 * FEW, 2 * stops);
 }
 
-static void some_leave_the_finite_numbers(void **state)
+static void some_diverge(void **state)
 {
     (void)state;
     static const char drive[] = "F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0\nx'(0) = 0\n";
@@ -151,7 +151,7 @@ static void no_solution(void **state)
 }
 
 /* A trajectory whose neighbours stopped is computed as fast as before, not step by step in every chunk. */
-static void the_lost_cost_nothing(void **state)
+static void stopped_trajectories_cost_nothing(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x + x^3\nx(0) = 0\nx'(0) = 0\n");
@@ -442,7 +442,7 @@ static void a_method_that_no_longer_fits(void **state)
     motus_system_destroy(s);
 }
 
-static void watched_and_cancelled(void **state)
+static void observed_and_cancelled(void **state)
 {
     (void)state;
     static const char *const vary[] = {"x(0)"};
@@ -462,7 +462,7 @@ static void watched_and_cancelled(void **state)
         def.record_count = 1;
         def.progress = given_observe;
         def.context = &w;
-        motus_ensemble *e = given_ensemble(s, &def, "watched");
+        motus_ensemble *e = given_ensemble(s, &def, "observed");
         motus_error err = motus_default_error();
         assert_int_equal(motus_ensemble_run(e, count, values, at, NULL, &err), MOTUS_CANCELLED);
         assert_int_equal(w.calls, 3);
@@ -501,16 +501,16 @@ static void without_a_compiler(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(some_leave_the_finite_numbers),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(some_diverge),
                                        cmocka_unit_test(a_domain_is_left),
                                        cmocka_unit_test(no_solution),
-                                       cmocka_unit_test(the_lost_cost_nothing),
+                                       cmocka_unit_test(stopped_trajectories_cost_nothing),
                                        cmocka_unit_test(names),
                                        cmocka_unit_test(definitions),
                                        cmocka_unit_test(a_system_is_left_as_it_was),
                                        cmocka_unit_test(nothing_varies),
                                        cmocka_unit_test(a_method_that_no_longer_fits),
-                                       cmocka_unit_test(watched_and_cancelled),
+                                       cmocka_unit_test(observed_and_cancelled),
                                        cmocka_unit_test(without_a_compiler)};
     int failed = cmocka_run_group_tests_name("ensembles that meet trouble", tests, NULL, NULL);
     close_cache();

@@ -16,12 +16,12 @@
 
 enum { HEADER = 32, NUMBERS = 1000, SETTINGS = 4, TYPESET_MAX = 1 << 17 };
 
-#define CHECK(truth)                                                    \
-    do {                                                                \
-        if (!(truth)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth); \
-            abort();                                                    \
-        }                                                               \
+#define CHECK(condition)                                                    \
+    do {                                                                    \
+        if (!(condition)) {                                                 \
+            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            abort();                                                        \
+        }                                                                   \
     } while (0)
 
 /* An allocator with the memory of a small machine, which refuses larger requests. */

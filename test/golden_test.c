@@ -149,7 +149,7 @@ static void a_model(void **state)
 }
 
 /* Every line of the file is still computed. */
-static void the_record_is_whole(void **state)
+static void every_line_is_computed(void **state)
 {
     (void)state;
     for (size_t i = 0; i < recorded_count; i++) {
@@ -169,6 +169,6 @@ int main(int argc, char **argv)
     read_golden();
     for (size_t i = 0; i < model_count; i++)
         tests[i] = (struct CMUnitTest){.name = models[i], .test_func = a_model, .initial_state = models[i]};
-    tests[model_count] = (struct CMUnitTest)cmocka_unit_test(the_record_is_whole);
+    tests[model_count] = (struct CMUnitTest)cmocka_unit_test(every_line_is_computed);
     return _cmocka_run_group_tests("golden results", tests, model_count + 1, NULL, NULL);
 }

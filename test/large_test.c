@@ -165,7 +165,7 @@ static void lattices(void **state)
     rows(lattice, LIST(text_of, "velocity-verlet", "verlet", "blanes-moan6", "rk4"), LIST(int, 10, 1201), 70);
 }
 
-static void companions(void **state)
+static void first_order_variables(void **state)
 {
     (void)state;
     rows(damped, LIST(text_of, "rk4", "heun"), LIST(int, 10, 7919), 41);
@@ -225,10 +225,11 @@ int main(void)
     if (!mkdtemp(cache)) return 1;
     setenv("XDG_CACHE_HOME", cache, 1);
     unsetenv("SUDO_UID");
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(chains),     cmocka_unit_test(families),   cmocka_unit_test(lattices),
-        cmocka_unit_test(companions), cmocka_unit_test(untiled),    cmocka_unit_test(every_pair),
-        cmocka_unit_test(scattered),  cmocka_unit_test(divergence), cmocka_unit_test(threads_asked_for)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(chains),           cmocka_unit_test(families),
+                                       cmocka_unit_test(lattices),         cmocka_unit_test(first_order_variables),
+                                       cmocka_unit_test(untiled),          cmocka_unit_test(every_pair),
+                                       cmocka_unit_test(scattered),        cmocka_unit_test(divergence),
+                                       cmocka_unit_test(threads_asked_for)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     motus_cache_clear();
     char path[64];

@@ -57,7 +57,7 @@ quad_count quad_run(method, const double *argument, const quad_problem *, quad t
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
 /* The motion by an extrapolated midpoint rule, which shares no code with step/. */
-void quad_truth(const quad_problem *, quad t0, quad t1, quad_state *state);
+void quad_reference(const quad_problem *, quad t0, quad t1, quad_state *state);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);

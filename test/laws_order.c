@@ -37,18 +37,18 @@ static void slope(method m, const double *argument, const char *name, int order,
     enum { POINTS_MAX = 14 };
     /* The error from the coefficients' digits: half units of some twenty coefficients, over a hundred steps. */
     const quad span = Q(1.25), floor = Q(1e-22) + 2000 * coefficients_unit(m);
-    quad_state truth = {0}, start = {0};
-    for (size_t k = 0; k < p->nx; k++) truth.x[k] = p->x[k];
-    for (size_t k = 0; k < p->nv; k++) truth.v[k] = p->v[k];
-    start = truth;
-    quad_truth(p, 0, span, &truth);
+    quad_state reference = {0}, start = {0};
+    for (size_t k = 0; k < p->nx; k++) reference.x[k] = p->x[k];
+    for (size_t k = 0; k < p->nv; k++) reference.v[k] = p->v[k];
+    start = reference;
+    quad_reference(p, 0, span, &reference);
     double errors[POINTS_MAX];
     int points = 0;
     int64_t n = 4;
     for (; points < POINTS_MAX; n *= 2) {
         quad_state end = start;
         if (quad_run(m, argument, p, 0, span / (quad)n, n, &end).bad) continue;
-        const quad error = quad_distance(p, &end, &truth);
+        const quad error = quad_distance(p, &end, &reference);
         if (error < floor && points >= 3) break;
         if (error < Q(0.1)) errors[points++] = quad_log2(error);
         if (n >= (order > 2 ? 1024 : 4096)) break;

@@ -177,7 +177,7 @@ static void gragg(const quad_problem *p, quad t, quad h, int n, const quad_state
     *to = now;
 }
 
-void quad_truth(const quad_problem *p, quad t0, quad t1, quad_state *state)
+void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
 {
     enum { PIECES = 16, COLUMNS = 14 };
     const quad h = (t1 - t0) / PIECES;

@@ -25,7 +25,7 @@ static quad of_recursion(const quad_problem *p, quad h)
     for (int i = 0; i < 3; i++) {
         for (size_t k = 0; k < p->nx; k++) s[i].x[k] = p->x[k];
         for (size_t k = 0; k < p->nv; k++) s[i].v[k] = p->v[k];
-        if (i) quad_truth(p, 0, i * h, &s[i]);
+        if (i) quad_reference(p, 0, i * h, &s[i]);
     }
     quad_recursion(p, h, h, s[0].x, s[1].x, after);
     for (size_t k = 0; k < p->nx; k++)
@@ -35,15 +35,15 @@ static quad of_recursion(const quad_problem *p, quad h)
 
 static quad over(const quad_problem *p, quad h, int64_t steps)
 {
-    quad_state truth = {0}, s = {0};
+    quad_state reference = {0}, s = {0};
     for (size_t k = 0; k < p->nx; k++) s.x[k] = p->x[k];
     for (size_t k = 0; k < p->nv; k++) s.v[k] = p->v[k];
-    truth = s;
-    quad_truth(p, 0, h * (quad)steps, &truth);
+    reference = s;
+    quad_reference(p, 0, h * (quad)steps, &reference);
     quad_run(named("verlet"), NULL, p, 0, h, steps, &s);
     quad most = 0;
     for (size_t k = 0; k < p->nx; k++)
-        if (quad_abs(s.x[k] - truth.x[k]) > most) most = quad_abs(s.x[k] - truth.x[k]);
+        if (quad_abs(s.x[k] - reference.x[k]) > most) most = quad_abs(s.x[k] - reference.x[k]);
     return most;
 }
 static quad of_start(const quad_problem *p, quad h) { return over(p, h, 1); }

@@ -21,8 +21,8 @@ for file in models/*.motus; do
     if "$motus" check "$file" --quiet >"$place/log" 2>&1; then ok "$name is read"; else not_ok "$name is read" "$(cat "$place/log")"; continue; fi
     if "$motus" run "$file" --json >"$place/run.json" 2>"$place/log" && jq -e . "$place/run.json" >"$place/log" 2>&1; then ok "$name runs"
     else not_ok "$name runs" "$(cat "$place/log" "$place/run.json")"; continue; fi
-    # An invariant that is one drifts with the fourth power of the step under a method of order 4, down to round-off; a wrong one
-    # does not care about the step. Round-off is that of terms as large as the squares of the state.
+    # By a method of order 4, a correct invariant changes with the fourth power of the step, down to round-off; the change of a wrong
+    # one does not depend on the step. Round-off is that of terms as large as the squares of the state.
     step=$(jq -r .step "$place/run.json")
     half=$(awk -v h="$step" 'BEGIN { printf "%.17g", h / 2 }')
     for h in "$step" "$half"; do

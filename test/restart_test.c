@@ -152,7 +152,7 @@ static void backward_runs_restart_too(void **state)
 }
 
 /* The state is text with hexadecimal numbers, and saving twice gives the same bytes. */
-static void the_text_is_what_it_is(void **state)
+static void the_state_is_readable_text(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
@@ -378,7 +378,7 @@ int main(void)
         cmocka_unit_test(restarted_equals_uninterrupted),
         cmocka_unit_test(the_short_step_leaves_no_trace),
         cmocka_unit_test(backward_runs_restart_too),
-        cmocka_unit_test(the_text_is_what_it_is),
+        cmocka_unit_test(the_state_is_readable_text),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(sums_with_other_bounds_are_other_models),
         cmocka_unit_test(damage_is_seen),

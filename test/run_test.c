@@ -473,7 +473,7 @@ static motus_run *observed(motus_system *s, given_progress *w, double until)
     def.until = until;
     def.progress = given_observe;
     def.context = w;
-    must(motus_run_create(s, &def, &r, &err), &err, "watched");
+    must(motus_run_create(s, &def, &r, &err), &err, "observed");
     return r;
 }
 
@@ -489,7 +489,7 @@ static void progress_and_cancellation(void **state)
     finish(seen);
     finish(unseen);
     assert_true(w.calls > 2);
-    same_state(s, seen, unseen, "watched and unwatched");
+    same_state(s, seen, unseen, "observed and unobserved");
     assert_int_equal(motus_run_finish(cut, &err), MOTUS_CANCELLED);
     assert_true(impatient.calls == 2 && !motus_run_done(cut) && motus_run_steps(cut) > 0);
     finish(cut); /* a cancelled run can continue */

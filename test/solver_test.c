@@ -90,10 +90,10 @@ static void pivoting(void **state)
 {
     (void)state;
     enum { N = 40, LOWER = 3, UPPER = 2, HEIGHT = 2 * LOWER + UPPER + 1 };
-    double dense[N][N] = {{0}}, matrix[N * HEIGHT] = {0}, truth[N], b[N] = {0};
+    double dense[N][N] = {{0}}, matrix[N * HEIGHT] = {0}, solution[N], b[N] = {0};
     uint32_t pivot[N], seed = 1, exchanged = 0;
     for (size_t i = 0; i < N; i++) {
-        truth[i] = 1 + (double)(i % 4);
+        solution[i] = 1 + (double)(i % 4);
         for (size_t j = i < LOWER ? 0 : i - LOWER; j <= i + UPPER && j < N; j++) {
             seed = seed * 1664525u + 1013904223u;
             dense[i][j] = (double)(seed >> 16) / 65536 - 0.5;
@@ -102,12 +102,12 @@ static void pivoting(void **state)
         }
     }
     for (size_t i = 0; i < N; i++)
-        for (size_t j = 0; j < N; j++) b[i] += dense[i][j] * truth[j];
+        for (size_t j = 0; j < N; j++) b[i] += dense[i][j] * solution[j];
     assert_true(solver_band_factor(N, LOWER, UPPER, matrix, pivot));
     solver_band_back(N, LOWER, UPPER, matrix, pivot, b);
     for (size_t i = 0; i < N; i++) {
         exchanged += pivot[i] != i;
-        assert_near(b[i], truth[i], 1e-10);
+        assert_near(b[i], solution[i], 1e-10);
     }
     assert_true(exchanged > N / 2);
     memset(matrix, 0, sizeof matrix);
