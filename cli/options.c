@@ -322,9 +322,9 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         }
         if (only_operands || word[0] != '-' || !word[1]) {
             if (o->operand) {
-                fail(err, MOTUS_ARGUMENT, "%s after %s: one %s at a time", word, o->operand,
+                fail(err, MOTUS_ARGUMENT, "%s after %s: motus takes one %s", word, o->operand,
                      verb == VERB_METHODS ? "method" : "model");
-                hint(err, "put what belongs together in quotes");
+                hint(err, "quote a name that has blanks");
                 return MOTUS_ARGUMENT;
             }
             o->operand = word;

@@ -61,7 +61,7 @@ refuses "a verb with a slip" 2 "did you mean motus compare?" "$motus" comapre x.
 refuses "a model where the verb should be" 2 "motus run x.motus" "$motus" x.motus
 refuses "bench is not available yet" 2 "not available in this version" "$motus" bench
 for verb in run compare converge sweep check; do refuses "$verb without a model" 2 "motus $verb needs a model" "$motus" $verb; done
-refuses "two models" 2 "one model at a time" "$motus" run $oscillator $osc
+refuses "two models" 2 "motus takes one model" "$motus" run $oscillator $osc
 refuses "an unknown option" 2 "unknown option --frobnicate" "$motus" run $osc --frobnicate
 refuses "an option with a slip" 2 "did you mean --step?" "$motus" run $osc --stpe 0.1
 refuses "an option of another verb" 2 "motus check takes no --step" "$motus" check $osc --step 0.1

@@ -355,7 +355,7 @@ refuses "the model as output" 2 "would be overwritten" "$motus" sweep osc.motus 
 refuses "the values as output" 2 "values.csv is read and would be overwritten" "$motus" sweep osc.motus --vary F=@values.csv:n -o values.csv --force
 refuses "a folder as output" 1 "is a folder" "$motus" sweep osc.motus --vary F=1,2 -o small
 refuses "a folder that is not there" 1 "cannot write" "$motus" sweep osc.motus --vary F=1,2 -o nowhere/x.csv
-refuses "a .npy that is a device" 2 "no regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
+refuses "a .npy that is a device" 2 "not a regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
 refuses "values from nowhere" 1 "cannot read nowhere.csv" "$motus" sweep osc.motus --vary F=@nowhere.csv:1 -o nothing.csv
 refuses "values from a folder" 1 "cannot read small" "$motus" sweep osc.motus --vary F=@small:1 -o nothing.csv
 bad "values without a column" "values.csv has several columns" osc.motus --vary F=@values.csv
