@@ -31,7 +31,8 @@ static motus_status check(const motus_system *s, const motus_ensemble_def *d, mo
         if (d->records[r].column >= s->column_count || (unsigned)d->records[r].how > MOTUS_REDUCE_TIME_OF_MAX)
             return fail(err, MOTUS_ARGUMENT, "record %zu names column %zu of %zu, or no reduction", r,
                         d->records[r].column, s->column_count);
-    if (d->every < 1) return fail(err, MOTUS_ARGUMENT, "looks are every 1, 2, … steps, not %lld", (long long)d->every);
+    if (d->every < 1)
+        return fail(err, MOTUS_ARGUMENT, "observations are every 1, 2, … steps, not %lld", (long long)d->every);
     if (d->threads < 0 || d->threads > MOTUS_THREADS_MAX)
         return fail(err, MOTUS_ARGUMENT, "threads are 0 (as many as there are processors) to %d, not %d",
                     MOTUS_THREADS_MAX, d->threads);
@@ -228,43 +229,61 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
 motus_status ensemble_timing(const motus_ensemble *e, const places *p, size_t k, timing *t, motus_error *err)
 {
     *t = e->timing;
+    if (p->until && isnan(p->until[k])) return fail(err, MOTUS_ARGUMENT, "the end is not a number");
     return p->until ? run_timing(e->system, &e->chosen, e->step, p->until[k], NAN, t, err) : MOTUS_OK;
 }
 
 /* All ends are right, or nothing is computed. */
-static motus_status check_ends(const motus_ensemble *e, const places *p, motus_error *err)
+static motus_status check_ends(const motus_ensemble *e, const places *p, size_t count, motus_error *err)
 {
-    for (size_t k = 0; p->until && k < e->count; k++) {
+    for (size_t k = 0; p->until && k < count; k++) {
         timing t;
         motus_error why = motus_default_error();
         const motus_status status = ensemble_timing(e, p, k, &t, &why);
         if (status == MOTUS_OK) continue;
-        fail(err, status, "until, value %zu of %zu: %s", k + 1, e->count, why.message);
+        fail(err, status, "until, value %zu of %zu: %s", k + 1, count, why.message);
         if (why.hint[0]) hint(err, "%s", why.hint);
         return status;
     }
     return MOTUS_OK;
 }
 
+/* Where the values of a call come from. */
+static motus_status find_values(motus_ensemble *e, const double *const *values, places *p, motus_error *err)
+{
+    if (!e || (e->given && !values)) return fail(err, MOTUS_ARGUMENT, "an ensemble and values are needed");
+    size_t places = 0;
+    for (size_t k = 0; k < e->given; k++) {
+        if (!values[k]) return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
+        *(k == e->until ? &p->until : &e->values[places++]) = values[k];
+    }
+    p->values = e->values;
+    return MOTUS_OK;
+}
+
+motus_status motus_ensemble_check(motus_ensemble *e, size_t count, const double *const *values, motus_error *err)
+{
+    places p = {0};
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    const motus_status status = find_values(e, values, &p, err);
+    return status ? status : check_ends(e, &p, count, err);
+}
+
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,
                                 double *stopped, motus_error *err)
 {
+    places p = {.results = results, .stopped = stopped};
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!e || !results || (e->given && !values))
-        return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs an ensemble, values and a place for the results");
-    for (size_t k = 0; k < e->given; k++)
-        if (!values[k]) return fail(err, MOTUS_ARGUMENT, "the values of what varies, number %zu, are NULL", k);
-    for (size_t r = 0; r < e->record_count; r++)
-        if (!results[r]) return fail(err, MOTUS_ARGUMENT, "the place for record %zu is NULL", r);
-    if (!count) return MOTUS_OK;
+    motus_status status = find_values(e, values, &p, err);
+    if (status == MOTUS_OK && !results) status = fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
+    for (size_t r = 0; status == MOTUS_OK && r < e->record_count; r++)
+        if (!results[r]) status = fail(err, MOTUS_ARGUMENT, "the room for record %zu is NULL", r);
+    if (status != MOTUS_OK || !count) return status;
     modes m = modes_enter();
     double began = pace_now();
-    places p = {e->values, NULL, results, stopped, false};
-    size_t places = 0;
-    for (size_t k = 0; k < e->given; k++) *(k == e->until ? &p.until : &e->values[places++]) = values[k];
-    for (size_t r = 0; r < e->record_count; r++) p.looks |= e->records[r].how != MOTUS_REDUCE_FINAL;
+    for (size_t r = 0; r < e->record_count; r++) p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
-    motus_status status = check_ends(e, &p, err);
+    status = check_ends(e, &p, count, err);
     bool singly = status == MOTUS_OK;
     if (singly && e->lanes) {
         status = lanes_run(e->lanes, count, p.values, p.until, results, stopped, err);

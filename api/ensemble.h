@@ -66,7 +66,7 @@ typedef struct places {
     const double *const *values; /* at e->places */
     const double *until;         /* where it varies; else NULL */
     double *const *results, *stopped;
-    bool looks;
+    bool observes; /* on the way, not at the end alone */
 } places;
 /* The timing of trajectory k. */
 motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);

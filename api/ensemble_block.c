@@ -29,7 +29,7 @@ typedef struct group {
     problem problem;
     size_t first, count;
     double *x, *v, *kept, *one_x, *one_v; /* the last two: a single trajectory, to look at */
-    int64_t looks;
+    int64_t observations;
 } group;
 
 /* ---- looking ---- */
@@ -68,13 +68,13 @@ static motus_status observe(void *ctx, motus_error *err)
         for (size_t j = 0; j < b->count && status == MOTUS_OK; j++, kept += REDUCE_KEPT) {
             double now = numbers ? numbers[j] : t;
             if (!numbers && e->records[r].column) status = computed(b, e->records[r].column, j, t, &now, err);
-            if (b->looks == 0)
+            if (b->observations == 0)
                 reduce_first(kept, now, t);
             else
                 reduce_next(kept, (int)e->records[r].how, now, t);
         }
     }
-    b->looks++;
+    b->observations++;
     return status;
 }
 
@@ -114,8 +114,11 @@ static motus_status travel(group *b, motus_error *err)
     motus_status status = start(b, err);
     if (status == MOTUS_OK)
         status = stepper_create(&m, &e->chosen, t->t0, t->h, b->x, b->v, &e->allocator, &b->w->stepper, err);
-    const course course = {
-        .ctx = b, .until = t->until, .every = b->places->looks ? e->every : 0, .advance = advance, .observe = observe};
+    const course course = {.ctx = b,
+                           .until = t->until,
+                           .every = b->places->observes ? e->every : 0,
+                           .advance = advance,
+                           .observe = observe};
     if (status == MOTUS_OK) status = course_run(&course, err);
     stepper_destroy(b->w->stepper);
     b->w->stepper = NULL;
@@ -129,7 +132,7 @@ static void write_down(const group *b, bool lost, double when)
         for (size_t j = 0; j < b->count; j++)
             b->places->results[r][b->first + j] = lost ? NAN
                                                        : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT,
-                                                                     (int)e->records[r].how, (double)b->looks);
+                                                                     (int)e->records[r].how, (double)b->observations);
     for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = lost ? when : NAN;
 }
 

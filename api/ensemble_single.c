@@ -15,7 +15,7 @@ typedef struct single {
     worker *w;
     double *x, *v, *kept, *now;
     size_t *columns;
-    int64_t looks;
+    int64_t observations;
 } single;
 
 static motus_status observe(void *ctx, motus_error *err)
@@ -27,11 +27,11 @@ static motus_status observe(void *ctx, motus_error *err)
     if (status == MOTUS_OK)
         status = system_values(s->w->system, t, s->x, s->v, s->columns, e->record_count, s->now, err);
     for (size_t r = 0; r < e->record_count && status == MOTUS_OK; r++)
-        if (s->looks == 0)
+        if (s->observations == 0)
             reduce_first(s->kept + r * REDUCE_KEPT, s->now[r], t);
         else
             reduce_next(s->kept + r * REDUCE_KEPT, (int)e->records[r].how, s->now[r], t);
-    s->looks++;
+    s->observations++;
     return status;
 }
 
@@ -113,7 +113,7 @@ static motus_status travel(single *s, const places *p, size_t k, motus_error *er
                  ? stepper_start(w->stepper, t->t0, t->h, s->x, s->v, err)
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
     const course course = {
-        .ctx = s, .until = t->until, .every = p->looks ? e->every : 0, .advance = advance, .observe = observe};
+        .ctx = s, .until = t->until, .every = p->observes ? e->every : 0, .advance = advance, .observe = observe};
     return status == MOTUS_OK ? course_run(&course, err) : status;
 }
 
@@ -140,7 +140,7 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
     if (lost || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++)
             p->results[r][k] =
-                lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.looks);
+                lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.observations);
         if (p->stopped) p->stopped[k] = lost ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);

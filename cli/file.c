@@ -25,7 +25,7 @@ static const char *called(const char *path, bool reading)
 static motus_status too_long(const char *path, size_t most, motus_error *err)
 {
     fail(err, MOTUS_LIMIT, "%s is longer than %zu bytes", called(path, true), most);
-    hint(err, "is this the file you meant?");
+    hint(err, "check that this is the file you meant");
     return MOTUS_LIMIT;
 }
 

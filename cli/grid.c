@@ -127,11 +127,22 @@ void grid_values(const grid *g, uint64_t first, size_t count, double *const *val
     }
 }
 
-bool grid_has(const grid *g, const char *name)
+size_t grid_find(const grid *g, const char *name)
 {
-    for (size_t k = 0; k < g->count; k++)
-        if (!strcmp(g->names[k], name)) return true;
-    return false;
+    size_t k = 0;
+    while (k < g->count && strcmp(g->names[k], name)) k++;
+    return k;
+}
+
+size_t grid_axis_values(const grid *g, size_t axis, uint64_t first, size_t count, double *values)
+{
+    const bool drawn = g->axes[axis].kind > AXIS_LIST;
+    const uint64_t all = drawn ? g->total : g->axes[axis].count;
+    uint32_t stream = 0; /* of draws: those before it */
+    for (size_t k = 0; k < axis; k++) stream += drawn && g->axes[k].kind > AXIS_LIST;
+    size_t n = 0;
+    for (; n < count && first + n < all; n++) values[n] = value(g, axis, stream, first + n, first + n);
+    return n;
 }
 
 void grid_free(grid *g)

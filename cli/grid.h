@@ -30,8 +30,10 @@ typedef struct grid {
 motus_status grid_read(grid *, const options *, motus_error *);
 /* Sets values[axis][i] for `count` trajectories from number `first`. Draws change fastest, then the last --vary. */
 void grid_values(const grid *, uint64_t first, size_t count, double *const *values);
-/* Whether an axis has this name. */
-bool grid_has(const grid *, const char *name);
+/* The axis of this name; grid.count: there is none. */
+size_t grid_find(const grid *, const char *name);
+/* Up to `count` different values of one axis, from number `first` on; returns how many. */
+size_t grid_axis_values(const grid *, size_t axis, uint64_t first, size_t count, double *values);
 void grid_free(grid *);
 
 /* Reads the value of --vary or --random; call axis_free() also after a failure. */

@@ -238,8 +238,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
         o->until_typed = value;
         return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
     case COUNT:
-        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK
-                                                          : bad_value(row, value, "a whole number above 0", err);
+        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "an integer above 0", err);
     case EVERY: return read_every(o, row, value, err);
     case METHOD_LIST:
         free(o->methods_text);
@@ -247,9 +246,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
         o->methods_text = NULL;
         o->methods = (options_list){0};
         return options_split(value, row->name, &o->methods_text, &o->methods, err);
-    case SEED:
-        o->seeded = true;
-        return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "a whole number", err);
+    case SEED: o->seeded = true; return typed_seed(value, place) ? MOTUS_OK : bad_value(row, value, "an integer", err);
     case NAMED: return add_named(place, row, value, err);
     }
     return MOTUS_OK;
@@ -325,9 +322,9 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         }
         if (only_operands || word[0] != '-' || !word[1]) {
             if (o->operand) {
-                fail(err, MOTUS_ARGUMENT, "%s after %s: one %s at a time", word, o->operand,
+                fail(err, MOTUS_ARGUMENT, "%s after %s: motus takes one %s", word, o->operand,
                      verb == VERB_METHODS ? "method" : "model");
-                hint(err, "put what belongs together in quotes");
+                hint(err, "quote a name that has blanks");
                 return MOTUS_ARGUMENT;
             }
             o->operand = word;

@@ -43,7 +43,7 @@ typedef struct options {
     char *methods_text; /* the items of `methods` point into it */
     bool json, quiet, help, markdown, emit_c, clear, share, no_open;
     int argc;
-    char **argv; /* the whole command, for the header of files */
+    char **argv; /* the command line, for the header of files */
 } options;
 
 /* argv from the program's name on; `first` is where the verb's own arguments begin. */

@@ -65,7 +65,7 @@ static motus_status read_every(sweep *s, motus_error *err)
     if (o->every_time > 0) {
         s->every = walk_steps_of(o->every_time, s->step);
         if (s->every <= 0) {
-            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a whole number of steps of %g", o->every_time, s->step);
+            fail(err, MOTUS_ARGUMENT, "--every %g: this is not a multiple of the step %g", o->every_time, s->step);
             hint(err, "a sweep samples at steps: give a multiple of the step, or --every \"10 steps\"");
             return MOTUS_ARGUMENT;
         }
@@ -101,6 +101,26 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     return status;
 }
 
+/* All ends that vary are right, before a file is touched. */
+static motus_status check_ends(const sweep *s, motus_error *err)
+{
+    enum { AT_ONCE = 4096 };
+    double ends[AT_ONCE];
+    const size_t axis = grid_find(&s->grid, "until");
+    if (axis == s->grid.count) return MOTUS_OK;
+    const double **values = calloc(s->grid.count, sizeof *values);
+    if (!values) return complain_memory(err);
+    for (size_t k = 0; k < s->grid.count; k++) values[k] = ends;
+    motus_status status = MOTUS_OK;
+    size_t count = AT_ONCE;
+    for (uint64_t first = 0; !status && count == AT_ONCE; first += AT_ONCE) {
+        count = grid_axis_values(&s->grid, axis, first, AT_ONCE, ends);
+        status = motus_ensemble_check(s->ensemble, count, values, err);
+    }
+    free(values);
+    return status;
+}
+
 static motus_status check_options(const options *o, motus_error *err)
 {
     if (o->threads > INT_MAX || o->lanes > INT_MAX)
@@ -122,12 +142,13 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
     s->step = isnan(o->step) ? settings.step : o->step;
-    s->until = grid_has(&s->grid, "until") ? NAN : load_until(&s->model, o);
+    s->until = grid_find(&s->grid, "until") < s->grid.count ? NAN : load_until(&s->model, o);
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
     s->columns = 2 + s->grid.count + s->records.count;
     status = read_every(s, err);
     if (!status) status = create(s, progress, err);
+    if (!status) status = check_ends(s, err);
     if (status) return status;
     s->method = motus_ensemble_method(s->ensemble);
     size_t length = o->output ? strlen(o->output) : 0;

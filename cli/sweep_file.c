@@ -57,8 +57,8 @@ motus_status sweep_file_check(const options *o, motus_error *err)
     if (output || stat(path, &about) != 0) return MOTUS_OK;
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
     if (!S_ISREG(about.st_mode) && (o->resume || ends_with(path, ".npy")))
-        return fail(err, MOTUS_ARGUMENT, "%s is no regular file: %s", path,
-                    o->resume ? "there is nothing to continue" : "a .npy has to be one");
+        return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
+                    o->resume ? "there is nothing to continue" : "a .npy needs one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
         fail(err, MOTUS_ARGUMENT, "%s exists", path);
         hint(err, "--resume continues it, --force replaces it");

@@ -53,7 +53,7 @@ static motus_status unknown(const char *item, const char *word, size_t length, m
     if (near)
         hint(err, "did you mean %s(...)?", near);
     else
-        hint(err, "final, min, max, mean, time_of_min and time_of_max can");
+        hint(err, "record final, min, max, mean, time_of_min or time_of_max");
     return MOTUS_ARGUMENT;
 }
 

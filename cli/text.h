@@ -13,7 +13,7 @@
 /* The character at s and the bytes it takes; bytes that are not UTF-8 read as U+FFFD, one at a time. */
 size_t text_decode(const char *s, uint32_t *character);
 
-/* A copy that is safe for a terminal, cut at a whole character if it does not fit. */
+/* A copy that is safe for a terminal, cut between characters if it does not fit. */
 void text_safe(const char *s, char *out, size_t size);
 void text_put(FILE *out, const char *s);
 /* The columns that text_safe(s) takes on a terminal. */

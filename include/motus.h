@@ -643,6 +643,8 @@ MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensembl
  * many steps away. */
 MOTUS_API motus_status motus_ensemble_run(motus_ensemble *, size_t count, const double *const *values,
                                           double *const *results, double *stopped, motus_error *);
+/* Whether motus_ensemble_run would take these values: MOTUS_OK, or what it would return before it computes anything. */
+MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
 
 MOTUS_API int64_t motus_ensemble_steps(const motus_ensemble *); /* of each trajectory; 0 where they differ */

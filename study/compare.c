@@ -400,7 +400,7 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
     motus_settings_of(system, &settings);
     c->step = isnan(c->def.step) ? settings.step : c->def.step;
     if (c->def.evaluations == 0 && !(c->step > 0)) {
-        fail(err, MOTUS_ARGUMENT, "the comparison has no step: neither its definition nor the model says step");
+        fail(err, MOTUS_ARGUMENT, "the comparison has no step: neither its definition nor the model gives one");
         hint(err, "write in the model, for example, step 0.01");
         return MOTUS_ARGUMENT;
     }

@@ -117,7 +117,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     s->from = isnan(settings.from) ? 0 : settings.from;
     s->until = isnan(def->until) ? settings.until : def->until;
     if (isnan(s->until)) {
-        fail(err, MOTUS_ARGUMENT, "the study has no end: neither its definition nor the model says until");
+        fail(err, MOTUS_ARGUMENT, "the study has no end: neither its definition nor the model gives one");
         hint(err, "write in the model, for example, until 10");
         return MOTUS_ARGUMENT;
     }

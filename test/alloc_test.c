@@ -1,15 +1,14 @@
-/* Memory that runs out, at every allocation in turn: each call then succeeds or returns MOTUS_MEMORY, nothing is
- * lost, and every handle can still be destroyed. Two ways of running out: the k-th request alone is refused, or the
- * k-th and all that follow.
+/* Out of memory at every allocation in turn: each call then succeeds or returns MOTUS_MEMORY, no memory is lost, and
+ * every handle can still be destroyed. Memory runs out in two ways: only request k is refused, or request k and all
+ * that follow.
  *
- * A success in spite of a refusal must be a whole one: the numbers are those of a run that had all the memory it
- * wanted.
+ * A call that succeeds in spite of a refusal must give the numbers of a run with enough memory.
  */
 #include "test/ensemble_given.h"
 
 #include <stdbool.h>
 
-/* A bank lends blocks and counts them; each is framed, so that a stray write next to it shows when it comes back. */
+/* An allocator that counts its blocks; each is framed, so that a write beyond it is found when it is freed. */
 typedef struct bank {
     int64_t requests, refuse, live;
     int forever;
@@ -29,7 +28,7 @@ static void *lend(void *context, size_t bytes)
     if (!block) return NULL;
     memcpy(block, &bytes, sizeof bytes);
     memset(block + sizeof bytes, 0xC3, FRAME - sizeof bytes);
-    memset(block + FRAME, 0x5A, bytes); /* what was there before: not zero */
+    memset(block + FRAME, 0x5A, bytes); /* new memory is not zero */
     memset(block + FRAME + bytes, 0xC3, FRAME);
     b->live++;
     return block + FRAME;
@@ -50,7 +49,7 @@ static void take_back(void *context, void *given)
 
 static motus_allocator hooks(bank *b) { return (motus_allocator){lend, take_back, b}; }
 
-/* Counting starts anew: the `refuse`-th request from now on is refused. 0: none. */
+/* Restarts the count: request number `refuse` from now on is refused; 0: none. */
 static void arm(bank *b, int64_t refuse, int forever)
 {
     b->requests = 0;
@@ -131,7 +130,7 @@ static motus_status from_callback(bank *b, motus_system **s, motus_error *err)
 
 /* The law ---------------------------------------------------------------------------------------------------------- */
 
-/* What is tried: on a system, with results as a hash of all numbers that came out. */
+/* A test of a system; its result is a hash of all numbers that it computed. */
 typedef motus_status (*attempt)(motus_system *s, const char *method, uint64_t *result, motus_error *err);
 
 static uint64_t mix(uint64_t h, const void *bytes, size_t n)
@@ -150,14 +149,13 @@ static void allowed(motus_status status, const motus_error *err, const char *wha
     assert_true(strlen(err->message) > 3);
 }
 
-/* Every request of `try` refused in turn; the system is made anew each time, with all the memory it wants. Where
- * there are very many, as in studies, they are the same ones run after run, and the later ones are tried at growing
- * distances. */
+/* Refuses every request of `try` in turn; each time the system is made anew with enough memory. Of very many
+ * requests, as in studies, which repeat themselves run after run, later ones are sampled at growing distances. */
 static int64_t refuse_each(const char *text, const char *method, attempt try, const char *what)
 {
     uint64_t whole = 0;
     int64_t requests = 0;
-    for (int forever = 0; forever < 2; forever++) /* k = 0: nothing is refused, and the result is what it should be */
+    for (int forever = 0; forever < 2; forever++) /* k = 0: nothing is refused; sets the expected result */
         for (int64_t k = 0;; k += 1 + k / 64) {
             bank b = {0};
             motus_system *s = NULL;
@@ -206,15 +204,15 @@ static void systems(void **state)
                 if (status != MOTUS_OK)
                     assert_null(s);
                 else
-                    assert_int_equal(refused, 0); /* a system needs all that it asks for */
+                    assert_int_equal(refused, 0); /* no allocation of a system may fail */
                 motus_system_destroy(s);
                 assert_int_equal(b.live, 0);
             }
-            assert_true(k > (i < TEXTS ? 2 : 1)); /* the hooks were asked at all */
+            assert_true(k > (i < TEXTS ? 2 : 1)); /* the hooks were called */
         }
 }
 
-/* A text that is wrong leaves nothing behind either, and runs out of memory before or says what is wrong. */
+/* A wrong text leaks no memory either; it gives MOTUS_MEMORY or its own error. */
 static void wrong_texts(void **state)
 {
     (void)state;
@@ -243,7 +241,7 @@ static void wrong_texts(void **state)
 
 /* Runs ------------------------------------------------------------------------------------------------------------- */
 
-/* All that a run can do: walk, look at every column, read between steps, save, go back, and end with a short step. */
+/* All operations of a run: stepping, reading every column, dense output, save, restore, and a shorter last step. */
 static motus_status travel(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     motus_run_def def = motus_default_run();
@@ -316,7 +314,7 @@ static void runs(void **state)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const char *method = motus_method_at(k)->name;
             if (motus_method_admits(s, method, NULL) != MOTUS_OK) continue;
-            /* Large models: a method of each family. */
+            /* Large models, by a method of each family. */
             if (i < LARGE && strcmp(method, "verlet") && strcmp(method, "rk4") && strcmp(method, "gauss6") &&
                 strcmp(method, "newmark") && strcmp(method, "exact"))
                 continue;
@@ -329,15 +327,15 @@ static void runs(void **state)
     }
 }
 
-/* Whether a method is admitted may depend on sampled derivatives, which want memory: none is no reason to refuse the
- * method. */
+/* Whether a method is admitted may depend on sampled derivatives, which need memory; out of memory, the method must
+ * not be refused. */
 static motus_status admit(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     *result = 1;
     return motus_method_admits(s, method, err);
 }
 
-/* What a parameter decides is "unknown" where there is no memory to find out; all else about it needs none. */
+/* Out of memory, what a parameter decides is "unknown"; all else about it needs no memory. */
 static motus_status settings(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     (void)method;
@@ -366,7 +364,7 @@ static void what_may_be_set(void **state)
     refuse_each(wide, "", settings, "parameters");
 }
 
-/* Numbers that are set, twice over, and a clone that has them; where there is no memory the numbers stay. */
+/* Numbers set twice, and a clone that has them; out of memory the numbers stay unchanged. */
 static motus_status set(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     (void)method;
@@ -415,7 +413,7 @@ static motus_status explain(motus_system *s, const char *method, uint64_t *resul
     (void)err;
     const char *words = motus_explain(s), *equation = motus_equation_text(s, 0);
     assert_non_null(words);
-    /* A text has no status: it is whole, or empty. */
+    /* A text has no status: it is complete, or empty. */
     *result = mix(1, words, strlen(words));
     if (equation) *result = mix(*result, equation, strlen(equation));
     if (words[0] && equation) return MOTUS_OK;
@@ -429,7 +427,7 @@ static void explanations(void **state)
     for (int i = 0; i < TEXTS; i++) refuse_each(texts[i], "", explain, "explain");
 }
 
-/* All of the model in print; the next statement can be had where one could not. */
+/* All statements as MathML; one may succeed after another ran out of memory. */
 static motus_status typeset(motus_system *s, const char *method, uint64_t *result, motus_error *err)
 {
     (void)method;
@@ -503,7 +501,7 @@ static void studies(void **state)
 
 /* Ensembles -------------------------------------------------------------------------------------------------------- */
 
-/* By the method "machine method": reading, computing twice, what is recorded of all. */
+/* By the method "machine method": creates, runs twice, hashes all records. */
 static motus_status flock(motus_system *s, const char *how, uint64_t *result, motus_error *err)
 {
     enum { COUNT = 5 };
@@ -585,7 +583,7 @@ static void ensembles(void **state)
     in_blocks = false;
 }
 
-/* Without hooks it is malloc; with `allocate` alone nothing is given back, and that is the caller's own affair. */
+/* Without hooks the library uses malloc; with `allocate` alone it frees nothing. */
 static void *from_pool(void *context, size_t bytes)
 {
     static _Alignas(64) unsigned char pool[1 << 20];

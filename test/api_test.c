@@ -1,4 +1,4 @@
-/* The public calls that need no run: definitions, systems from texts and callbacks, what they hold, the catalogue,
+/* The public calls that need no run: definitions, systems from texts and callbacks, their contents, the catalogue,
  * and every status.
  *
  * Runs are in run_test.c, restart states in restart_test.c, memory in alloc_test.c.
@@ -52,8 +52,8 @@ static void defaults_are_what_the_manual_says(void **state)
     assert_true(isnan(s.step) && isnan(s.until) && s.evaluations == 0 && !s.methods);
 }
 
-/* A caller built against an older header has room for less, one built against a newer one for more: nothing beyond is
- * touched, and what the library does not know is zero. */
+/* A caller built with an older header has a smaller struct, one built with a newer header a larger one: the library
+ * writes no byte beyond it, and sets members that it does not know to zero. */
 static void defaults_fill_what_there_is(void **state)
 {
     (void)state;
@@ -70,7 +70,7 @@ static void defaults_fill_what_there_is(void **state)
         }
 }
 
-/* A kind that only a newer library knows: nothing is left of what lay there, so that its size of 0 is refused. */
+/* A kind that only a newer library knows: the struct is set to zero, so that its size of 0 is refused. */
 static void defaults_of_an_unknown_kind_are_zero(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static int pull(void *context, double t, const double *x, const double *v, doubl
     return 0;
 }
 
-/* A history that no struct has yet: 16 bytes in the first version, 24 in the second, 40 today. */
+/* A made-up history: 16 bytes in the first version, 24 in the second, 40 today. */
 static void sizes_of_versions_fit(void **state)
 {
     (void)state;
@@ -116,7 +116,7 @@ static void sizes_of_versions_fit(void **state)
     }
 }
 
-/* A call with a definition of each kind, made by `make` and then spoilt or enlarged. */
+/* A call with a definition of each kind, made by `make` and then damaged or enlarged. */
 typedef struct enlarged {
     motus_error error;
     motus_text_def text;
@@ -201,12 +201,12 @@ static void definitions_of_every_size(void **state)
                     fail_msg("%s, %u bytes: %s (%s)", all[k].maker, sizes[i], err.message, err.hint);
             }
     }
-    /* Nothing is a definition too, where everything has a default. */
+    /* NULL is a definition too, if every member has a default. */
     assert_int_equal(create_by(MOTUS_DEF_RUN, NULL, s, NULL), MOTUS_OK);
     motus_system_destroy(s);
 }
 
-/* What a call fills is of a known size as well, and only so much of it is written. */
+/* A struct that a call fills has a known size as well, and no byte beyond it is written. */
 static void filled_structs_of_every_size(void **state)
 {
     (void)state;
@@ -255,7 +255,7 @@ static void filled_structs_of_every_size(void **state)
     motus_system_destroy(s);
 }
 
-/* Every call that takes an error looks at its size before all else. */
+/* Every call that takes an error checks its size first. */
 static void errors_of_every_size(void **state)
 {
     (void)state;
@@ -439,7 +439,7 @@ static void refusals(void **state)
     assert_int_equal(motus_method_admits(NULL, "verlet", &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_compare(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
     assert_int_equal(motus_converge(NULL, NULL, NULL, &err), MOTUS_ARGUMENT);
-    /* No handle: no numbers, and nothing happens. */
+    /* A NULL handle gives no numbers, and nothing happens. */
     motus_system_destroy(NULL);
     motus_run_destroy(NULL);
     motus_comparison_destroy(NULL);
@@ -480,7 +480,7 @@ static void text_with_a_length_and_settings(void **state)
     assert_int_not_equal(motus_system_from_text(&def, &s, &err), MOTUS_OK);
 }
 
-/* What a system holds ---------------------------------------------------------------------------------------------- */
+/* The contents of a system --------------------------------------------------------------------------------------- */
 
 static const char rich[] = "N = 4\nk = 2\nm = [1, 2, 3, 4]\n"
                            "x[i]'' = k (x[i+1] - 2 x[i] + x[i-1])/m[i]   for i = 1..N\n"
@@ -595,7 +595,7 @@ static const char gapped[] =
     "exact r[i] = r[i](0) cos(t)   for i = 2..3\nexact r[7] = r[7](0) cos(t)\nexact s = exp(-t)\n"
     "u[i, j] = i r[2].x + j   for i = 0..1, j = -1..1\ninvariant e = |r[2]|^2 + |r[2]'|^2\n";
 
-/* What a column is leads back to its number, and cells and components alone lead to the right name. */
+/* The description of a column leads back to its number, and cells and components alone give its name. */
 static void columns_by_cell_and_component(void **state)
 {
     (void)state;

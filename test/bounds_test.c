@@ -1,8 +1,7 @@
-/* A model is untrusted input: whatever the bytes, one clear answer, in bounded time and memory; and memory that gives
- * out anywhere is an error, never a crash or a leak.
+/* A model is untrusted input: for any bytes the library answers in bounded time and memory; an allocation that fails
+ * anywhere is an error, never a crash or a leak.
  *
- * Invariant: every block that the library takes is counted through the allocation hooks, and after destroy none is
- * left.
+ * Invariant: the allocation hooks count every block of the library; after destroy there are none.
  */
 #include "test/given.h"
 
@@ -13,7 +12,7 @@
 
 typedef struct ledger {
     size_t blocks, bytes, peak;
-    long calls, fail_at; /* fail_at: the call that gets nothing, 0: none */
+    long calls, fail_at; /* fail_at: the call that fails, 0: none */
     bool fail_after;     /* and all after it */
     size_t limit;        /* bytes; 0: none */
 } ledger;
@@ -61,12 +60,12 @@ static double now(void)
 #endif
 #endif
 #ifdef SANITIZED
-enum { SLOWER = 20, FEWER = 10 }; /* the sanitizers need time, and their question is answered by less */
+enum { SLOWER = 20, FEWER = 10 }; /* sanitized builds are slow, and smaller numbers test the same */
 #else
 enum { SLOWER = 1, FEWER = 1 };
 #endif
 
-/* ---- texts that are built ---- */
+/* ---- generated texts ---- */
 
 typedef struct text {
     char *bytes;
@@ -168,7 +167,7 @@ static void too_long(void **unused)
     answer(t, "17 MB of lines", MOTUS_LIMIT, "bytes", 1, 50);
 }
 
-/* One expression of 10 MB; its terms are shared in the graph, or bounded by its size. */
+/* One expression of 10 MB; the graph shares its terms, or is bounded by its size. */
 static void long_expressions(void **unused)
 {
     (void)unused;
@@ -288,7 +287,7 @@ static void chains(void **unused)
         say(&t, "p100000 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
         answer(t, "100 000 definitions in a chain", MOTUS_LIMIT, "deep", 2, 300);
 
-        t = make(4 << 20); /* the order in which they are met makes no difference */
+        t = make(4 << 20); /* the order of the definitions does not matter */
         say(&t, "p0 = %s\n", quantity ? "x" : "1");
         for (int i = 1; i <= 300; i++) say(&t, "p%d = p%d + 1\n", i, i - 1);
         say(&t, "x'' = -p300 x%s", start);
@@ -296,8 +295,7 @@ static void chains(void **unused)
     }
 }
 
-/* Chains of definitions, each of them nested deeply: both bounds are kept, and together they would exhaust the
- * stack. */
+/* Chains of definitions, each deeply nested: both bounds hold together, where the stack could overflow. */
 static void deep_chains(void **unused)
 {
     (void)unused;
@@ -314,7 +312,7 @@ static void deep_chains(void **unused)
             say(&t, "p390 = %s\nx'' = -p0 x%s", quantity ? "x" : "1", start);
             answer(t, "a chain of deep definitions", MOTUS_LIMIT, "deep", 5, 1000);
         }
-    for (int sines = 0; sines < 2; sines++) { /* parameters that are known when they are used: nothing is deep */
+    for (int sines = 0; sines < 2; sines++) { /* parameters are known when they are used, so nothing is deep */
         text t = make(4 << 20);
         say(&t, "p0 = 1\n");
         for (int i = 1; i < 390; i++) {
@@ -399,7 +397,7 @@ static void many_lines(void **unused)
     answer(t, "100 000 settings", MOTUS_SYNTAX, "equation", 3, 300);
 }
 
-/* N a million: parsed and started in under a second, and memory grows with state. */
+/* A million cells: parsed and started in under a second, and memory grows with the state only. */
 static void large_family(void **unused)
 {
     (void)unused;
@@ -434,7 +432,7 @@ static void large_family(void **unused)
     answer(t, "constants of 1e10 terms together", MOTUS_LIMIT, "terms", 1, 50);
 }
 
-/* ---- memory that gives out ---- */
+/* ---- out of memory ---- */
 
 static const char rich[] =
     "G = 1\nN = 3\nm = [1, 2, 3]\nw[i] = 2 i for i = 1..N\nplaces = [(1, 0), (0, 1), (-1, 0)]\n"
@@ -446,7 +444,7 @@ static const char rich[] =
     "0.01\nuntil 0.05\n";
 static const char *const methods[] = {"rk4", "verlet", "gauss6", "implicit-midpoint", "newmark", "midpoint"};
 
-/* The whole life of a system, with the memory of `l`. */
+/* The life of a system, from text to destroy, with the memory of `l`. */
 static motus_status life(ledger *l, const char *method, motus_error *err)
 {
     static const char *const set[] = {"G=2", "r[2](0) = (0, 1.5)"};
@@ -499,7 +497,7 @@ static void every_allocation_may_fail(void **unused)
                 ledger l = {.fail_at = k, .fail_after = after};
                 err = motus_default_error();
                 motus_status status = life(&l, methods[i], &err);
-                /* what only prints (motus_explain, motus_equation_text) returns NULL, and the rest goes on */
+                /* calls that only print (motus_explain, motus_equation_text) return NULL, and the others still work */
                 if (status != MOTUS_MEMORY && status != MOTUS_OK)
                     fail_msg("%s: allocation %ld of %ld failed, and the answer is %s: %s", methods[i], k, whole.calls,
                              motus_status_word(status), err.message);

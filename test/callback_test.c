@@ -1,8 +1,8 @@
 /* Systems from C: the same motion as from a text, with and without a derivative, with first-order variables, an exact
  * motion, an invariant.
  *
- * Where the callback writes the operations that the language's normal form fixes (rule 15 of the language: a product
- * that is added at once is a fused multiply-add), the bits are the same, for every explicit method.
+ * Where the callback has the operations of the language's normal form (rule 15 of the language: a product that is
+ * added at once is a fused multiply-add), the bits are equal, for every explicit method.
  */
 #include "test/given.h"
 
@@ -134,9 +134,8 @@ static void calls_are_counted(void **state)
     }
 }
 
-/* Solved to round-off, the implicit methods agree whichever way the derivative is made: it only leads there. Each
- * number of a step is solved to some units in its last place, and the motion keeps what it is given: 1000 steps, each
- * of them off by a few units. */
+/* Implicit methods solve to round-off, so their results do not depend on how the derivative is computed: each number
+ * of a step is solved to some units in its last place, over 1000 steps. */
 static void difference_quotients_stand_in_for_a_derivative(void **state)
 {
     (void)state;
@@ -158,7 +157,7 @@ static void difference_quotients_stand_in_for_a_derivative(void **state)
         near(value(p, derived, "x"), value(s, given, "x"), bound, methods[i]);
         near(value(q, quotient, "x"), value(s, given, "x"), bound, methods[i]);
         near(value(q, quotient, "x'"), value(s, given, "x'"), bound, methods[i]);
-        /* And not for want of trying: with an inexact derivative Newton's method takes at most a little longer. */
+        /* With an inexact derivative Newton's method takes few more iterations. */
         assert_true(motus_run_iterations(quotient) <= 2 * motus_run_iterations(derived));
         motus_run_destroy(given);
         motus_run_destroy(derived);
@@ -245,8 +244,8 @@ static void nonlinear_velocity_terms_and_first_order_variables(void **state)
         if (strncmp(methods[i], "verlet", 6)) assert_int_equal(motus_run_evaluations(quotient), without.calls);
         static const char *const names[][2] = {{"x", "x[1]"},   {"y", "x[2]"}, {"x'", "x[1]'"},
                                                {"y'", "x[2]'"}, {"s", "s"},    {"e", "invariant"}};
-        /* 500 steps; the literal recurrence carries positions without their increments and divides by h^2 at the end
-         * of each. */
+        /* 500 steps; the literal recurrence rounds full positions, not increments, and divides by h^2 at the end of
+         * each. */
         const double bound = 500 * 8 * ROUNDING * (strcmp(methods[i], "verlet-literal") ? 1 : 1 / 0.01);
         for (size_t k = 0; k < 6; k++) {
             near(value(p, derived, names[k][1]), value(s, given, names[k][0]), bound, methods[i]);
@@ -263,7 +262,7 @@ static void nonlinear_velocity_terms_and_first_order_variables(void **state)
     motus_system_destroy(s);
 }
 
-/* x'' = -k x - c x': said to be linear, it is solved in one step, without iterations, to the bits of the text. */
+/* x'' = -k x - c x', declared linear, is solved in closed form, without iterations, to the bits of the text. */
 static int braked(void *context, double t, const double *x, const double *v, double *a)
 {
     oscillator *o = context;
@@ -316,7 +315,7 @@ static void linear_velocity_terms_take_one_step(void **state)
 
 /* Failures and the rest of the definition -------------------------------------------------------------------------- */
 
-/* Below 0 the callback gave up, above 0 only this place could not be evaluated: the run is at its last good step. */
+/* A value below 0 is a failure of the callback, one above 0 only of this place; the run is at its last good step. */
 static void a_failing_callback_stops_the_run_and_not_more(void **state)
 {
     (void)state;
@@ -343,7 +342,7 @@ static void a_failing_callback_stops_the_run_and_not_more(void **state)
             int64_t at = motus_run_steps(r);
             assert_true(motus_run_time(r) == 0.01 * (double)at && err.time >= motus_run_time(r) - 0.01 &&
                         err.time <= motus_run_time(r) + 0.01);
-            /* The failure over, it goes on to the bits of a run that knew none. */
+            /* After the failure the run continues, to the bits of a run without one. */
             finish(r);
             finish(whole);
             same_state(s, r, whole, "after a failure");
@@ -405,7 +404,7 @@ static void exact_and_invariant_callbacks(void **state)
     finish(e);
     assert_true(value(s, r, "exact x") == cos(2) && value(s, r, "exact x'") == -sin(2));
     assert_true(value(s, e, "x") == cos(2) && value(s, e, "x'") == -sin(2));
-    /* A callback that fails says so, and the rest can still be seen. */
+    /* A callback that fails is an error; other columns can still be read. */
     size_t k = column(s, "invariant");
     double out;
     motus_error err = motus_default_error();
@@ -414,9 +413,9 @@ static void exact_and_invariant_callbacks(void **state)
     o.fail_at = -1;
     k = column(s, "exact x");
     assert_int_equal(motus_run_values(r, &k, 1, &out, &err), MOTUS_CALLBACK);
-    assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK); /* already seen */
+    assert_int_equal(motus_run_state(e, &out, NULL, &err), MOTUS_OK); /* computed before */
     assert_true(isfinite(value(s, r, "x")));
-    /* The words for a system that has no text. */
+    /* The texts of a system without a model text. */
     assert_true(strlen(motus_explain(s)) > 10);
     assert_null(motus_equation_text(s, 0));
     motus_settings set = motus_default_settings();
@@ -556,7 +555,7 @@ static void numbers_have_names(void **state)
     motus_system_destroy(s);
 }
 
-/* All quantities come from one call and all invariants from another, whatever columns are asked for. */
+/* One call computes all quantities and another all invariants, whatever columns are read. */
 static void quantities_and_invariants(void **state)
 {
     (void)state;
@@ -584,7 +583,7 @@ static void quantities_and_invariants(void **state)
     r.fail = 0;
     motus_run_destroy(run);
 
-    /* A comparison reports the drift of each, under its name. */
+    /* A comparison reports the drift of each invariant under its name. */
     motus_study_def study = motus_default_study();
     const char *methods[] = {"velocity-verlet"};
     motus_comparison *c = NULL;
@@ -634,13 +633,13 @@ static void names_that_are_refused(void **state)
     def.invariant_names = NULL;
     def.quantities = SIZE_MAX;
     assert_int_equal(motus_system_from_callback(&def, &s, &err), MOTUS_LIMIT);
-    def.quantity = NULL; /* nobody to ask: none */
+    def.quantity = NULL; /* there is no function for it */
     must(motus_system_from_callback(&def, &s, &err), &err, "no quantities");
     assert_int_equal(motus_quantity_count(s), 0);
     motus_system_destroy(s);
 }
 
-/* x'' = -g over a floor below which there is no force to be had. */
+/* x'' = -g above a floor; below it the force cannot be evaluated. */
 static int over_a_floor(void *context, double t, const double *x, const double *v, double *a)
 {
     (void)context;

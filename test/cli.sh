@@ -1,5 +1,5 @@
 #!/bin/bash
-# The program, as people use it: every verb, option and error, what it writes and what it leaves behind.
+# The program: every verb, option and error, its output and its files.
 #
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
 cd "$(dirname "$0")/.." || exit 1
@@ -45,7 +45,7 @@ for verb in run compare converge sweep check methods lab; do
     gives "help $verb" 0 "$motus" help $verb
     that "help $verb is the same" cmp -s "$out" "$place/help-$verb"
 done
-# The examples are commands that work; the slow ones have tests of their own below.
+# The examples of --help work; slow ones are tested below.
 mkdir "$place/examples" && ln -s "$root/models" "$place/examples/models"
 for verb in run sweep check methods; do
     sed -n '/^examples:/,$p' "$place/help-$verb" | sed 1d | while read -r line; do
@@ -61,7 +61,7 @@ refuses "a verb with a slip" 2 "did you mean motus compare?" "$motus" comapre x.
 refuses "a model where the verb should be" 2 "motus run x.motus" "$motus" x.motus
 refuses "bench is not available yet" 2 "not available in this version" "$motus" bench
 for verb in run compare converge sweep check; do refuses "$verb without a model" 2 "motus $verb needs a model" "$motus" $verb; done
-refuses "two models" 2 "one model at a time" "$motus" run $oscillator $osc
+refuses "two models" 2 "motus takes one model" "$motus" run $oscillator $osc
 refuses "an unknown option" 2 "unknown option --frobnicate" "$motus" run $osc --frobnicate
 refuses "an option with a slip" 2 "did you mean --step?" "$motus" run $osc --stpe 0.1
 refuses "an option of another verb" 2 "motus check takes no --step" "$motus" check $osc --step 0.1
@@ -157,7 +157,7 @@ that "looking changes nothing: -o, --plot-less and bare runs have the same bits"
     '$motus' run $osc --json --method velocity-verlet >'$place/bare' && '$motus' run $osc --json --method velocity-verlet -o '$place/looked.csv' >'$place/looked' &&
     [ \"\$(jq -c .state '$place/bare')\" = \"\$(jq -c .state '$place/looked')\" ]"
 
-# A million numbers and no more.
+# At most a million numbers.
 printf 'N = 600000\nx[i]%s = -x[i] for i = 1..N\nx[i](0) = 1 for i = 1..N\nx[i]%s(0) = 0 for i = 1..N\nstep 0.1\nuntil 0.2\n' "''" "'" >"$place/many.motus"
 gives "a large state" 0 "$motus" run "$place/many.motus" --json
 that "... is cut at a million numbers, and says so" holds '.cut == true and ([.state[] | length] | add) == 1000000'
@@ -165,7 +165,7 @@ that "... and is JSON" json "$out"
 gives "a small one" 0 "$motus" run $osc --json
 that "... is not cut" holds 'has("cut") | not'
 
-# Fast: the founding oscillator from start to exit. The best of several, for a machine that others use as well.
+# Speed: the founding oscillator from start to exit, the best of several runs, since the machine may be busy.
 best=999999
 for _ in 1 2 3 4 5 6 7 8 9 10; do
     began=${EPOCHREALTIME/./}
@@ -195,7 +195,7 @@ cp "$out" grid
 that "... lands on the steps" eval "cmp -s <(grep -v '^[#t]' grid) <(grep -v '^#' traj.csv | sed 1d | awk -F, 'NR % 10 == 1 { print \$1 \",\" \$2 }')"
 gives "--every 0.37, between steps" 0 "$motus" run osc.motus -o - --every 0.37 --columns "t,x"
 that "... at these times, and at the end" eval "[ \"\$(grep -v '^[#t]' '$out' | cut -d, -f1 | cut -c 1-5 | tr '\n' ' ')\" = '0 0.37 0.74 1.11 1.48 1.85 2 ' ]"
-# The curve between steps is of order 6 in the step: against a run with a step that hits 0.37.
+# Dense output has order 6 in the step; compared with a run whose step ends at 0.37.
 x37=$(grep '^0.37,' "$out" | cut -d, -f2)
 "$motus" run osc.motus --until 0.37 --json >"$out"
 that "... with the values of the motion" near "$x37" "$(jq .state.x "$out")" 1e-12
@@ -243,7 +243,7 @@ for locale in $(locale -a 2>/dev/null | grep -iE '^(de|fr)_' | head -n 1); do
     that "the point stays a point in $locale" eval "cmp -s <(grep -v '^#' traj.csv) <(grep -v '^#' '$out')"
 done
 
-# --- files: whole or not at all ---------------------------------------------------------------------------------------------------
+# --- files: complete or not at all ---------------------------------------------------------------------------------------------------
 that "no temporary files are left" nothing_left .
 echo precious >kept.csv
 cat >blow.motus <<'M'
@@ -299,9 +299,9 @@ that "... keeps the link and fills its target" eval "[ -L through.csv ] && [ -s 
 that "rights follow the umask" eval "[ \$(stat -c %a mask.csv) = 640 ]"
 chmod 600 mask.csv && "$motus" run osc.motus -o mask.csv -q
 that "rights of a file that was there stay" eval "[ \$(stat -c %a mask.csv) = 600 ]"
-# A long run, stopped: it dies of the signal and leaves nothing.
+# A long run that is stopped ends by the signal and leaves no file.
 for signal in INT TERM HUP; do
-    [ -n "$(trap -p "$signal")" ] && continue           # ignored by whoever started this, and then by the program too
+    [ -n "$(trap -p "$signal")" ] && continue           # the parent process ignores it, so the program does too
     (trap - INT; exec "$motus" run osc.motus --until 1e7 -o "stopped-$signal.csv" >"$out" 2>"$err") &
     child=$!
     for _ in $(seq 100); do [ -n "$(find . -name '.motus-*')" ] && break; sleep 0.02; done
@@ -422,7 +422,7 @@ for model in "$root"/models/*.motus; do
 done
 gives "a field" 0 "$motus" run field.motus --plot field.svg -q
 that "... is an image inside the SVG" grep -q 'data:image/png' field.svg
-# Names that are commands elsewhere.
+# Names that a shell or gnuplot would execute.
 evil=$'`touch owned`\'; system("touch owned"); \'@x $(touch owned).motus'
 cp osc.motus "$evil"
 gives "a name full of commands" 0 "$motus" run "$evil" --plot evil.svg -q
@@ -509,7 +509,7 @@ that "... says that the velocity is solved in closed form" says "closed form"
 for model in models/*.motus; do
     name=$(basename "$model" .motus)
     "$motus" check "$model" --json >"$out" 2>"$err"
-    # What check promises, run does; what it refuses, run refuses.
+    # run takes the methods that check admits, and refuses the others.
     wrong=
     for method in $(jq -r '.methods[] | select(.name != "verlet-literal") | .name + ":" + (.admitted | tostring)' "$out"); do
         timeout 60 "$motus" run "$model" --method "${method%:*}" --until "$(awk -v h="$(sed -n 's/^step *\([0-9.e-]*\).*/\1/p' "$model")" 'BEGIN { print 3 * h }')" -q >/dev/null 2>"$err"

@@ -1,4 +1,4 @@
-/* Decimals: what is written are the digits of the C library, for much less; what is read are its doubles. */
+/* Decimals: the digits written are those of the C library, the numbers read are its doubles. */
 #include "base/decimal.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ static void test_random_bits(void **context)
     for (int i = 0; i < 20000; i++) same(of_bits(next() >> (12 + next() % 52))); /* below the normal numbers */
 }
 
-/* What people write and computations leave. */
+/* Typical numbers, typed and computed. */
 static void test_usual(void **context)
 {
     (void)context;
@@ -133,7 +133,7 @@ static void test_integers(void **context)
     }
 }
 
-/* What is read is the double of the C library (this program keeps the locale "C"), and all of it. */
+/* decimal_read() gives the double of the C library (this program keeps the locale "C"), and reads all of the text. */
 static void read_as(const char *text, size_t length)
 {
     double value, wanted = strtod(text, NULL);
@@ -158,7 +158,7 @@ static void test_reading(void **context)
         snprintf(text + n, 8, "%s", (const char *[]){"", "e", "e+", " ", ".", "x"}[next() % (digits ? 6 : 4)]);
         read_as(text, (size_t)n);
     }
-    /* half way between two doubles, and a digit beyond that, far behind: up, down, and to even */
+    /* half way between two doubles, and with a further digit far behind: rounds up, down, and to even */
     for (int i = 0; i < 2000; i++) {
         uint64_t bits = next() % 0x7FE0000000000000u;
         double low = of_bits(bits), high = of_bits(bits + 1);
@@ -214,13 +214,13 @@ static void test_reading_edges(void **context)
         assert_int_equal(decimal_read(edges[i].text, SIZE_MAX, &value), edges[i].length);
         assert_true(value == edges[i].value);
     }
-    /* no further than it may */
+    /* does not read beyond the given length */
     double value;
     assert_int_equal(decimal_read("12.5e3", 5, &value), 4);
     assert_true(value == 12.5);
     assert_int_equal(decimal_read("12", 1, &value), 1);
     assert_true(value == 1);
-    /* a long row of zeros, in front and behind, moves no digit */
+    /* leading and trailing zeros */
     char text[5000];
     memset(text, '0', sizeof text);
     memcpy(text + 3000, "125.", 4);
@@ -233,7 +233,7 @@ static void test_reading_edges(void **context)
     memcpy(text + 4000, "e2004", 6);
     assert_int_equal(decimal_read(text, SIZE_MAX, &value), 4005);
     assert_true(value == 1.25);
-    /* half way between two doubles, and a little more a thousand digits behind */
+    /* half way between two doubles, with one more digit a thousand places behind */
     memset(text, '0', sizeof text);
     memcpy(text, "9007199254740993.", 17);
     text[1200] = 0;
@@ -273,7 +273,7 @@ static double seconds(size_t (*print)(double, char *), int count)
     return (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
 }
 
-/* If the short way were always unsure of itself, everything would still be right, and as slow as before. */
+/* Checks that the fast path is taken: without it results would be right, but slow. */
 static void test_fast(void **context)
 {
     (void)context;

@@ -1,4 +1,4 @@
-/* The random numbers: the published words, the right distributions, one stream independent of the other. */
+/* The random numbers: the published words, the distributions, independent streams. */
 #include "cli/draw.h"
 
 #include <math.h>
@@ -33,8 +33,7 @@ static void test_known_answers(void **context)
     }
 }
 
-/* A uniform number is the first 53 bits of its words, whose place is fixed: files made today can be finished by
- * another release. */
+/* The bits of a uniform number are fixed, since another release may resume a file of today. */
 static void test_layout(void **context)
 {
     (void)context;
@@ -53,8 +52,8 @@ static int order(const void *a, const void *b)
 
 enum { N = 200000 };
 
-/* Kolmogorov's distance times √N exceeds 1.95 with probability 2 exp(-2·1.95²) = 0.001; seeds are fixed, so the
- * answer is too. */
+/* Kolmogorov's distance times √N exceeds 1.95 with probability 2 exp(-2·1.95²) = 0.001; the seeds are fixed, so the
+ * test is deterministic. */
 static void judge(double (*draw)(uint64_t, uint32_t, uint64_t), double (*below)(double))
 {
     static double values[N];
@@ -99,7 +98,7 @@ static double correlation(double (*draw)(uint64_t, uint32_t, uint64_t), uint64_t
     return (xy - x * y) / sqrt((xx - x * x) * (yy - y * y));
 }
 
-/* Of independent numbers the correlation is within 4/√N. */
+/* The correlation of independent numbers is within 4/√N. */
 static void test_independent(void **context)
 {
     (void)context;

@@ -1,5 +1,5 @@
 /* Ensembles of a C callback: by blocks, one trajectory at a time, on several threads; the bits are those of a run.
- * And models whose trajectories go one at a time, on several threads.
+ * And models whose trajectories are computed one at a time, on several threads.
  */
 #include "test/ensemble_given.h"
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <time.h>
 
-/* Two positions and a first-order variable; trajectory i has a stiffness of its own where `stiffness` is given. */
+/* Two positions and a first-order variable; trajectory i has its own stiffness if `stiffness` is given. */
 typedef struct world {
     const double *stiffness;
     atomic_int calls, widest;
@@ -142,7 +142,7 @@ static void blocks_are_trajectories(void **state)
             run.until = until;
             run.x = x;
             run.v = y;
-            must(motus_run_create(s, &run, &r, &err), &err, method); /* of a system that has a block alone */
+            must(motus_run_create(s, &run, &r, &err), &err, method); /* of a system that has only `block` */
             finish(r);
             assert_true(same_number(value(s, r, "x[2]"), a.at[4][7]) && same_number(value(s, r, "s"), a.at[10][7]));
             motus_run_destroy(r);
@@ -158,7 +158,7 @@ static void blocks_are_trajectories(void **state)
     motus_system_destroy(one);
 }
 
-/* Numbers of a trajectory's own, found by its number; whatever the block it is in. */
+/* Numbers that differ between trajectories, found by the trajectory's index in any block. */
 static void trajectories_have_their_own_numbers(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void trajectories_have_their_own_numbers(void **state)
     }
 }
 
-static void some_are_lost_and_some_fail(void **state)
+static void failures_end_their_own_trajectory(void **state)
 {
     (void)state;
     static double values[NAMES][COUNT];
@@ -218,7 +218,7 @@ static void some_are_lost_and_some_fail(void **state)
     w.answer = -2;
     assert_int_equal(motus_ensemble_run(blocks, COUNT, list, a.at, NULL, &err), MOTUS_CALLBACK);
     assert_true(strstr(err.message, "callback") && err.time == 0.5 && err.returned == -2);
-    /* What cannot be evaluated ends its own trajectory and no other. */
+    /* A failed evaluation ends only its own trajectory. */
     w.answer = 1;
     outcome d = go(blocks, COUNT, count, list, "one cannot be evaluated");
     for (size_t i = 0; i < COUNT; i++) {
@@ -240,7 +240,7 @@ static void some_are_lost_and_some_fail(void **state)
     motus_system_destroy(one);
 }
 
-/* Models, one trajectory at a time, by a method that solves: each thread has a system of its own. */
+/* Models, one trajectory at a time, by an implicit method: each thread has its own clone of the system. */
 static void threads_of_models(void **state)
 {
     (void)state;
@@ -288,16 +288,16 @@ static void threads_of_models(void **state)
     motus_system_destroy(s);
 }
 
-/* As `watch`, but a failure is told by the number of calls: no test may be left from amidst other threads. */
+/* As `given_observe`, but it counts failures, since cmocka must not leave a test from another thread. */
 static int watch_quietly(void *context, double fraction)
 {
-    watcher *w = context;
+    given_progress *w = context;
     if (!(fraction >= w->last && fraction <= 1)) w->calls = 1 << 20;
     w->last = fraction;
     return ++w->calls == w->cancel_at;
 }
 
-static void watched(void **state)
+static void observed(void **state)
 {
     (void)state;
     static double values[NAMES][COUNT];
@@ -307,12 +307,12 @@ static void watched(void **state)
     for (int threads = 1; threads <= 3; threads++) {
         world w = {.fail_at = -1};
         motus_system *s = given_callback(&w, IN_BLOCKS);
-        watcher seen = {0, 3, 0};
+        given_progress seen = {0, 3, 0};
         motus_ensemble_def def = define(records, 1, "rk4", 100, threads);
         def.step = 0.001;
         def.progress = watch_quietly;
         def.context = &seen;
-        motus_ensemble *e = given_ensemble(s, &def, "watched");
+        motus_ensemble *e = given_ensemble(s, &def, "observed");
         double result[COUNT], *at[] = {result};
         motus_error err = motus_default_error();
         assert_int_equal(motus_ensemble_run(e, COUNT, list, at, NULL, &err), MOTUS_CANCELLED);
@@ -387,9 +387,9 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_trajectories),
                                        cmocka_unit_test(trajectories_have_their_own_numbers),
-                                       cmocka_unit_test(some_are_lost_and_some_fail),
+                                       cmocka_unit_test(failures_end_their_own_trajectory),
                                        cmocka_unit_test(threads_of_models),
-                                       cmocka_unit_test(watched),
+                                       cmocka_unit_test(observed),
                                        cmocka_unit_test(blocks_are_fast)};
     int failed = cmocka_run_group_tests_name("blocks and threads", tests, NULL, NULL);
     close_cache();

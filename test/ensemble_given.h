@@ -1,5 +1,5 @@
-/* What tests of ensembles begin with: one made from a few words, its results in memory, and a comparison of two of
- * them byte by byte. */
+/* What tests of ensembles share: an ensemble from a model's text, its results in memory, and their comparison byte by
+ * byte. */
 #ifndef TEST_ENSEMBLE_GIVEN_H
 #define TEST_ENSEMBLE_GIVEN_H
 
@@ -16,7 +16,7 @@
 
 enum { COUNT_MAX = 64, VARY_MAX = 5, RECORDS_MAX = 400 };
 
-/* Results of `count` trajectories, record by record, and when they stopped. */
+/* The results of `count` trajectories, record by record, and the times at which they stopped. */
 typedef struct outcome {
     size_t count, records;
     double *numbers, *stopped;
@@ -40,7 +40,7 @@ UNUSED static void forget(outcome *o)
     free(o->stopped);
 }
 
-/* A NaN is a NaN, whatever its sign and payload; all other numbers are their bytes. */
+/* Equal to the byte, except that any NaN equals any other. */
 UNUSED static int same_number(double a, double b) { return isnan(a) ? isnan(b) : !memcmp(&a, &b, sizeof a); }
 
 UNUSED static void same_outcome(const outcome *a, const outcome *b, const char *what)

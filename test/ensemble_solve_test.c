@@ -1,6 +1,6 @@
-/* Equations solved in lanes: every lane makes the iterations, picks the pivots and fails where it would alone.
+/* Equations solved in lanes: each lane makes the iterations, chooses the pivots and fails as it would alone.
  *
- * Invariant: the interpreter, one trajectory at a time, is the oracle, of every bit and of the time at which a
+ * Invariant: results are compared with the interpreter, one trajectory at a time: every bit, and the time at which a
  * trajectory stops.
  */
 #include "test/ensemble_given.h"
@@ -12,11 +12,11 @@ enum { COUNT = 37 };
 typedef struct question {
     const char *text, *method, *vary;
     double from, by; /* of what varies */
-    int stops;       /* at least so many trajectories stop, at least at so many times, and not all */
+    int stops;       /* lower bounds on how many trajectories stop, and at how many times; not all may stop */
     int times;
 } question;
 
-/* Each record is looked at where velocities need an equation solved, and where they do not. */
+/* Each record is observed at states whose velocities need an equation solved, and at others. */
 static void ask(const question *q, double steps, int64_t every, int lanes)
 {
     char what[300];
@@ -73,7 +73,7 @@ static void ask_all(const question *list, size_t count)
         double steps;
         int64_t every;
     } shapes[] = {{60, 1}, {41.4, 3}, {600, 7}, {1, 1}, {40, 2}, {33, 1000}, {0.5, 1}};
-    static const int lanes[] = {1, 2, 4, 8, 16}; /* a compiler run each: two for every question */
+    static const int lanes[] = {1, 2, 4, 8, 16}; /* each row costs a compiler run: two for every case */
     for (size_t k = 0; k < count; k++)
         for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
             if (!strstr(list[k].method, "literal") || floor(shapes[i].steps) == shapes[i].steps)
@@ -81,7 +81,8 @@ static void ask_all(const question *list, size_t count)
 }
 #define ASK(list) ask_all(list, sizeof(list) / sizeof *(list))
 
-/* Forces that are not linear in v: Newton's method at every kick, with other numbers of iterations in every lane. */
+/* Forces that are not linear in v: Newton's method at every kick, with a number of iterations that differs between
+ * lanes. */
 static void friction_that_is_not_linear(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static void friction_that_is_not_linear(void **state)
     ASK(list);
 }
 
-/* Off the diagonal the matrix is larger than on it in some lanes. */
+/* In some lanes the matrix is larger off the diagonal than on it. */
 static void pivots_of_its_own(void **state)
 {
     (void)state;
@@ -115,7 +116,7 @@ static void pivots_of_its_own(void **state)
     ASK(list);
 }
 
-/* Motions that leave the finite numbers in finite time: each lane at its own step, while the others go on. */
+/* Motions that diverge in finite time: each lane at its own step, while the others continue. */
 static void lanes_that_fail(void **state)
 {
     (void)state;
@@ -128,7 +129,7 @@ static void lanes_that_fail(void **state)
     ASK(list);
 }
 
-/* A matrix that is singular in one lane, from the start or at a time of its own. */
+/* A matrix that is singular in one lane, from the start or from a certain time on. */
 static void singular_in_one_lane(void **state)
 {
     (void)state;
@@ -147,7 +148,7 @@ static void singular_in_one_lane(void **state)
     ASK(list);
 }
 
-/* Friction that some trajectories have and others have not: Boris' method does not admit it, whoever computes. */
+/* Some trajectories have friction, which the Boris rotation does not admit, on any machine. */
 static void turns_or_brakes(void **state)
 {
     (void)state;

@@ -1,15 +1,15 @@
-/* Ensembles: the same bits one at a time, in lanes of every width, on every number of threads, by either compiler;
- * and those that a run of the model with these values has.
+/* Ensembles: the same bits one trajectory at a time, in lanes of every width, on every number of threads, by either
+ * compiler; and the bits of a run of the model with these values.
  *
- * Each model of models/ varies something that others are computed from. A method costs a compiler run for every
- * width, so `make test` takes a few rows for each model, so that together the models meet every family; with
- * MOTUS_ALL_ROWS set, all of all.
+ * Each model of models/ varies a number that others are computed from. A method costs a compiler run for every width,
+ * so `make test` takes a few rows for each model, which together have every family; with MOTUS_ALL_ROWS set, all
+ * rows.
  */
 #include "test/ensemble_given.h"
 
 #include <stdbool.h>
 
-/* set: as `set` of a system says it; NULL: name=… */
+/* set: a setting as motus_system_set takes it; NULL: name=… */
 typedef struct varied {
     const char *name, *set;
     double from, by;
@@ -18,9 +18,9 @@ typedef struct varied {
 typedef struct given_case {
     const char *model;
     varied vary[VARY_MAX];
-    const char *methods; /* of the short test */
-    /* Of a family, equations are solved one trajectory at a time; where what varies decides its initial values,
-     * everything is. */
+    const char *methods; /* in the short test */
+    /* Equations of a family are solved one trajectory at a time; if the varied number decides initial values, all
+     * trajectories are computed so. */
     enum { IN_LANES, SOLVES_ALONE, ALONE } how;
 } given_case;
 
@@ -76,7 +76,7 @@ static const given_case cases[] = {
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
-/* Everything that the language can say, with what differs in each of its places. */
+/* All of the language, with a varied number in each place. */
 static const char rich[] = "N = 4\nm = [1, 2, 3]\nq = 0.3\nB = (0, 0, q)\nw[i] = 1 + q i/10 for i = 1..N\n"
                            "u[i]'' = w[i] (u[i+1] - 2 u[i] + u[i-1]) + 0.1 sum(j = 1..N, j != i: (u[j] - u[i])/(1 + "
                            "|u[j] - u[i]|^3)) for i = 1..N\n"
@@ -88,7 +88,7 @@ static const char rich[] = "N = 4\nm = [1, 2, 3]\nq = 0.3\nB = (0, 0, q)\nw[i] =
                            "(u[i], q u[i]') for i = 1..N\nedge = u[0] + u[N+1]\n"
                            "invariant e = |r'|^2/2 + q s\nstep 0.01\nuntil 1\n";
 
-/* The text of a model file, or of the one above. */
+/* The text of a model file, or the text above. */
 static char *text_of(const char *model)
 {
     char path[1024], name[128];
@@ -106,7 +106,7 @@ static motus_system *read_with(const char *text, const char *const *set, size_t 
 enum { SHAPES = 12, SAME_ENDS = 8, COUNTS = 3, MANY = 37 };
 static const size_t counts[COUNTS] = {MANY, 1, 2}; /* that fill no block */
 
-/* What is computed, apart from who computes it. */
+/* What is computed, without the machine. */
 typedef struct task {
     const given_case *c;
     char *text;
@@ -125,7 +125,7 @@ typedef struct task {
     const char *plain_by;
 } task;
 
-/* Every column once for its last value and once by one of the other reductions. */
+/* Every column, once with its final value and once with another reduction. */
 static void record_all(task *t)
 {
     motus_column c = motus_default_column();
@@ -144,7 +144,7 @@ static void open_task(task *t, const given_case *c)
     for (size_t k = 0; k < VARY_MAX && c->vary[k].name; k++) {
         t->names[k] = c->vary[k].name;
         t->value_list[k] = t->values[k];
-        for (size_t i = 0; i < COUNT_MAX; i++) /* in no order, so that a lane taken for another shows */
+        for (size_t i = 0; i < COUNT_MAX; i++) /* not sorted, so that exchanged lanes are found */
             t->values[k][i] = c->vary[k].from + c->vary[k].by * (double)((i * (5 + 6 * k) + k) % 23) / 3;
         t->vary_count++;
     }
@@ -206,7 +206,7 @@ static void shape(task *t, int k)
     t->steps = (int64_t)ceil(shapes[k].steps);
     if (!strcmp(t->method, "verlet-literal")) /* takes equal steps only */
         t->steps = t->steps > 1 ? t->steps - 1 : 1;
-    /* An ulp beyond what the steps come to is still a whole number of steps, and the end is `until`. */
+    /* An end one ulp beyond n steps is still n full steps, and its time is `until`. */
     t->until = nextafter(
         set.from + t->step * (strcmp(t->method, "verlet-literal") ? shapes[k].steps : (double)t->steps), INFINITY);
     t->every = shapes[k].every;
@@ -249,7 +249,7 @@ static void look_at(const task *t, motus_run *r, double *kept, double *when, int
     }
 }
 
-/* A run of the model with the values of trajectory i against what the ensemble says of it. */
+/* Compares trajectory i of the ensemble with a run of the model with its values. */
 static void as_a_run(const task *t, const outcome *o, size_t i)
 {
     char set[VARY_MAX][256], number[40];
@@ -275,7 +275,7 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
         if (motus_run_done(r)) break;
         status = motus_run_step(r, 1, &err);
     }
-    /* Where a run leaves the finite numbers, the trajectory stopped at that time, and has no results. */
+    /* Where a run diverges, the trajectory stopped at that time and has no results. */
     if (status != MOTUS_OK && (status != MOTUS_DIVERGED || err.time != o->stopped[i]))
         fail_msg("%s by %s, trajectory %zu: stopped at %.17g; a run says %s", t->c->model, t->method, i, o->stopped[i],
                  err.message);
@@ -286,7 +286,7 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
         double expected = how == MOTUS_REDUCE_MEAN                                             ? kept[k] / (double)looks
                           : how == MOTUS_REDUCE_TIME_OF_MIN || how == MOTUS_REDUCE_TIME_OF_MAX ? when[k]
                                                                                                : kept[k];
-        /* Which of two zeros of different signs is the least is nobody's business. */
+        /* The sign of a zero that is a minimum or maximum is not specified. */
         if (!same_number(expected, o->at[k][i]) &&
             !(expected == 0 && o->at[k][i] == 0 && (how == MOTUS_REDUCE_MIN || how == MOTUS_REDUCE_MAX)))
             fail_msg(
@@ -301,8 +301,8 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
 
 /* The same bits ---------------------------------------------------------------------------------------------------- */
 
-/* In lanes wherever that can be: a fallback would agree with itself. The matrices of families have no lanes, the
- * exact motion has none. */
+/* Requires lanes wherever there are any, since a fallback would agree with itself. Matrices of families and the exact
+ * motion have no lanes. */
 static bool goes_alone(const task *t)
 {
     const motus_method *m;
@@ -314,7 +314,7 @@ static bool goes_alone(const task *t)
            (solves && t->c->how == SOLVES_ALONE);
 }
 
-/* One shape: one at a time, and some of these against runs. */
+/* One case: one trajectory at a time, some of them compared with runs. */
 static const outcome *one_by_one(task *t, int k, const char *what)
 {
     if (t->plain_by != t->method) forget_plain(t);
@@ -330,7 +330,7 @@ static const outcome *one_by_one(task *t, int k, const char *what)
     return t->plain[k];
 }
 
-/* The same compiled. */
+/* The same case, compiled. */
 static void compare(task *t, int k, int lanes, int threads)
 {
     char what[200];
@@ -351,7 +351,7 @@ static void compare(task *t, int k, int lanes, int threads)
     motus_ensemble_destroy(fast);
 }
 
-/* CC as a test wants it; false: it is not here. */
+/* Sets CC; false: that compiler is not installed. */
 static bool use_compiler(const char *cc)
 {
     char command[64];
@@ -383,7 +383,7 @@ static void every_model(void **state)
     int pairs = 0;
     for (size_t c = 0; c < CASES; c++) {
 #ifdef SANITIZED
-        if (c % 4 && !all_rows()) /* what is watched here is the library's part, the same for all */
+        if (c % 4 && !all_rows()) /* the sanitizers check the library's part, which is the same for all */
             continue;
 #endif
         task t;
@@ -396,7 +396,7 @@ static void every_model(void **state)
             pairs++;
             for (int cc = 0; cc < 2; cc++) {
                 if ((!all_rows() && cc != pairs % 2) || !use_compiler(compilers[cc])) continue;
-                for (int w = 0; w < WIDTHS; w++) /* What goes one at a time has no lanes. */
+                for (int w = 0; w < WIDTHS; w++) /* One trajectory at a time is one lane. */
                     if (all_rows() ? w == 0 || !goes_alone(&t) : w == (pairs / 2) % (WIDTHS - 2))
                         for (int f = 0; f < SHAPES; f++) compare(&t, f, widths[w], 1 + f % 2);
             }
@@ -413,7 +413,7 @@ static void every_model(void **state)
 static const given_case everything = {
     rich, {{"q", NULL, 0.1, 0.05}, {"m[2]", "m=[1, %s, 3]", 1, 0.1}}, "rk4", IN_LANES};
 
-/* One small model and one with everything, in lanes of every width by both compilers. */
+/* A small model and one with all of the language, in lanes of every width, by both compilers. */
 static void every_width(void **state)
 {
     (void)state;
@@ -432,8 +432,7 @@ static void every_width(void **state)
 #ifdef SANITIZED
                 if (lanes % 8) continue;
 #endif
-                /* A compiler's time grows with the lanes: the large model shows what the small one cannot in a few of
-                 * them. */
+                /* A compiler's time grows with the lanes, so the large model is tested in a few widths. */
                 if (!all_rows() && (p == 1 ? lanes != (cc ? 1 : 0) && lanes != (cc ? 8 : 2)
                                            : cc && lanes != 0 && lanes != 4 && lanes != 32))
                     continue;

@@ -1,5 +1,5 @@
-/* Ensembles in which something goes wrong: a trajectory that leaves the finite numbers and its neighbours, requests
- * that cannot be met, a watcher who has seen enough; and a system that several ensembles and runs share.
+/* Ensembles with errors: a trajectory that diverges and its neighbours, requests that are refused, a progress hook
+ * that cancels; and a system that several ensembles and runs share.
  */
 #include "test/ensemble_given.h"
 
@@ -7,7 +7,7 @@
 
 enum { FEW = 5 };
 
-/* A definition of one record of each kind of the first position, with one name that varies. */
+/* A definition with one record of each kind of the first position, and one varied name. */
 static motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MIN, 1},         {MOTUS_REDUCE_MAX, 1},
                                  {MOTUS_REDUCE_MEAN, 1},  {MOTUS_REDUCE_TIME_OF_MAX, 1}, {MOTUS_REDUCE_FINAL, 0}};
 enum { RECORDS = sizeof records / sizeof *records };
@@ -29,7 +29,7 @@ static motus_ensemble_def define(const char *const *names, size_t count, const c
 
 /* Trajectories that stop ------------------------------------------------------------------------------------------- */
 
-/* When a run with this value stops: NaN where it comes to its end, minus infinity where the model cannot even be
+/* The time at which a run with this value stops: NaN if it reaches its end, minus infinity if the model cannot be
  * read. */
 static double when_a_run_stops(const char *text, const char *name, double x, const char *method, double step,
                                double until, int64_t every)
@@ -63,8 +63,7 @@ static double when_a_run_stops(const char *text, const char *name, double x, con
     return stopped;
 }
 
-/* The same ensemble on both machines; every trajectory stops when a run would, and those that do not stop are what
- * they are without the others. */
+/* The same ensemble on both machines; every trajectory stops when a run would, and the others are unchanged by it. */
 static void stops_alike(const char *text, const char *name, const double x[FEW], const char *method, double step,
                         double until, int64_t every, int stops)
 {
@@ -72,7 +71,7 @@ static void stops_alike(const char *text, const char *name, const double x[FEW],
     const double *values[] = {x};
     int stopped = 0;
     outcome o[2];
-    for (int last = 0; last < 2; last++) { /* the ends alone, and looks on the way */
+    for (int last = 0; last < 2; last++) { /* only the ends, and samples on the way */
         for (int m = 0; m < 2; m++) {
             motus_ensemble_def def = define(&name, 1, method, step, until, m ? "compiled" : "interpreter");
             def.every = every;
@@ -109,7 +108,7 @@ static void stops_alike(const char *text, const char *name, const double x[FEW],
         fail_msg("%s, step %g: %d stopped, of %d; at least %d should", method, step, stopped, 2 * FEW, 2 * stops);
 }
 
-static void some_leave_the_finite_numbers(void **state)
+static void some_diverge(void **state)
 {
     (void)state;
     static const char drive[] = "F = 0.1\nx'' = -x + x^3 + F cos(t)\nx(0) = 0\nx'(0) = 0\n";
@@ -151,8 +150,8 @@ static void no_solution(void **state)
     stops_alike(text, "x'(0)", v, "implicit-midpoint", 2, 10, 1, 2);
 }
 
-/* Whose neighbours are lost goes through time as fast as before: not step by step, in every chunk. */
-static void the_lost_cost_nothing(void **state)
+/* A trajectory whose neighbours stopped is computed as fast as before, not step by step in every chunk. */
+static void stopped_trajectories_cost_nothing(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x + x^3\nx(0) = 0\nx'(0) = 0\n");
@@ -174,11 +173,11 @@ static void the_lost_cost_nothing(void **state)
     motus_system_destroy(s);
     print_message("with a lost lane in every block: %.2f times as long\n", seconds[1] / seconds[0]);
 #ifndef SANITIZED
-    assert_true(seconds[1] < 4 * seconds[0]); /* step by step it is more than 20 */
+    assert_true(seconds[1] < 4 * seconds[0]); /* step by step it would be more than 20 */
 #endif
 }
 
-/* Requests that cannot be met -------------------------------------------------------------------------------------- */
+/* Requests that are refused ---------------------------------------------------------------------------------------- */
 
 static const char model_text[] =
     "N = 3\nh = 0.01\nT = 2\nL = 1 + 1\ng = (0, -9.81)\nm = [1, 2]\nkay = 2\nfrom_here = 0\n"
@@ -250,7 +249,7 @@ static void names(void **state)
     const char *list[] = {name};
     motus_ensemble_def def = define(list, 1, "verlet", NAN, NAN, NULL);
     refused(s, &def, MOTUS_NAME, "neither");
-    /* A step and an end of the caller's own. */
+    /* The caller's step and end. */
     static const char *const of_time[] = {"h", "T"}, *const twice[] = {"kay", "g.y", "kay"},
                              *const same_place[] = {"u[2](0)", "u[2](0.0)"}, *const none[] = {NULL};
     def = define(of_time, 2, "verlet", 0.01, 1, "interpreter");
@@ -266,6 +265,45 @@ static void names(void **state)
     def.vary_count = 1;
     refused(s, &def, MOTUS_ARGUMENT, "no name");
     motus_system_destroy(s);
+}
+
+/* The end varies where the definition has none; one that no run could have is refused before anything is computed. */
+static void ends_that_differ(motus_system *s, double *const *at)
+{
+    const char *const end[] = {"until"}, *const both[] = {"until", "until"};
+    motus_ensemble *e = NULL;
+    motus_error err = motus_default_error();
+    motus_ensemble_def def = define(end, 1, "verlet", 0.01, 3, NULL);
+    assert_int_equal(motus_ensemble_create(s, &def, &e, &err), MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.message, "only one of them"));
+    def = define(both, 2, "verlet", 0.01, NAN, NULL);
+    assert_int_equal(motus_ensemble_create(s, &def, &e, &err), MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.message, "until varies twice"));
+    static const struct {
+        double end;
+        const char *method, *words;
+        motus_status status;
+    } cases[] = {{INFINITY, "verlet", "finite", MOTUS_ARGUMENT},
+                 {NAN, "verlet", "not a number", MOTUS_ARGUMENT},
+                 {1e17, "verlet", "steps", MOTUS_LIMIT},
+                 {0.015, "verlet-literal", "equal steps", MOTUS_METHOD}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int m = 0; m < 2; m++) {
+            const double ends[] = {0.5, cases[k].end}, *values[] = {ends};
+            def = define(end, 1, cases[k].method, 0.01, NAN, m ? "interpreter" : "compiled");
+            must(motus_ensemble_create(s, &def, &e, &err), &err, "ends");
+            assert_int_equal(motus_ensemble_steps(e), 0);
+            at[0][0] = 77;
+            assert_int_equal(motus_ensemble_check(e, 1, values, &err), MOTUS_OK);
+            assert_int_equal(motus_ensemble_check(e, 2, values, &err), cases[k].status);
+            assert_int_equal(motus_ensemble_run(e, 2, values, at, NULL, &err), cases[k].status);
+            assert_non_null(strstr(err.message, "until, value 2 of 2"));
+            assert_non_null(strstr(err.message, cases[k].words));
+            assert_true(at[0][0] == 77);
+            must(motus_ensemble_run(e, 1, values, at, NULL, &err), &err, "one end");
+            assert_true(at[0][0] != 77);
+            motus_ensemble_destroy(e);
+        }
 }
 
 static void definitions(void **state)
@@ -318,7 +356,11 @@ static void definitions(void **state)
     assert_int_equal(motus_ensemble_run(e, 0, values, at, NULL, NULL), MOTUS_OK);
     assert_int_equal(motus_ensemble_run(e, 2, values, at, NULL, NULL), MOTUS_OK); /* `stopped` may be NULL */
     assert_true(isfinite(room[0][1]));
+    assert_int_equal(motus_ensemble_check(e, 2, values, NULL), MOTUS_OK);
+    assert_int_equal(motus_ensemble_check(e, 2, nothing, NULL), MOTUS_ARGUMENT);
+    assert_int_equal(motus_ensemble_check(NULL, 2, values, NULL), MOTUS_ARGUMENT);
     motus_ensemble_destroy(e);
+    ends_that_differ(s, at);
     motus_ensemble_destroy(NULL);
     assert_true(motus_ensemble_steps(NULL) == 0 && motus_ensemble_lanes(NULL) == 1 &&
                 motus_ensemble_threads(NULL) == 1);
@@ -342,7 +384,7 @@ static char *everything_about(motus_system *s)
     return strdup(text);
 }
 
-/* Runs that began before, between and after ensembles, and half done runs: all go the model's own way. */
+/* Runs begun before, between and after ensembles, and unfinished runs, keep the model's own numbers. */
 static void a_system_is_left_as_it_was(void **state)
 {
     (void)state;
@@ -395,7 +437,7 @@ static void a_system_is_left_as_it_was(void **state)
         }
 }
 
-/* Nothing varies: all trajectories are the model's own. */
+/* Without varied numbers all trajectories are the model's. */
 static void nothing_varies(void **state)
 {
     (void)state;
@@ -414,7 +456,7 @@ static void nothing_varies(void **state)
     motus_system_destroy(s);
 }
 
-/* Whether boris fits is seen for each trajectory's parameters; afterwards the system is what it was. */
+/* Whether boris is admitted is checked for each trajectory's parameters; afterwards the system is unchanged. */
 static void a_method_that_no_longer_fits(void **state)
 {
     (void)state;
@@ -443,7 +485,7 @@ static void a_method_that_no_longer_fits(void **state)
     motus_system_destroy(s);
 }
 
-static void watched_and_cancelled(void **state)
+static void observed_and_cancelled(void **state)
 {
     (void)state;
     static const char *const vary[] = {"x(0)"};
@@ -454,21 +496,21 @@ static void watched_and_cancelled(void **state)
     for (int m = 0; m < 3; m++) { /* many short ones; a single long one; lanes */
         motus_system *s = given_text("x'' = -sin(x)\nx(0) = 0\nx'(0) = 0\n");
         const size_t count = m == 1 ? 1 : COUNT;
-        watcher w = {0, 3, 0};
+        given_progress w = {0, 3, 0};
         motus_ensemble_def def = define(vary, 1, "kahan-li8", 0.001,
                                         m == 0   ? 1
                                         : m == 1 ? 400
                                                  : 200,
                                         m < 2 ? "interpreter" : "compiled");
         def.record_count = 1;
-        def.progress = watch;
+        def.progress = given_observe;
         def.context = &w;
-        motus_ensemble *e = given_ensemble(s, &def, "watched");
+        motus_ensemble *e = given_ensemble(s, &def, "observed");
         motus_error err = motus_default_error();
         assert_int_equal(motus_ensemble_run(e, count, values, at, NULL, &err), MOTUS_CANCELLED);
         assert_int_equal(w.calls, 3);
         assert_true(w.last < 0.9 && strstr(err.message, "cancelled"));
-        /* Cancelled is not broken; and the model's numbers are its own. */
+        /* After a cancelled call the ensemble works, and the model has its own numbers. */
         motus_run *r = given_run(s, "kahan-li8", 0.01, 1);
         finish(r);
         assert_true(value(s, r, "x") == 0);
@@ -478,7 +520,7 @@ static void watched_and_cancelled(void **state)
     }
 }
 
-/* Without a compiler an ensemble is computed all the same, and says why; who insists is told so. */
+/* Without a compiler the interpreter computes the ensemble, and a note says why; machine "compiled" is refused. */
 static void without_a_compiler(void **state)
 {
     (void)state;
@@ -502,16 +544,16 @@ static void without_a_compiler(void **state)
 int main(void)
 {
     open_cache();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(some_leave_the_finite_numbers),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(some_diverge),
                                        cmocka_unit_test(a_domain_is_left),
                                        cmocka_unit_test(no_solution),
-                                       cmocka_unit_test(the_lost_cost_nothing),
+                                       cmocka_unit_test(stopped_trajectories_cost_nothing),
                                        cmocka_unit_test(names),
                                        cmocka_unit_test(definitions),
                                        cmocka_unit_test(a_system_is_left_as_it_was),
                                        cmocka_unit_test(nothing_varies),
                                        cmocka_unit_test(a_method_that_no_longer_fits),
-                                       cmocka_unit_test(watched_and_cancelled),
+                                       cmocka_unit_test(observed_and_cancelled),
                                        cmocka_unit_test(without_a_compiler)};
     int failed = cmocka_run_group_tests_name("ensembles that meet trouble", tests, NULL, NULL);
     close_cache();

@@ -1,12 +1,12 @@
 #!/bin/bash
-# A new family of methods, as HOUSE.md promises: a text in step/, its two lines in step/families.def, a row in core/methods.c, and nothing else. The
-# family adapts its steps (test/family/doubling.h). A copy of the sources with it is built, and must run on every machine to the same bits.
+# Adds a family of methods as HOUSE.md describes: a text in step/, its two lines in step/families.def, a row in core/methods.c, and nothing else. The
+# family adapts its steps (test/family/doubling.h). A copy of the sources with it is built, and has to give the same bits on every machine.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C
 passed=0 failed=0
 check() { if [ "$2" = "$3" ]; then passed=$((passed + 1)); echo "ok - $1"; else failed=$((failed + 1)); printf 'not ok - %s\n    %s\n    %s\n' "$1" "$2" "$3"; fi; }
-truth() { check "$1" "$(awk "BEGIN { print ($2) ? \"true\" : \"false: $2\" }")" true; }
+holds() { check "$1" "$(awk "BEGIN { print ($2) ? \"true\" : \"false: $2\" }")" true; }
 copy=$(mktemp -d) || exit 1
 trap 'rm -rf "$copy"' EXIT
 export XDG_CACHE_HOME=$copy/cache
@@ -30,21 +30,21 @@ slow=$("$motus" run $model --method doubling --step 0.1 --until 3 --machine inte
 fast=$("$motus" run $model --method doubling --step 0.1 --until 3 --machine compiled --json 2>&1)
 state() { sed -n 's/.*\("state": {[^}]*}\).*/\1/p'; }
 check "interpreter and compiled machine: the same bits" "$(state <<<"$fast")" "$(state <<<"$slow")"
-truth "a run ends exactly at its end" "$(value time <<<"$slow") == 3"
+holds "a run ends exactly at its end" "$(value time <<<"$slow") == 3"
 steps=$(value steps <<<"$slow") work=$(value evaluations <<<"$slow")
-truth "six evaluations a candidate, and some candidates were refused" "$work > 6 * $steps && $work % 6 == 0"
-# A step may err by the tolerance; over a stable orbit errors add up, and grow with time in proportion.
+holds "six evaluations a candidate, and some candidates were refused" "$work > 6 * $steps && $work % 6 == 0"
+# The error of a step is below the tolerance; on a stable orbit errors add up and grow in proportion to time.
 first() { sed -n 's/.*"r": \[\([^,]*\),.*/\1/p' | head -n 1; }
 near=$("$motus" run $model --method kahan-li8 --step 0.001 --until 3 --json | first) here=$(first <<<"$slow")
-truth "as far off as the errors of its steps allow: $here beside $near" "($here - $near) ^ 2 < (3 * $steps * 1e-9) ^ 2 * 100 && $here != $near"
+holds "as far off as the errors of its steps allow: $here beside $near" "($here - $near) ^ 2 < (3 * $steps * 1e-9) ^ 2 * 100 && $here != $near"
 
-# Restart: the time, its rounding error and the next step size travel with the state.
+# A restart state has the time, its rounding error and the next step size.
 "$motus" run $model --method doubling --step 0.1 --until 1.7 --save-state "$copy/state" >"$copy/log" 2>&1
 for machine in interpreter compiled; do
     "$motus" run $model --method doubling --step 0.1 --until 3 --machine $machine --restart "$copy/state" --json | state >"$copy/$machine"
 done
 check "a saved run goes on, on both machines alike" "$(cat "$copy/compiled")" "$(cat "$copy/interpreter")"
-truth "and gets there" "$(grep -c state "$copy/compiled") == 1"
+holds "and gets there" "$(grep -c state "$copy/compiled") == 1"
 check "rows at times between steps whose sizes nobody knows beforehand" \
     "$("$motus" run $model --method doubling --step 0.1 --until 1.7 --every 0.1 -o "$copy/rows.csv" >/dev/null 2>&1; grep -c '^[0-9]' "$copy/rows.csv")" 18
 

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The layout of the C is what .clang-format says, and no line is longer than 120 characters, those of tables included.
+# The C files have the layout of .clang-format, and no line is longer than 120 characters, in tables either.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 passed=0 failed=0
@@ -9,7 +9,7 @@ judge() {
 }
 ours() { find . \( -name node_modules -o -name build -o -name out -o -name cache \) -prune -o -type f \( "$@" \) -print0; }
 
-# Versions of clang-format differ in what they write; version 14 is the one that decides.
+# The output of clang-format differs between versions; version 14 decides.
 tool=$(command -v clang-format-14 || command -v clang-format)
 case $("${tool:-false}" --version 2>/dev/null) in
 *" 14."*)

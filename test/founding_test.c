@@ -1,18 +1,17 @@
-/* Both founding documents, from their model files: the projectile of the page, the two recurrences of the notebook.
+/* The two founding problems, from their model files: the projectile, and the two recurrences of the notebook.
  *
- * Numbers of the notebook are those of its own loop in double precision; beside them stand the values of the same
- * recurrences in exact arithmetic (200 bits, h = 1/1000), 22 digits, and the solutions of the equations themselves.
+ * Numbers of the notebook are those of its own loop in double precision; beside them are the values of the same
+ * recurrences in exact arithmetic (200 bits, h = 1/1000), 22 digits, and the solutions of the equations.
  */
 #include "test/given.h"
 
-/* The page --------------------------------------------------------------------------------------------------------- */
+/* The projectile --------------------------------------------------------------------------------------------------- */
 
 enum { PAGE_STEPS = 60 };
 static const double PAGE_H = 0.05, PAGE_G = 9.81, PAGE_T = 3, PAGE_Y = -30.645, PAGE_X = 3;
 
-/* What rounding can do in n steps: each of them rounds y (below 31) and v (below 25) a last time, and what is lost in
- * v acts for the rest of the way; stages and products with h round quantities of the size h v once more; the literals
- * 9.81, 4.5 and 0.05 are rounded too. */
+/* The bound on rounding in n steps: each step rounds y (below 31) and v (below 25), and an error of v acts until the
+ * end; stages and products with h round quantities of size h v; the literals 9.81, 4.5 and 0.05 are rounded too. */
 static double page_rounding(void)
 {
     const double n = PAGE_STEPS, y = 31, v = 25;
@@ -36,8 +35,8 @@ static void page(const char *method, double above)
     motus_system_destroy(s);
 }
 
-/* y_n = y(t_n) ± (1/2) g h t_n: explicit Euler drifts with the velocity of before the kick, symplectic Euler with
- * that of after. */
+/* y_n = y(t_n) ± (1/2) g h t_n: explicit Euler drifts with the velocity before the kick, symplectic Euler with that
+ * after it. */
 static void eulers_miss_by_equal_and_opposite_amounts(void **state)
 {
     (void)state;
@@ -83,7 +82,7 @@ static const entry damped[] = {
 enum { ENTRIES = 6 };
 static const double DRIVEN_SOLUTION = 0.04778309565760846604243, DAMPED_SOLUTION = -3.489418164528281725538;
 
-/* Every row of a table, by one run that stops at each. */
+/* Every row of a table, by one run that stops at each time. */
 static void recurrence(const char *model, const char *method, const entry *table, int literal, double bound)
 {
     motus_system *s = given_model(model, NULL, 0);
@@ -100,8 +99,7 @@ static void recurrence(const char *model, const char *method, const entry *table
     motus_system_destroy(s);
 }
 
-/* 1e-13 and 1e-12 are what the summed form is held to; the plain recurrence loses some 1e-12 on the way (see
- * `lost`). */
+/* The bounds of the summed form are 1e-13 and 1e-12; the plain recurrence loses some 1e-12 (`lost`). */
 static void verlet_is_the_recursion_in_exact_arithmetic(void **state)
 {
     (void)state;
@@ -109,8 +107,8 @@ static void verlet_is_the_recursion_in_exact_arithmetic(void **state)
     recurrence("damped-cubic.motus", NULL, damped, 0, 1e-12);
 }
 
-/* Two orders of the same terms differ by what the plain form loses to rounding: nothing closer than that can be asked
- * of a third. */
+/* The difference of two orders of the same terms measures the rounding of the plain form; a third order cannot be
+ * expected to be nearer. */
 static double lost(const entry *table)
 {
     double most = 0;
@@ -142,8 +140,7 @@ static double end_of(const char *model, double step)
     return x;
 }
 
-/* At half the step the recursion has its own value, and a quarter of the distance to the solution: 4.00 to the digits
- * shown. */
+/* At half the step the recursion is four times nearer to the solution: 4.00 to the printed digits. */
 static void half_the_step_is_a_quarter_of_the_error(void **state)
 {
     (void)state;

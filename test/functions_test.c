@@ -1,10 +1,10 @@
-/* The elementary functions: judged by MPFR, by the rows of annex F, and by themselves: every width and every compiler
- * gives the same bits.
+/* The elementary functions: against MPFR, against the special cases of annex F of the C standard, and against
+ * themselves: every width and every compiler gives the same bits.
  *
- * The law is 1 ulp, for pow and erf 2, over all doubles. `functions_test N` takes N random arguments for each
+ * The bound is 1 ulp, for pow and erf 2, over all doubles. `functions_test N` takes N random arguments for each
  * function (100000 without), and always the hard ones below and the neighbours of every bound in the texts. The
- * largest error seen may not exceed the committed one, which is what 1e7 arguments gave, rounded up, and 0.02: a
- * worse one is news, to be written down here and in bench/results/functions.txt.
+ * largest error may not exceed the committed one, which is that of 1e7 arguments, rounded up, and 0.02: write a
+ * larger one down here and in bench/results/functions.txt.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -129,8 +129,8 @@ static double random_double(uint64_t *state)
     return x;
 }
 
-/* Half of them from the usual range, a quarter any double, and a quarter of all sizes between 2^-40 and 2^32; of two
- * arguments rather those that are of a size or, for pow, those with a finite result. */
+/* Half of the arguments from the usual range, a quarter any double, a quarter of all sizes between 2^-40 and 2^32; of
+ * two arguments, preferably with a finite result. */
 static void random_pair(const function *f, long i, uint64_t *state, double *x, double *y)
 {
     *x = random_double(state), *y = random_double(state);
@@ -152,8 +152,8 @@ static void random_pair(const function *f, long i, uint64_t *state, double *x, d
     }
 }
 
-/* Doubles next to multiples of pi/2, one among the nearest of its binade (found by continued fractions), in all three
- * ranges of the reduction; and the arguments with the largest errors that were met. */
+/* Doubles next to multiples of pi/2, one of the nearest of each binade (found by continued fractions), in all three
+ * ranges of the reduction; and the arguments with the largest known errors. */
 static const double hard[] = {
     0x1.6ac5b262ca1ffp+849,
     0x1.6c6cbc45dc8dep+5,
@@ -199,7 +199,8 @@ static const double hard[] = {
     0x1p52,
 };
 
-/* Where a text changes its way, or a result begins to overflow, underflow or round to its limit. */
+/* Bounds at which an evaluation changes its formula, or a result begins to overflow, underflow or round to its
+ * limit. */
 static const double bounds[] = {
     0x1p22,
     0x1p30,
@@ -278,37 +279,37 @@ static void each_special(const function *f, taker *take, void *to)
 /* The error in ulp ------------------------------------------------------------------------------------------------- */
 
 typedef struct judgement {
-    mpfr_t x, y, truth, got;
+    mpfr_t x, y, exact, got;
     double worst, at_x, at_y, result;
 } judgement;
 
 static void judgement_begin(judgement *j)
 {
-    mpfr_init2(j->x, 53), mpfr_init2(j->y, 53), mpfr_init2(j->truth, 128), mpfr_init2(j->got, 192);
+    mpfr_init2(j->x, 53), mpfr_init2(j->y, 53), mpfr_init2(j->exact, 128), mpfr_init2(j->got, 192);
     j->worst = -1;
 }
 
 static void judgement_end(judgement *j)
 {
-    mpfr_clear(j->x), mpfr_clear(j->y), mpfr_clear(j->truth), mpfr_clear(j->got);
+    mpfr_clear(j->x), mpfr_clear(j->y), mpfr_clear(j->exact), mpfr_clear(j->got);
 }
 
-/* In units of the last place of the double nearest to the truth. Wrong kind, or a zero with the wrong sign:
- * infinite. */
+/* The error in units in the last place of the double nearest to the exact value. Infinite for a wrong kind of number,
+ * or a zero with the wrong sign. */
 static double error_of(judgement *j, double got)
 {
-    double nearest = mpfr_get_d(j->truth, MPFR_RNDN);
+    double nearest = mpfr_get_d(j->exact, MPFR_RNDN);
     if (isnan(nearest) || isnan(got)) return isnan(nearest) && isnan(got) ? 0 : (double)INFINITY;
     if (nearest == got && !isinf(got) && got == 0) return !signbit(nearest) == !signbit(got) ? 0 : (double)INFINITY;
     if (isinf(nearest) && got == nearest) return 0;
-    if (mpfr_inf_p(j->truth)) return (double)INFINITY;
+    if (mpfr_inf_p(j->exact)) return (double)INFINITY;
     int exponent = isinf(nearest) ? 971 : nearest == 0 || fabs(nearest) < 0x1p-1022 ? -1074 : ilogb(nearest) - 52;
-    if (isinf(got)) { /* stands for 2^1024, the first number that is none */
+    if (isinf(got)) { /* replaces 2^1024, the first number that is not finite */
         mpfr_set_si_2exp(j->got, got < 0 ? -1 : 1, 1024, MPFR_RNDN);
     } else {
         mpfr_set_d(j->got, got, MPFR_RNDN);
     }
-    mpfr_sub(j->got, j->got, j->truth, MPFR_RNDN);
+    mpfr_sub(j->got, j->got, j->exact, MPFR_RNDN);
     mpfr_mul_2si(j->got, j->got, -exponent, MPFR_RNDN);
     return fabs(mpfr_get_d(j->got, MPFR_RNDN));
 }
@@ -317,7 +318,7 @@ static void judge(const function *f, double x, double y, void *to)
 {
     judgement *j = to;
     mpfr_set_d(j->x, x, MPFR_RNDN), mpfr_set_d(j->y, y, MPFR_RNDN);
-    f->judge(j->truth, j->x, j->y);
+    f->judge(j->exact, j->x, j->y);
     double got = f->scalar(x, y), error = error_of(j, got);
     if (error > j->worst) j->worst = error, j->at_x = x, j->at_y = y, j->result = got;
 }
@@ -347,7 +348,7 @@ static uint64_t bits_of(double x)
 {
     uint64_t b;
     memcpy(&b, &x, sizeof b);
-    return x != x ? 0x7ff8000000000000 : b; /* of a NaN only that it is one */
+    return x != x ? 0x7ff8000000000000 : b; /* all NaNs are equal */
 }
 
 typedef struct block {
@@ -381,7 +382,8 @@ static void compare(const function *f, double x, double y, void *to)
     if (b->count == BLOCK) compare_block(f, b);
 }
 
-/* Special and random arguments are mixed in a block, so that most blocks have lanes in and out of every rare case. */
+/* Special and random arguments are mixed in a block, so that most blocks have lanes inside and outside every special
+ * case. */
 static void test_bits(void **state)
 {
     const function *f = *state;

@@ -16,15 +16,15 @@
 
 enum { HEADER = 32, NUMBERS = 1000, SETTINGS = 4, TYPESET_MAX = 1 << 17 };
 
-#define CHECK(truth)                                                    \
-    do {                                                                \
-        if (!(truth)) {                                                 \
-            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #truth); \
-            abort();                                                    \
-        }                                                               \
+#define CHECK(condition)                                                    \
+    do {                                                                    \
+        if (!(condition)) {                                                 \
+            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            abort();                                                        \
+        }                                                                   \
     } while (0)
 
-/* Memory as a small machine has it: a model that asks for more is told so. */
+/* An allocator with the memory of a small machine, which refuses larger requests. */
 typedef struct ledger {
     size_t bytes, blocks;
 } ledger;
@@ -73,13 +73,13 @@ static void check_error(const motus_error *err, motus_status status)
     check_text(err->hint, sizeof err->hint);
     check_text(err->caret, sizeof err->caret);
     check_text(err->variable, sizeof err->variable);
-    /* the model's own bytes, which need not be UTF-8 */
+    /* the model's bytes, which need not be UTF-8 */
     CHECK(strnlen(err->source, sizeof err->source) < sizeof err->source);
     for (const char *p = err->source; *p; p++) CHECK((unsigned char)*p >= 0x20 && *p != 0x7F);
     CHECK((err->line > 0) == (err->column > 0));
 }
 
-/* Every statement typeset is XML that a page can take. */
+/* Every statement as MathML is well-formed XML. */
 static void check_statements(motus_system *s)
 {
     for (size_t k = 0; k < motus_statement_count(s) && k < NUMBERS; k++) {
@@ -87,7 +87,7 @@ static void check_statements(motus_system *s)
         const char *text = motus_statement_mathml(s, k), *wrong;
         CHECK(motus_statement_at(s, k, &statement) == MOTUS_OK && statement.name &&
               (statement.line > 0 || statement.is_set));
-        if (!text) continue; /* no memory */
+        if (!text) continue; /* out of memory */
         CHECK(strlen(text) < TYPESET_MAX);
         wrong = mathml_read(text, NULL, 0, NULL);
         if (wrong) fprintf(stderr, "%s: %s\n", wrong, text);
@@ -134,7 +134,7 @@ static void run(motus_system *s, const char *method)
     motus_run_destroy(r);
 }
 
-/* One evaluation may take any number of operations up to a bound that is high: such models are read, not run. */
+/* A model whose evaluation takes very many operations is read, not run. */
 static int cheap(const uint8_t *bytes, size_t length)
 {
     int digits = 0, sums = 0;

@@ -1,6 +1,6 @@
-/* What a test begins with: a system from a text or a model file, a run of it, numbers by their names.
+/* What tests share: a system from a text or a model file, a run of it, numbers by their names.
  *
- * Everything here fails the test with the library's own message, so that a test says only what it is about.
+ * A function here that fails ends the test with the library's message.
  */
 #ifndef TEST_GIVEN_H
 #define TEST_GIVEN_H
@@ -40,21 +40,21 @@ UNUSED static motus_system *given_text_with(const char *text, const char *const 
 
 UNUSED static motus_system *given_text(const char *text) { return given_text_with(text, NULL, 0, text); }
 
-/* A progress hook that sees to it that fractions grow, and cancels at a call. */
-typedef struct watcher {
+/* A progress hook that checks that fractions grow, and cancels at call number cancel_at. */
+typedef struct given_progress {
     int calls, cancel_at;
     double last;
-} watcher;
+} given_progress;
 
-UNUSED static int watch(void *context, double fraction)
+UNUSED static int given_observe(void *context, double fraction)
 {
-    watcher *w = context;
+    given_progress *w = context;
     assert_true(fraction >= w->last && fraction <= 1);
     w->last = fraction;
     return ++w->calls == w->cancel_at;
 }
 
-/* The whole file, to be freed. */
+/* The bytes of a file, to be freed. */
 UNUSED static char *given_file(const char *path)
 {
     FILE *f = fopen(path, "rb");
@@ -84,7 +84,7 @@ UNUSED static motus_system *given_model(const char *name, const char *const *set
     return s;
 }
 
-/* NULL and NaN: as the model says. By the interpreter: what is tested here should need no compiler. */
+/* NULL and NaN: the model's. By the interpreter, so that the test needs no compiler. */
 UNUSED static motus_run *given_run(motus_system *s, const char *method, double step, double until)
 {
     motus_error err = motus_default_error();

@@ -1,5 +1,4 @@
-/* A cache of its own for the objects that a test compiles: kept from one test of a program to the next, gone with
- * it. */
+/* A cache of compiled objects for one test program, removed at its end. */
 #ifndef TEST_GIVEN_CACHE_H
 #define TEST_GIVEN_CACHE_H
 
@@ -11,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* XDG_CACHE_HOME for one program of tests. */
 static char given_cache[] = "/tmp/motus-cache-XXXXXX";
 
 static inline void open_cache(void)

@@ -1,8 +1,8 @@
 /* Golden results: the bits of the state after 50 steps, for every model in models/ and every method that admits it,
- * as test/golden.txt has them. A change of any operation of the language's normal form, of a method's text or of a
- * row shows here; so does a machine that computes other bits.
+ * are those of test/golden.txt. Any change of the language's normal form, of a method's text or of a row changes
+ * them, as does a machine that computes other bits.
  *
- * `golden_test --write` writes the file anew.
+ * `golden_test --write` writes the file.
  */
 #include "test/given.h"
 
@@ -42,7 +42,7 @@ typedef struct line {
     uint64_t hash;
 } line;
 
-/* One line: the hash of x and v after the steps, or of the way in which they failed. */
+/* One line: the hash of x and v after the steps, or of the error. */
 static line compute(motus_system *s, const char *model, const char *method)
 {
     line l = {0};
@@ -148,8 +148,8 @@ static void a_model(void **state)
     if (wrong) fail_msg("%zu of %zu results have other bits", wrong, n);
 }
 
-/* Nothing on record that is no longer computed. */
-static void the_record_is_whole(void **state)
+/* Every line of the file is still computed. */
+static void every_line_is_computed(void **state)
 {
     (void)state;
     for (size_t i = 0; i < recorded_count; i++) {
@@ -169,6 +169,6 @@ int main(int argc, char **argv)
     read_golden();
     for (size_t i = 0; i < model_count; i++)
         tests[i] = (struct CMUnitTest){.name = models[i], .test_func = a_model, .initial_state = models[i]};
-    tests[model_count] = (struct CMUnitTest)cmocka_unit_test(the_record_is_whole);
+    tests[model_count] = (struct CMUnitTest)cmocka_unit_test(every_line_is_computed);
     return _cmocka_run_group_tests("golden results", tests, model_count + 1, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* The graph: what operations mean, folding against running, derivatives against difference quotients, what can be
- * read off, the normal form, and how nodes are written.
+/* The graph: the values of operations, constant folding, derivatives against difference quotients, the analysis, the
+ * normal form, and how nodes are printed.
  */
 #include <float.h>
 #include "graph_world.h"
@@ -137,8 +137,8 @@ static long double exact_at(const graph *g, const world *w, node n, long double 
     }
 }
 
-/* The derivative along x, against Richardson's extrapolation of the central difference. False where the quotient
- * itself has not settled: a kink, a pole or a cliff is near. */
+/* The derivative along x against Richardson's extrapolation of the central difference. False if the difference has
+ * not converged: a kink, a pole or a cliff is near. */
 static bool derivative_holds(fixture *f, node n)
 {
     graph *g = f->g;
@@ -171,7 +171,7 @@ static void every_operation_has_its_derivative(void **state)
             double argument_of[3];
             argument(op, &argument_of[0], &argument_of[1], &argument_of[2]);
             node operand[3];
-            /* x stands in one operand, or in all: scaled and moved so that each has its own argument and slope. */
+            /* x is in one operand, or in all, scaled and shifted so that each has its own argument and slope. */
             for (int j = 0; j < 3; j++) {
                 double slope = k % 2 || k / 2 % arity == j ? 0.5 + 0.25 * j : 0;
                 node linear = bin(g, OP_MUL, graph_const(g, slope), load(g, ref0(SCALAR)));
@@ -232,7 +232,7 @@ static void a_derivative_is_not_poisoned(void **state)
     assert_true(run_one(&f, graph_derivative(g, guarded, seed_one, NULL), 0) == 1);
     assert_true(run_one(&f, graph_derivative(g, speed, seed_one, NULL), 0) == 0);
     assert_true(run_one(&f, graph_derivative(g, un(g, OP_ABS, x), seed_one, NULL), 0) == 0);
-    w.x[0] = -2; /* (-2)^3: the slope in the exponent, log(-2), must not be looked at */
+    w.x[0] = -2; /* (-2)^3: the slope in the exponent, log(-2), must not enter */
     w.pool[0] = 3;
     assert_true(run_one(&f, graph_derivative(g, power, seed_one, NULL), 0) == 12);
     arena_release(&f.arena);
@@ -253,7 +253,7 @@ static void seeds_shift_arrays(void **state)
     double got =
         run_one(&f, graph_derivative(g, bin(g, OP_MUL, squares, graph_time(g)), graph_seed_direction, &shift), 2);
     assert_true(fabs(got - 2 * wanted) < 1e-12);
-    /* A masked sum's derivative is masked: 1/(k - 2) is not to be seen at k = 2. */
+    /* The derivative of a masked sum is masked: 1/(k - 2) does not enter at k = 2. */
     node k = graph_index(g, 0), two = graph_const(g, 2);
     node masked = sum_over(g, 0, r, bin(g, OP_NE, k, two),
                            bin(g, OP_DIV, load(g, ref1(CHAIN, level(0, 0))), bin(g, OP_SUB, k, two)));
@@ -262,7 +262,7 @@ static void seeds_shift_arrays(void **state)
     arena_release(&f.arena);
 }
 
-/* What the graph knows --------------------------------------------------------------------------------------------- */
+/* Analysis --------------------------------------------------------------------------------------------------------- */
 
 static void nodes_are_shared_and_plain(void **state)
 {
@@ -282,7 +282,7 @@ static void nodes_are_shared_and_plain(void **state)
     assert_int_equal(sum_over(g, 0, r, 0, p), sum_over(g, 0, r, 0, p));
     assert_int_not_equal(sum_over(g, 0, r, 0, p), sum_over(g, 0, s, 0, p));
     assert_int_not_equal(sum_over(g, 0, r, 0, p), sum_over(g, 1, r, 0, p));
-    /* In an equation nothing is simplified; in a derivative it is. */
+    /* Equations are not simplified; derivatives are. */
     assert_int_not_equal(bin(g, OP_ADD, x, 0), x);
     assert_int_not_equal(bin(g, OP_MUL, 0, x), 0);
     g->simplify = true;
@@ -399,14 +399,14 @@ static void products_are_fused_by_rule(void **state)
     assert_int_equal(formed(&f, bin(g, OP_ADD, un(g, OP_NEG, pq), x)), OP_FNMA);
     assert_int_equal(formed(&f, bin(g, OP_SUB, un(g, OP_NEG, pq), x)), OP_FMS);
     assert_int_equal(formed(&f, bin(g, OP_ADD, bin(g, OP_DIV, x, p), q)), OP_ADD);
-    /* Used twice: a product of its own. */
+    /* A product that is used twice is not fused. */
     assert_int_equal(formed(&f, bin(g, OP_ADD, pq, pq)), OP_ADD);
     assert_int_equal(formed(&f, bin(g, OP_ADD, bin(g, OP_DIV, pq, x), pq)), OP_ADD);
     output two[] = {{.value = bin(g, OP_ADD, x, pq), .to = ref0(TO_SCALAR)},
                     {.value = pq, .to = ref1(TO_CHAIN, literal(1))}};
     program *both = program_create(g, two, 2);
     assert_int_equal(graph_at(both->graph, both->outputs[0].value)->op, OP_ADD);
-    /* Both are products: the right one is fused, and the left one is rounded. */
+    /* Of two products the right one is fused, and the left one is rounded. */
     program *pair = program_create(g, &(output){.value = bin(g, OP_SUB, xt, pq), .to = ref0(TO_SCALAR)}, 1);
     const graph_node *n = graph_at(pair->graph, pair->outputs[0].value);
     assert_int_equal(n->op, OP_FNMA);
@@ -556,7 +556,7 @@ static void the_arena_keeps_its_promises(void **state)
     assert_string_equal(longer, "mom");
     assert_int_equal(longer[99999], 0);
     m.left = 0;
-    while (!a.failed) /* a small piece is always writable, a large one is refused */
+    while (!a.failed) /* a small expression can always be printed, a large one is refused */
         memset(arena_take(&a, ARENA_SPARE), 1, ARENA_SPARE);
     assert_ptr_equal(arena_take(&a, ARENA_SPARE), a.spare);
     assert_int_equal(a.spare[ARENA_SPARE - 1], 0);

@@ -1,4 +1,4 @@
-/* What the tests of the graph and of the tape share: a small world of arrays, and short words for making nodes. */
+/* What the tests of the graph and of the tape share: a model with arrays, and short functions for making nodes. */
 #ifndef TEST_GRAPH_WORLD_H
 #define TEST_GRAPH_WORLD_H
 
@@ -55,7 +55,7 @@ static inline array plane(space s, size_t base, int64_t rows, int64_t columns)
     return (array){.space = s, .dims = 2, .base = base, .last = {rows + 1, columns + 1}, .stride = {columns + 2, 1}};
 }
 
-static uint64_t seed = 1; /* each test program draws its own sequence */
+static uint64_t seed = 1; /* each test program has its own sequence */
 
 static inline uint32_t draw(uint32_t below)
 {
@@ -137,7 +137,7 @@ static inline graph *start(fixture *f)
 
 static inline bool same_bits(double a, double b) { return (isnan(a) && isnan(b)) || !memcmp(&a, &b, sizeof a); }
 
-/* One number of a graph without loops, through the tape. */
+/* The value of a graph without loops, computed by the tape. */
 static inline double run_one(fixture *f, node n, double t)
 {
     output o = {.value = n, .to = ref0(TO_SCALAR)};
@@ -173,7 +173,7 @@ static inline void see(void *ctx, const reference *ref, const range *sums, int f
     s->count++;
 }
 
-/* Hooks that count, and fail from call number `left` on. */
+/* Allocation hooks that count, and fail from call number `left` on. */
 typedef struct meter {
     long left, live, taken;
 } meter;

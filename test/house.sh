@@ -1,6 +1,6 @@
 #!/bin/bash
-# The order of the house: who may use whom (the tables in HOUSE.md) by includes and by symbols, how symbols are named,
-# and that the shared library shows exactly what motus.h declares.
+# The architecture: which folder may use which (the tables in HOUSE.md), by includes and by symbols; the names of symbols; and that the
+# shared library exports exactly what motus.h declares.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C
@@ -12,8 +12,8 @@ not_ok() { failed=$((failed + 1)); echo "not ok - $1"; shift; [ $# -gt 0 ] && pr
 judge() { if [ -z "$2" ]; then ok "$1"; else not_ok "$1"; sed 's/^/    /' <<<"$2"; fi; }
 
 # --- the tables of HOUSE.md ---------------------------------------------------------------------------------------
-# Rows: | `core/` | what it is | `step/`, `motus.h` |. A row that grants nothing and does not say so is not a law. Folders
-# are ranked in the order of their rows, a sub-folder within its folder.
+# Rows: | `core/` | what it is | `step/`, `motus.h` |. A row needs a grant or the word "nothing", else it is ignored. Folders are ranked
+# in the order of their rows, a sub-folder within its folder.
 declare -A grants rank
 folders=()
 while IFS='|' read -r _ folder _ may _; do
@@ -26,12 +26,12 @@ while IFS='|' read -r _ folder _ may _; do
     above=${rank[${name%/*}]-}
     rank[$name]=$((above ? above + ${#folders[@]} : 100 * ${#folders[@]}))
 done <HOUSE.md
-# Sets `of` to the folder, among those of the tables, in which a file lies: the nearest one above it that has a row.
+# Sets `of` to the folder of the tables in which a file lies: the nearest one above it with a row.
 find_folder() {
     of=${1%/*}
     while [ -z "${rank[$of]-}" ] && [[ $of == */* ]]; do of=${of%/*}; done
 }
-# A sub-folder may use what its folder may, and what its own row adds. (Unquoted: a grant may have a *.)
+# A sub-folder may use what its folder may, and what its own row adds. (Unquoted, since a grant may have a *.)
 granted() { echo ${grants[$1]} ${grants[${1%/*}]-}; }
 
 judge "HOUSE.md says what every folder may use" "$(
@@ -39,7 +39,7 @@ judge "HOUSE.md says what every folder may use" "$(
         grep -vE '^(build|out|include|test|bench)(/|$)' |
         while read -r folder; do
             find_folder "$folder/"
-            # Where one sub-folder has a row, every one needs its own.
+            # If one sub-folder has a row, every one needs its own.
             [ "$of" = "$folder" ] || { [ -n "${rank[$of]-}" ] && [[ " ${folders[*]}" != *" $of/"* ]]; } || echo "$folder/ has no row"
         done)"
 judge "HOUSE.md grants each folder only what stands above it" "$(
@@ -65,9 +65,9 @@ for folder in "${folders[@]}"; do
                 [[ $target == */* || $target == motus.h ]] || target=$folder/$target
                 good=no
                 [[ $target == "$folder"/* && $folder != step ]] && good=yes
-                # The list of the families is the one text of step/ that reads others: the families.
+                # The list of the families is the only text of step/ that includes others: the families.
                 [[ $file == step/families.def && $target == step/* ]] && good=yes
-                # motus.h is the vocabulary of the whole house but of step/, which knows nothing.
+                # Every folder may include motus.h, except step/, which includes nothing.
                 [[ $target == motus.h && $folder != step ]] && good=yes
                 for grant in $may; do
                     [[ $target == "$grant" || ( $grant == */ && $target == "$grant"* ) ]] && good=yes
@@ -80,7 +80,7 @@ for folder in "${folders[@]}"; do
     done
     judge "$folder/ includes only what HOUSE.md grants it" "${complaints%$'\n'}"
 done
-# What the header brings along, beyond the two it includes: macros with its own prefix, and none of the user's taken away.
+# The macros of the header, beyond those of the two it includes, have its prefix, and it undefines none of the user's.
 macros() { cc -std=c17 -Iinclude -E -dM "$@" -x c - | sed -E 's/^#define ([A-Za-z_0-9]+).*/\1/' | sort -u; }
 plain=$(printf '#include <stddef.h>\n#include <stdint.h>\n' | macros)
 judge "every macro of motus.h begins with MOTUS_" "$(echo '#include "motus.h"' | macros | comm -13 <(echo "$plain") - | grep -v '^MOTUS_')"
@@ -106,15 +106,14 @@ judge "motus.h is C++ too" "$(printf '#include "motus.h"\nint main() { motus_col
 judge "include/motus.h includes nothing of ours" "$(grep -nE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' include/motus.h)"
 
 # --- symbols --------------------------------------------------------------------------------------------------------------
-# A symbol that other files use starts with its file's name, up to the first underscore or dot. These files' symbols have another
-# word, because it is the word of the house for the thing:
+# A symbol that other files use starts with its file's name, up to the first underscore or dot. Exceptions:
 declare -A also=(
     [base/error.c]='fail hint'
     [base/memory.c]='take take_more give'
-    [machine/interpreter.c]='machine_'                  # a machine is a file; machine/machine.h names them
+    [machine/interpreter.c]='machine_'                  # machine/machine.h declares the machines, each in its file
     [machine/callback.c]='machine_'
     [machine/compiled.c]='machine_'
-    [machine/nowhere.c]='compiled_ machine_'            # stands in for machine/compiled.c
+    [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
     [api/explain.c]='system_'
 )
@@ -125,16 +124,16 @@ if [ ! -f "$archive" ] || [ ! -d "$program/cli" ]; then
 else
     scratch=$(mktemp -d)
     trap 'rm -rf "$scratch"' EXIT
-    # The build writes texts.c, with what machine/texts.h declares.
+    # The build writes texts.c, which machine/texts.h declares.
     sources=$(
         for folder in "${folders[@]}"; do
             [[ $folder == cli || $folder == lab/core ]] || ls "$folder"/*.c 2>/dev/null
         done
         echo machine/texts.c)
-    # nm names the member (graph.c.o); the folder is found again by the file's name, so these must not repeat themselves.
+    # nm prints the member (graph.c.o); the folder follows from the file's name, so these names must be unique.
     judge "no two files of the library have the same name" "$(sed 's:.*/::' <<<"$sources" | sort | uniq -d)"
-    # The page's module is made for WebAssembly; its own files are compiled here once more for their symbols alone. What
-    # needs WASI uses nothing of ours.
+    # The page's module is built for WebAssembly; its files are compiled natively here for their symbols. Those that need WASI use no
+    # symbols of the library.
     mkdir -p "$scratch/lab/core"
     unread=$(for file in lab/core/*.c; do
         grep -q '#include <wasi/' "$file" ||
@@ -172,7 +171,7 @@ else
             [ $good = yes ] || echo "$path defines $symbol, which should start with ${prefix}_"
         done <"$scratch/symbols")"
 
-    # Who uses whose: user, symbol, file of the library. What a program defines is its own.
+    # Uses: user, symbol, file of the library that defines it. Symbols that a program defines itself are not the library's.
     awk '$3 == "D" { if ($1 ~ /^(cli|lab)\//) own[substr($1, 1, 3) $2]; else from[$2] = $1 }
         $3 == "U" { use[++n] = $1; symbol[n] = $2 }
         END {
@@ -180,7 +179,7 @@ else
                 if (symbol[n] in from && !((substr(use[n], 1, 3) symbol[n]) in own)) print use[n], symbol[n], from[symbol[n]]
         }' \
         "$scratch/symbols" | sort >"$scratch/uses"
-    # A folder grants all its symbols; a header, those that it declares. In both cases they are defined above.
+    # A grant of a folder covers all its symbols; of a header, those that it declares. Both are defined above.
     declared() { tr '\n' ' ' <"$1" | sed -E 's:/\*([^*]|\*+[^*/])*\*+/: :g' | grep -oE '[A-Za-z_]\w*' | sort -u; }
     declare -A may_use names complaint
     for folder in "${folders[@]}"; do
@@ -205,7 +204,7 @@ else
         judge "$folder/ uses only the symbols that HOUSE.md grants it" "${complaint[$folder]%$'\n'}"
     done
 
-    # Constants and functions only: a writable global is state that two threads would share. .data.rel.ro is constant once loaded.
+    # Constants and functions only: threads would share a writable global. .data.rel.ro is constant once loaded.
     judge "no globals that change" "$(
         objdump -t "$archive" | awk '
             / file format / { file = $1; sub(/:$/, "", file) }
@@ -224,7 +223,7 @@ else
     judge "what is there, motus.h declares" "$(comm -23 <(echo "$shown") <(echo "$declared"))"
     # The library prints nothing and never exits.
     judge "the library calls nothing that prints, exits or jumps" "$(
-        # the child that becomes the compiler leaves with _exit, and where compiler and cache are is said by the environment
+        # the child process of the compiler calls _exit; the environment names the compiler and the cache
         nm -uA "$archive" | sed 's/@.*//' | grep -vE ':(compiler|cache)\.c\.o: +U (_exit|getenv)$' | awk '$(NF-1) == "U" { print $NF }' | sort -u |
             grep -xE '(__)?(printf|fprintf|vprintf|vfprintf|puts|fputs|putchar|fputc|fwrite|perror|exit|_exit|abort|longjmp|setjmp|_setjmp|__assert_fail|stdout|stderr|system|popen|getenv|setlocale)(_chk)?')"
 fi

@@ -1,5 +1,5 @@
-/* motus_run_jacobian against derivatives taken by hand: models, which know theirs exactly; callbacks with a
- * derivative and without; families, whose numbers lie otherwise inside than they are seen.
+/* motus_run_jacobian against derivatives by hand: models, which have exact derivatives; callbacks with and without a
+ * derivative; families, whose internal order of numbers differs from the public one.
  */
 #include "test/given.h"
 
@@ -74,8 +74,8 @@ static void models_by_hand(void **state)
     motus_system_destroy(s);
 }
 
-/* Vectors in a family, an equation without a cell in between, a driven boundary, and a first-order variable: rows
- * and columns are those of motus_run_state. */
+/* Vectors in a family, a cell in between without an equation, a driven boundary, and a first-order variable: rows and
+ * columns have the order of motus_run_state. */
 static void a_family_by_hand(void **state)
 {
     (void)state;
@@ -143,8 +143,8 @@ static motus_system *callback_of(int with_slope, int linear, int *calls)
     return s;
 }
 
-/* With a derivative: to rounding. Without: half of the digits; by v, of which the force is said to be linear, nearly
- * all. */
+/* With a derivative: to rounding. Without: to half of the digits; with respect to v, in which the force is declared
+ * linear, to nearly all. */
 static void callbacks_by_hand(void **state)
 {
     (void)state;

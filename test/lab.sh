@@ -1,6 +1,6 @@
 #!/bin/bash
-# What the program has to do with the lab: the fragment of an address (--share), and the page with a model in it, written and opened.
-# The page is a small one made here; the real one has tests of its own.
+# motus lab and --share: the fragment of a link, and the page with a model in it, written and opened. The page is a small one made here;
+# test/page.sh tests the real one.
 #
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
 cd "$(dirname "$0")/.." || exit 1
@@ -26,7 +26,7 @@ cat >page.html <<'P'
 P
 export MOTUS_LAB_PAGE=$place/page.html
 is() { [ "$1" = "$2" ] || { printf '%s\nis not\n%s\n' "$1" "$2"; return 1; }; }
-# What a reader of the fragment makes of it: its keys in order, and the decoded values of one of them.
+# Reads the fragment: its keys in order, and the decoded values of one of them.
 keys() { head -n 1 "${1:-$out}" | tr '#&' '\n\n' | sed 1d | cut -d= -f1 | tr '\n' ' '; }
 value() { head -n 1 "${2:-$out}" | tr '#&' '\n\n' | grep "^$1=" | cut -d= -f2- | while read -r text; do printf '%b' "${text//%/\\x}"; done; }
 share() { "$motus" run "$@" --share >"$out" 2>"$err" </dev/null; }
@@ -60,7 +60,7 @@ that "... the methods" is "$(keys):$(value a)" "v m a h :rk4,newmark(1/4, 1/2),v
 value m >decoded
 that "a model from standard input" cmp osc.motus decoded
 
-# Any text: comments may hold every character, and nothing but the alphabet of the fragment may come out.
+# Comments may hold every character; the fragment must consist of its alphabet alone.
 nasty=$'# "q" \'a\' `b` \\ \\n \\x41 %41 %% + & &amp; &#39; = ? # / : ; @ $(touch owned) </script><script>alert(1)</script> --> <!-- ]]> {} [] | ^ ~ *\n# \001\002\037\177\033[31m\t\r\n# grün θ₁ 日本 🜲 \u2028 \u202e \ufeff \ufffd\n'
 printf '%s' "$nasty" >nasty.motus
 cat osc.motus >>nasty.motus
@@ -75,7 +75,7 @@ cp "$out" nasty.fragment
 printf "# \xe9t\xe9\n" | cat - osc.motus >latin.motus
 refuses "a text that is not UTF-8" 2 "latin.motus:1:3: this byte is not UTF-8" "$motus" run latin.motus --share
 refuses "... in --set" 2 "not UTF-8" "$motus" run osc.motus --set $'F=1 # \xff' --share
-# the bound is of the text, to the byte
+# the bound holds to the byte
 room=$((65536 - $(stat -c %s osc.motus) - $(printf '%s' F=0.2 | wc -c) - 1 - 2))
 { cat osc.motus; printf '# %*s\n' $((room)) "" | tr ' ' '#'; } >full.motus
 truncate -s $((65536 - 6)) full.motus && sed -i '$ s/.$/\n/' full.motus
@@ -83,7 +83,7 @@ share full.motus --set F=0.2
 that "a text as long as may be" is "$(($(value m | wc -c) + $(value s | wc -c) + $(value v | wc -c)))" 65536
 refuses "... and one byte more" 2 "longer than 65536 bytes" "$motus" run full.motus --set F=0.25 --share
 
-# What is wrong is said as ever, and nothing is printed.
+# Wrong requests give the usual errors, and nothing is printed.
 printf "x'' = -omga x\nx(0)=1\nx'(0)=0\nstep 0.1\nuntil 1\n" >slip.motus
 refuses "--share of a model with a mistake" 2 "slip.motus:1:8: " "$motus" run slip.motus --share
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nuntil 1\n" >nostep.motus
@@ -104,7 +104,7 @@ that "... no file came of it" absent traj.csv
 that "a full standard output" eval "[ $? = 1 ] && says 'standard output' '$err'"
 
 # --- the page -------------------------------------------------------------------------------------------------------------------------
-# The page with this fragment is the page as it was built but for the one place.
+# The written page is the built one except for the one place.
 holds_fragment() { # page, fragment with its #
     local start=${2#\#}
     start=${start//&/&amp;}
@@ -193,7 +193,7 @@ refuses "a folder as page" 1 "folder" page empty
 MOTUS_LAB_PAGE=none.html "$motus" lab osc.motus --json >"$out" 2>"$err"
 that "... as JSON, of the kind file" holds '.error.kind == "file" and (.error.message | contains("make lab"))'
 that "... nothing was written" absent never.html
-# In the tree it was built in, and as it is installed.
+# In the build tree, and installed.
 mkdir -p tree/lab prefix/bin prefix/share/motus
 cp "$motus" tree/motus && cp "$motus" prefix/bin/motus
 for program in tree/motus prefix/bin/motus; do
@@ -208,7 +208,7 @@ gives "the installed page" 0 env -u MOTUS_LAB_PAGE PATH="$place/prefix/bin:$PATH
 that "... is taken" cmp page.html prefix.html
 
 # --- the browser --------------------------------------------------------------------------------------------------------------------------
-# A browser that notes what it is given, what it has for input and output, and takes its time.
+# A browser that records its arguments, input and output, and takes some seconds.
 mkdir "bin" "a browser"
 cat >"a browser/rec" <<'B'
 #!/bin/bash
@@ -220,7 +220,7 @@ exec sleep 2
 B
 chmod +x "a browser/rec"
 export RECORD=$place/record
-# Its notes, once they are there; the address alone.
+# Its record, when it is written; the address alone.
 notes() { for _ in $(seq 200); do [ -e "$RECORD" ] && break; sleep 0.02; done; tr '\n' ' ' <"$RECORD"; rm -f "$RECORD"; }
 recorded() { notes | cut -d' ' -f2; }
 began=$SECONDS

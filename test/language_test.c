@@ -1,15 +1,14 @@
-/* The rules of the language, by number: expressions and their values, lines that --set replaces, and what is refused.
+/* The rules of the language, by number: the values of expressions, lines that --set replaces, and what is refused.
  *
  * Values are compared to the bit: the expressions are chosen so that every operation in them is exact, or the same as
- * C's. What a whole file must say is in test/right; what must be refused, with line, column and message, in
- * test/wrong.
+ * in C. Complete files are in test/right; files that must be refused, with line, column and message, in test/wrong.
  */
 #include "test/given.h"
 
 #include <float.h>
 #include <stdbool.h>
 
-/* ---- one expression, looked at where the motion starts ---- */
+/* ---- one expression, evaluated at the start ---- */
 
 /* x = 2, x' = 3, r = (1, 2, 3), r' = (4, 5, 6), s = 7, u[1…4] = 10 … 40, u[0] = u[5] = -1; u[i]' = i; t = 0 */
 static const char given[] = "x'' = -x + 0 t\nx(0) = 2\nx'(0) = 3\n"
@@ -36,7 +35,7 @@ static motus_status read_text(const char *text, const char *const *set, size_t c
     return motus_system_from_text(&def, s, err);
 }
 
-/* The column at the start; NaN and a message where it cannot be had. */
+/* The column at the start; NaN and a message if it is refused. */
 static double at_start(const char *text, const char *const *set, size_t count, const char *column)
 {
     motus_system *s = NULL;
@@ -67,8 +66,8 @@ static double at_start(const char *text, const char *const *set, size_t count, c
 
 static bool same(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* ulps: how many units in the last place the value may be off; our elementary functions are within 1, and so are
- * C's. */
+/* ulps: how many units in the last place the value may be off; motus's elementary functions are within 1, and so are
+ * those of C. */
 static void examples(const example *e, size_t count, int ulps)
 {
     int faults = 0;
@@ -95,7 +94,7 @@ static void examples(const example *e, size_t count, int ulps)
         examples(e, sizeof e / sizeof *e, 2); \
     } while (0)
 
-/* Refused: the status, and what the message or the hint must name. The column is counted from the beginning of the
+/* Expects a refusal: the status, and a part of the message or the hint. The column counts from the beginning of the
  * expression. */
 typedef struct refusal {
     const char *expression;
@@ -299,7 +298,7 @@ static void rule_10_parameters_and_quantities(void **unused)
     assert_int_equal(motus_quantity_count(s), 4);
     size_t first, count;
     motus_error err = motus_default_error();
-    /* a parameter does not move: no column */
+    /* a parameter has no column */
     assert_int_equal(motus_column_find(s, "p", &first, &count, &err), MOTUS_NAME);
     motus_system_destroy(s);
 }
@@ -436,7 +435,7 @@ static void rule_12_sums(void **unused)
              {"sum(i = 1..1e9, j = 1..1e9: 1)", MOTUS_LIMIT, 1, "terms"});
 }
 
-/* A masked term is selected away, never multiplied by zero: the NaN of 0/0 does not leak. */
+/* A masked term is not selected rather than multiplied by zero: the NaN of 0/0 does not enter. */
 static void rule_12_masks_select(void **unused)
 {
     (void)unused;
@@ -455,7 +454,7 @@ static void rule_14_conditions(void **unused)
              {"not x", MOTUS_SHAPE, 5, "x > 0"});
 }
 
-/* In derivatives too: Newton's method on this force meets the derivative of the branch not taken, which is NaN at x =
+/* Nor in derivatives: Newton's method on this force meets the derivative of the branch not taken, which is NaN at x =
  * 0. */
 static void rule_14_no_leak_in_derivatives(void **unused)
 {
@@ -474,8 +473,8 @@ static void rule_14_no_leak_in_derivatives(void **unused)
     motus_system_destroy(s);
 }
 
-/* The chain of multiplications, fused multiply-adds, one quotient per vector, left-to-right and interleaved sums: to
- * the bit. */
+/* Chains of multiplications, fused multiply-adds, one quotient per vector, left-to-right and interleaved sums: to the
+ * bit. */
 static void rule_15_normal_form(void **unused)
 {
     (void)unused;
@@ -509,7 +508,7 @@ static void rule_15_normal_form(void **unused)
     }
 }
 
-/* Power by a literal is the chain; by a parameter it is pow; nothing is rewritten by a parameter's value. */
+/* A power with a literal exponent is the chain; with a parameter it is pow; a parameter's value changes no form. */
 static void rule_15_parameters_do_not_rewrite(void **unused)
 {
     (void)unused;
@@ -582,8 +581,7 @@ static void settings_are_read(void **unused)
     motus_system_destroy(s);
 }
 
-/* However long the line and whatever its letters, the caret stands under the character, and the column counts
- * characters. */
+/* The caret is under the character, and the column counts characters, for lines of any length and letters. */
 static void carets_stand_under_the_fault(void **unused)
 {
     (void)unused;

@@ -1,7 +1,8 @@
-/* Large systems: tiles, threads and sums in lanes give the bits of the interpreter, however the way is cut into
- * calls; and a motion that leaves the finite numbers is reported with the same step, time and variable.
+/* Large systems: tiles, threads and sums in lanes give the bits of the interpreter, for any division into calls; a
+ * motion that diverges is reported with the same step, time and variable.
  *
- * Sizes lie below and above where tiling begins, and are no multiples of a tile; steps are no multiple of a sweep's.
+ * Sizes lie below and above where tiling begins, and are no multiples of a tile; numbers of steps are no multiples of
+ * a sweep's.
  */
 #include "motus.h"
 
@@ -23,7 +24,7 @@ static char cache[] = "/tmp/motus-large-XXXXXX";
 static const char chain[] =
     "N = 10\nA = 3\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] + 0.7 ((x[i+1] - x[i])^3 - (x[i] - x[i-1])^3) for i = 1..N\n"
     "x[0] = 0.25\nx[N+1] = -0.125\nx[i](0) = A sin(37 i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nstep 0.1\nuntil 1\n";
-/* Vectors, ends with equations of their own, a second family that reaches further and begins elsewhere. */
+/* Vectors, ends with their own equations, a second family with a wider stencil and other indices. */
 static const char ends[] =
     "N = 10\nr[i]'' = 0.9 (r[i+1] - 2 r[i] + r[i-1]) - 0.2 r[i] |r[i]|^2 + w[i]*(0, 1) for i = 2..N-1\n"
     "r[1]'' = 0.9 (r[2] - r[1])\nr[N]'' = 0.9 (r[N-1] - r[N])\nw[i]'' = -w[i] + r[i+1].x - r[i-2].y for i = 3..N-1\n"
@@ -36,24 +37,24 @@ static const char lattice[] =
     "= 1..N, j = 1..M\n"
     "u[0,j] = 0 for j = 1..M\nu[N+1,j] = 0 for j = 1..M\nu[i,0] = 0 for i = 1..N\nu[i,M+1] = 0 for i = 1..N\n"
     "u[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..M\nu[i,j]'(0) = 0 for i = 1..N, j = 1..M\nstep 0.1\nuntil 1\n";
-/* First-order variables, and a force of the velocity. */
+/* First-order variables, and a force that depends on the velocity. */
 static const char damped[] =
     "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] - 0.05 x[i]' + 0.1 s[i] for i = 1..N\nx[0] = 0\nx[N+1] = 0\n"
     "s[i]' = -s[i] + x[i] + 0.1 (s[i+1] - s[i]) for i = 1..N\ns[N+1] = 0.5\nx[i](0) = sin(i) for i = 1..N\nx[i]'(0) = "
     "0 for i = 1..N\n"
     "s[i](0) = cos(i) for i = 1..N\nstep 0.1\nuntil 1\n";
-/* What cannot be tiled: a driven end, and a ring. */
+/* Models that cannot be tiled: a driven end, and a ring. */
 static const char driven[] = "N = 10\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 1..N\nx[0] = sin(t)\nx[N+1] = "
                              "0\nx[i](0) = cos(i) for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n"
                              "p[i]'' = p[mod(i, N)+1] - 2 p[i] + p[mod(i-2, N)+1] for i = 1..N\np[i](0) = sin(i) for i "
                              "= 1..N\np[i]'(0) = 0 for i = 1..N\nstep 0.1\nuntil 1\n";
-/* Every pair, itself left out; sums of conditions that time and place decide. */
+/* All pairs without i = j; sums with conditions on time and index. */
 static const char pairs[] = "N = 10\nr[i]'' = sum(j = 1..N, j != i: (r[j] - r[i])/(N |r[j] - r[i]|^3)) + sum(j = 3..N, "
                             "r[j].x > r[i].y: 0.01 r[j]) for i = 1..N\n"
                             "r[i](0) = (cos(i), sin(2 i), sin(3 i + 0.4)) for i = 1..N\nr[i]'(0) = (0, 0, 0) for i = "
                             "1..N\nstep 0.01\nuntil 1\n";
 
-/* Numbers that do not lie side by side: the lattice across, and sums along columns; a function of every cell. */
+/* Numbers that are not contiguous: the transposed lattice, and sums along columns; a function of every cell. */
 static const char across[] = "N = 10\nu[i,j]'' = 0.3 (u[j,i] - u[i,j]) - 0.1 sin(u[i,j]) + sum(k = 1..N, k != j: 0.01 "
                              "u[k,j] u[i,k]) + 0.1 u[mod(i, N)+1, mod(j+2, N)+1] "
                              "for i = 1..N, j = 1..N\nu[i,j](0) = sin(i) cos(2 j) for i = 1..N, j = 1..N\nu[i,j]'(0) = "
@@ -84,7 +85,7 @@ typedef struct end {
     motus_error error;
 } end;
 
-/* steps in one go, or (cut) in calls of 1, 2, 3, … with looks between. */
+/* steps in one call, or (cut) in calls of 1, 2, 3, … steps with observations in between */
 static end go(motus_system *s, const char *machine, int threads, const char *method, int steps, bool cut)
 {
     motus_settings set = motus_default_settings();
@@ -189,7 +190,7 @@ static void every_pair(void **state)
     rows(pairs, LIST(text_of, "velocity-verlet", "rk4"), LIST(int, 10, 17, 200), 9);
 }
 
-/* Too large a step: the middle of a long chain is the first to go. */
+/* With too large a step, the middle of a long chain diverges first. */
 static void divergence(void **state)
 {
     (void)state;

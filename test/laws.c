@@ -1,5 +1,5 @@
-/* The laws over every row of the catalogue: theorems, with bounds that are computed. Prints one line each and "N
- * passed, N failed".
+/* Runs the laws over every row of the catalogue: theorems, with bounds that are computed. Prints one line each
+ * and "N passed, N failed".
  *
  *     laws              all of them
  *     laws --quiet      failures only
@@ -34,7 +34,7 @@ quad quad_abs(quad x) { return x < 0 ? -x : x; }
 double quad_log2(quad x)
 {
     int shift = 0;
-    for (; x < Q(1e-100); shift++) x *= Q(0x1p+64); /* beyond what a double holds */
+    for (; x < Q(1e-100); shift++) x *= Q(0x1p+64); /* has more digits than a double */
     return log2((double)x) - 64.0 * shift;
 }
 

@@ -1,7 +1,7 @@
-/* What the laws share: numbers of 33 digits, the test problems, runs of any row over them, and the judge who prints
- * and counts.
+/* What the laws share: numbers of 33 digits, the test problems, runs of any row over them, and the function that
+ * prints and counts the results.
  *
- * Invariant: a law states what it measured and the bound, which follows from the theory or from the digits of the
+ * Invariant: a law prints what it measured and the bound, which follows from the theory or from the digits of the
  * row's coefficients.
  */
 #ifndef TEST_LAWS_H
@@ -9,7 +9,7 @@
 
 #include "core/methods.h"
 
-/* A type of 113 bits wherever there is one; the rows and texts are compiled with it. */
+/* A type of 113 bits where the compiler has one; the rows and the texts of step/ are compiled with it. */
 #include <float.h>
 #if LDBL_MANT_DIG == 113
 typedef long double quad;
@@ -20,14 +20,14 @@ __extension__ typedef __float128 quad;
 #endif
 #define QUAD_EPSILON Q(0x1p-112)
 
-/* A method is its place in the catalogue. quad_… use its row in 33 digits; who wants to see inside the row includes
- * core/rows.h and looks at methods_table[m], where coefficients are double. (So `row` means different layouts inside
- * and outside of laws_quad.c and laws_coefficients.c.) */
+/* A method is its place in the catalogue. The quad_… functions use its row in 33 digits. A file that needs the
+ * members of the row includes core/rows.h and uses methods_table[m], where coefficients are double; so `row` has
+ * another layout in laws_quad.c and laws_coefficients.c. */
 typedef size_t method;
 
 enum { DIMENSIONS = 4, SPLITTING_MAX = 40 }; /* SPLITTING_MAX: stages of a splitting row */
 
-/* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, so that no library function limits the digits. */
+/* x'' = a(x, v, t), then s' = f, over quads. Polynomial and rational, since no library function has 33 digits. */
 typedef struct quad_problem {
     const char *name;
     size_t nx, nv;
@@ -39,7 +39,7 @@ typedef struct quad_problem {
 
 enum { FREE_FALL, OSCILLATOR, HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET, PROBLEMS };
 extern const quad_problem quad_problems[PROBLEMS];
-/* The traits that the program would read off the problem's equations. */
+/* The traits that the program would find in the problem's equations. */
 traits quad_traits(const quad_problem *);
 bool quad_admits(method, const quad_problem *);
 
@@ -51,23 +51,23 @@ typedef struct quad_count {
     int bad;
 } quad_count;
 
-/* `steps` steps from *state at t0; the synchronised state comes back in *state. */
+/* Takes `steps` steps from *state at t0; sets *state to the synchronised state. */
 quad_count quad_run(method, const double *argument, const quad_problem *, quad t0, quad h, int64_t steps,
                     quad_state *state);
 /* One step of Verlet's recursion from two given points. */
 void quad_recursion(const quad_problem *, quad t, quad h, const quad *before, const quad *now, quad *after);
-/* The motion itself, by an extrapolated midpoint rule that shares nothing with step/. */
-void quad_truth(const quad_problem *, quad t0, quad t1, quad_state *state);
+/* The motion by an extrapolated midpoint rule, which shares no code with step/. */
+void quad_reference(const quad_problem *, quad t0, quad t1, quad_state *state);
 quad quad_distance(const quad_problem *, const quad_state *, const quad_state *);
 /* Kicks and drifts in order, kick first; returns their number of stages, 0 for others. */
 int quad_splitting_of(method, quad *kick, quad *drift);
-/* By how much the sums of kicks and of drifts miss 1: as far as the known digits go. 0 for other rows. */
+/* By how much the sums of kicks and of drifts differ from 1, which measures the known digits. 0 for other rows. */
 quad quad_looseness(method);
 
 quad quad_abs(quad);
 double quad_log2(quad); /* of a positive number */
 
-/* The judge: prints "ok" or "FAIL", the subject, the law and what was seen. */
+/* Prints "ok" or "FAIL", the subject, the law and the measured values, and counts. */
 void judge(bool ok, const char *subject, const char *law, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

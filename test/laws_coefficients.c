@@ -1,9 +1,8 @@
-/* THE COEFFICIENTS OF THE ROWS and what each may be off by; the one file of the laws' proofs that knows how a row is
- * laid out.
+/* THE COEFFICIENTS OF THE ROWS and the error of each; the only file of the proofs that knows the layout of a row.
  *
  * Invariant: nothing about a row's digits is written here. core/methods.c is compiled twice with numbers of 113 bits:
- * as it stands, and with every literal moved by half a unit in its last printed place; the difference of the two tables
- * is what the digits leave open. A literal that is a binary fraction of at most 20 places (0.5, 24.0) is meant exactly,
+ * as it is, and with every literal moved by half a unit in its last printed place; the difference of the two tables
+ * is the uncertainty of the digits. A literal that is a binary fraction of at most 20 places (0.5, 24.0) is exact,
  * and so is what is computed from such (7/24).
  */
 #define K(x) Q(x)
@@ -34,7 +33,7 @@ typedef quad coef;
 #include "core/methods.c"
 #undef methods_table
 
-/* The numbers that a row stores, in the order of its members. */
+/* The coefficients that a row stores, in the order of its members. */
 static int stored(const row *m, quad *out)
 {
     int n = 0;
@@ -86,7 +85,7 @@ quad coefficients_unit(method k)
     return most;
 }
 
-/* Kicks and drifts in turn, as a row or a composition of leapfrog steps has them: drift[i] follows kick[i]. */
+/* Alternating kicks and drifts, as a row or a composition of leapfrog steps has them: drift[i] follows kick[i]. */
 static int operators(const row *m, const quad *value, quad *kick, quad *drift)
 {
     const int count = m->composition.count;
@@ -107,8 +106,8 @@ static int operators(const row *m, const quad *value, quad *kick, quad *drift)
     return count + 1;
 }
 
-/* Every kick is a stage, and moves the positions by the drifts that follow it. Boris' kick takes the velocity in its
- * own middle. */
+/* Every kick is a stage, and changes the positions through the drifts that follow it. The Boris rotation uses the
+ * velocity at its middle. */
 static void splitting_scheme(const row *m, const quad *value, scheme *out)
 {
     quad kick[SCHEME_STAGES_MAX], drift[SCHEME_STAGES_MAX];
@@ -129,7 +128,7 @@ static void splitting_scheme(const row *m, const quad *value, scheme *out)
     }
 }
 
-/* Runge and Kutta's method for x' = v, v' = a; positions go with the tableau's square. */
+/* A Runge-Kutta method for x' = v, v' = a; the positions use the square of the tableau. */
 static void tableau_scheme(int s, const quad *value, scheme *out)
 {
     const quad *c = value, *a = c + s, *b = a + s * s;
@@ -156,8 +155,7 @@ void coefficients_scheme(method k, const quad *value, scheme *out)
         tableau_scheme(m->tableau.stages, value, out);
 }
 
-/* Kicks that depend on v need all of Nyström's trees; those that do not, the special ones; tableaux are made for s' =
- * f(s). */
+/* Kicks that depend on v need all Nyström trees, others the special ones; tableaux are methods for s' = f(s). */
 trees_kind coefficients_trees(method k)
 {
     const row *m = &plain_table[k];

@@ -1,7 +1,7 @@
-/* LAWS OF ORDER: the slope of the error that is observed for every row; the proof is in laws_proof.c.
+/* LAWS OF ORDER: the observed slope of the error of every row; the proof of the order is in laws_proof.c.
  *
  * Invariant: slopes are taken in 33 digits, over steps where the error is above what the row's own digits allow; the
- * margin is the change of the slope from one halving to the next, which is how far an asymptotic series still is from
+ * margin is the change of the slope from one halving to the next, which is the distance of an asymptotic series from
  * its limit.
  */
 #include "core/rows.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Reversible rows read the same from both ends. */
+/* The coefficients of reversible rows are palindromes. */
 static void palindrome(method m)
 {
     const motus_method *card = row_card(m);
@@ -26,7 +26,7 @@ static void palindrome(method m)
     int first = 0, last = length - 1;
     while (sequence[first] == 0) first++;
     while (sequence[last] == 0) last--;
-    if ((last - first) % 2) skew = 1; /* the mirror of a kick would be a drift */
+    if ((last - first) % 2) skew = 1; /* then the mirror of a kick is a drift */
     for (; first < last; first++, last--) skew = fmax((double)skew, (double)quad_abs(sequence[first] - sequence[last]));
     judge(card->reversible ? skew < Q(1e-30) : skew > Q(0.01), card->name,
           card->reversible ? "palindrome" : "no palindrome", "asymmetry %.1e", (double)skew);
@@ -35,21 +35,20 @@ static void palindrome(method m)
 static void slope(method m, const double *argument, const char *name, int order, const quad_problem *p)
 {
     enum { POINTS_MAX = 14 };
-    /* Where the coefficients' digits begin to show: their half units, a hundred steps long, each with some twenty
-     * coefficients. */
+    /* The error from the coefficients' digits: half units of some twenty coefficients, over a hundred steps. */
     const quad span = Q(1.25), floor = Q(1e-22) + 2000 * coefficients_unit(m);
-    quad_state truth = {0}, start = {0};
-    for (size_t k = 0; k < p->nx; k++) truth.x[k] = p->x[k];
-    for (size_t k = 0; k < p->nv; k++) truth.v[k] = p->v[k];
-    start = truth;
-    quad_truth(p, 0, span, &truth);
+    quad_state reference = {0}, start = {0};
+    for (size_t k = 0; k < p->nx; k++) reference.x[k] = p->x[k];
+    for (size_t k = 0; k < p->nv; k++) reference.v[k] = p->v[k];
+    start = reference;
+    quad_reference(p, 0, span, &reference);
     double errors[POINTS_MAX];
     int points = 0;
     int64_t n = 4;
     for (; points < POINTS_MAX; n *= 2) {
         quad_state end = start;
         if (quad_run(m, argument, p, 0, span / (quad)n, n, &end).bad) continue;
-        const quad error = quad_distance(p, &end, &truth);
+        const quad error = quad_distance(p, &end, &reference);
         if (error < floor && points >= 3) break;
         if (error < Q(0.1)) errors[points++] = quad_log2(error);
         if (n >= (order > 2 ? 1024 : 4096)) break;

@@ -1,7 +1,8 @@
-/* The problems that the laws are tried on, and their true motion.
+/* The test problems of the laws, and their exact motion.
  *
- * Each hides no term of the theory: more than one degree of freedom, nonlinear coupling, explicit time, velocity
- * terms that are not diagonal. One-dimensional, autonomous or linear problems would let wrong coefficients pass.
+ * Together they have every term of the theory: several degrees of freedom, nonlinear coupling, explicit time,
+ * velocity terms that are not diagonal. One-dimensional, autonomous or linear problems would let wrong coefficients
+ * pass.
  */
 #include "test/laws.h"
 
@@ -46,7 +47,7 @@ static void henon_heiles_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[1] = -dx[1] - 2 * x[0] * dx[0] + 2 * x[1] * dx[1];
 }
 
-/* The same, driven: time enters both alone and multiplied with x. */
+/* The same, driven: time enters alone and multiplied with x. */
 static void driven(quad t, in x, in v, quad *a)
 {
     henon_heiles(t, x, v, a);
@@ -59,7 +60,7 @@ static void driven_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[1] += Q(0.5) * t * dx[0];
 }
 
-/* A companion that rides along: s' = f(x, t). */
+/* A first-order variable that acts on nothing: s' = f(x, t). */
 static void rider(quad t, in x, in v, quad *a)
 {
     driven(t, x, v, a);
@@ -85,7 +86,7 @@ static void damped_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[1] += -(Q(0.2) + t * Q(0.1)) * dv[1] - Q(0.4) * (dx[0] * v[0] + x[0] * dv[0]);
 }
 
-/* Nonlinear in v, with a first-order variable that acts back: s' = f(x, v, s, t). */
+/* Nonlinear in v, with a first-order variable that enters the force: s' = f(x, v, s, t). */
 static void tangled(quad t, in x, in v, quad *a)
 {
     driven(t, x, v, a);
@@ -176,7 +177,7 @@ static void gragg(const quad_problem *p, quad t, quad h, int n, const quad_state
     *to = now;
 }
 
-void quad_truth(const quad_problem *p, quad t0, quad t1, quad_state *state)
+void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
 {
     enum { PIECES = 16, COLUMNS = 14 };
     const quad h = (t1 - t0) / PIECES;
@@ -184,7 +185,7 @@ void quad_truth(const quad_problem *p, quad t0, quad t1, quad_state *state)
         quad_state table[COLUMNS];
         for (int j = 0; j < COLUMNS; j++) {
             gragg(p, t0 + piece * h, h, 2 * (j + 1), state, &table[j]);
-            for (int i = j - 1; i >= 0; i--) { /* Aitken and Neville, in (1/n)² */
+            for (int i = j - 1; i >= 0; i--) { /* Aitken and Neville's extrapolation in (1/n)² */
                 const quad ratio = (quad)((j + 1) * (j + 1)) / ((i + 1) * (i + 1));
                 for (size_t k = 0; k < DIMENSIONS; k++) {
                     table[i].x[k] = table[i + 1].x[k] + (table[i + 1].x[k] - table[i].x[k]) / (ratio - 1);

@@ -1,15 +1,14 @@
-/* PROOFS OF ORDER: every row satisfies every order condition up to its declared order, and misses one of the next.
+/* PROOFS OF ORDER: every row satisfies every order condition up to its declared order, and violates one of the next.
  *
  * Invariant: no tolerance is written here. The coefficients that the author meant satisfy a condition exactly; those
- * of the row are off by at most half a unit in the last place that the row prints, so a condition may miss by the sum
- * of what it changes by when one coefficient after the other is moved by as much, plus the roundings of 113 bits,
- * relative to the same sums over absolute values. A larger miss disproves the row. A miss of the next order beyond that
- * bound proves that the order is no higher.
+ * of the row are off by at most half a unit in the last place that the row prints. So a condition may be violated by
+ * the sum of its changes when one coefficient after the other is moved by as much, plus the roundings of 113 bits,
+ * relative to the same sums over absolute values. A larger violation disproves the row. One of the next order beyond
+ * that bound proves that the order is no higher.
  */
 #include "test/laws_proof.h"
 
-/* A method to be judged: the tableau of a row that spells its coefficients, or one whose numbers are exact but for
- * rounding. */
+/* A method under test: the tableau of a row with coefficients, or one whose numbers are exact up to rounding. */
 typedef struct subject {
     const char *name;
     trees_kind kind;
@@ -18,7 +17,7 @@ typedef struct subject {
     bool spelled;
 } subject;
 
-/* bound[k]: by how much condition k may miss. Returns the number of conditions. */
+/* bound[k]: by how much condition k may be violated. Returns the number of conditions. */
 static int measure(const subject *s, int order, condition *now, quad *bound)
 {
     static condition moved[TREES_CONDITIONS_MAX];
@@ -86,8 +85,8 @@ void proof_of_scheme(const char *name, trees_kind kind, const scheme *m, int ord
     prove(&(subject){.name = name, .kind = kind, .scheme = m}, order);
 }
 
-/* The proof can fail: any one coefficient, moved by ten units in the coarsest place that the row prints (or, where all
- * are closed forms, by 1e-30), breaks a condition. */
+/* Checks that the proof can fail: any coefficient, moved by ten units in the coarsest place that the row prints (or,
+ * where all are closed forms, by 1e-30), breaks a condition. */
 static void sharp(const subject *s, int order)
 {
     static condition now[TREES_CONDITIONS_MAX], moved[TREES_CONDITIONS_MAX];
@@ -111,7 +110,7 @@ static void sharp(const subject *s, int order)
           c.count, (double)by);
 }
 
-/* The trees are as many as the literature counts [HNW93, II.2, II.14]: none is missing, none is there twice. */
+/* The number of trees is that of the literature [HNW93, II.2, II.14], and no tree occurs twice. */
 static void census(void)
 {
     static const struct {

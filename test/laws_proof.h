@@ -1,6 +1,7 @@
-/* What the proofs of order share: the numbers that a row spells, the tableau that they make, the trees of the theory.
+/* What the proofs of order share: the coefficients of a row, the tableau that they make, the trees of the theory.
  *
  * Invariant: a scheme is a method for x'' = a(x, x', t) in Nyström form [HNW93, II.14], in units of the step:
+ *
  *     X[i] = x + c[i] h v + h² Σ a[i][j] K[j],   V[i] = v + h Σ av[i][j] K[j],   K[i] = a(X[i], V[i], t + c[i] h),
  *     x₁ = x + end h v + h² Σ b[i] K[i],          v₁ = v + h Σ bv[i] K[i].
  */
@@ -16,19 +17,20 @@ typedef struct scheme {
     quad av[SCHEME_STAGES_MAX][SCHEME_STAGES_MAX], bv[SCHEME_STAGES_MAX];
 } scheme;
 
-/* The trees that a method must integrate: rooted trees for s' = f(s) [HNW93, II.2], special Nyström trees for x'' =
- * a(x, t), and Nyström trees for x'' = a(x, x', t) [HNW93, II.14]. */
+/* The trees of the order conditions: rooted trees for s' = f(s) [HNW93, II.2], special Nyström trees for x'' = a(x,
+ * t), and Nyström trees for x'' = a(x, x', t) [HNW93, II.14]. */
 typedef enum trees_kind { TREES_ROOTED, TREES_SPECIAL, TREES_NYSTROM, TREES_KINDS } trees_kind;
 
-/* The numbers of a row, and by how much each may miss what its author meant: half a unit in its last printed place, 0
- * where it is meant exactly. The count is 0 for rows without coefficients: the two-step methods, newmark, exact. */
+/* The coefficients of a row, and by how much each may differ from the value its author meant: half a unit in its last
+ * printed place, 0 if it is exact. The count is 0 for rows without coefficients: the two-step methods, newmark,
+ * exact. */
 typedef struct coefficients {
     int count;
     quad value[COEFFICIENTS_MAX], unit[COEFFICIENTS_MAX];
 } coefficients;
 coefficients coefficients_of(method);
 quad coefficients_unit(method); /* the largest of these units */
-/* The tableau that the row would make of other values in place of its own. */
+/* The tableau of the row with other values of its coefficients. */
 void coefficients_scheme(method, const quad *value, scheme *);
 trees_kind coefficients_trees(method);
 
@@ -40,11 +42,11 @@ typedef struct condition {
 } condition;
 int trees_count(trees_kind, int order); /* of exactly this order; 0: not generated */
 int trees_conditions(trees_kind, const scheme *, int order, condition *);
-/* How many roundings, each of half QUAD_EPSILON, one condition of this order may have suffered, its coefficients' own
- * among them. */
+/* A bound on the roundings, each of half QUAD_EPSILON, in one condition of this order, those of its coefficients
+ * included. */
 quad trees_roundings(const scheme *, int order);
 
-/* Judges that a tableau, whose numbers are exact but for rounding, is of this order and no higher. */
+/* Checks that a tableau, whose numbers are exact up to rounding, has this order and no higher one. */
 void proof_of_scheme(const char *name, trees_kind, const scheme *, int order);
 
 void laws_of_proof(void);

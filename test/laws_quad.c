@@ -1,5 +1,5 @@
-/* The rows and the texts of step/ once more, with real = a number of 113 bits: nothing of the mathematics is written
- * here again.
+/* The rows and the texts of step/, compiled with `real` a number of 113 bits, so that the laws test the same
+ * formulas.
  *
  * Invariant: this file supplies what an includer of step/ must supply (a dense linear solver among it) and no step
  * formula.
@@ -128,7 +128,7 @@ traits quad_traits(const quad_problem *p)
                     .constant = p->nx == 0};
 }
 
-/* As the catalogue decides it for the row of the same name. */
+/* Decided as in the catalogue, for the row of the same name. */
 bool quad_admits(method k, const quad_problem *p)
 {
     chosen c;

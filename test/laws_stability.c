@@ -1,5 +1,5 @@
-/* LAWS OF LONG RUNS: the stability limit on the oscillator, found without the card's help, is the one on the card;
- * the energy of symplectic rows has no trend, that of the others has.
+/* LAWS OF LONG RUNS: the stability limit measured on the oscillator is the one on the card; the energy of symplectic
+ * rows has no trend, that of the others has.
  */
 #include "core/rows.h"
 #include "core/stepper.h"
@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A motion is bounded when neither of these is positive [Jury's criterion]: det M - 1 and |trace M| - 1 - det M, M
- * being one step's matrix over (x, v) on x'' = -x. Beeman's state holds more than x and v, but two successive
+/* A motion is bounded if neither of these is positive [Jury's criterion]: det M - 1 and |trace M| - 1 - det M, where
+ * M is one step's matrix over (x, v) on x'' = -x. Beeman's state holds more than x and v, but two successive
  * positions determine the next: M is over these. */
 typedef struct growth {
     quad spiral, saddle;
@@ -36,7 +36,7 @@ static growth growth_at(method m, quad z)
     return (growth){determinant - 1, quad_abs(trace) - 1 - determinant};
 }
 
-/* Rounding is far below this, growth that a run could show is far above. */
+/* Far above rounding, far below the growth that a run would show. */
 static const quad visible = Q(1e-22);
 static quad worse(growth g) { return g.spiral > g.saddle ? g.spiral : g.saddle; }
 static quad either(growth g, int saddle) { return saddle ? g.saddle : g.spiral; }
@@ -54,8 +54,8 @@ static quad crossing(method m, quad a, quad b)
     return a;
 }
 
-/* A window of unbounded motion may be narrower than the distance of two samples: where the middle one of three is a
- * maximum, the top is looked for by thirds. Returns the top, or 0 if the motion is bounded there too. */
+/* A range of unbounded motion may be narrower than the distance of two samples: where the middle of three is a
+ * maximum, the maximum is refined by thirds. Returns its place, or 0 if the motion is bounded there too. */
 static quad window(method m, int saddle, quad a, quad b)
 {
     for (int i = 0; i < 160 && b - a > Q(1e-17) * b; i++) {
@@ -71,7 +71,7 @@ static quad window(method m, int saddle, quad a, quad b)
     return 0;
 }
 
-/* The first step from 0 on where the oscillator leaves its bounds, whatever the card says. An explicit method of s
+/* The first step from 0 on at which the oscillator is unbounded, found without the card. An explicit method of s
  * evaluations has its limit at 2 s at most, since the trace is a polynomial of degree s in z² that starts like 2 - z²
  * (Chebyshev); implicit ones are tried up to 1e5. */
 static quad limit_of(method m)
@@ -80,13 +80,13 @@ static quad limit_of(method m)
     const quad first = Q(0x1p-10), last = implicit ? Q(1e5) : 2 * row_card(m)->stages + 1;
     quad z[3] = {0};
     growth g[3] = {{0}};
-    if (worse(growth_at(m, first)) > visible) return 0; /* no limit is so small: this is growth at every step */
+    if (worse(growth_at(m, first)) > visible) return 0; /* no limit is so small: the motion grows at every step */
     for (quad at = first; at < last; at = implicit ? at * Q(1.01) : at + Q(0x1p-5)) {
         z[0] = z[1], z[1] = z[2], z[2] = at;
         g[0] = g[1], g[1] = g[2], g[2] = growth_at(m, at);
         if (worse(g[2]) > visible) return crossing(m, z[1], z[2]);
         for (int saddle = 0; saddle < 2 && z[0] > 0; saddle++) {
-            /* a symplectic row has det M = 1: what varies is rounding */
+            /* a symplectic row has det M = 1 up to rounding */
             const quad f = either(g[1], saddle);
             const bool top = f >= either(g[0], saddle) && f >= either(g[2], saddle) && quad_abs(f) > visible;
             const quad peak = top ? window(m, saddle, z[0], z[2]) : 0;
@@ -127,7 +127,7 @@ static double energy_of(const double *x, const double *v)
     return (v[0] * v[0] + v[1] * v[1] + x[0] * x[0] + x[1] * x[1]) / 2 + x[0] * x[0] * x[1] - x[1] * x[1] * x[1] / 3;
 }
 
-/* The run is cut into windows of many periods; a straight line through their mean energies, and its standard error. */
+/* The trend: a straight line through the mean energies of windows of many periods, and its standard error. */
 static void energy(method m)
 {
     enum { WINDOWS = 24 };
@@ -169,7 +169,7 @@ static void energy(method m)
         rest += off * off;
     }
     const double trend = top / bottom * WINDOWS, error = sqrt(rest / (WINDOWS - 2) / bottom) * WINDOWS;
-    /* Rounding walks: each of n steps may change the energy by some epsilon. */
+    /* Rounding is a random walk: each of n steps may change the energy by some epsilon. */
     const double walk = 4 * DBL_EPSILON * sqrt((double)samples * WINDOWS);
     const bool keeps = card->symplectic, clear = lost || fabs(trend) > 4 * error + walk;
     judge(keeps ? !lost && !clear : clear, card->name, keeps ? "energy without trend" : "energy with trend",
@@ -191,9 +191,9 @@ static int no_slope(void *ctx, double t, double *x, double *v, const double *dx,
     return 0;
 }
 
-/* Many small steps of free fall, in double. With error words the speed is off by the rounding of the coefficients at
- * most, epsilon for each stage; a plain sum loses half a unit in the last place again and again, all in the same
- * direction. */
+/* Many small steps of free fall, in double. With compensated addition the speed is off by the rounding of the
+ * coefficients at most, epsilon for each stage; a plain sum loses half a unit in the last place at each step, always
+ * in the same direction. */
 static void compensation(method m)
 {
     const motus_method *card = row_card(m);
@@ -222,7 +222,8 @@ void laws_of_stability(void)
         if (methods_table[m].family == EXACT || methods_table[m].gyroscopic) continue;
         limit(m);
         if (card->order >= 6 || card->order == 4) compensation(m);
-        /* Newmark and Beeman are conjugate to symplectic maps: no claim, and no trend to be seen either. */
+        /* Newmark and Beeman are conjugate to symplectic maps: they are not declared symplectic, and have no trend
+         * either. */
         if (methods_table[m].family == RUNGE_KUTTA || row_card(m)->symplectic) energy(m);
     }
 }

@@ -1,10 +1,10 @@
-/* LAWS OF STEPS: what the texts of step/ do is the tableau that the proofs judge; the two-step recurrences are velocity
+/* LAWS OF STEPS: the texts of step/ compute the tableaux of the proofs; the two-step recurrences are velocity
  * Verlet's map.
  *
- * Invariant: the acceleration is replaced by marks, 1 for one evaluation and 0 for all others, so that one run reads
- * off how the step uses that evaluation. A step is linear in them and in the start, hence known for every force once
- * every mark has been tried. Times and steps are binary fractions: where a method has only such coefficients too,
- * nothing is rounded and the comparison is exact.
+ * Invariant: the acceleration is replaced by marks, 1 for one evaluation and 0 for all others, so that one run shows
+ * how the step uses that evaluation. A step is linear in them and in the start, hence known for every force once
+ * every mark has been tried. Times and steps are binary fractions: if the coefficients of a method are too, nothing
+ * is rounded and the comparison is exact.
  */
 #include "core/rows.h"
 #include "test/laws_proof.h"
@@ -13,8 +13,8 @@
 
 static const quad step = Q(0.25), start = Q(0.5);
 
-/* Mark 0 is the initial position, 1 the initial velocity, 2 + i the acceleration of evaluation i. `expected` times
- * tell implicit evaluations, which are repeated, apart: the last one counts, and what is asked elsewhere, to begin an
+/* Mark 0 is the initial position, 1 the initial velocity, 2 + i the acceleration of evaluation i. The `expected`
+ * times separate repeated implicit evaluations: the last one counts, and evaluations elsewhere, which begin an
  * iteration, must not matter. */
 enum { MARKS_MAX = SCHEME_STAGES_MAX + 2 };
 typedef struct record {
@@ -42,7 +42,7 @@ static void flat(quad t, const quad *x, const quad *v, const quad *dx, const qua
 
 static bool takes_v(method m) { return row_card(m)->forces == MOTUS_FORCES_XVT; }
 
-/* Newton's method, which `linear` would skip, comes to rest when the stages are those of the step. */
+/* Newton's method, which `linear` would skip, has converged if the stages are those of the step. */
 static quad_state run(method m, const double *argument, int mark, const quad *time, int expected, int steps)
 {
     const quad_problem p = {"marks", 1, 1, .velocity = takes_v(m), .time = true, .accel = marked, .jvp = flat};
@@ -59,15 +59,15 @@ static void widen(quad *most, quad miss)
 
 static bool recurrence(const row *r) { return r->family == VERLET || r->family == LITERAL || r->family == BEEMAN; }
 
-/* Evaluations that happen one after the other are told apart by their number: two stages of rk4 have the same time. */
+/* Explicit evaluations are distinguished by their number: two stages of rk4 have the same time. */
 static bool by_time(method m)
 {
     const row *r = &methods_table[m];
     return r->family == IMPLICIT || recurrence(r) || r->gyroscopic;
 }
 
-/* The tableau that one step follows, its stages expected where `as` has them. Returns the largest miss of what holds
- * of any method: X[i] begins with x + c[i] h v, V[i] with v. */
+/* The tableau of one step, with stages at the places of `as`. Returns the largest violation of what holds for any
+ * method: X[i] begins with x + c[i] h v, V[i] with v. */
 static quad tableau_of(method m, const double *argument, const scheme *as, scheme *out)
 {
     quad off = 0;
@@ -94,7 +94,7 @@ static quad tableau_of(method m, const double *argument, const scheme *as, schem
     return off;
 }
 
-/* The largest difference of two tableaux. Of a force that no velocity enters, V is not asked for. */
+/* The largest difference of two tableaux; without V if the force does not depend on the velocity. */
 static quad difference(const scheme *p, const scheme *q, bool velocity)
 {
     quad most = quad_abs(p->end - q->end);
@@ -110,8 +110,8 @@ static quad difference(const scheme *p, const scheme *q, bool velocity)
     return most;
 }
 
-/* A row with coefficients steps as its tableau says: x and v are sums of at most 2 s numbers, each of them a few times
- * rounded. */
+/* A row with coefficients steps as its tableau says: x and v are sums of at most 2 s numbers, each rounded a few
+ * times. */
 static void as_tableau(method m)
 {
     const coefficients c = coefficients_of(m);
@@ -138,8 +138,8 @@ static const scheme verlet_map = {.stages = 2,
                                   .bv = {Q(0.5), Q(0.5)}};
 
 /* Every step of a two-step method, the first included, is that map between x[n] and w[n] = (x[n+1] - x[n-1])/2h.
- * Verlet's velocity is w, and the force takes it; Beeman's is w - h/6 (k[n] - k[n-1]), which differs from w by O(h²)
- * and leaves the positions alone. */
+ * Verlet's velocity, also in the force, is w; Beeman's is w - h/6 (k[n] - k[n-1]), which differs from w by O(h²) and
+ * does not change the positions. */
 static void as_recurrence(method m)
 {
     enum { STEPS = 6 };
@@ -162,14 +162,14 @@ static void as_recurrence(method m)
         widen(&off, end.x[0] - x);
         widen(&off, end.v[0] - v);
     }
-    /* Beeman's thirds and sixths are rounded, a few times a step, and carried on by v to x. */
+    /* Beeman's thirds and sixths are rounded a few times a step, and v carries the error to x. */
     const quad bound = beeman ? 4 * STEPS * STEPS * QUAD_EPSILON : 0;
     judge(off <= bound, row_card(m)->name, "is velocity Verlet's map", "%d steps, off by %.1e, rounding %.1e", STEPS,
           (double)off, (double)bound);
     proof_of_scheme(row_card(m)->name, velocity ? TREES_NYSTROM : TREES_SPECIAL, &verlet_map, row_card(m)->order);
 }
 
-/* Newmark has no coefficients but its arguments: of order 2 for every beta with gamma = 1/2, of order 1 for any other
+/* Newmark's only coefficients are its arguments: order 2 for every beta with gamma = 1/2, order 1 for any other
  * gamma. */
 static void of_newmark(method m)
 {

@@ -1,7 +1,7 @@
-/* LAWS OF STRUCTURE: reversal, symplecticity, volume, and how often the acceleration is asked for.
+/* LAWS OF STRUCTURE: reversibility, symplecticity, volume, and the number of evaluations.
  *
- * Invariant: each law is tried both ways: rows that claim a property have it to the last digits, rows that do not
- * must visibly lack it.
+ * Invariant: each law is tested both ways: rows that declare a property have it to the last digits, rows that do not
+ * must visibly violate it.
  */
 #include "core/rows.h"
 #include "test/laws.h"
@@ -16,7 +16,7 @@ static quad_state start_of(const quad_problem *p)
     return s;
 }
 
-/* There and back: the second run knows nothing but the state and the time where the first one ended. */
+/* There and back: the second run gets only the state and the time at the end of the first. */
 static void reversal(method m, const quad_problem *p)
 {
     enum { STEPS = 12 };
@@ -29,8 +29,8 @@ static void reversal(method m, const quad_problem *p)
     const quad off = quad_distance(p, &s, &start);
     char law[64];
     snprintf(law, sizeof law, "%s on %s", card->reversible ? "reversal" : "no reversal", p->name);
-    /* Those that return do so up to rounding, and as exactly as their drifts reach the middle of the step, which
-     * time-dependent forces see. Of the others the smallest miss, at order 4, is near 1e-9. */
+    /* Reversible rows return up to rounding, and as exactly as their drifts reach the middle of the step, which time-
+     * dependent forces depend on. The smallest error of the others, at order 4, is near 1e-9. */
     const quad bound = Q(1e-28) + quad_looseness(m);
     judge(!count.bad && (card->reversible ? off < bound : off > Q(1e-13)), card->name, law, "returns within %.1e",
           (double)off);
@@ -67,7 +67,7 @@ static void canonical(method m, const quad_problem *p)
     judge(card->symplectic ? most < Q(1e-17) : most > Q(1e-7), card->name, law, "J'SJ - S: %.1e", (double)most);
 }
 
-/* Boris' map keeps volume, though it is not symplectic. */
+/* The Boris map preserves volume, though it is not symplectic. */
 static void volume(method m, const quad_problem *p)
 {
     enum { N = 6 };
@@ -106,7 +106,7 @@ static void volume(method m, const quad_problem *p)
           (double)off);
 }
 
-/* `evaluations` a step in the long run, exactly; a linear velocity term costs no more and no iteration. */
+/* Exactly `evaluations` a step, without the first; a linear velocity term costs neither more nor an iteration. */
 static void evaluations(method m, const quad_problem *p)
 {
     const motus_method *card = row_card(m);
@@ -121,7 +121,8 @@ static void evaluations(method m, const quad_problem *p)
           (long long)count.iterations);
 }
 
-/* Free fall is a parabola: methods of order 2 and more follow it to round-off, the Eulers miss it by -+ g h t/2. */
+/* Free fall is a parabola: methods of order 2 and more follow it to round-off, the Euler methods miss it by -+ g h
+ * t/2. */
 static void parabola(method m)
 {
     const motus_method *card = row_card(m);
@@ -138,7 +139,7 @@ static void parabola(method m)
                    kick_first = methods_table[m].family == SPLITTING && methods_table[m].splitting.kick[0] != 0;
         expected = (explicit_euler || !kick_first ? 1 : -1) * Q(9.81) * h * t / 2;
     }
-    /* Coefficients of 15 digits miss the sums of products that give t²/2 by as much. */
+    /* Coefficients of 15 digits give the sums of products for t²/2 to as many digits. */
     judge(quad_abs(miss - expected) < Q(1e-13), card->name, "parabola", "misses by %.3e, expected %.3e", (double)miss,
           (double)expected);
 }

@@ -1,15 +1,15 @@
-/* THE TREES OF THE ORDER CONDITIONS, generated: every way to hang smaller trees under a root, once.
+/* THE TREES OF THE ORDER CONDITIONS, generated: every way to put smaller trees under a root, once.
  *
- * Invariant: a vertex is an acceleration a. What hangs under it is what a is differentiated by: v itself, a leaf
- * through x; the tree of another acceleration through x, which costs two orders for its root; or one through v, which
- * costs one. Rooted trees have links of the last kind alone, since in s' = f(s) every derivative of s is one f.
+ * Invariant: a vertex is an acceleration a. Its children are what a is differentiated by: v itself, a leaf through x;
+ * the tree of another acceleration through x, which raises the order by two; or one through v, which raises it by
+ * one. Rooted trees have links of the last kind alone, since in s' = f(s) every derivative of s is one f.
  */
 #include "test/laws_proof.h"
 
 enum { TREES_MAX = 1024, LINKS_MAX = TREES_ORDER_MAX };
 typedef struct tree {
     int order, leaves, children, child[LINKS_MAX];
-    bool velocity[LINKS_MAX]; /* child i hangs on v, not on x */
+    bool velocity[LINKS_MAX]; /* child i enters through v, not x */
     quad gamma;               /* the exact solution has 1/gamma in v, 1/((order + 1) gamma) in x */
 } tree;
 typedef struct forest {
@@ -18,8 +18,8 @@ typedef struct forest {
     tree tree[TREES_MAX];
 } forest;
 
-/* What can hang: item 0 is a leaf v, 2k + 1 tree k on v, 2k + 2 tree k on x. Returns by how much it raises the order;
- * 0: not of this kind. */
+/* The possible children: item 0 is a leaf v, 2k + 1 tree k on v, 2k + 2 tree k on x. Returns by how much it raises
+ * the order; 0: not of this kind. */
 static int weight(const forest *f, int item)
 {
     const bool on_v = item % 2;
@@ -28,7 +28,7 @@ static int weight(const forest *f, int item)
     return item == 0 ? 1 : f->tree[(item - 1) / 2].order + !on_v;
 }
 
-/* All multisets of items that raise the order by `left`, in descending number, hung under `root`. */
+/* Adds all multisets of items that raise the order by `left`, in descending number, under `root`. */
 static void grow(forest *f, tree root, int left, int last)
 {
     if (left == 0) {
@@ -103,7 +103,7 @@ int trees_conditions(trees_kind kind, const scheme *m, int order, condition *out
     return count;
 }
 
-/* A term meets, at each of at most `order` vertices: a sum of s products; an entry of the tableau, itself a sum of at
- * most s products of two coefficients; two roundings for each of these, since decimals that 113 bits do not show are
- * lost beside the rounding of the others; the product with the other branches; and the exact side. */
+/* The roundings of a term, at each of at most `order` vertices: a sum of s products; an entry of the tableau, itself
+ * a sum of at most s products of two coefficients; two roundings for each of these, which include decimals beyond 113
+ * bits; the product with the other branches; and the exact side. */
 quad trees_roundings(const scheme *m, int order) { return order * (2 * m->stages + 10); }

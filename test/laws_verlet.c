@@ -1,4 +1,4 @@
-/* LAWS OF VERLET: local error h^4 of the recursion, h^3 of the start, h^2 of the whole; and the two founding
+/* LAWS OF VERLET: local error h^4 of the recursion, h^3 of the start, global error h^2; and the two founding
  * recurrences in 22 digits.
  */
 #include "test/laws.h"
@@ -17,7 +17,7 @@ static method named(const char *name)
 
 typedef quad (*error_at)(const quad_problem *, quad h);
 
-/* Measured where the motion is already under way, so that no odd term of Taylor's series vanishes by accident. */
+/* Measured away from the start, where odd terms of Taylor's series vanish. */
 static quad of_recursion(const quad_problem *p, quad h)
 {
     quad_state s[3] = {0};
@@ -25,7 +25,7 @@ static quad of_recursion(const quad_problem *p, quad h)
     for (int i = 0; i < 3; i++) {
         for (size_t k = 0; k < p->nx; k++) s[i].x[k] = p->x[k];
         for (size_t k = 0; k < p->nv; k++) s[i].v[k] = p->v[k];
-        if (i) quad_truth(p, 0, i * h, &s[i]);
+        if (i) quad_reference(p, 0, i * h, &s[i]);
     }
     quad_recursion(p, h, h, s[0].x, s[1].x, after);
     for (size_t k = 0; k < p->nx; k++)
@@ -35,15 +35,15 @@ static quad of_recursion(const quad_problem *p, quad h)
 
 static quad over(const quad_problem *p, quad h, int64_t steps)
 {
-    quad_state truth = {0}, s = {0};
+    quad_state reference = {0}, s = {0};
     for (size_t k = 0; k < p->nx; k++) s.x[k] = p->x[k];
     for (size_t k = 0; k < p->nv; k++) s.v[k] = p->v[k];
-    truth = s;
-    quad_truth(p, 0, h * (quad)steps, &truth);
+    reference = s;
+    quad_reference(p, 0, h * (quad)steps, &reference);
     quad_run(named("verlet"), NULL, p, 0, h, steps, &s);
     quad most = 0;
     for (size_t k = 0; k < p->nx; k++)
-        if (quad_abs(s.x[k] - truth.x[k]) > most) most = quad_abs(s.x[k] - truth.x[k]);
+        if (quad_abs(s.x[k] - reference.x[k]) > most) most = quad_abs(s.x[k] - reference.x[k]);
     return most;
 }
 static quad of_start(const quad_problem *p, quad h) { return over(p, h, 1); }
@@ -60,7 +60,7 @@ static void slope(const char *law, error_at error, int expected, const quad_prob
           expected, margin);
 }
 
-/* cos by Taylor's series after taking off whole turns. */
+/* cos by Taylor's series after subtracting multiples of 2 pi. */
 static quad cosine(quad t)
 {
     const quad turn = Q(6.283185307179586476925286766559005768);
@@ -110,7 +110,7 @@ static void founding(void)
     for (int i = 0; i < 2; i++)
         for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
             quad_state s = {.x = {known[k].cubic ? 10 : 0}};
-            /* cosines are slow, and the two rows are one in 33 digits */
+            /* cosines are slow, and the two rows agree in 33 digits */
             if (!known[k].cubic && known[k].steps > 10000 && i == 1) continue;
             quad_run(named(rows[i]), NULL, known[k].cubic ? &cubic : &driven, 0, Q(0.001), known[k].steps, &s);
             const quad off = quad_abs(s.x[0] - known[k].x);

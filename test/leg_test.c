@@ -1,4 +1,4 @@
-/* Legs of a run, its observer and its statistics; looking back within the last step. */
+/* Legs of a run, its observer and its statistics; dense output within the last step. */
 #include "test/given.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static motus_run *run_of(motus_system *s, const char *method, double step, doubl
     return r;
 }
 
-/* A leg from (t, x, v) is the run that starts there; the counters go on. */
+/* A leg from (t, x, v) is the run that starts there; the counters continue. */
 static void legs(void **state)
 {
     (void)state;
@@ -149,7 +149,8 @@ static void observers(void **state)
     motus_system_destroy(s);
 }
 
-/* Within the last step a run looks back, whole or shorter, and goes on to the same bits; further back it does not. */
+/* A run gives states within its last step, full or shorter, and continues to the same bits; earlier times are
+ * refused. */
 static void back(void **state)
 {
     (void)state;

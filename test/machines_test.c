@@ -2,8 +2,8 @@
  * the cache of compiled objects under damage.
  *
  * A compiled row costs a compiler run, so `make test` takes one row of each family's text (and of each kind of
- * force); with MOTUS_ALL_ROWS set, all. Steps are few: bits that differ differ at once, and the longer runs are the
- * golden test's.
+ * force); with MOTUS_ALL_ROWS set, all. Steps are few, since different bits differ at once; the longer runs are those
+ * of the golden test.
  */
 #include "motus.h"
 #include "test/given_cache.h"
@@ -81,7 +81,7 @@ static end run_on(motus_system *s, const char *machine, const char *method)
     if (motus_run_create(s, &def, &r, &err)) fail_msg("%s by %s: %s", machine, method, err.message);
     assert_string_equal(motus_run_machine(r), machine);
     e.state = calloc(e.count + 1, sizeof *e.state);
-    /* Look on the way too: looking is another function of the object. */
+    /* Observes on the way too, since that is another function of the object. */
     e.status = motus_run_step(r, STEPS / 2, &err);
     if (!e.status) e.status = motus_run_state(r, e.state, e.state + motus_positions(s), &err);
     if (!e.status) e.status = motus_run_finish(r, &err);
@@ -108,7 +108,7 @@ static bool chosen(const char *name)
     static const char *const rows[] = {"verlet", "blanes-moan6", "boris", "rk4", "newmark", "gauss4"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
-    /* What the sanitizers watch is the library's part, which every row takes the same way. */
+    /* The sanitizers check the library's part, which is the same for every row. */
     return !strcmp(name, "gauss4");
 #endif
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -140,8 +140,8 @@ static void every_model(void **state)
     assert_true(pairs >= 18);
 }
 
-/* What the text can contain: sums nested and masked, wrapped indices, driven boundaries, lists, conditions,
- * first-order variables. */
+/* All that the compiled text can contain: nested and masked sums, wrapped indices, driven boundaries, lists,
+ * conditions, first-order variables. */
 static void every_construct(void **state)
 {
     (void)state;
@@ -166,8 +166,8 @@ static void every_construct(void **state)
     }
 }
 
-/* A text carries the functions that its model uses and no other: each function alone, so that none lives on what
- * another brought along. */
+/* A compiled text contains only the functions that its model uses; each is tested alone, so that none depends on a
+ * function that another includes. */
 static void every_function(void **state)
 {
     (void)state;
@@ -253,12 +253,12 @@ static void damaged_entries_are_rebuilt(void **state)
     compile_again();
     assert_int_equal(entries(path, sizeof path), 1);
     assert_int_equal(stat(path, &before), 0);
-    compile_again(); /* served from the cache: the file is the same */
+    compile_again(); /* from the cache: the file is unchanged */
     assert_int_equal(stat(path, &after), 0);
     assert_int_equal(before.st_ino, after.st_ino);
     for (int damage = 0; damage < 4; damage++) {
         stat(path, &before);
-        if (damage == 0) { /* a bit in the middle */
+        if (damage == 0) { /* a changed bit in the middle */
             int fd = open(path, O_RDWR);
             char c;
             assert_int_equal(pread(fd, &c, 1, before.st_size / 2), 1);
@@ -267,9 +267,9 @@ static void damaged_entries_are_rebuilt(void **state)
             close(fd);
         } else if (damage == 1) {
             assert_int_equal(truncate(path, before.st_size / 2), 0);
-        } else if (damage == 2) { /* somebody else could have written it */
+        } else if (damage == 2) { /* writable by others */
             assert_int_equal(chmod(path, 0666), 0);
-        } else { /* a link to a sound object elsewhere */
+        } else { /* a link to a valid object elsewhere */
             char aside[1100];
             snprintf(aside, sizeof aside, "%s.aside", path);
             assert_int_equal(rename(path, aside), 0);
@@ -284,7 +284,7 @@ static void damaged_entries_are_rebuilt(void **state)
     assert_true(motus_cache_clear() >= 1);
 }
 
-/* A directory that others may write is not used, and neither is anything in it. */
+/* A folder that others may write is not used, nor any file in it. */
 static void shared_directory_is_not_trusted(void **state)
 {
     (void)state;
@@ -311,7 +311,7 @@ static void without_a_compiler(void **state)
     motus_error err = motus_default_error();
     motus_run *r = NULL;
     def.method = "verlet";
-    /* auto: the interpreter serves, and says why */
+    /* auto: the interpreter runs, and the note says why */
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_OK);
     assert_string_equal(motus_run_machine(r), "interpreter");
     assert_non_null(strstr(motus_run_note(r), "no C compiler"));
@@ -326,7 +326,7 @@ static void without_a_compiler(void **state)
     free(path);
 }
 
-/* Names of the model, whatever they are, stay out of the text. */
+/* The compiled text contains no names of the model. */
 static void no_text_of_the_model_is_compiled(void **state)
 {
     (void)state;

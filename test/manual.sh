@@ -1,6 +1,6 @@
 #!/bin/bash
-# The documents tell the truth: the table of methods is the rows', every option is documented everywhere, links lead somewhere, the
-# models and the C program that they show work as they are printed.
+# The documents are correct: the table of methods has the rows of the program, every option is documented everywhere, links have targets,
+# the models and the C program in them work as printed.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C.UTF-8
@@ -65,12 +65,12 @@ judge "check --json has the documented keys" "$("$motus" check models/spring.mot
 # --- links ------------------------------------------------------------------------------------------------------------------------------
 judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md; do
     grep -oE '\]\([^)#]+\)' "$file" | sed 's/^](//; s/)$//' | while read -r link; do
-        # x[i](0) is no link
+        # x[i](0) is not a link
         [[ $link == http* || $link != *[./]* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
 judge "anchors of the manual exist" "$(grep -oE '\]\(#[^)]+\)' doc/manual.md | sed 's/^](#//; s/)$//' | while read -r anchor; do
     grep -E '^#+ ' doc/manual.md | sed -E 's/^#+ //' | tr 'A-Z ' 'a-z-' | tr -d '.,' | grep -qx -- "$anchor" || echo "$anchor"; done)"
 
-# --- what is printed, works ------------------------------------------------------------------------------------------------------------
+# --- printed examples ------------------------------------------------------------------------------------------------------------
 block doc/manual.md 1 "" >"$place/spring.motus"
 judge "the manual's first model runs" "$("$motus" run "$place/spring.motus" 2>&1 >"$place/log" || echo failed)"
 block README.md 1 "" >"$place/readme.motus"
@@ -79,7 +79,7 @@ judge "the README's model is models/driven-oscillator.motus" "$(diff <("$motus" 
 block README.md 1 c >"$place/readme.c"
 judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -lm -ldl -pthread -o "$place/readme" 2>&1)"
 judge "the README's C program gives x(100)" "$(out=$("$place/readme" 2>&1); grep -q '^x(100) = 0\.04778239807187' <<<"$out" || echo "$out")"
-# The error that the manual prints is the error that the program prints.
+# The manual prints the error as the program does.
 printf "k = 2\nm = 1\nx'' = -1/2 x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
 (cd "$place" && mv wrong.motus spring.motus && NO_COLOR=1 "$motus" check spring.motus 2>&1) | sed 's/[ ]*$//' | grep -v '^$' >"$place/said"
 sed -n '/^spring\.motus:3:/,/^```/p' doc/manual.md | sed '$d' >"$place/told"

@@ -1,8 +1,8 @@
-/* A strict reader of the MathML that the library writes: of XML only what it uses, so that whatever is more shows.
+/* A strict reader of the MathML that the library writes; it accepts only the part of XML that the library uses.
  *
- * It knows each element, its attributes and how many children it has, and rewrites the whole in short form, for tests
- * to compare: mrow {…}, others name{child|child}, leaves as their text; invisible times ~, the application of a
- * function @, a blank that does not break _, mspace a blank.
+ * It knows each element, its attributes and its number of children, and rewrites the text in a short form that tests
+ * compare: mrow {…}, others name{child|child}, leaves as their text; invisible times ~, the application of a function
+ * @, a no-break space _, mspace a blank.
  */
 #ifndef TEST_MATHML_H
 #define TEST_MATHML_H
@@ -23,7 +23,7 @@ typedef struct mathml_element {
 
 typedef struct mathml {
     const char *at;
-    const char *wrong; /* NULL: nothing so far */
+    const char *wrong; /* NULL: none so far */
     char *out;
     size_t length, room;
     int depth, deepest;
@@ -148,8 +148,8 @@ static inline bool mathml_element_read(mathml *m)
     return true;
 }
 
-/* NULL: it is one element `math`, well-formed, of what we use; else what is wrong. out: the short form, as much as
- * there is room for. */
+/* NULL: the text is one well-formed element `math` of the known elements; else what is wrong. out: the short form,
+ * cut to the room. */
 static inline const char *mathml_read(const char *text, char *out, size_t room, int *deepest)
 {
     mathml m = {.at = text, .out = out, .room = room};

@@ -1,10 +1,10 @@
 #!/bin/bash
-# Every model is read, runs, and does what its comments say; and each whose motion is known to many digits has that motion.
+# Every model of models/ is read, runs, and behaves as its comments say; some are compared with reference values.
 #
 # The reference values were computed in more than 25 digits, by Taylor series of order 60 and, independently, by extrapolation. `shift` is
 # how much a value moves when the literals of the model are rounded to doubles: the model's own sensitivity to one rounding. The
 # margin of a case is computed: twice the truncation error, estimated by halving the step, and the sum of the roundings, which
-# grows as the square root of the number of steps.
+# grows with the square root of the number of steps.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 motus=${MOTUS:-$PWD/build/motus}
@@ -21,8 +21,8 @@ for file in models/*.motus; do
     if "$motus" check "$file" --quiet >"$place/log" 2>&1; then ok "$name is read"; else not_ok "$name is read" "$(cat "$place/log")"; continue; fi
     if "$motus" run "$file" --json >"$place/run.json" 2>"$place/log" && jq -e . "$place/run.json" >"$place/log" 2>&1; then ok "$name runs"
     else not_ok "$name runs" "$(cat "$place/log" "$place/run.json")"; continue; fi
-    # An invariant that is one drifts with the fourth power of the step under a method of order 4, down to round-off; a wrong one
-    # does not care about the step. Round-off is that of terms as large as the squares of the state.
+    # By a method of order 4, a correct invariant changes with the fourth power of the step, down to round-off; the change of a wrong
+    # one does not depend on the step. Round-off is that of terms as large as the squares of the state.
     step=$(jq -r .step "$place/run.json")
     half=$(awk -v h="$step" 'BEGIN { printf "%.17g", h / 2 }')
     for h in "$step" "$half"; do
@@ -62,7 +62,7 @@ reference() {
             size = want < 0 ? -want : want + 0; if (size < 1) size = 1
             margin = 2 * truncation + 4 * sqrt(n) * (shift + 1.1e-16 * size)
             error = got - want; if (error < 0) error = -error
-            # A margin that proves nothing is no margin.
+            # The margin must be small enough to detect an error.
             if (margin > 1e-6 * size) { printf "the margin is only %.3g\n", margin; exit }
             if (error > margin) printf "%s is off by %.3g, more than %.3g\n", got, error, margin }')
         if [ -z "$verdict" ]; then ok "$model, $method: x$path at $until"
@@ -165,7 +165,7 @@ reference outer-solar-system kahan-li8 50 200000 <<'R'
 ["r'"][5][2]  1.685048429944169340473e-4 2.6e-13
 R
 
-# --- what the comments tell people to try, works -----------------------------------------------------------------------------------
+# --- the commands in the comments work -----------------------------------------------------------------------------------
 mkdir "$place/try" && ln -s "$root/models" "$place/try/models"
 motus() { "$motus" "$@"; }
 while IFS= read -r line; do

@@ -1,5 +1,5 @@
-/* What a host program may have set and the library must neither suffer from nor change: the rounding mode, the flush
- * modes, the locale.
+/* Modes that a host program may have set and the library must neither depend on nor change: the rounding mode,
+ * flushing to zero, the locale.
  */
 #include "base/decimal.h"
 #include "test/given.h"
@@ -10,7 +10,7 @@
 #include <xmmintrin.h>
 #endif
 
-/* A motion that dies away through the subnormal numbers, where flushing them would show. */
+/* A motion that decays through the subnormal numbers, where flushing would change it. */
 static const char dying[] =
     "x'' = -2 x' - 3 x\nx(0) = 1e-300\nx'(0) = 0\ny'' = -sin(y)\ny(0) = 1.1\ny'(0) = 1/3\nq = x y + 1/3\n"
     "invariant e = y'^2/2 - cos(y)\n";
@@ -78,7 +78,7 @@ static void rounding_and_flush_modes(void **state)
             uint64_t other = everything();
             int rounding = fegetround();
 #if defined(__x86_64__)
-            unsigned after = _mm_getcsr() & ~0x3Fu; /* but for the flags of exceptions */
+            unsigned after = _mm_getcsr() & ~0x3Fu; /* except the exception flags */
             _mm_setcsr(before);
 #endif
             fesetround(FE_TONEAREST);

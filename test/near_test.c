@@ -1,4 +1,4 @@
-/* "Did you mean": edits in halves, look-alikes, and what is plausible. */
+/* "Did you mean": edits counted in halves, look-alike characters, and when a suggestion is plausible. */
 #include "base/near.h"
 
 #include <setjmp.h>
@@ -30,7 +30,7 @@ static void test_edits(void **state)
     both_ways("\u00B5", "\u03BC", 1);   /* a look-alike: micro and mu, */
     both_ways("\u03A9", "\u03C9", 1);   /* a Greek capital: half an edit */
     both_ways("\u00E4b", "\u00E4c", 2); /* a character is one letter, not two bytes */
-    both_ways("a\xFF", "a\xFE", 2);     /* and a byte that is none is one, too */
+    both_ways("a\xFF", "a\xFE", 2);     /* and a byte that is not UTF-8 is one, too */
     assert_true(near_distance("abcdefgh", "a", 4) > 4);
     char longer[200]; /* only the first 64 characters count */
     memset(longer, 'x', sizeof longer);

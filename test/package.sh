@@ -1,6 +1,6 @@
 #!/bin/bash
-# The package as others meet it: installed to a prefix, moved, found by pkg-config and by find_package, shared and static, from C and
-# from C++, with nothing of the source tree in sight.
+# The installed package: moved after installation, found by pkg-config and by find_package, shared and static, from C and from C++,
+# without the source tree.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 source=$PWD

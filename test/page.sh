@@ -1,5 +1,5 @@
 #!/bin/bash
-# The page: the module against the program, byte for byte, and the page in a browser (test/lab/*.mjs), built here as `make lab` builds it.
+# Builds the page as `make lab` does and tests it: the module against the program, byte for byte, and the page in a browser (test/lab/*.mjs).
 #
 # Each test prints what failed and, last, `N passed, N failed`; so does this script, for all of them. Screenshots are left in build/lab/shots/.
 # CHROMIUM names the browser, MOTUS the program (build/motus). `test/page.sh share clock` runs these two.
@@ -22,19 +22,19 @@ start() {
     local name=$1 limit=$2
     local since=$SECONDS
     shift 2
-    # In the foreground: whoever ends this script ends them as well.
+    # In the foreground, so that a signal to this script ends them as well.
     timeout --foreground --kill-after=5 "$limit" "$@" >"$logs/$name.log" 2>&1 </dev/null
     echo "$? $((SECONDS - since))" >"$logs/$name.status"
 }
 bits() { start bits 200 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
-# What needs no browser; node's own runner says it in its way.
+# Tests without a browser, by node's test runner, whose output differs.
 parts() {
     start parts 60 node --test --test-reporter=tap test/lab/*.test.mjs
     echo "$(sed -n 's/^# pass //p' $logs/parts.log) passed, $(sed -n 's/^# fail //p' $logs/parts.log) failed" >>$logs/parts.log
 }
 page() { start "$1" 240 node "test/lab/$1.mjs"; }
 
-# Two at a time: most of what they do is wait. Figures of speed come last, by themselves.
+# Two at a time, since they mostly wait. Measurements of speed come last, alone.
 together() {
     local name
     for name; do

@@ -1,5 +1,5 @@
-/* Work in pieces: every piece once, by nobody who is at another, in the caller's modes; whether threads come at once
- * or have slept, or never come. */
+/* Work in pieces: every piece is done once, by one thread at a time, in the caller's floating-point modes; whether
+ * threads start at once, wake from sleep, or cannot be created. */
 #include "machine/parallel.h"
 
 #include <fenv.h>
@@ -19,7 +19,7 @@ enum { ITEMS_MAX = 1000, THREADS = 8 };
 typedef struct count {
     atomic_int done[ITEMS_MAX], at_work[THREADS], wrong;
     int threads, modes;
-    parallel_crew *crew; /* is called from inside as well */
+    parallel_crew *crew; /* also called within a piece of work */
     atomic_int inside;
 } count;
 

@@ -1,5 +1,5 @@
-/* What may be set: the parameters of a model and its initial values, what they are now, where they stand, and which
- * of them decide more than numbers.
+/* What may be set: the parameters of a model and its initial values, their present values, their lines, and which of
+ * them decide more than numbers.
  */
 #include "test/given.h"
 
@@ -64,7 +64,7 @@ static void parameters(void **state)
     assert_true(p.dimensions == 1 && p.first[0] == 1 && p.last[0] == 2);
     motus_system_destroy(s);
 
-    /* what is set stands in its place, with what follows from it */
+    /* the set value, and what follows from it */
     expected other[10];
     memcpy(other, all, sizeof other);
     other[1] = (expected){"g", "(1, 2)", 2, 0, 2, {1, 2}, NULL};
@@ -77,7 +77,7 @@ static void parameters(void **state)
     motus_system_destroy(s);
 }
 
-/* An ensemble takes what decides nothing else, and refuses what does. */
+/* An ensemble varies what decides only numbers, and refuses what decides more. */
 static void decides_what_an_ensemble_refuses(void **state)
 {
     (void)state;

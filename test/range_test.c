@@ -1,4 +1,4 @@
-/* Ranges: ends exact, the values those that one would type, decades decades. */
+/* Ranges: exact ends, values equal to typed ones, exact powers of ten. */
 #include "cli/range.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static void test_linear(void **context)
     r = range_linear(0.1, -0.7, 1000001);
     assert_true(range_value(&r, 0) == 0.1 && range_value(&r, 1000000) == -0.7);
     for (uint64_t k = 1; k <= 1000000; k += 999) assert_true(range_value(&r, k) < range_value(&r, k - 1));
-    /* the values that one would type: k thousandths from -0.3 on, 0 among them */
+    /* equal to typed values: k thousandths from -0.3 on, 0 among them */
     r = range_linear(-0.3, 0.9, 1201);
     for (int k = 0; k <= 1200; k++) {
         char text[32];
@@ -45,7 +45,7 @@ static void test_decades(void **context)
                 range up = range_log(decade(first), decade(first + decades), (uint64_t)decades * parts + 1);
                 range down = range_log(-decade(first + decades), -decade(first), (uint64_t)decades * parts + 1);
                 for (int k = 0; k <= decades; k++) {
-                    if (first + k == 23) /* 10^23 is half-way between two numbers */
+                    if (first + k == 23) /* 10^23 lies half-way between two doubles */
                         continue;
                     assert_true(range_value(&up, (uint64_t)k * parts) == decade(first + k));
                     assert_true(range_value(&down, (uint64_t)(decades - k) * parts) == -decade(first + k));
@@ -53,7 +53,7 @@ static void test_decades(void **context)
             }
 }
 
-/* v^n of value v = 2^(k/n) is 2^k, to the n half places that v may be off. */
+/* v^n of the value v = 2^(k/n) is 2^k, to the n half units that v may be off. */
 static void test_roots(void **context)
 {
     (void)context;

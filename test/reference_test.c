@@ -1,30 +1,25 @@
 /* Motions known to 22 digits and more, test/reference.txt, against the library's.
  *
- * How near a result must come is not chosen by hand. Four things keep a computation from the true digits:
- *     shift    The numbers of the model are rounded to double precision. How far that alone moves any number of the
- *              true motion is
- *              known.
- *     halving The method's truncation and rounding, measured: the largest change of any position, and of any
- *         velocity, when the
- *              step is halved and halved again, here or at an earlier time of the same case. Truncation of order p >=
- *                  2 is at most
- *              4/3 of it; rounding is of its size, being different at every step.
- *     unit     The method's own numbers, step and coefficients, are rounded as well. That is the same at every step,
- *              so halving does
- *              not see it: as if time ran, and numbers were scaled, differently by one part in 2^53. It moves y by (y
- *                  + t y') 2^-53.
- *     nudge    Where neighbouring motions part, what is rounded early grows. Measured: how far the result moves when
- *              every number of
- *              the start is moved by one part in 2^30 of the largest of its kind, brought down to one part in 2^53.
- * The bound is 4 (shift + halving + unit + nudge): four for "times a few". `reference_test --write` measures halvings
- * and nudges anew and writes them into the file.
+ * The bound of each comparison is computed from the four errors of a computation:
+ *   - shift: the numbers of the model are rounded to double precision; how far that alone moves the exact motion is in
+ *     the file.
+ *   - halving: the method's truncation and rounding, measured as the largest change of any position, and of any
+ *     velocity, when the step is halved and halved again, here or at an earlier time of the same case. Truncation of
+ *     order p >= 2 is at most 4/3 of it; rounding is of its size, being different at every step size.
+ *   - unit: the rounding of the method's step and coefficients, which is the same at every step size, so that halving
+ *     does not show it. It acts as if time and numbers were scaled by one part in 2^53, and moves y by
+ *     (y + t y') 2^-53.
+ *   - nudge: where neighbouring motions diverge, early rounding grows. Measured as the change of the result when every
+ *     number of the start is moved by one part in 2^30 of the largest of its kind, scaled to one part in 2^53.
+ * The bound is 4 (shift + halving + unit + nudge). `reference_test --write` measures halvings and nudges and writes
+ * them into the file.
  */
 #include "test/given.h"
 
 enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
 static const double FEW = 4;
 
-typedef struct block { /* what is computed, as the lines of a case before its first `at` say */
+typedef struct block { /* the computation, as the lines of a case before its first `at` define it */
     char label[64], model[64], method[32], text[TEXT_ROOM];
     char set[SETS_MAX][64];
     size_t set_count;
@@ -50,7 +45,7 @@ static void read_lines(void)
     free(text);
 }
 
-/* The value of "word value" lines; NULL for others. */
+/* The value of a line "word value"; NULL: another word. */
 static const char *after(const char *line, const char *word)
 {
     size_t n = strlen(word);
@@ -64,7 +59,7 @@ static motus_system *open_block(const block *b)
     return b->model[0] ? given_model(b->model, set, b->set_count) : given_text(b->text);
 }
 
-/* A run whose start is moved: every number up or down, by `nudge` times the largest of its kind. */
+/* A run with a changed start: every number up or down, by `nudge` times the largest of its kind. */
 static motus_run *nudged(motus_system *s, const block *b, double until, double nudge)
 {
     size_t nx = motus_positions(s), n = 0;
@@ -72,7 +67,7 @@ static motus_run *nudged(motus_system *s, const block *b, double until, double n
     double *y = whole_state(s, r, &n), size[2] = {0};
     for (size_t k = 0; k < n; k++) size[k >= nx] = fmax(size[k >= nx], fabs(y[k]));
     for (size_t k = 0; k < n; k++)
-        y[k] += (k * k % 5 < 2 ? nudge : -nudge) * size[k >= nx]; /* a pattern that no translation has */
+        y[k] += (k * k % 5 < 2 ? nudge : -nudge) * size[k >= nx]; /* signs that are not a translation */
     motus_run_def def = motus_default_run();
     motus_error err = motus_default_error();
     def.method = b->method;
@@ -87,8 +82,8 @@ static motus_run *nudged(motus_system *s, const block *b, double until, double n
     return moved;
 }
 
-/* The columns at `until`, with the step divided by `parts`, from a start that is nudged by `nudge`; and where `rate`
- * is given, how fast they change in the last step. */
+/* The columns at `until`, with the step divided by `parts`, from a start changed by `nudge`; if `rate` is given, also
+ * their rate of change in the last step. */
 static void compute(const block *b, const char *const *names, size_t count, double until, int parts, double nudge,
                     double *out, double *rate)
 {
@@ -121,7 +116,7 @@ static void measure(const block *b, const char *const *names, size_t count, doub
     }
 }
 
-/* Reads the line into the block; false if it is about something else. */
+/* Reads a line into the block; false: it is not one of the block's. */
 static int describes(block *b, const char *line)
 {
     const char *v;
@@ -161,7 +156,7 @@ static size_t read_values(int at, char names[][32], const char **list, double *e
     return n;
 }
 
-/* The largest seen so far in a case, of positions and of velocities. */
+/* The largest so far in a case, of positions and of velocities. */
 typedef struct largest {
     double halving[2], nudge[2], size[2], rate[2];
 } largest;

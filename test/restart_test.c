@@ -1,4 +1,5 @@
-/* Restart states: restarted equals uninterrupted, to the bit; what does not fit is refused and changes nothing.
+/* Restart states: a restarted run has the bits of an uninterrupted one; a state that does not fit is refused and
+ * changes nothing.
  */
 #include "test/given.h"
 
@@ -45,8 +46,8 @@ static void same_counts(motus_run *a, motus_run *b)
     assert_true(motus_run_time(a) == motus_run_time(b));
 }
 
-/* Interrupted after n steps, in a system of its own as a new process would have it; looked at before and after, or
- * not. */
+/* Interrupted after n steps and continued in another system, as by a new process; with or without observations before
+ * and after. */
 static void interrupted(const char *text, const char *method, double start, int64_t n, int look)
 {
     motus_system *s = given_text(text), *other = given_text(text);
@@ -57,7 +58,7 @@ static void interrupted(const char *text, const char *method, double start, int6
     take_steps(first, n);
     if (look) free(whole_state(s, first, NULL));
     kept k = save(first);
-    take_steps(second, look ? 3 : 0); /* it may have been elsewhere */
+    take_steps(second, look ? 3 : 0); /* it may have been at another state */
     must(restore(second, k, &err), &err, "restore");
     same_state(s, first, second, "restored");
     same_counts(first, second);
@@ -93,7 +94,7 @@ static void restarted_equals_uninterrupted(void **state)
     }
 }
 
-/* A state saved after a shortened last step is that of the whole steps before it: it goes on to a later end as if
+/* A state saved after a shorter last step is that of the full steps before it: it continues to a later end as if
  * there had been no end. */
 static void the_short_step_leaves_no_trace(void **state)
 {
@@ -115,7 +116,7 @@ static void the_short_step_leaves_no_trace(void **state)
         finish(straight);
         same_state(s, late, straight, "through an earlier end");
         same_counts(late, straight);
-        /* Back into the run it came from: before its short step. */
+        /* Restored into its own run: before its shorter step. */
         must(restore(early, k, &err), &err, "back");
         assert_int_equal(motus_run_steps(early), 23);
         assert_false(motus_run_done(early));
@@ -150,8 +151,8 @@ static void backward_runs_restart_too(void **state)
     motus_system_destroy(s);
 }
 
-/* Text, hexadecimal numbers: a reader needs no secret, and saving twice gives the same bytes. */
-static void the_text_is_what_it_is(void **state)
+/* The state is text with hexadecimal numbers, and saving twice gives the same bytes. */
+static void the_state_is_readable_text(void **state)
 {
     (void)state;
     motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n");
@@ -231,7 +232,7 @@ static void what_does_not_fit_is_refused(void **state)
     motus_system_destroy(s);
 }
 
-/* Other sums over the same numbers. */
+/* The same numbers with other sums. */
 static void sums_with_other_bounds_are_other_models(void **state)
 {
     (void)state;
@@ -262,7 +263,7 @@ static void sums_with_other_bounds_are_other_models(void **state)
     }
 }
 
-/* Every byte changed, in every bit and to some that matter to a reader of numbers; every length; every byte left out
+/* Every byte changed, in every bit and to some that matter to a reader of numbers; every length; every byte removed
  * or doubled. */
 static void damage_is_seen(void **state)
 {
@@ -289,7 +290,7 @@ static void damage_is_seen(void **state)
         memcpy(copy, k.text, n);
         bad.length = n;
         assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
-        memcpy(copy + n, k.text + n + 1, k.length - n); /* one left out */
+        memcpy(copy + n, k.text + n + 1, k.length - n); /* one removed */
         bad.length = k.length - 1;
         assert_int_equal(restore(q, bad, &err), MOTUS_STATE);
         memcpy(copy, k.text, n + 1); /* one twice */
@@ -306,7 +307,7 @@ static void damage_is_seen(void **state)
     motus_system_destroy(s);
 }
 
-/* FNV-1a, as in the closing line: damage that was done on purpose must not crash either. */
+/* FNV-1a, as in the last line: with a valid checksum, damage must not crash either. */
 static void seal(char *text, size_t length)
 {
     enum { CLOSING = 21 };
@@ -338,7 +339,7 @@ static void forged_states_do_no_harm(void **state)
         }
     }
     assert_true(refused > 100);
-    /* Numbers that are none, counters that are negative or too large, a carry that is too long. */
+    /* Invalid numbers, counters that are negative or too large, a carry that is too long. */
     static const struct {
         const char *from, *to;
     } forged[] = {{"\nat 7 ", "\nat -7 "},
@@ -377,7 +378,7 @@ int main(void)
         cmocka_unit_test(restarted_equals_uninterrupted),
         cmocka_unit_test(the_short_step_leaves_no_trace),
         cmocka_unit_test(backward_runs_restart_too),
-        cmocka_unit_test(the_text_is_what_it_is),
+        cmocka_unit_test(the_state_is_readable_text),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(sums_with_other_bounds_are_other_models),
         cmocka_unit_test(damage_is_seen),

@@ -1,9 +1,8 @@
-/* Runs: the same motion however it is walked, looked at, cut short, watched or broken off.
- */
+/* Runs: the same motion however it is divided into calls, observed, shortened or cancelled. */
 #include "test/given.h"
 
-/* Forces of every kind: of position, of time, of velocity (linear, turning, neither), with first-order variables and
- * driven boundary cells. */
+/* Forces of every kind: of position, of time, of velocity (linear, gyroscopic, neither), with first-order variables
+ * and driven boundary cells. */
 static const char *const texts[] = {
     "x'' = -x + x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\n",
     "x'' = -x' - x^3\nx(0) = 2\nx'(0) = 0\n",
@@ -32,13 +31,13 @@ static void each(void (*law)(motus_system *, const char *method))
     }
 }
 
-/* Walking and looking ---------------------------------------------------------------------------------------------- */
+/* Stepping and observing ------------------------------------------------------------------------------------------- */
 
 static int two_step_literal(const char *method) { return !strcmp(method, "verlet-literal"); }
 
 static void stepwise(motus_system *s, const char *method)
 {
-    double until = two_step_literal(method) ? 0.5 : 0.4951; /* the second is cut short */
+    double until = two_step_literal(method) ? 0.5 : 0.4951; /* the second has a shorter last step */
     motus_run *at_once = given_run(s, method, 0.01, until), *by_steps = given_run(s, method, 0.01, until),
               *looking = given_run(s, method, 0.01, until);
     finish(at_once);
@@ -57,7 +56,7 @@ static void stepwise(motus_system *s, const char *method)
     same_state(s, at_once, looking, "unseen and looked at");
     assert_int_equal(motus_run_steps(at_once), motus_run_steps(by_steps));
     assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(by_steps));
-    /* looking is not counted */
+    /* observations are not counted */
     assert_int_equal(motus_run_evaluations(at_once), motus_run_evaluations(looking));
     assert_int_equal(motus_run_iterations(at_once), motus_run_iterations(by_steps));
     assert_int_equal(motus_run_steps(at_once), motus_run_steps_total(at_once));
@@ -104,9 +103,9 @@ static void samples_at_steps_are_the_state(void **state)
     each(samples_of);
 }
 
-/* Between two exact states only the polynomials err: h^6 in the position, h^5 in its velocity, h^4 in a first-order
- * variable. A slope estimated from h and h/2 is off by O(h), half of which is left in the next one: twice their
- * difference bounds what is left. */
+/* Between two exact states the only error is the polynomials': h^6 in the position, h^5 in its velocity, h^4 in a
+ * first-order variable. A slope estimated from h and h/2 is off by O(h), half of which remains in the next one: twice
+ * their difference bounds the rest. */
 static void the_quintic_has_local_error_h_6(void **state)
 {
     (void)state;
@@ -140,7 +139,7 @@ static void samples_between_steps_hit_the_neighbours(void **state)
     motus_system *s = given_text("x'' = -sin(x) + 0.1 cos(t)\nx(0) = 1\nx'(0) = 0\n");
     size_t k[2] = {column(s, "x"), column(s, "x'")};
     motus_error err = motus_default_error();
-    /* A hair before and after every step: no time in between is refused, and the motion is continuous. */
+    /* Just before and after every step: no time in between is refused, and the motion is continuous. */
     static const double steps[] = {0.1, 0.07, 0.3, 0.011, 0.013, 1.0 / 3};
     motus_run *r, *q, *leap;
     for (size_t j = 0; j < sizeof steps / sizeof *steps; j++) {
@@ -223,7 +222,7 @@ static void another_start(void **state)
     motus_system_destroy(s);
 }
 
-/* Every number of the order `outside`: x by variable, cell and component, then v. */
+/* Every number in the public order: x by variable, cell and component, then v. */
 static void starts_are_in_the_order_of_the_columns(void **state)
 {
     (void)state;
@@ -255,8 +254,8 @@ static void starts_are_in_the_order_of_the_columns(void **state)
     motus_system_destroy(s);
 }
 
-/* A reversible method comes back; the sign of the step is that of the direction. What is lost is rounding: a few
- * units per step. */
+/* A reversible method returns; the sign of the step is that of the direction. The difference is rounding: a few units
+ * per step. */
 static void backward(void **state)
 {
     (void)state;
@@ -294,7 +293,7 @@ static void backward(void **state)
     motus_system_destroy(s);
 }
 
-/* The main line is whole steps; the short one is a step of its own from there, in the method's one-step form. */
+/* The main line has full steps; the shorter step is a step of its own from there, in the method's one-step form. */
 static void short_end(motus_system *s, const char *method)
 {
     motus_error err = motus_default_error();
@@ -329,7 +328,7 @@ static void short_end(motus_system *s, const char *method)
     def.x = y;
     def.v = y + nx;
     def.step = 1;
-    if (strcmp(method, "exact")) { /* which is one motion, not a map */
+    if (strcmp(method, "exact")) { /* the exact motion is not a map of states */
         must(motus_run_create(s, &def, &last, &err), &err, method);
         finish(last);
         same_state(s, r, last, "the short step");
@@ -387,7 +386,7 @@ static void steps_and_ends_that_are_refused(void **state)
     motus_system_destroy(s);
 }
 
-/* A quotient of `until` and the step that is whole but for the rounding of both is whole. */
+/* A quotient of `until` and the step that is an integer up to rounding counts as one. */
 static void slivers_are_no_steps(void **state)
 {
     (void)state;
@@ -418,19 +417,19 @@ static void divergence_names_time_and_variable(void **state)
         assert_true(err.time > 0.1 && err.time < 100);
         assert_true(!strcmp(err.variable, "y") || !strcmp(err.variable, "y'"));
         assert_true(strstr(err.message, "t = ") && err.hint[0]);
-        /* The run stands at the last good step and says the same again. */
+        /* The run stands at the last good step and repeats its error. */
         double x[2], v[2], t = motus_run_time(r);
         motus_error look = motus_default_error();
         motus_status seen = motus_run_state(r, x, v, &look);
-        /* Where the velocity waits for the acceleration at the same place, that may be the first infinity: then the
-         * look says so. */
+        /* If the velocity needs the acceleration at the same place, that may be the first infinity; then observing
+         * gives the error. */
         assert_true(seen == MOTUS_OK || (seen == MOTUS_DIVERGED && look.time == t));
         for (int k = 0; k < 2 && seen == MOTUS_OK; k++) assert_true(isfinite(x[k]) && isfinite(v[k]));
         assert_true(t <= err.time && t >= err.time - 0.0101);
         motus_error again = motus_default_error();
         assert_int_equal(motus_run_step(r, 1, &again), MOTUS_DIVERGED);
         assert_true(motus_run_time(r) == t && again.time == err.time);
-        /* The same steps in a run that stops there. */
+        /* The same steps in a run that ends there. */
         motus_run *q = given_run(s, methods[i], 0.01, 100);
         take_steps(q, motus_run_steps(r));
         double w[2];
@@ -464,7 +463,7 @@ static void an_implicit_equation_without_solution(void **state)
     motus_system_destroy(s);
 }
 
-static motus_run *watched(motus_system *s, watcher *w, double until)
+static motus_run *observed(motus_system *s, given_progress *w, double until)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
@@ -472,9 +471,9 @@ static motus_run *watched(motus_system *s, watcher *w, double until)
     def.method = "kahan-li8";
     def.step = 0.001;
     def.until = until;
-    def.progress = watch;
+    def.progress = given_observe;
     def.context = w;
-    must(motus_run_create(s, &def, &r, &err), &err, "watched");
+    must(motus_run_create(s, &def, &r, &err), &err, "observed");
     return r;
 }
 
@@ -483,17 +482,17 @@ static void progress_and_cancellation(void **state)
     (void)state;
     motus_system *s = given_text("x'' = -sin(x)\nx(0) = 1\nx'(0) = 0\n");
     motus_error err = motus_default_error();
-    watcher w = {0, 0, 0}, impatient = {0, 2, 0};
+    given_progress w = {0, 0, 0}, impatient = {0, 2, 0};
     const double until = 100; /* some 10^5 steps: a few tenths of a second */
-    motus_run *seen = watched(s, &w, until), *unseen = given_run(s, "kahan-li8", 0.001, until),
-              *cut = watched(s, &impatient, until);
+    motus_run *seen = observed(s, &w, until), *unseen = given_run(s, "kahan-li8", 0.001, until),
+              *cut = observed(s, &impatient, until);
     finish(seen);
     finish(unseen);
     assert_true(w.calls > 2);
-    same_state(s, seen, unseen, "watched and unwatched");
+    same_state(s, seen, unseen, "observed and unobserved");
     assert_int_equal(motus_run_finish(cut, &err), MOTUS_CANCELLED);
     assert_true(impatient.calls == 2 && !motus_run_done(cut) && motus_run_steps(cut) > 0);
-    finish(cut); /* cancelled is not broken */
+    finish(cut); /* a cancelled run can continue */
     same_state(s, cut, unseen, "cancelled and gone on");
     motus_run_destroy(seen);
     motus_run_destroy(unseen);
@@ -501,13 +500,13 @@ static void progress_and_cancellation(void **state)
     motus_system_destroy(s);
 }
 
-/* Not at every step of a walk by single steps: it would cost more than the steps. */
+/* The hook is not called at every single step: it would cost more than the steps. */
 static void progress_is_told_now_and_then(void **state)
 {
     (void)state;
     motus_system *s = given_text(texts[0]);
-    watcher w = {0, 0, 0};
-    motus_run *r = watched(s, &w, 10);
+    given_progress w = {0, 0, 0};
+    motus_run *r = observed(s, &w, 10);
     while (!motus_run_done(r)) take_steps(r, 1);
     assert_true(w.calls < 1000); /* of 10000 steps */
     motus_run_destroy(r);

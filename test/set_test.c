@@ -1,12 +1,12 @@
-/* Numbers set in a system that was read already: the same bits as a text read with `set`, refusals that leave
- * everything as it was, and clones that have the numbers too.
+/* Numbers set in a system: the same bits as of a text read with `set`, refusals that change nothing, and clones that
+ * have the numbers too.
  */
 #include "test/ensemble_given.h"
 
 #include <dirent.h>
 #include <stdbool.h>
 
-/* ---- two systems that should be one ---- */
+/* ---- comparing two systems ---- */
 
 static void same_values(const double *a, const double *b, size_t count, const char *what, const char *name)
 {
@@ -14,7 +14,7 @@ static void same_values(const double *a, const double *b, size_t count, const ch
         if (!same_number(a[k], b[k])) fail_msg("%s: number %zu of %s is %a, expected %a", what, k, name, a[k], b[k]);
 }
 
-/* Parameters, initial values, and the bits of a run. */
+/* Compares parameters, initial values, and the bits of a run. */
 static void same_systems(motus_system *got, motus_system *expected, const char *machine, const char *what)
 {
     assert_int_equal(motus_parameter_count(got), motus_parameter_count(expected));
@@ -50,7 +50,7 @@ static void same_systems(motus_system *got, motus_system *expected, const char *
     motus_run_destroy(q);
 }
 
-/* "F=0.5", "r(0)=(1, 2)", "m=[1, 2]" with every digit; false: a text cannot say it. */
+/* "F=0.5", "r(0)=(1, 2)", "m=[1, 2]" with every digit; false: a text cannot express it. */
 static bool write_setting(char *out, size_t size, const char *name, int components, int list, int dimensions,
                           const double *values, size_t count)
 {
@@ -119,7 +119,7 @@ static void set_all_of(const char *text, const char *machine, tally *sum)
                    write_setting(setting, sizeof setting, initial ? n.name : p.name,
                                  initial ? v.components : p.components, initial ? 0 : p.list,
                                  initial ? 0 : p.dimensions, values, count)) {
-            if (initial || !p.list || p.text[0] == '[') /* a text sets a list, and no family of parameters */
+            if (initial || !p.list || p.text[0] == '[') /* a text can set a list, but no family of parameters */
                 set_both(text, initial ? n.name : p.name, values, count, setting, machine, sum);
         }
         free(values);
@@ -171,7 +171,7 @@ static void set(motus_system *s, const char *name, size_t count, const double *v
     must(motus_system_set(s, name, values, count, &err), &err, name);
 }
 
-/* What was set stays, in whatever order, as in a text where every `set` replaces its line. */
+/* A set number stays set, in any order, as in a text where every `set` replaces its line. */
 static void what_was_set_stays(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void what_was_set_stays(void **state)
                  {"k", "k=[2, 3, 5]", 3, {2, 3, 5}},
                  {"s(0)", "s(0)=7", 1, {7}}};
     enum { STEPS = sizeof steps / sizeof *steps };
-    /* All orders of five of them would be many; all rotations, forward and backward, meet every pair in both orders. */
+    /* All rotations of five, forward and backward, have every pair in both orders. */
     for (int start = 0; start < STEPS; start++)
         for (int way = -1; way <= 1; way += 2) {
             motus_system *s = given_text(chained);
@@ -200,7 +200,7 @@ static void what_was_set_stays(void **state)
                 must(motus_system_clone(s, &c, NULL), &(motus_error){0}, "clone");
                 same_systems(c, t, "interpreter", "a clone");
                 motus_system_destroy(t);
-                /* The clone goes its own way, and still heeds what was set before. */
+                /* A clone changes independently, and keeps what was set before. */
                 settings[n + 1] = "A=11";
                 t = given_text_with(chained, settings, (size_t)n + 2, "set");
                 set(c, "A", 1, (const double[]){11});
@@ -211,7 +211,7 @@ static void what_was_set_stays(void **state)
                 motus_system_destroy(c);
                 motus_system_destroy(t);
             }
-            /* What was set early is set again, after lines that used it were overridden. */
+            /* A number set early is set again, after lines that used it were overridden. */
             settings[STEPS] = "A=11";
             set(s, "A", 1, (const double[]){11});
             motus_system *t = given_text_with(chained, settings, STEPS + 1, "set");
@@ -221,7 +221,7 @@ static void what_was_set_stays(void **state)
         }
 }
 
-/* A family is set as a whole, which no text can do in one line: compared with lines of its cells. */
+/* All cells of a family are set at once, which a text needs several lines for. */
 static void families(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void families(void **state)
     set(s, "A", 1, &A);
     same_systems(s, t, "interpreter", "a family");
     motus_system_destroy(t);
-    /* c[i] = k[i] + B is overridden: from now on B is no part of it. */
+    /* c[i] = k[i] + B is overridden: from then on it does not depend on B. */
     set(s, "c", 3, c);
     set(s, "B", 1, &B);
     double now[3];
@@ -293,7 +293,7 @@ static void refusals(void **state)
     assert_null(before);
     motus_system_destroy(s);
 
-    /* A line that was to be overridden, and was not, is still a line. */
+    /* A refused setting overrides no line. */
     const double none = 0, three = 3;
     s = given_text("A = 2\nx'' = -x\nx(0) = A\nx'(0) = 0\nd = 1/x(0)\n");
     assert_int_equal(motus_system_set(s, "x(0)", &none, 1, &err), MOTUS_ARGUMENT);
@@ -309,7 +309,7 @@ static void refusals(void **state)
     motus_system_destroy(s);
 }
 
-/* Nobody's equations change under him. */
+/* While a run, an ensemble or a reference exists, the equations cannot change. */
 static void not_while_somebody_uses_it(void **state)
 {
     (void)state;
@@ -332,7 +332,7 @@ static void not_while_somebody_uses_it(void **state)
     motus_ensemble_destroy(e);
     assert_int_equal(motus_system_set(s, "k", &k, 1, &err), MOTUS_ARGUMENT);
     motus_reference_destroy(reference);
-    /* Attempts that failed, and studies that are over, hold nothing. */
+    /* Failed calls and finished studies do not hold the system. */
     motus_run_def def = motus_default_run();
     def.step = -1;
     assert_int_equal(motus_run_create(s, &def, &none, &err), MOTUS_ARGUMENT);
@@ -344,9 +344,9 @@ static void not_while_somebody_uses_it(void **state)
     motus_system_destroy(s);
 }
 
-/* ---- what else knows the numbers ---- */
+/* ---- what else uses the numbers ---- */
 
-/* An ensemble heeds what was set, on every thread and in lanes: A varies, x(0) = A no longer follows. */
+/* An ensemble uses what was set, on every thread and in lanes: A varies, and the set x(0) no longer follows A. */
 static void ensembles(void **state)
 {
     (void)state;
@@ -386,7 +386,7 @@ static void ensembles(void **state)
     motus_system_destroy(s);
 }
 
-/* Whether a velocity term does work is seen at states, for the numbers of the moment. */
+/* Whether a velocity term does work is tested at states, with the present numbers. */
 static void methods_follow(void **state)
 {
     (void)state;
@@ -394,7 +394,7 @@ static void methods_follow(void **state)
                  *c = NULL;
     motus_analysis a = motus_default_analysis();
     const double one = 1, none = 0;
-    /* A clone of a system that nobody asked yet finds it out for itself. */
+    /* A clone of a system that was not analysed yet is analysed itself. */
     must(motus_system_clone(s, &c, NULL), &(motus_error){0}, "clone");
     assert_int_equal(motus_method_admits(c, "boris", NULL), MOTUS_OK);
     motus_system_destroy(c);
@@ -415,7 +415,7 @@ static void methods_follow(void **state)
     motus_system_destroy(s);
 }
 
-/* A restart state knows the numbers under which it was written. */
+/* A restart state depends on the numbers with which it was written. */
 static void states_belong_to_their_numbers(void **state)
 {
     (void)state;
@@ -489,7 +489,7 @@ static void count_give(void *context, void *block)
     free(block);
 }
 
-/* A slider that is dragged all day takes no more memory than one that is dragged once. */
+/* Setting a number many times takes no more memory than setting it once. */
 static void setting_again_takes_no_memory(void **state)
 {
     (void)state;

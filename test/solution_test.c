@@ -283,14 +283,14 @@ static void may_be_cancelled(void **state)
     motus_study_def def = motus_default_study();
     def.until = 10;
     def.step = 5;
-    def.progress = watch;
-    watcher w = {.cancel_at = 1};
+    def.progress = given_observe;
+    given_progress w = {.cancel_at = 1};
     def.context = &w;
     motus_reference *r = NULL;
     assert_int_equal(motus_reference_create(s, &def, &r, &e), MOTUS_CANCELLED);
     assert_null(r);
     assert_int_equal(w.calls, 1);
-    w = (watcher){0};
+    w = (given_progress){0};
     r = reference_of(s, &def);
     const int before = w.calls;
     double t = 2, x;

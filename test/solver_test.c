@@ -1,5 +1,5 @@
-/* The linear systems of implicit methods: sparse, dense and by difference quotients the same; a million unknowns in
- * proportion; singular ones reported; every allocation may fail.
+/* The linear systems of implicit methods: sparse, dense and by difference quotients give the same; a million unknowns
+ * take proportional memory; singular ones are errors; every allocation may fail.
  */
 #include "test/stepper_test.h"
 #include "core/solver.h"
@@ -10,7 +10,7 @@ static int cubic(void *ctx, double t, double *x, double *v, double *a)
     a[0] = -v[0] - x[0] * x[0] * x[0];
     return 0;
 }
-/* x'' = -x - C v with C a shuffled ring: row k couples to next[k] and to the one it came from. */
+/* x'' = -x - C v with C a permuted ring: row k couples to next[k] and to its predecessor. */
 typedef struct ring {
     size_t n, *next;
     bool told;
@@ -90,10 +90,10 @@ static void pivoting(void **state)
 {
     (void)state;
     enum { N = 40, LOWER = 3, UPPER = 2, HEIGHT = 2 * LOWER + UPPER + 1 };
-    double dense[N][N] = {{0}}, matrix[N * HEIGHT] = {0}, truth[N], b[N] = {0};
+    double dense[N][N] = {{0}}, matrix[N * HEIGHT] = {0}, solution[N], b[N] = {0};
     uint32_t pivot[N], seed = 1, exchanged = 0;
     for (size_t i = 0; i < N; i++) {
-        truth[i] = 1 + (double)(i % 4);
+        solution[i] = 1 + (double)(i % 4);
         for (size_t j = i < LOWER ? 0 : i - LOWER; j <= i + UPPER && j < N; j++) {
             seed = seed * 1664525u + 1013904223u;
             dense[i][j] = (double)(seed >> 16) / 65536 - 0.5;
@@ -102,12 +102,12 @@ static void pivoting(void **state)
         }
     }
     for (size_t i = 0; i < N; i++)
-        for (size_t j = 0; j < N; j++) b[i] += dense[i][j] * truth[j];
+        for (size_t j = 0; j < N; j++) b[i] += dense[i][j] * solution[j];
     assert_true(solver_band_factor(N, LOWER, UPPER, matrix, pivot));
     solver_band_back(N, LOWER, UPPER, matrix, pivot, b);
     for (size_t i = 0; i < N; i++) {
         exchanged += pivot[i] != i;
-        assert_near(b[i], truth[i], 1e-10);
+        assert_near(b[i], solution[i], 1e-10);
     }
     assert_true(exchanged > N / 2);
     memset(matrix, 0, sizeof matrix);
@@ -182,7 +182,7 @@ static void a_million_damped_masses(void **state)
     stepper_destroy(s);
     assert_int_equal(m.now, 0);
 
-    p.pattern = NULL; /* dense: refused before anything of that size is taken */
+    p.pattern = NULL; /* dense: refused before memory of that size is allocated */
     m = (meter){0};
     assert_int_equal(stepper_create(&(machine){.problem = &p}, &c, 0, 0.01, x, v, &hooks, &s, &err), MOTUS_LIMIT);
     assert_true(m.most < n * 16 * sizeof(double));
@@ -227,7 +227,7 @@ static void allocation_failures(void **state)
             if (!status) {
                 const size_t taken = m.count;
                 assert_int_equal(stepper_advance(s, (stepper_limit){20, NAN}, NULL, &err), MOTUS_OK);
-                assert_int_equal(m.count, taken); /* nothing is taken on the way */
+                assert_int_equal(m.count, taken); /* nothing is allocated later */
                 stepper_destroy(s);
                 assert_int_equal(m.now, 0);
                 break;

@@ -1,6 +1,5 @@
-/* motus_stability against what is known on paper: the stability function of each Runge-Kutta method, the recurrences
- * of the two-step methods off the axis, the limit on each card, and the plane that does not exist for methods which
- * take no velocities.
+/* motus_stability against theory: the stability function of each Runge-Kutta method, the recurrences of the two-step
+ * methods off the axis, the limit on each card, and the error for methods that admit no velocities.
  */
 #include "test/given.h"
 
@@ -70,9 +69,9 @@ static const struct {
 };
 enum { TEXTBOOK = sizeof textbook / sizeof *textbook };
 
-/* The entries of R(A) are as large as sum |z|^k/k! times |z| at most, and rounded as often as there are stages; the
- * radius squared is a difference of products of two. Implicit: by the size of what is solved, whose inverse is as
- * large as the distance of the poles says. */
+/* The entries of R(A) are as large as sum |z|^k/k! times |z| at most, and rounded once per stage; the radius squared
+ * is a difference of products of two. Implicit: relative to the solved matrix, whose inverse is as large as the
+ * distance of the poles says. */
 static double margin(size_t m, point z)
 {
     double sum = 0, term = 1, size = cabs(z) + 1;
@@ -103,7 +102,7 @@ static void is_the_textbooks(void **state)
     }
 }
 
-/* Where both rates are one, λ real, rounding splits the double eigenvalue like a root. */
+/* Where both rates are equal and λ is real, rounding splits the double eigenvalue like a root. */
 static void on_the_real_axis(void **state)
 {
     (void)state;
@@ -119,7 +118,7 @@ static void poles_are_infinite(void **state)
 {
     (void)state;
     assert_true(isinf(radius_at("implicit-midpoint", 2, 0)));
-    /* and harm nobody beside them */
+    /* and do not affect other points */
     const double re[] = {-1, 2, 0.5, 2}, im[] = {1, 0, 0, 0.5};
     double r[4];
     radii("implicit-midpoint", 4, re, im, r);
@@ -164,7 +163,7 @@ static void verlet_is_its_recurrence(void **state)
         uint64_t random = 5;
         for (int k = 0; k < 400; k++) {
             double re = 3 * random_number(&random), im = 3 * random_number(&random);
-            if (k % 4 == 0) re = -1; /* where the old position drops out */
+            if (k % 4 == 0) re = -1; /* where the old position cancels */
             if (k % 4 == 1) re = 0;
             if (fabs(1 - re) < 0.01) continue;
             double gap;
@@ -175,11 +174,11 @@ static void verlet_is_its_recurrence(void **state)
             if (!(fabs(r - expected) <= fmin(rounding / gap, sqrt(rounding))))
                 fail_msg("%s at %g%+gi: %.17g, expected %.17g", both[m], re, im, r, expected);
         }
-        assert_true(isinf(radius_at(both[m], 1, 0.5))); /* 1 - σ = 0: the increment has no single answer */
+        assert_true(isinf(radius_at(both[m], 1, 0.5))); /* 1 - σ = 0: the step has no unique solution */
     }
 }
 
-/* Beeman's positions are Verlet's, though its step carries an acceleration. */
+/* Beeman's positions are Verlet's, though its state has an acceleration. */
 static void beeman_is_verlet_on_the_axis(void **state)
 {
     (void)state;
@@ -194,7 +193,7 @@ static void beeman_is_verlet_on_the_axis(void **state)
 
 /* The card --------------------------------------------------------------------------------------------------------- */
 
-/* Above the limit the radius leaves 1 like a root, below it is 1; a method that is stable nowhere grows from the
+/* Above the limit the radius grows from 1 like a root, below it is 1; a method that is never stable grows from the
  * smallest step on. */
 static void agrees_with_the_card(void **state)
 {
@@ -204,7 +203,7 @@ static void agrees_with_the_card(void **state)
         if (!strcmp(card->family, "exact")) continue;
         const double limit = card->stability_limit;
         bool good = true;
-        if (isinf(limit)) /* the acceleration, w² large, is rounded and comes back to a position of size 1 */
+        if (isinf(limit)) /* the acceleration, of size w², is rounded and added to a position of size 1 */
             for (double w = 0.01; w < 1e5; w *= 1.9)
                 good = good && radius_at(card->name, 0, w) <= 1 + 8 * ROUNDING * (1 + w * w);
         else if (limit == 0)
@@ -224,7 +223,7 @@ static void agrees_with_the_card(void **state)
             if (!good) fail_msg("%s: limit %.12g, the card has %.12g", card->name, low, limit);
         }
         if (!good) fail_msg("%s: the limit is not %g", card->name, limit);
-        /* friction: there or not, as the card says of its forces; Boris' kick takes none either */
+        /* friction, if the card's forces have it; the Boris rotation has none either */
         assert_true(isnan(radius_at(card->name, -0.1, 0.3)) ==
                     (card->forces != MOTUS_FORCES_XVT || !strcmp(card->name, "boris")));
         assert_true(radius_at(card->name, 0, 0) <= 1 + 1e-15);
@@ -234,7 +233,7 @@ static void agrees_with_the_card(void **state)
 
 /* Requests --------------------------------------------------------------------------------------------------------- */
 
-/* A point's radius does not depend on its company. */
+/* A point's radius does not depend on the other points. */
 static void many_are_as_one(void **state)
 {
     (void)state;

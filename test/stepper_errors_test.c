@@ -1,5 +1,5 @@
-/* What goes wrong in a run, and what is refused: each error names its time, its variable or the remedy, and the
- * stepper stands where the motion was still good.
+/* Errors of a run, and refused requests: each error has its time, its variable or a hint, and the stepper stands at
+ * the last good step.
  */
 #include "test/stepper_test.h"
 
@@ -12,8 +12,7 @@ static int oscillator(void *ctx, double t, double *x, double *v, double *a)
 
 /* Errors ----------------------------------------------------------------------------------------------------------- */
 
-/* x'' = 2 (x - centre)^3 grows without bound in finite time where it starts outward; the rest of a long family only
- * rests. */
+/* x'' = 2 (x - centre)^3 diverges in finite time if it starts outward; the rest of a long family is at rest. */
 typedef struct burst {
     size_t n, hot;
     int64_t calls, fail_at;
@@ -49,8 +48,7 @@ static void divergence(const char *method, size_t n, int64_t chunk)
     snprintf(expected, sizeof expected, "y[%zu]", b.hot + 1);
     assert_int_equal(strncmp(err.variable, expected, strlen(expected)), 0);
     assert_non_null(strstr(err.message, expected));
-    /* It stands at the last finite step: the next one is the one that was reported, and reaching it anew fails
-     * alike. */
+    /* It stands at the last finite step: the next one is the reported one, and repeating it fails again. */
     const int64_t at = stepper_steps(s);
     assert_true(fabs(stepper_time(s) + 0.01 - err.time) < 1e-9);
     memset(x, 0, 2 * n * sizeof *x);
@@ -77,7 +75,7 @@ static void divergence_names_time_and_variable(void **state)
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         divergence(methods[i], 3, 1);
         divergence(methods[i], 3, 1000);
-        divergence(methods[i], 5000, 1000); /* beyond the size that is looked at after every step */
+        divergence(methods[i], 5000, 1000); /* beyond the size that is checked after every step */
         divergence(methods[i], 5000, 7);
     }
 }
@@ -96,7 +94,7 @@ static void failing_callback(void **state)
         assert_int_equal(stepper_advance(s, (stepper_limit){400, NAN}, NULL, &err), MOTUS_CALLBACK);
         assert_true(isfinite(err.time) && err.time >= 2 && err.time <= 4);
         assert_true(stepper_time(s) == err.time); /* it stands where the failing step began */
-        /* Once the callback works again the run goes on as if nothing had happened. */
+        /* Once the callback works again, the run continues as without the failure. */
         stepper *whole = begin(&p, row_card(k)->name, 2, 0.01, &x, &v);
         assert_int_equal(stepper_advance(s, (stepper_limit){400 - stepper_steps(s), NAN}, NULL, &err), MOTUS_OK);
         assert_int_equal(stepper_advance(whole, (stepper_limit){400, NAN}, NULL, &err), MOTUS_OK);

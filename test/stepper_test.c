@@ -1,5 +1,5 @@
-/* The stepper as its callers see it: restarts and looks that change no bit, instruction sets that agree, driven
- * boundaries, exact motion, and the two founding recurrences.
+/* The stepper: restarts and observations that change no bit, instruction sets that agree, driven boundaries, exact
+ * motion, and the two founding recurrences.
  */
 #include "test/stepper_test.h"
 #include "core/stepper_body.h"
@@ -87,7 +87,7 @@ static void looking_and_restarting_change_no_bit(void **state)
             double x[3], v[3], a[3], carry[32];
             for (int i = 0; i < 45; i++) {
                 assert_int_equal(stepper_sync(watched, x, v, i % 2 ? a : NULL, NULL), MOTUS_OK);
-                if (i == 0 || i == 21) { /* on to another stepper, made alike */
+                if (i == 0 || i == 21) { /* continues in another, equal stepper */
                     assert_in_range(stepper_carry(watched), 0, 32);
                     const stepper_count at = stepper_save(watched, carry);
                     stepper *next = begin(p, name, 0.5, 0.05, start_x, start_v);
@@ -144,7 +144,7 @@ static double run(const problem *p, const char *method, double h, int64_t steps,
     return x;
 }
 
-/* The notebook's two recurrences: summed Verlet within round-off of the exact recurrence, the literal one on the
+/* The notebook's two recurrences: summed Verlet within round-off of the exact recurrence, the literal one with the
  * notebook's numbers. */
 static void founding_recurrences(void **state)
 {
@@ -163,7 +163,7 @@ static void founding_recurrences(void **state)
 
 /* Boundaries and exact motion -------------------------------------------------------------------------------------- */
 
-/* Cell 0 is driven, cell 1 hangs on it; `apart` is the same without a cell, the drive written into the force. */
+/* Cell 0 is driven, cell 1 is coupled to it; `apart` is the same with the drive written into the force. */
 static void drive(void *ctx, double t, double *x, double *v)
 {
     (void)ctx;

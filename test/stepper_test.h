@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#undef fail /* cmocka has a macro of that name; here it is the house's */
+#undef fail /* cmocka defines a macro `fail`; here it is the function of base/error.h */
 #define explain(...) (print_error(__VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 #define assert_near(a, b, margin) \
     (fabs((a) - (b)) <= (margin) ? (void)0 : explain(#a " is %.17g, not %.17g within %g", (a), (b), (margin)))

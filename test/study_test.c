@@ -802,14 +802,14 @@ static void wrong_requests(void **state)
     motus_system_destroy(s);
 }
 
-typedef struct watch {
+typedef struct calls {
     int calls, stop_at;
     double last;
-} watch;
+} calls;
 
-static int watching(void *context, double fraction)
+static int observing(void *context, double fraction)
 {
-    watch *w = context;
+    calls *w = context;
     assert_true(fraction >= 0 && fraction <= 1);
     assert_true(fraction >= w->last - 1e-9);
     w->last = fraction;
@@ -825,9 +825,9 @@ static void progress_and_cancelling(void **state)
     motus_study_def def = motus_default_study();
     def.step = 0.002;
     def.until = 100;
-    def.progress = watching;
+    def.progress = observing;
     for (int stop = 1; stop <= 3; stop++) {
-        watch w = {0, stop, 0};
+        calls w = {0, stop, 0};
         def.context = &w;
         motus_comparison *c = NULL;
         motus_error e = motus_default_error();
@@ -835,19 +835,19 @@ static void progress_and_cancelling(void **state)
         assert_int_equal(e.status, MOTUS_CANCELLED);
         assert_null(c);
         assert_int_equal(w.calls, stop);
-        w = (watch){0, stop, 0};
+        w = (calls){0, stop, 0};
         motus_convergence *v = NULL;
         assert_int_equal(motus_converge(s, &def, &v, NULL), MOTUS_CANCELLED);
         assert_null(v);
         assert_int_equal(w.calls, stop);
     }
-    watch w = {0, 0, 0};
+    calls w = {0, 0, 0};
     def.context = &w;
     motus_comparison *c = compare(s, &def);
     assert_true(w.calls > 3);
     assert_true(w.last > 0.5);
     motus_comparison_destroy(c);
-    w = (watch){0, 0, 0};
+    w = (calls){0, 0, 0};
     motus_convergence *v = converge(s, &def);
     assert_true(w.calls > 3);
     motus_convergence_destroy(v);

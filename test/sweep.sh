@@ -1,5 +1,5 @@
 #!/bin/bash
-# motus sweep: the values and their order, the same bits as single runs, files that survive whatever happens and are finished to the same bytes.
+# motus sweep: the values and their order, the same bits as single runs, files that survive interruptions and are finished to the same bytes.
 #
 # Each case is one line `ok` or `not ok`; the last line counts them. MOTUS is the program (build/motus).
 cd "$(dirname "$0")/.." || exit 1
@@ -130,7 +130,7 @@ truncate -s 3000 ends-cut.csv
 sweep osc.motus --vary until=0:20:500 --record x -o ends-cut.csv -q --resume
 that "... and resumed to the same bytes" cmp -s ends-cut.csv ends-whole.csv
 
-# --- a motion that leaves the finite numbers ---------------------------------------------------------------------------------------------
+# --- a motion that diverges ---------------------------------------------------------------------------------------------
 gives "some that blow up" 0 "$motus" sweep blow.motus --vary k=-1,3,1,100,0 --record "x,max(x)"
 that "... are said" eval "says '3 of 5 trajectories diverged' '$err'"
 that "... their cells are empty, and the time is there" eval "rows | awk -F, '\$2 > 0 { bad += !(\$3 == \"\" && \$4 == \"\" && \$5 > 0 && \$5 < 4) } \$2 <= 0 { bad += !(\$3 != \"\" && \$4 != \"\" && \$5 == \"\") } END { exit bad || NR != 5 }'"
@@ -165,7 +165,7 @@ that "... does nothing" eval "cmp whole.csv copy.csv && holds '.resumed == 14 an
 gives "an empty file is no loss" 0 "$motus" sweep "${ask[@]}" -o none.csv
 that "... and is filled" cmp whole.csv none.csv
 
-# Cut anywhere: in the last two rows, at their ends, in the head, at nothing.
+# Cut in the last two rows, at their ends, in the head, to nothing.
 size=$(stat -c %s whole.csv) tail=$(tail -n 2 whole.csv | wc -c) head=$(grep -E '^(#|index)' whole.csv | wc -c)
 resumed() { head -c "$1" whole.csv >cut.csv && sweep "${ask[@]}" -o cut.csv --resume -q && cmp whole.csv cut.csv; }
 everywhere() { local n; for n in "$@"; do resumed "$n" || { echo "cut at $n"; return 1; }; done; }
@@ -214,7 +214,7 @@ refuses "--resume of something else" 2 "is not the beginning of a sweep" "$motus
 gives "--force" 0 "$motus" sweep line.motus --vary a=1 -o part.csv --force
 that "... replaces" eval "[ \$(rows part.csv | wc -l) = 1 ]"
 
-# Interrupted: by a limit on the size of files, which kills in the middle of a write; by a full disk; by signals.
+# Interrupted by a limit on the size of files, which kills during a write; by a full disk; by signals.
 long=(osc.motus --vary F=0:0.5:3000 --record "final,energy" --until 0.05)
 sweep "${long[@]}" -o long.csv -q
 resume_long() { sweep "${long[@]}" -o "$1" --resume -q && cmp long.csv "$1"; }
@@ -242,10 +242,10 @@ if mount -t tmpfs -o size=64k none small 2>/dev/null; then
     umount small
     that "... finished elsewhere" resume_long full.csv
 fi
-# Long enough on any machine: many steps, by the interpreter, one at a time.
+# Slow on any machine: many steps, by the interpreter, one trajectory at a time.
 slow=(osc.motus --vary F=0:0.2:20000 --until 20 --machine interpreter --threads 1 --lanes 1)
 for signal in KILL INT TERM HUP; do
-    [ -n "$(trap -p "$signal")" ] && continue           # ignored by whoever started this, and then by the program too
+    [ -n "$(trap -p "$signal")" ] && continue           # the parent process ignores it, so the program does too
     rm -f stopped.csv
     (trap - INT; exec "$motus" sweep "${slow[@]}" -o stopped.csv >"$out" 2>"$err") &
     child=$!
@@ -282,7 +282,7 @@ that "... its numbers are those of the CSV" eval "[ \$(number 9 0) = 9 ] && rows
 that "... what did not stop says nan" eval "number 9 5 | grep -qi nan"
 that "... the names stand beside it" eval "json whole.npy.json && jq -e '.columns == [\"index\",\"F\",\"w\",\"x\",\"max(energy)\",\"stopped\"] and .trajectories == 14' whole.npy.json"
 size=$(stat -c %s whole.npy)
-npy_resumed() {              # bytes that are left
+npy_resumed() {              # bytes left
     head -c "$1" whole.npy >cut.npy && cp whole.npy.json cut.npy.json && sweep "${ask[@]}" -o cut.npy --resume -q && cmp whole.npy cut.npy
 }
 npy_everywhere() { local n; for n in "$@"; do npy_resumed "$n" || { echo "cut at $n"; return 1; }; done; }
@@ -297,7 +297,7 @@ rm cut.npy.json
 refuses "--resume of a .npy whose text is gone" 1 "cannot read cut.npy.json" "$motus" sweep "${ask[@]}" -o cut.npy --resume
 refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -o whole.npy
 
-# --- JSON, and for people ------------------------------------------------------------------------------------------------------------
+# --- JSON and text ------------------------------------------------------------------------------------------------------------
 gives "--json" 0 "$motus" sweep blow.motus --vary k=-1,3 -o blow.csv --force --json
 that "... is JSON" json "$out"
 for key in model method step trajectories resumed steps machine lanes threads fast seconds wall stopped output; do that "sweep: key $key" holds "has(\"$key\")"; done
@@ -361,7 +361,7 @@ bad "an unknown record" "did you mean max(...)?" osc.motus --vary F=1,2 --record
 bad "a record of nothing known" "xx" osc.motus --vary F=1,2 --record "max(xx)"
 bad "a record of an unknown name" "energi" osc.motus --vary F=1,2 --record energi
 bad "a hole in --record" "a name is missing" osc.motus --vary F=1,2 --record x,,energy
-bad "--every between steps" "not a whole number of steps" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
+bad "--every between steps" "not a multiple of the step" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
 for threads in 0 -1 x 99999999999; do bad "--threads $threads" "--threads" osc.motus --vary F=1,2 --threads "$threads"; done
 bad "--machine abacus" "there is no such machine" osc.motus --vary F=1,2 --machine abacus
 bad "a method that does not fit" "forest-ruth" "$root/models/damped-cubic.motus" --vary "x(0)=1,2" --method forest-ruth
@@ -374,7 +374,7 @@ refuses "the model as output" 2 "would be overwritten" "$motus" sweep osc.motus 
 refuses "the values as output" 2 "values.csv is read and would be overwritten" "$motus" sweep osc.motus --vary F=@values.csv:n -o values.csv --force
 refuses "a folder as output" 1 "is a folder" "$motus" sweep osc.motus --vary F=1,2 -o small
 refuses "a folder that is not there" 1 "cannot write" "$motus" sweep osc.motus --vary F=1,2 -o nowhere/x.csv
-refuses "a .npy that is a device" 2 "no regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
+refuses "a .npy that is a device" 2 "not a regular file" bash -c "ln -s /dev/null null.npy && '$motus' sweep osc.motus --vary F=1,2 -o null.npy"
 refuses "values from nowhere" 1 "cannot read nowhere.csv" "$motus" sweep osc.motus --vary F=@nowhere.csv:1 -o nothing.csv
 refuses "values from a folder" 1 "cannot read small" "$motus" sweep osc.motus --vary F=@small:1 -o nothing.csv
 bad "values without a column" "values.csv has several columns" osc.motus --vary F=@values.csv

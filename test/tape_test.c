@@ -1,9 +1,7 @@
-/* The tape: every way of running a program against a plain evaluator written here, bit for bit; binding; and what
- * happens when memory ends.
- */
+/* The tape: every way of running a program against a simple evaluator, bit for bit; binding; and out of memory. */
 #include "graph_world.h"
 
-/* The plain evaluator of a normal form ----------------------------------------------------------------------------- */
+/* A simple evaluator of a normal form ------------------------------------------------------------------------------ */
 
 typedef struct plain {
     const graph *g;
@@ -83,7 +81,7 @@ static void wipe(world *w)
     for (size_t k = 0; k < 4096; k++) w->a[k] = w->out[k] = -77;
 }
 
-/* Every choice of machine, width and code gives the plain evaluator's bits. */
+/* Every choice of machine, width and code gives the evaluator's bits. */
 static void check_all_ways(fixture *f, const program *p, double t)
 {
     static const size_t widths[] = {0, 8, 16, 64, 1024};
@@ -102,7 +100,7 @@ static void check_all_ways(fixture *f, const program *p, double t)
                 assert_true(tape_bind(tp, &w->binding));
                 wipe(w);
                 tape_run(tp, t, w->base);
-                tape_run(tp, t, w->base); /* nothing is left over from a run */
+                tape_run(tp, t, w->base); /* a run leaves no state behind */
                 for (size_t i = 0; i < 4096; i++)
                     if (!same_bits(w->a[i], wanted[i]) || !same_bits(w->out[i], wanted_out[i]))
                         fail_msg("%s, width %zu, blocks %d: cell %zu is %a and %a, not %a and %a", m->name, widths[j],
@@ -110,7 +108,7 @@ static void check_all_ways(fixture *f, const program *p, double t)
             }
 }
 
-/* The value, not only the shape: fma and the order of sums written out by hand. */
+/* The values, not only the form: fma and the order of sums written out by hand. */
 static void sums_have_their_bits(void **state)
 {
     (void)state;
@@ -147,7 +145,7 @@ static void sums_have_their_bits(void **state)
 
 /* Random programs -------------------------------------------------------------------------------------------------- */
 
-/* What an index runs over decides where it may be used as a subscript. */
+/* The range of an index decides where it may be used as a subscript. */
 typedef enum walk { OVER_N, OVER_ROWS, OVER_COLUMNS, OVER_LIST } walk;
 typedef struct scope {
     int levels;
@@ -214,7 +212,7 @@ static node random_sum(fixture *f, scope s, int depth)
                                  : bin(g, OP_LT, random_value(f, s, 1), random_value(f, s, 1));
     if (condition && graph_at(g, condition)->op == OP_CONST) condition = 0;
     node body = random_value(f, s, depth);
-    /* A masked term may well be infinite or no number. */
+    /* A masked term may be infinite or NaN. */
     if (condition && l && graph_at(g, condition)->op == OP_NE && draw(2))
         body = bin(g, OP_DIV, body, bin(g, OP_SUB, graph_index(g, l), graph_index(g, outer)));
     return graph_sum(g, l, &r, condition, body);
@@ -250,8 +248,7 @@ static void every_way_of_running_gives_the_same_bits(void **state)
         size_t count = 1 + draw(6);
         range rn = {literal(1), slot(INT_N, 0)}, rr = {literal(1), slot(INT_ROWS, 0)},
               rc = {literal(1), slot(INT_COLUMNS, 0)};
-        /* Six outputs: twice the same loops, the second time to places out of order: folded by a modulus,
-         * transposed. */
+        /* Six outputs: the same loops twice, the second time to other places: wrapped by a modulus, transposed. */
         const output shapes[] = {
             {.to = ref1(TO_CHAIN, level(0, 0)), .loops = 1, .loop = {rn}},
             {.to = ref2(TO_GRID, level(0, 0), level(1, 0)), .loops = 2, .loop = {rr, rc}},
@@ -291,7 +288,7 @@ static void parameters_and_sizes_are_bound_again(void **state)
                 .loop = {r}};
     program *form = program_create(g, &o, 1);
     tape *t = tape_create(&f.arena, form);
-    static const int64_t sizes[] = {1, 30, 2, 0, 17, 30}; /* where scalars serve and where blocks do */
+    static const int64_t sizes[] = {1, 30, 2, 0, 17, 30}; /* computed as scalars and as blocks */
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         static double wanted[4096];
         w.ints[INT_N] = sizes[k];
@@ -307,7 +304,7 @@ static void parameters_and_sizes_are_bound_again(void **state)
     arena_release(&f.arena);
 }
 
-/* Nothing recurses over the length of an expression. */
+/* No recursion over the length of an expression. */
 static void long_expressions_need_no_stack(void **state)
 {
     (void)state;
@@ -332,7 +329,7 @@ static void long_expressions_need_no_stack(void **state)
         assert_int_equal(length, strlen(text));
         arena_release(&f.arena);
     }
-    /* Written as a tree, squaring again and again has no end; the text has. */
+    /* As a tree, repeated squaring grows exponentially; as text it does not. */
     fixture f = begin(&w);
     graph *g = start(&f);
     node n = load(g, ref0(SCALAR));
@@ -342,7 +339,7 @@ static void long_expressions_need_no_stack(void **state)
     arena_release(&f.arena);
 }
 
-/* Everything this file can do, once; false if something said that it failed. */
+/* All of it, once; false if a call reported a failure. */
 static bool all_of_it(arena *a, world *w)
 {
     graph *g = graph_create(a);

@@ -1,8 +1,8 @@
-/* The thread rule: different handles may be used from different threads at once. Threads with systems of their own,
- * walking the same models by the same methods at the same time, get the bits that one thread gets alone; errors stay
- * with the thread that made them.
+/* Thread safety: different handles may be used from different threads at once. Threads with their own systems,
+ * running the same models by the same methods at the same time, get the bits of a single thread; errors stay with the
+ * thread that made them.
  *
- * Built with a thread sanitizer this is also where shared state would show.
+ * Built with a thread sanitizer, this test also detects shared state.
  */
 #include "test/given.h"
 
@@ -16,7 +16,7 @@ static const char *const texts[] = {
     ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + (x[i+1] - x[i])^3 for i = 1..20\nx[0] = 0\nx[21] = sin(t)\nx[i](0) = sin(i) "
      "for i = 1..20\n"
      "x[i]'(0) = 0 for i = 1..20\n"),
-    "y'' = 1/(y - 1)^2\ny(0) = 2\ny'(0) = -1.5\n", /* leaves the finite numbers, or nearly so */
+    "y'' = 1/(y - 1)^2\ny(0) = 2\ny'(0) = -1.5\n", /* diverges, or nearly */
 };
 static const char *const methods[] = {"verlet", "rk4", "gauss6", "kahan-li6", "newmark", "no such method"};
 
@@ -26,7 +26,7 @@ static uint64_t mix(uint64_t h, const void *bytes, size_t n)
     return h;
 }
 
-/* Everything a thread can see, in one number. No assertion of cmocka: those belong to the main thread. */
+/* A hash of all results of a thread. Without cmocka's assertions, which belong to the main thread. */
 static uint64_t walk(uint64_t h, motus_system *s, const char *method)
 {
     motus_error err = motus_default_error();
@@ -106,7 +106,7 @@ static void threads_see_what_one_thread_sees(void **state)
                          (unsigned long long)workers[i].seen[k], (unsigned long long)alone);
 }
 
-/* Several runs of one system on one thread, in turns: each goes its own way. */
+/* Several runs of one system on one thread, in turns, do not affect each other. */
 static void runs_of_one_system_take_turns(void **state)
 {
     (void)state;

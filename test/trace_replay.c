@@ -1,6 +1,6 @@
-/* See trace_replay.h. What is compared with a sum may differ from it by the rounding of its terms: 16 roundings,
- * relative to their sizes. Slopes of explicit stages and kicks must be the acceleration to the bit; those of an
- * equation that was solved, to some roundings of the largest. */
+/* A number compared with a sum may differ by the rounding of its terms: 16 roundings, relative to their sizes. Slopes
+ * of explicit stages and kicks must be the acceleration to the bit; those of a solved equation, to some roundings of
+ * the largest. */
 #include "api/system.h"
 
 #include "test/trace_replay.h"
@@ -17,7 +17,7 @@
 #include <cmocka.h>
 
 #define ROUNDINGS 16
-/* of an equation's solution: its residual is rounded where it is evaluated, term by term */
+/* of the solution of an equation, whose residual is rounded term by term */
 #define SOLVED (256 * DBL_EPSILON)
 
 typedef struct step {
@@ -140,7 +140,7 @@ static void splitting(const step *s, const motus_method *m)
     sum one = {.value = 1, .size = 8};
     reaches(s, "the sum of the kicks", 0, (double)kicks.value, one, 0);
     reaches(s, "the sum of the drifts", 0, (double)drifts.value, one, 0);
-    /* The closing kick takes the acceleration with which the next step begins. */
+    /* The last kick uses the acceleration with which the next step begins. */
     const bool closes = s->start[1].kind == MOTUS_EVENT_KICK && s->end[-1].kind == MOTUS_EVENT_KICK;
     assert_int_equal(count, m->evaluations + closes);
     same(s, "positions at the end", s->end[-1].x, s->end->x, s->nx);
@@ -222,9 +222,9 @@ static void stormer(const step *s, const motus_trace_entry *e, const double *bef
     const bool first = e->kind == MOTUS_EVENT_TAYLOR, literal = !strcmp(s->method, "verlet-literal");
     assert_int_equal(first, before_x == NULL);
     assert_int_equal(first, e->before_x == NULL);
-    /* verlet-literal's velocities are differences of positions, and those of first-order variables of integrals
-     * since the start: what these are rounded by, and with them the velocities at which every component's
-     * acceleration is taken. */
+    /* verlet-literal's velocities are differences of positions, and its first-order variables differences of
+     * integrals since the start: this is the rounding of these, and so of the velocities at which accelerations are
+     * evaluated. */
     double around = 0;
     for (size_t k = 0; literal && k < s->nv; k++)
         around = fmax(around, ROUNDINGS * DBL_EPSILON *
@@ -292,7 +292,7 @@ void trace_replay(const motus_system *system, const motus_method *m, const motus
                   size_t count, const double *before_x, const double *before_a, const char *what)
 {
     assert_true(count >= 2);
-    /* side by side: each is compared with its neighbours */
+    /* contiguous: each is compared with its neighbours */
     motus_trace_entry *entry = calloc(count, sizeof *entry);
     assert_non_null(entry);
     for (size_t i = 0; i < count; i++) entry[i] = *entries[i];

@@ -1,6 +1,6 @@
-/* One step opened up: what is told of a step replays to it by the formulas on paper, and telling changes no bit.
+/* Traced steps: the trace of a step gives its end by the published formulas, and tracing changes no bit.
  *
- * For every model of models/, models of every kind of force besides, and callbacks, by every method that they admit;
+ * For every model of models/, other models with every kind of force, and callbacks, by every method that they admit;
  * forward and backward, over the shorter last step; by the compiled machine too.
  */
 #include "test/ensemble_given.h"
@@ -41,7 +41,7 @@ static void same_numbers(const double *p, const double *q, size_t n, const char 
             fail_msg("%s, %s: number %zu is %a in one and %a in the other", what, method, k, p[k], q[k]);
 }
 
-/* Three runs: nothing traced and looked at once, at the end; all traced; every other step traced. */
+/* Three runs: not traced and observed once, at the end; all steps traced; every other step traced. */
 static void one(motus_system *s, const char *name, double h, double until, const char *machine, const char *what)
 {
     const motus_method *m;
@@ -64,7 +64,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
         assert_true(first->time == start && end->time == motus_run_time(traced));
         assert_int_equal(motus_run_steps(traced), n + 1);
         assert_int_equal(end->iterations, motus_run_iterations(traced) - iterations);
-        /* the short step starts anew */
+        /* the shorter step is a new leg */
         const bool again = n > 0 && !(n == total - 1 && motus_run_last_step(traced) != 0);
         trace_replay(s, m, e, count, again ? now : NULL, again ? before : NULL, what);
         memcpy(now, first->x, nx * sizeof *now);
@@ -93,7 +93,7 @@ static void one(motus_system *s, const char *name, double h, double until, const
     const motus_trace_entry *const *e = (const motus_trace_entry *const *)kept;
     size_t count = 7;
     must(motus_run_trace(traced, &e, &count, &err), &err, name);
-    assert_true(count == 0 && !e); /* nothing is left to take */
+    assert_true(count == 0 && !e); /* no step is left */
     free(kept);
     motus_run_destroy(plain);
     motus_run_destroy(traced);
@@ -261,8 +261,8 @@ static void compiled(void **state)
 
 /* ---- what goes wrong ---- */
 
-/* The traced run meets the error of the untraced one that is looked at after each step, in the same words, and stays
- * where that one stays. */
+/* The traced run has the same error as the untraced one that is observed after each step, and stands where that one
+ * stands. */
 static void same_failure(motus_system *s, const char *method, double h, motus_status expected, const char *what)
 {
     motus_run *plain = create(s, method, h, 1000 * h, NULL), *traced = create(s, method, h, 1000 * h, NULL);

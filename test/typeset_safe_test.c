@@ -1,6 +1,5 @@
-/* Statements typeset as MathML, from the side of a page that shows a stranger's model: nothing of the text is more
- * than characters; what is huge or deep is cut, and well-formed all the same; every model of models/ can be shown;
- * and what `set` has changed shows.
+/* Statements as MathML in a page that shows untrusted models: all text of the model is escaped; what is large or deep
+ * is cut, and still well-formed; every model of models/ can be shown; changes by `set` are shown.
  */
 #include "test/given.h"
 #include "test/mathml.h"
@@ -11,7 +10,7 @@ enum { ROOM = 1 << 20, BYTES_MAX = (1 << 16) + (1 << 15) };
 
 static char out[ROOM];
 
-/* Every statement is well-formed and bounded; out: the last, in short form. */
+/* Checks that every statement is well-formed and bounded; out: the last, in short form. */
 static int all_well(motus_system *s, const char *what)
 {
     int deepest = 0;
@@ -41,8 +40,8 @@ static void models(void **state)
         motus_system *s = given_text(text);
         assert_true(motus_statement_count(s) >= 4);
         assert_in_range(all_well(s, entry->d_name), 3, 40);
-        assert_null(strstr(out, "⋯")); /* nothing of them is cut */
-        /* Each statement begins with its name in the line it says. */
+        assert_null(strstr(out, "⋯")); /* none of them is cut */
+        /* Each statement begins with its name, in the line that it reports. */
         for (size_t k = 0; k < motus_statement_count(s); k++) {
             motus_statement one = motus_default_statement();
             assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);
@@ -60,8 +59,7 @@ static void models(void **state)
     assert_true(read >= 18);
 }
 
-/* The one place where a model's text is not made of names and numbers is the name of a method, which is asked for
- * only by a run. */
+/* The only free text of a model is the name of a method, which is checked only by a run. */
 static void nasty(void **state)
 {
     (void)state;
@@ -137,7 +135,7 @@ static size_t count_of(const char *what)
 static void limits(void **state)
 {
     (void)state;
-    /* Long chains keep their beginning. */
+    /* Long chains are cut after their beginning. */
     depth_of("a1 = 2\ne = a1", " + x", 50000, "", "", "\n");
     assert_int_equal(strncmp(out, "e=msub{a|1}+x+x+", 16), 0);
     assert_int_equal(count_of("x"), 64);
@@ -155,7 +153,7 @@ static void limits(void **state)
     depth_of("e = 1.", "1", 100000, "", "", "\n");
     assert_int_equal(count_of("1"), 47);
     assert_non_null(strstr(out, "…"));
-    /* What is deep is cut within. */
+    /* Deep expressions are cut inside. */
     static const char *const deep[][5] = {{"e = ", "1+(", "x", ")", "\n"},
                                           {"e = ", "sin(", "x", ")", "\n"},
                                           {"e = ", "x^(", "x", ")", "\n"},
@@ -177,7 +175,7 @@ static void limits(void **state)
     depth_of("e = if(", "not ", 120, "x > 0", "", ", 1, 2)\n");
     assert_int_equal(count_of("not"), 48);
     assert_non_null(strstr(out, "…"));
-    /* What branches and branches again ends. */
+    /* Expressions that branch repeatedly are bounded. */
     text t = {0};
     write_times(&t, "x'' = -x\nx(0) = 1\nx'(0) = 0\ne = ", 1);
     write_times(&t, "(((1/x + (", 6);

@@ -1,13 +1,12 @@
-/* Statements typeset as MathML: what stands for each kind of tree, brackets where the meaning needs them and nowhere
- * else, nothing of a model's text that is more than characters, and bounds on what comes out. test/mathml.h reads it,
- * and says the short form used here.
+/* Statements as MathML: the output for each kind of tree, brackets only where the meaning needs them, all text
+ * escaped, bounds on the output. test/mathml.h reads it, and defines the short form used here.
  */
 #include "test/given.h"
 #include "test/mathml.h"
 
 enum { ROOM = 1 << 20 };
 
-/* What the expressions below are about: numbers a b c n, states x and y, vector states r and s, a family q, a list m,
+/* The model of the expressions below: numbers a b c n, states x and y, vector states r and s, a family q, a list m,
  * names of all kinds. */
 static const char world[] =
     "a = 1\nb = 2\nc = 3\nn = 2\nm = [1, 2, 3]\nspeed = 4\nomega0 = 1\nx_max = 1\nGamma = 1\nmu = 1\nm1_max = 1\nθ1 = "
@@ -29,7 +28,7 @@ static const char *short_form(motus_system *s, size_t k, char *out)
     return out;
 }
 
-/* The last statement of the world with one more line. */
+/* The last statement of that model with one more line. */
 static const char *last_of(const char *line, char *out)
 {
     char *text = malloc(sizeof world + strlen(line) + 8);
@@ -193,7 +192,7 @@ static void expressions(void **state)
     }
 }
 
-/* Whole statements, with tags and all ------------------------------------------------------------------------------ */
+/* Complete statements, with their tags ----------------------------------------------------------------------------- */
 
 static void statements(void **state)
 {
@@ -215,7 +214,7 @@ static void statements(void **state)
     same("", "{msubsup{u|{i,j}|′}@{(0)}}=0 {for_i=1,…,3_and_j=1,2}");
 }
 
-/* What kind each statement is, and where it stands. */
+/* The kind and the line of each statement. */
 static void kinds(void **state)
 {
     (void)state;
@@ -260,7 +259,7 @@ static void kinds(void **state)
     motus_system_destroy(s);
 }
 
-/* What a page gets, to the letter. */
+/* The exact output. */
 static void letters(void **state)
 {
     (void)state;
@@ -295,8 +294,8 @@ static void letters(void **state)
 
 /* Brackets --------------------------------------------------------------------------------------------------------- */
 
-/* Each row puts what a column says in the place of #. Where a reader would take it otherwise without, there are
- * brackets: (. In an exponent quotients are written in a line, and want more of them. */
+/* Each row puts the text of each column in the place of #. There are brackets where the expression would have another
+ * meaning without them; in an exponent quotients are written in a line, and need more of them. */
 static void brackets(void **state)
 {
     (void)state;
@@ -344,7 +343,7 @@ static void brackets(void **state)
         char is[sizeof inner / sizeof *inner + 1] = "";
         const char *hole = strchr(outer[i][0], '#');
         for (size_t k = 0; k < sizeof inner / sizeof *inner; k++) {
-            int count = 0; /* of brackets: in the whole, less those of its parts */
+            int count = 0; /* of brackets: in the result, less those of its parts */
             for (int part = 0; part < 3; part++) {
                 char line[256];
                 const char *in = part == 1 ? "n" : inner[k];

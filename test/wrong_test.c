@@ -34,7 +34,7 @@ static text load(const char *path)
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-/* Calls `each` for every model of a folder, in the order of their names; returns how many there were. */
+/* Calls `each` for every model of a folder, sorted by name; returns their number. */
 static size_t for_models(const char *folder, void (*each)(const char *name, text t, int *faults))
 {
     char path[1024], *names[1024];
@@ -61,7 +61,7 @@ static size_t for_models(const char *folder, void (*each)(const char *name, text
 
 #define FAULT(...) (print_error(__VA_ARGS__), ++*faults)
 
-/* The whole way: read, create a run, go to its end. */
+/* Reads the model, creates a run, runs it to its end. */
 static motus_status go(text t, motus_system **s, motus_run **r, motus_error *err)
 {
     motus_text_def def = motus_default_text();
@@ -80,7 +80,7 @@ static motus_status go(text t, motus_system **s, motus_run **r, motus_error *err
 
 /* ---- wrong ---- */
 
-/* The line of the text that the message is about, and a caret where it says. */
+/* Checks that the error has the line of the text, and a caret at its column. */
 static bool points(const motus_error *err)
 {
     size_t blanks = strspn(err->caret, " ");
@@ -200,7 +200,7 @@ static void right_models_move(void **unused)
     assert_true(for_models("right", right_one) > 0);
 }
 
-/* Models as a physicist types them in a minute, without having read the manual. */
+/* Models as a physicist would type them without having read the manual. */
 static void newcomers_models_move(void **unused)
 {
     (void)unused;

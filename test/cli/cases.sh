@@ -1,5 +1,5 @@
 #!/bin/bash
-# What the tests of the program share: a place for files, and the ways to state a case. To be sourced from the root of the source.
+# What the tests of the program share: a folder for files, and functions for cases. To be sourced from the root of the source.
 #
 # Each case is one line `ok` or `not ok`. MOTUS is the program (build/motus).
 set -u
@@ -58,6 +58,6 @@ if [ ! -x "$checker" ]; then
 fi
 # Whether a file is one good JSON value on one line.
 json() { "$checker" "$1" && [ "$(wc -l <"$1")" = 1 ]; }
-# jq's answer about $out is true
+# jq's result for $out is true
 holds() { [ -s "${2:-$out}" ] && jq -e "$1" "${2:-$out}"; }
 near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a ~ /[0-9]/ && d <= e) }'; }

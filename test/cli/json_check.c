@@ -1,8 +1,8 @@
-/* json_check: says whether a file is exactly one JSON value (RFC 8259), in valid UTF-8, with no key twice in one
+/* json_check: checks that a file is exactly one JSON value (RFC 8259), in valid UTF-8, with no key twice in one
  * object.
  *
- * Stricter than most readers on purpose: no NaN, no leading zeros, no raw control characters, nothing behind the
- * value. Exit status 0: it is; 1: it is not, and the first offence is told with its place.
+ * Stricter than most readers: no NaN, no leading zeros, no raw control characters, nothing after the value. Exit
+ * status 0: valid; 1: not, and the first violation is printed with its place.
  */
 #include <stdio.h>
 #include <stdlib.h>
