@@ -59,7 +59,7 @@ static void driven_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[1] += Q(0.5) * t * dx[0];
 }
 
-/* A companion that rides along: s' = f(x, t). */
+/* A first-order variable on which nothing else depends: s' = f(x, t). */
 static void rider(quad t, in x, in v, quad *a)
 {
     driven(t, x, v, a);
