@@ -1,6 +1,6 @@
-/* Decimal numbers as text: the one reader and the one writer of library, program and page.
+/* Decimal numbers as text: the reader and the writer for library, program and page.
  *
- * Both are exact, and have a decimal point whatever the locale.
+ * Both are exact, and use a decimal point in every locale.
  */
 #ifndef BASE_DECIMAL_H
 #define BASE_DECIMAL_H
@@ -16,12 +16,12 @@ char *decimal(double, char out[DECIMAL_MAX]);
 /* The same; returns the length. */
 size_t decimal_write(double, char out[DECIMAL_MAX]);
 size_t decimal_write_whole(uint64_t, char out[DECIMAL_MAX]);
-/* The same characters by the C library alone, which is slower: what decimal_write() does is said here. */
+/* The same characters by the C library alone, which is slower. It defines what decimal_write() writes. */
 size_t decimal_write_plain(double, char out[DECIMAL_MAX]);
 
-/* The nearest double to the number digits[.digits][e[+-]digits] at s, of which `length` bytes may be read (a text
- * that ends with 0: any length will do); one side of the point may be empty, and a sign is none of it. Infinite
- * where it is too large. Returns how many bytes the number takes; 0: there is none. */
+/* Reads the nearest double to the number digits[.digits][e[+-]digits] at s, of which `length` bytes may be read (of a
+ * text that ends with 0 any length will do). One side of the point may be empty; a sign is not part of the number. A
+ * number that is too large becomes infinite. Returns the bytes of the number; 0: there is none. */
 size_t decimal_read(const char *s, size_t length, double *);
 /* The same of digits alone; 0 as well where the number is too large. */
 size_t decimal_read_whole(const char *s, size_t length, uint64_t *);

@@ -1,7 +1,7 @@
-/* Decimals read, rounded to the nearest double, ties to even.
+/* Reads decimal numbers, rounded to the nearest double, ties to even.
  *
- * Invariant: the number is a whole number of as many bits as it takes, and whether anything was cut off behind it;
- * so it is rounded once, and neither a locale nor a C library has a say.
+ * Invariant: a number is held as an integer of as many bits as it needs, with a flag for a remainder that was cut off;
+ * so it is rounded once, and neither the locale nor the C library matters.
  */
 #include "base/decimal.h"
 
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* 767 significant digits are the most that a tie between two doubles has; 10^-330 is nothing, and 10^310 infinite. */
+/* A tie between two doubles has at most 767 significant digits; 10^-330 rounds to 0, and 10^310 is infinite. */
 enum { DIGITS_MAX = 800, EXPONENT_MAX = 100000000, SMALLEST = -330, LARGEST = 310, WORDS = 96 };
 
 typedef struct number {
@@ -77,7 +77,7 @@ static double scaled(number *n, int exponent)
     if (exponent >= 0) {
         by_fives(n, exponent, times);
     } else {
-        /* so many zeros behind it that the quotient has the bits of a double, and some: 5 has less than 7/3 */
+        /* zeros behind it, so that the quotient has more bits than a double: log2 of 5 is below 7/3 */
         words = -exponent * 7 / 3 / 32 + 4 - n->count;
         words = words > 0 ? words : 0;
         memmove(n->word + words, n->word, (size_t)n->count * sizeof *n->word);

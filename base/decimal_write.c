@@ -1,8 +1,8 @@
-/* Decimals written, fast enough for a hundred million of them.
+/* Writes decimal numbers, fast enough for a hundred million of them.
  *
- * Invariant: decimal_write() gives the characters of decimal_write_plain(). The number is scaled by a power of ten
- * to 17 digits before the point, as a fixed-point number with 64 bits behind it that is too small by less than 2 of
- * its last bits; where a choice (which digit, long enough or not) hangs on less than that, the C library is asked.
+ * Invariant: decimal_write() writes the characters of decimal_write_plain(). It scales the number by a power of ten to
+ * 17 digits before the point, as a fixed-point number with 64 bits behind it that is too small by less than 2 units of
+ * the last bit. Where this error could change a digit or the number of digits, decimal_write_plain() writes it.
  *
  * Why there is a fast way beside the plain one: with the plain one alone, about 190 lines would go, and writing a
  * CSV would take most of the time of a run or a sweep. A number takes 7 times (round ones) to 15 times as long by it
@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whatever the host's locale has for a point becomes one. */
+/* Replaces the decimal point of the host's locale by a point. */
 static size_t set_point(char *text)
 {
     const char *host = localeconv()->decimal_point;

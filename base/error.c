@@ -1,4 +1,4 @@
-/* Errors: the sentence that goes with a status.
+/* Errors: the message of a status.
  *
  * Invariant: a motus_error that was filled here is printable as it is: valid UTF-8, no control character, no
  * character that turns the direction of text, and always terminated, whatever the arguments were (names and lines
@@ -36,7 +36,7 @@ static void compose(char out[MOTUS_TEXT_MAX], const char *format, va_list argume
 {
     locale_t point = newlocale(LC_ALL_MASK, "C", (locale_t)0), host = point ? uselocale(point) : (locale_t)0;
     int wanted = vsnprintf(out, MOTUS_TEXT_MAX, format, arguments);
-    if (point) { /* numbers have a point whatever the host's locale */
+    if (point) { /* numbers have a decimal point in every locale */
         uselocale(host);
         freelocale(point);
     }

@@ -1,6 +1,6 @@
-/* What failed, said once: fail(err, MOTUS_…, "what, where") and hint(err, "what would be right").
+/* Errors: fail(err, MOTUS_…, "what, where") and hint(err, "what to do").
  *
- * The error may be NULL. The texts are made safe for a terminal, and their numbers have a decimal point whatever the
+ * The error may be NULL. The texts are made safe for a terminal, and their numbers have a decimal point in every
  * locale.
  */
 #ifndef BASE_ERROR_H

@@ -1,7 +1,7 @@
 /* Memory by the user's hooks.
  *
- * Invariant: a block comes zeroed, and a product of count and size that does not fit a size_t is refused as memory
- * that is not there.
+ * Invariant: a block is zeroed. A product of count and size that does not fit a size_t is refused like a block for
+ * which there is no memory.
  */
 #include "base/memory.h"
 

@@ -1,8 +1,8 @@
 /* Memory by the user's hooks (motus_allocator; NULL or without functions: malloc and free).
  *
- * take and give are one block and its return. What lives as long as a model is a piece of its arena, which takes
- * such blocks: arena_take, arena_room, arena_grow (lang/arena.h). The program, the page and the tests, which have no
- * hooks, say malloc and free.
+ * take gets one block, give returns it. What lives as long as a model is taken from its arena, which gets such blocks:
+ * arena_take, arena_room, arena_grow (lang/base/arena.h). The program, the page and the tests have no hooks, and use
+ * malloc and free.
  */
 #ifndef BASE_MEMORY_H
 #define BASE_MEMORY_H

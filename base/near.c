@@ -1,4 +1,4 @@
-/* How alike two words are, by the edits that lead from one to the other; no piece is edited twice.
+/* The similarity of two words, by the edits that lead from one to the other; no part is edited twice.
  *
  * Invariant: a word counts by its first 64 characters; bytes that are not UTF-8 count as characters.
  */
@@ -23,7 +23,7 @@ static int letters(const char *text, uint32_t out[LETTERS])
     return n;
 }
 
-/* Characters that look alike are one character here. */
+/* Maps characters that look alike to one character. */
 static uint32_t face(uint32_t c)
 {
     static const uint32_t twins[][2] = {{0xB5, 0x3BC},  {0x2126, 0x3A9}, {0x212B, 0xC5},  {0x3B5, 0x3F5},

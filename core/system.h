@@ -16,7 +16,7 @@
 typedef struct traits {
     bool velocity; /* a depends on v: on a velocity or a first-order variable */
     bool time;
-    bool linear_v;    /* at most affine in v (companions count as v) */
+    bool linear_v;    /* a is at most affine in v */
     bool constant_jv; /* da/dv depends on parameters alone */
     bool gyroscopic;  /* velocity && linear_v && da/dv antisymmetric, without first-order variables */
     bool affine;      /* affine in (x, v) */

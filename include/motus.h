@@ -156,10 +156,10 @@ typedef struct motus_text_def {
  *     below 0   The callback failed. The run, the ensemble or the study ends.
  *     above 0   The callback is not defined at these arguments. A run stops; a smaller step may lead around the place.
  *               An ensemble stops this trajectory alone, as one that leaves the finite numbers.
- * In both cases the run stands at its last good step, and motus_run_state gives the state there. A step counts as good
- * only when the acceleration at its end could be evaluated, if that state is observed with it or the next step begins
- * with it, as with velocity-verlet and verlet. The library therefore evaluates the acceleration once at the end of
- * every call that takes steps; the next step reuses the value. */
+ * In both cases the run stands at its last good step, and motus_run_state gives the state there. Some methods, such as
+ * velocity-verlet and verlet, form the velocity with the acceleration at the end of a step. With them a step is good
+ * only if the callback is defined at its end. To find out, a call that takes steps evaluates the acceleration once more
+ * at its end; the next step reuses the value. */
 typedef struct motus_callback_def {
     uint32_t size;                 /* by motus_default_callback() */
     size_t positions, first_order; /* how many positions, and how many first-order variables s' = f */
@@ -714,8 +714,8 @@ typedef struct motus_converge_row {
     int declared;
     double observed, standard_error; /* of the slope; NaN: it cannot be fitted */
     int exact_here;                  /* 1: the method is exact on this model, errors are round-off at every step */
-    int passed;                      /* 1: the observed order is the declared order; then the certificate holds */
-    motus_status status;
+    int passed;                      /* 1: the observed order is not below the declared one, or exact_here */
+    motus_status status; /* MOTUS_ORDER: the observed order is below the declared one; else of the run that failed */
     size_t point_count;
     const motus_point *const *points; /* point_count, from the largest step to the smallest */
     const char *certificate;          /* "observed 2.00, declared 2" */

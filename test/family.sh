@@ -16,7 +16,7 @@ cp test/family/doubling.h "$copy/step/doubling.h"
 sed -i 's|^    X(EXACT, exact, "")$|    X(EXACT, exact, "") \\\n    X(DOUBLING, doubling, "")|; s|^#include "step/exact.h"$|&\n#include "step/doubling.h"|' "$copy/step/families.def"
 row='    { .card = { CARD("doubling", "", "test", 2, 1, 6, XVT, 0, 0, 0.0), .title = "step doubling", .cite = "", .formula = "", .use = "" },\
       .family = DOUBLING, .adaptive = true, .tableau = {1, C(K(TOLERANCE)), NULL, NULL} },'
-sed -i "/^    { .card = { CARD(\"exact\"/i ${row/TOLERANCE/1e-9}" "$copy/core/methods.c"
+sed -i "/^    {.card = {CARD(\"exact\"/i ${row/TOLERANCE/1e-9}" "$copy/core/methods.c"
 check "a family touches a text, the list and the rows" \
     "$(for folder in step core machine lang api; do diff -rq $folder "$copy/$folder"; done | sed "s|$copy/||g" | tr '\n' ';')" \
     "Only in step: doubling.h;Files step/families.def and step/families.def differ;Files core/methods.c and core/methods.c differ;"

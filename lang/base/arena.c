@@ -59,7 +59,7 @@ void *arena_take(arena *a, size_t bytes)
     if (bytes > SIZE_MAX / 4) return none(a, bytes);
     size_t size = a->blocks ? a->blocks->size * 2 : FIRST_BLOCK;
     if (size > LARGEST_BLOCK) size = LARGEST_BLOCK;
-    bool alone = bytes > size / 2; /* a big piece gets its own block; the open block stays open */
+    bool alone = bytes > size / 2; /* a large piece gets a block of its own; the open block stays open */
     if (alone) size = bytes + LINE;
     arena_block *b = take(&a->allocator, 1, sizeof *b + size);
     if (!b) return none(a, bytes);

@@ -1,6 +1,6 @@
-/* Memory of one model: taken piece by piece, released at once.
+/* Memory of one model: taken in pieces, released at once.
  *
- * take: a thing that is always there; room: an array that may be too large; grow: a larger one; text: a copy.
+ * arena_take: a small object; arena_room: an array; arena_grow: a larger copy of one; arena_text: a copy of a text.
  *
  * Invariant: arena_take of up to ARENA_SPARE bytes never returns NULL. When memory has run out it sets `failed` and
  * returns the spare block, so callers may write before they check; code that loops or recurses checks `failed` first.
@@ -24,7 +24,7 @@ typedef struct arena {
 void arena_init(arena *, const motus_allocator *);
 /* zeroed, 64-byte aligned for requests of 64 bytes and more */
 void *arena_take(arena *, size_t bytes);
-void *arena_room(arena *, size_t bytes); /* the same; NULL when there is none, however small */
+void *arena_room(arena *, size_t bytes); /* the same; NULL when there is no memory, also for small requests */
 void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes); /* a copy in larger room */
 char *arena_text(arena *, const char *text, size_t length);               /* a copy that ends with 0 */
 void arena_release(arena *);

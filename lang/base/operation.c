@@ -1,7 +1,7 @@
 /* The rows of the operations and their values.
  *
- * Invariant: operation_value and every kernel evaluate the same C expression, so the graph folds constants to the bits
- * of a run.
+ * Invariant: operation_value and every kernel evaluate the same C expression, so folded constants have the bits of a
+ * run.
  */
 #include "lang/base/operation.h"
 

@@ -1,8 +1,8 @@
-/* Writing a plan out as C. See emit.h; the order is the interpreter's, so are the bits.
+/* Writes a plan as C. See emit.h. The operations and their order are the interpreter's, and so are the bits.
  *
- * Invariant: a value is one `const` of the block in which the plan computes it; sums follow lang/graph/program.c to
- * the letter. A value is `wide`, different in every lane, or a plain double that all lanes share; where both meet,
- * the plain one is spread by MANY.
+ * Invariant: a value is one `const` of the C block in which the plan computes it; sums follow lang/graph/program.c
+ * exactly. A value is `wide`, one number for each lane, or a plain double that all lanes share; where an operation has
+ * both, MANY spreads the plain one.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -91,7 +91,7 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
     return !e->text.arena->failed;
 }
 
-/* OF, FUSE and WHEN are the text's: they mean one thing for doubles and another for lanes. */
+/* OF, FUSE and WHEN are written as they are: the C text defines them for doubles and for lanes. */
 #define OF(f) OF(f)
 #define FUSE(a, b, c) FUSE(a, b, c)
 #define WHEN(condition, a, b) WHEN(condition, a, b)

@@ -1,7 +1,7 @@
 /* A program as C text: the bodies that a compiled machine puts between the texts of step/.
  *
- * No byte of the model reaches the text: names are made here (r12, j0), numbers are hexadecimal, and everything that
- * a size or a bound decides is read at run time from `q`, so one text serves every N and every parameter.
+ * No byte of the model's text reaches the C text: names are made here (r12, j0), numbers are hexadecimal, and what
+ * depends on a size or a bound is read at run time from `q`, so one text serves every N and every parameter.
  */
 #ifndef LANG_EMIT_EMIT_H
 #define LANG_EMIT_EMIT_H
@@ -40,10 +40,10 @@ typedef struct emit {
     uint32_t fixed, fixed_lanes;
     /* OPERATION_BIT of every operation that the programs so far call, over doubles and over reals */
     uint64_t used, used_lanes;
-    bool wraps; /* they call `wrapped` */
+    bool wraps; /* the programs so far call `wrapped` */
     /* loops may take several values of their index at once, by machine/text/index_lanes.h */
     bool vectors;
-    bool uses_vectors; /* and some do */
+    bool uses_vectors; /* and some loop does */
     bool separate;     /* the next program is compiled once, and called */
     /* the next program takes a window of outer indices, and PUT(k, value) stands for a[k] = value */
     bool windowed;

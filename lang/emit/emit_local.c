@@ -1,4 +1,4 @@
-/* See emit_local.h. Everything here is read off the subscripts; no size and no parameter decides. */
+/* See emit_local.h. The answers depend on the subscripts alone, not on sizes or parameters. */
 #include "lang/emit/emit_local.h"
 
 typedef struct seeing {
@@ -23,8 +23,8 @@ static void see(void *ctx, const reference *r, const range *sums, int first_leve
     if (far > LOCAL_REACH_MAX) s->l->local = false;
 }
 
-/* A sum of the state that no family index moves is computed once for all cells, and would be computed once for every
- * window. */
+/* A sum over the state that does not depend on a family index is computed once for all cells; with windows it would be
+ * computed once for every window. */
 static bool sums_of_all(const program *p)
 {
     for (uint32_t n = 0; n < p->graph->count; n++) {

@@ -1,14 +1,14 @@
 /* Regions, loops, sums. See emit_parts.h.
  *
- * Invariant: sums follow lang/graph/program.c to the letter: up to 16 terms in turn, more in turn to eight partials
- * and these in a fixed tree. Where the inside of a loop holds no other, WIDTH values of its index are taken at once,
- * one in each lane, and the rest one by one.
+ * Invariant: sums follow lang/graph/program.c exactly: up to 16 terms in order; more terms in turn to eight partial
+ * sums, which a fixed tree adds. A loop that contains no other takes WIDTH values of its index at once, one in each
+ * lane, and the rest one by one.
  */
 #include "lang/emit/emit_parts.h"
 
 #include <stdio.h>
 
-/* The total of a sum becomes the next one; `partial` names it: "s7[k]". */
+/* Adds a term to a partial sum of the name `partial`: "s7[k]". */
 static void write_update(writer *w, const plan_item *update, const char *partial)
 {
     node whole = w->plan.items.at[update->sum].n;
@@ -34,7 +34,7 @@ static void write_update(writer *w, const plan_item *update, const char *partial
 
 #define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.items.at[k].next_sum)
 
-/* More than 16 terms, as long as there are eight: to the partials s or, in lanes, to v, which then becomes s. */
+/* Of more than 16 terms, eight at a time: to the partial sums s or, in lanes, to v, which is then copied to s. */
 static void write_eights(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];

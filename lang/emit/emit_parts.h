@@ -1,5 +1,5 @@
-/* What the files that write C share: emit.c (the functions), emit_loop.c (regions, loops, sums), emit_value.c
- * (values), emit_place.c (text, places). */
+/* Shared by the files that write C: emit.c (the functions), emit_loop.c (regions, loops, sums), emit_value.c (values),
+ * emit_place.c (text, places). */
 #ifndef LANG_EMIT_EMIT_PARTS_H
 #define LANG_EMIT_EMIT_PARTS_H
 
@@ -17,9 +17,9 @@ typedef struct writer {
     uint32_t *fixed; /* by item of region AT_BIND: its place in u, or in w where it is wide */
     uint8_t *nature; /* by node: NATURE_ */
     uint32_t *term;  /* by node: its place in T, or NONE */
-    /* the level whose index is another one in every lane, while the inside of its loop is written; else -1 */
+    /* the level whose index differs from lane to lane, while the inside of its loop is written; else -1 */
     int along;
-    bool one_by_one; /* in it, a place is that of lane l */
+    bool one_by_one; /* lanes are written in a loop over l, and a place is that of lane l */
 } writer;
 
 enum {
@@ -38,7 +38,8 @@ bool emit_varies(const writer *, const array *);
 void emit_element(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "q[3] + j0 * q[4] + j1" */
 void emit_address(writer *, const reference *, int dims, char out[PLACE_MAX]); /* "AT(x, ELEMENT)" */
 void emit_bound(writer *, const subscript *, char out[PLACE_MAX]);
-/* How the lanes of a wide place lie: side by side; so but for a wrap, which emit_around writes; or anywhere. */
+/* Where the lanes of a wide place are: next to one another; the same except for a wrap, which emit_around writes;
+ * or anywhere. */
 typedef enum spread { TOGETHER, AROUND, ANYWHERE } spread;
 spread emit_spread(const writer *, const reference *);
 void emit_around(writer *, const reference *, char out[3 * PLACE_MAX]);

@@ -1,7 +1,7 @@
-/* Text, and where numbers stand in it. See emit_parts.h.
+/* C text, and the places of numbers in memory as C text. See emit_parts.h.
  *
- * Invariant: whatever a size, a bound or a stride decides is a number of `q`, which is the same for all places that
- * mean the same.
+ * Invariant: what depends on a size, a bound or a stride is a number of `q`; places with the same value share one
+ * number.
  */
 #include "lang/emit/emit_parts.h"
 
@@ -134,7 +134,7 @@ void emit_bound(writer *w, const subscript *s, char out[PLACE_MAX])
     snprintf(out + n, PLACE_MAX - n, "%d", s->literal);
 }
 
-/* The last dimension has stride 1, which the compiler is told by leaving it out. */
+/* The last dimension has stride 1: it is left out, so that the compiler knows it. */
 void emit_element(writer *w, const reference *r, int dims, char out[PLACE_MAX])
 {
     const emit_int offset = {.kind = EMIT_OFFSET, .ref = *r};

@@ -1,4 +1,4 @@
-/* Values: how wide they are, how they are named, what makes them. See emit_parts.h. */
+/* Values: their width, their names, and the C text that computes them. See emit_parts.h. */
 #include "lang/emit/emit_parts.h"
 
 #include <stdio.h>
@@ -63,7 +63,7 @@ void emit_terms(writer *w)
     }
 }
 
-/* In the function that computes the terms, a lane is a time; along an index, a value of it. */
+/* In the function that computes the terms a lane is a time; in a loop with lanes it is a value of the index. */
 bool emit_wide(const writer *w, node n)
 {
     const graph_node *m = &w->plan.g->nodes[n];
@@ -99,8 +99,7 @@ void emit_operand(writer *w, node n, node user, char out[48])
         snprintf(out, 48, "%su[%u]%s", open, w->fixed[item], close);
 }
 
-/* What becomes of an acceleration is the window's affair; one cell that has an equation of its own may lie outside of
- * it. */
+/* The window stores an acceleration, by PUT. A cell with an equation of its own may be outside the window. */
 static void write_put(writer *w, const output *o, const char *value)
 {
     char index[PLACE_MAX], place[PLACE_MAX];
@@ -163,7 +162,7 @@ void emit_item(writer *w, uint32_t k)
     const char *type = emit_type(w, item->n);
     char a[48], b[48], c[48], text[EMIT_NUMBER];
     bool term = w->part == RUNNING && w->nature[item->n] & PLAIN_TIME;
-    if (term && w->term[item->n] == NONE) return; /* only other terms need it */
+    if (term && w->term[item->n] == NONE) return; /* only other terms use it */
     if (term)
         emit_line(w, "const double r%u = T[%u];", k, w->term[item->n]);
     else

@@ -1,4 +1,4 @@
-/* The graph's constructors: every node is made here, folded where it is constant and shared where it exists already.
+/* The graph's constructors. They make every node, fold it where it is constant, and share it where it exists already.
  *
  * Invariant: operands have smaller numbers than the node, so ascending numbers are an order of evaluation; no two
  * nodes are identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node
@@ -57,7 +57,7 @@ static bool same_subscript(const subscript *s, const subscript *t)
     return s->level == t->level && s->slot == t->slot && s->modulus == t->modulus && s->literal == t->literal;
 }
 
-/* LOAD and SUM carry the number of a reference or range; it is the content that counts. */
+/* LOAD and SUM hold the number of a reference or range; nodes are equal where the references or ranges are. */
 static uint64_t hash_node(const graph_node *n, const reference *ref, const range *r)
 {
     uint64_t h = mix(n->op, n->level);
@@ -191,8 +191,8 @@ static bool is_const(const graph *g, node n, double value)
     return g->nodes[n].op == OP_CONST && g->nodes[n].value == value;
 }
 
-/* The identities of real numbers, for derivatives only: they may change a sign of zero, or hide a NaN, which in an
- * equation that somebody wrote would change its bits. Returns false where none applies. */
+/* The identities of real numbers, for derivatives only: they may change the sign of a zero or hide a NaN, so they would
+ * change the bits of the user's equations. False: none applies. */
 static bool simplified(graph *g, operation op, node a, node b, node c, node *out)
 {
     const graph_node *na = &g->nodes[a], *nb = &g->nodes[b];
@@ -270,7 +270,7 @@ node graph_op(graph *g, operation op, node a, node b, node c)
 node graph_power(graph *g, node base, int exponent)
 {
     if (exponent < 0) {
-        node power = graph_power(g, base, -exponent); /* made first, whatever a compiler would choose */
+        node power = graph_power(g, base, -exponent); /* first, because C leaves the order of arguments open */
         return graph_op(g, OP_DIV, graph_const(g, 1), power, 0);
     }
     if (exponent == 0) return graph_const(g, 1);

@@ -1,4 +1,4 @@
-/* The expression graph: scalar nodes, shared, folded, differentiated. It defines the bits.
+/* The expression graph: scalar nodes, shared, constants folded, with derivatives. It defines the bits.
  *
  * A node is an index; node 0 is the constant 0. Vectors are several nodes. Loops (families, sums) are not unrolled:
  * inside them a node may refer to loop variables by LEVEL (0 = outermost family index, and so on inward; a sum opens
@@ -85,7 +85,7 @@ typedef struct graph {
     uint32_t table_size; /* hash-consing */
     uint32_t *place;     /* scratch of graph_order */
     bool simplify;       /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
-    bool too_large;      /* more than GRAPH_NODES_MAX: building stops, node 0 is returned */
+    bool too_large;      /* more than GRAPH_NODES_MAX: constructors return node 0 */
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
@@ -109,7 +109,7 @@ node graph_total(graph *, const node *terms, size_t count);
 
 const graph_node *graph_at(const graph *, node);
 unsigned graph_deps(const graph *, node);
-/* 0: does not depend on the spaces in `deps`; 1: affine in them; 2: neither, as far as can be read off. */
+/* 0: does not depend on the spaces in `deps`; 1: affine in them; 2: neither, or not recognised as affine. */
 int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison); else 0. */
 node graph_kink(graph *, node);

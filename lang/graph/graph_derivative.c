@@ -1,7 +1,7 @@
 /* The derivative of a node by the rules of calculus, one rule a row of operations.def.
  *
- * Invariant: where no operand moves, the derivative is node 0 and nothing is built; a branch that is not taken, a
- * masked term, and the slope of what only their values would need, are selected away, never multiplied by zero.
+ * Invariant: where no operand varies, the derivative is node 0 and no node is made. A branch that is not taken and a
+ * masked term are excluded by SELECT or a condition, never multiplied by zero.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -59,14 +59,14 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     if (!graph_order(g, &root, 1, moving, true, &w)) return 0;
     node *d = take(&g->arena->allocator, w.count, sizeof *d);
     if (!d) g->arena->failed = true;
-    /* Leaves first: a seed is free to walk the graph itself, which the rules are not. */
+    /* Leaves first: a seed may walk the graph itself, which overwrites `place`; the rules need it. */
     for (uint32_t k = 0; d && k < w.count; k++) {
         uint8_t op = g->nodes[w.nodes[k]].op;
         if (op == OP_TIME || op == OP_LOAD) d[k] = seed(g, w.nodes[k], ctx);
     }
     bool before = g->simplify;
     g->simplify = true;
-    /* A grown graph has a new, empty `place`. */
+    /* The graph may have grown, and `place` with it. */
     graph_order_again(g, &w);
     for (uint32_t k = 0; d && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];

@@ -1,9 +1,9 @@
 /* A node as text in the language, with as few brackets as the grammar allows.
  *
- * Invariant: the text reads back as a node of the same value, bit for bit, but that what the graph shares is written
- * out (and so may be fused otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of multiplications
- * are powers again. Nodes to be written wait on a list, not on the C stack, and the text ends at GRAPH_TEXT_MAX:
- * written as a tree, a shared graph may be endless.
+ * Invariant: the text reads back as a node of the same value, bit for bit, except that shared nodes are written at
+ * every use (and so may be fused otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of
+ * multiplications are powers again. Nodes to be written wait on a list, not on the C stack. The text ends at
+ * GRAPH_TEXT_MAX, because a shared graph written as a tree may be exponentially long.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -272,8 +272,7 @@ static void raise(printer *p, power w)
     then(p, w.base, T_FACTOR);
 }
 
-/* The quotient on the left gets brackets: what follows a quotient by juxtaposition would be read with care, or
- * refused. */
+/* A quotient on the left gets brackets: the parser refuses a quotient that a factor follows without a sign. */
 static void product(printer *p, node a, node b, bool without_minus)
 {
     power whole = power_of(p->g, a, b, 0);

@@ -1,7 +1,7 @@
 /* Reading a graph: what a node reaches, its degree in the state, its kinks, the places it loads.
  *
- * Invariant: no recursion but over nested sums, which are at most MAX_LEVELS deep, so that an expression of any
- * length, in any shape, needs no more C stack than a short one. Nothing here makes nodes.
+ * Invariant: only nested sums recurse, at most MAX_LEVELS deep, so that an expression of any length and shape needs no
+ * more C stack than a short one. Nothing here makes nodes.
  */
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
@@ -109,7 +109,7 @@ int graph_degree(graph *g, node root, unsigned deps)
 
 /* Kinks ----------------------------------------------------------------------------------------------------------- */
 
-/* A jump that only parameters and indices decide is none: along the motion the value stays on one side. */
+/* A kink that depends on parameters and indices alone does not count: along the motion the value stays on one side. */
 node graph_kink(graph *g, node root)
 {
     const unsigned moving = DEP_TIME | DEP_STATE | DEP_D;
@@ -151,7 +151,7 @@ static void loads_below(const visit_loads *v, const node *roots, size_t count, c
             reference ref = g->references[n->a];
             v->visit(v->ctx, &ref, around->range, around->first, around->inside);
         } else if (n->op == OP_SUM && n->deps & v->deps) {
-            /* What a sum at level l holds sees no level above l but its own. */
+            /* The body of a sum at level l cannot use levels above l other than its own. */
             nest inner = *around;
             if (!inner.inside || n->level < inner.first) {
                 inner.first = n->level;

@@ -1,4 +1,4 @@
-/* The order in which the nodes below some roots can be evaluated; shared by everything that reads a graph. */
+/* An order of evaluation of the nodes below some roots, for all that reads a graph. */
 #ifndef LANG_GRAPH_GRAPH_WALK_H
 #define LANG_GRAPH_GRAPH_WALK_H
 

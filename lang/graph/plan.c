@@ -108,7 +108,7 @@ static uint32_t loop_of(plan *p, const graph_node *n, uint32_t rank, uint32_t ho
     p->regions.at[k].rank = rank;
     p->regions.at[k].sum = true;
     p->regions.at[home].holds_sums = true;
-    /* The bounds would differ from lane to lane, so the loop that they depend on runs one value at a time. */
+    /* The bounds would differ between lanes of the index that they depend on: its loop takes one value at a time. */
     for (uint32_t up = home; p->regions.at[up].level >= 0; up = p->regions.at[up].parent)
         if (p->regions.at[up].level == r.first.level || p->regions.at[up].level == r.last.level)
             p->regions.at[up].serial = true;
@@ -173,7 +173,7 @@ static void need(plan *p, node n, uint32_t region)
     }
 }
 
-/* A SUM needs, inside its loop, the term and the condition, and the item that brings them into the total. */
+/* A SUM needs, inside its loop, the term, the condition, and the item that adds the term to the total. */
 static void enter_sum(plan *p, uint32_t item)
 {
     graph_node n = p->g->nodes[p->items.at[item].n];
@@ -259,7 +259,7 @@ static void sift(const plan *p, uint32_t *v, uint32_t root, uint32_t count)
     }
 }
 
-/* A heap sort: the C library's qsort may take memory past the hooks. */
+/* A heap sort, because the C library's qsort may take memory without the hooks. */
 static bool sort_items(plan *p)
 {
     uint32_t count = p->items.count, *v = p->order = take(p->hooks, count, sizeof *v);

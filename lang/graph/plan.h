@@ -34,13 +34,13 @@ typedef struct plan_region {
 typedef struct plan_item {
     node n;
     uint32_t region;
-    uint32_t key;        /* order within a rank: the node, but after what it needs */
-    uint32_t rank;       /* how many sums have to be finished before it */
+    uint32_t key;        /* order within a rank: the node's number, raised above those of the items that it needs */
+    uint32_t rank;       /* the number of sums, one after the other, that must be finished before it */
     uint32_t sum;        /* NONE, or the item of the SUM whose total this one updates */
     uint32_t inside;     /* SUM: the region of its loop */
     uint32_t next_sum;   /* SUM: the next one in the same loop */
     uint32_t outputs;    /* outputs written as soon as it is known */
-    uint32_t reg, total; /* the writer's; of a SUM, reg is NONE until its loop is written */
+    uint32_t reg, total; /* of lang/tape/ and lang/emit/; of a SUM, reg is NONE until its loop is written */
 } plan_item;
 
 typedef struct plan {
@@ -58,7 +58,7 @@ typedef struct plan {
     uint32_t table_size; /* (region, node) → item + 1 */
 } plan;
 
-/* Room for one more at the end of a list; plan.failed where there is none. */
+/* Makes room for one more element at the end of a list; sets plan.failed where there is no memory. */
 #define ROOM(p, list)                                                                        \
     ((list).at = plan_room(p, (list).at, (list).count, &(list).capacity, sizeof *(list).at), \
      (list).count < (list).capacity)

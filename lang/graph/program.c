@@ -2,18 +2,17 @@
  *
  * Fusing. Uses are counted over the whole program: one for every operand that is this node, one for every output. A
  * product p*q is MUL(p, q), or NEG of it; it can be fused if it (and the NEG) is used once.
- *     ADD(x, y)   y a product: FMA(p, q, x); y a negated one: FNMA(p, q, x) = x - p q; else x a product: FMA(p, q,
- *                 y), FNMA(p, q, y)
- *     SUB(x, y)   y a product: FNMA(p, q, x); y a negated one: FMA(p, q, x); else x a product: FMS(p, q, y); x a
- *                 negated one:
- *                 FMS(-p, q, y)
- * The right operand goes first, since sums are written left to right and their running total stands on the left.
+ *     ADD(x, y)   y a product: FMA(p, q, x); y a negated one: FNMA(p, q, x) = x - p q;
+ *                 else x a product: FMA(p, q, y); x a negated one: FNMA(p, q, y)
+ *     SUB(x, y)   y a product: FNMA(p, q, x); y a negated one: FMA(p, q, x);
+ *                 else x a product: FMS(p, q, y); x a negated one: FMS(-p, q, y)
+ * The right operand is tried first, because sums run from left to right with their running total on the left.
  *
  * Sums. SUM's total starts at +0, and a term updates it as ADD(total, term) does, fused by the same rule: the term is
  * used once by its SUM. Terms are taken in the order of the index. A term whose condition is false leaves the total
  * as it is. Up to 16 terms in the range, masked ones included: one total, left to right. More: 8 totals, term m
  * (counted from the range's first) goes to total m mod 8, and the result is ((p0+p1)+(p2+p3))+((p4+p5)+(p6+p7)). An
- * empty range is +0. How a machine blocks the loop does not matter.
+ * empty range is +0. A machine may divide the loop as it likes.
  */
 #include "lang/graph/graph_walk.h"
 
@@ -27,7 +26,7 @@ typedef struct forming {
     graph_walk w;
     uint32_t *uses;
     node *image;    /* by place */
-    bool *absorbed; /* lives on only inside a fused operation */
+    bool *absorbed; /* used only inside a fused operation */
 } forming;
 
 static uint32_t at(const forming *f, node n) { return f->from->place[n]; }

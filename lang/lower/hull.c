@@ -34,7 +34,7 @@ bool hull_mark(model *m, const model_state *s, const statement *from, const int6
         if (once && map[offset]) {
             char name[MOTUS_NAME_MAX + 64];
             model_state_name(s, offset, 0, false, name, sizeof name);
-            source_complain(&m->source, MOTUS_NAME, from->at, "%s%.*s has two lines that say how it moves",
+            source_complain(&m->source, MOTUS_NAME, from->at, "%s%.*s has two equations or boundary lines",
                             s->components ? "a component of " : "", 100, name);
             source_hint(&m->source, "each index has exactly one equation or boundary line");
             return false;

@@ -31,7 +31,7 @@ static bool equal_shapes(lowering *l, const tree *t, const tree *a, value va, co
     COMPLAIN(l, t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y),
              shape_name(va, p), shape_name(vb, q));
     if (!va.count || !vb.count)
-        HINT(l, "nothing is made a vector silently: write a vector (…, …), or take the length |%s| or a component",
+        HINT(l, "a number does not become a vector: write a vector (…, …), or take the length |%s| or a component",
              va.count ? x : y);
     return false;
 }
@@ -168,7 +168,7 @@ static value lower_call(lowering *l, const tree *t)
     }
     if (t->operation == CALL_IF) {
         if (!v[0].boolean) {
-            COMPLAIN(l, t->item[0]->at, "a condition is due here");
+            COMPLAIN(l, t->item[0]->at, "a condition is expected here");
             HINT(l, "write if(x > 0, …, …)");
             return wrong(l);
         }
@@ -245,7 +245,7 @@ static value lower_sum(lowering *l, const tree *t)
         value c = lower_expression(&inner, t->item[i]);
         if (failed(l)) return wrong(l);
         if (!c.boolean) {
-            COMPLAIN(l, t->item[i]->at, "a condition is due here, such as j != i");
+            COMPLAIN(l, t->item[i]->at, "a condition is expected here, such as j != i");
             return wrong(l);
         }
         mask = masked ? binary(l, OP_AND, mask, c.item[0]) : c.item[0];

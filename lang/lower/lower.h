@@ -34,7 +34,7 @@ typedef struct lowering {
     index_name names[2 * MAX_LEVELS];
     int name_count, levels;
     int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* the range of each level */
-    double terms; /* how often the expression is evaluated in one evaluation of the model */
+    double terms; /* the number of evaluations of the expression in one evaluation of the model */
     int chain;
 } lowering;
 

@@ -177,7 +177,7 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
     }
     symbol s = symbols_find(l->model, loop->name);
     if (s.state || s.definition) {
-        source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index besides",
+        source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index",
                         loop->name);
         HINT(l, "take another letter for the index");
         return false;
@@ -201,7 +201,7 @@ bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_
         !lower_subscript(l, loop->last, &out->last, &last_low, high))
         return false;
     if (out->first.modulus >= 0 || out->last.modulus >= 0) {
-        COMPLAIN(l, loop->at, "the bounds of an index are not wrapped");
+        COMPLAIN(l, loop->at, "the bounds of an index cannot contain mod");
         return false;
     }
     return true;
@@ -225,14 +225,14 @@ bool lower_target(lowering *l, const statement *s, output *out)
             int64_t first, last;
             if (t->kind == TREE_NAME && !symbols_find(l->model, t->name).definition &&
                 !symbols_find(l->model, t->name).state) {
-                source_complain(&l->model->source, MOTUS_NAME, t->at, "where does %s range?", t->name);
+                source_complain(&l->model->source, MOTUS_NAME, t->at, "the index %s has no range", t->name);
                 HINT(l, "add: for %s = 1..N", t->name);
                 return false;
             }
             for (uint32_t k = 0; k < s->loop_count; k++)
                 if (t->kind != TREE_NUMBER && t->count > 0 && t->item[0]->kind == TREE_NAME && t->item[0]->name &&
                     !strcmp(t->item[0]->name, s->loops[k].name)) {
-                    COMPLAIN(l, t->at, "on the left side stands the index alone");
+                    COMPLAIN(l, t->at, "on the left side the index must stand alone");
                     HINT(l, "write %s[%s] … and shift the bounds", s->name, s->loops[k].name);
                     return false;
                 }

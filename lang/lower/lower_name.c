@@ -68,7 +68,7 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
     if (derivative && !outside) {
         source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s]%s is used here, but has no equation", s->name,
                         index, s->order == 2 ? "''" : "'");
-        HINT(l, "a boundary line says where it is, not how it is driven");
+        HINT(l, "a boundary line gives its position, not its acceleration");
         return false;
     }
     source_complain(&l->model->source, MOTUS_NAME, t->at,
@@ -346,8 +346,8 @@ value lower_initial(lowering *l, const tree *t)
     if (failed(l)) return wrong(l);
     if (graph_deps(l->model->graph, n) & (DEP_TIME | DEP_STATE | DEP_LEVELS)) {
         COMPLAIN(l, t->at, "%s is a state, not a function", name->name);
-        HINT(l, "write %s for its value now, %s*(…) for a product; motion that depends on the past is not Newton's",
-             name->name, name->name);
+        HINT(l, "write %s for its value now, %s*(…) for a product; the motion cannot depend on past values", name->name,
+             name->name);
         return wrong(l);
     }
     double at;

@@ -1,5 +1,5 @@
-/* Parameters and the start, computed when they are first needed. One that is needed while it is being computed depends
- * on itself, which is an error. */
+/* Parameters and the start, each computed when it is first needed. A parameter that is needed while it is being
+ * computed depends on itself, which is an error. */
 #include "lang/lower/resolve.h"
 
 #include "lang/lower/lower.h"
@@ -187,7 +187,7 @@ bool resolve_start_time(model *m)
         if (any && at != m->start) {
             source_complain(&m->source, MOTUS_ARGUMENT, t->at, "the start is %g here, but %g in line %d", at, m->start,
                             source_line(&m->source, where));
-            source_hint(&m->source, "all states start at one time");
+            source_hint(&m->source, "all states start at the same time");
             return false;
         }
         if (!any) where = t->at;

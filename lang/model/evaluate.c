@@ -1,5 +1,5 @@
-/* Evaluation while a model is read. The tape computes constants as it computes everything else, so a parameter has the
- * value that every machine would compute. */
+/* Evaluation while a model is read. The tape computes constants, so a parameter has the value that every machine would
+ * compute. */
 #include "lang/model/evaluate.h"
 
 #include "lang/model/vary_record.h"
@@ -90,7 +90,7 @@ int evaluate_int(model *m, node n, span at, int64_t *value)
         return -1;
     }
     if (v != floor(v)) {
-        source_complain(&m->source, MOTUS_SHAPE, at, "a whole number is due here, not %g", v);
+        source_complain(&m->source, MOTUS_SHAPE, at, "a whole number is expected here, not %g", v);
         return -1;
     }
     if (m->int_count == INT16_MAX) {

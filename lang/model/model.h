@@ -1,4 +1,4 @@
-/* A model: the meaning of a text. Names are resolved, parameters are numbers, states have places in x and v, and the
+/* A model, read from a text. Names are resolved, parameters are numbers, states have places in x and v, and the
  * equations, boundary lines, quantities, invariants and exact motions are outputs over one graph. lang/read/ makes it.
  *
  * Layout. A state (a variable with its indices and components) is stored component by component. Each component is an
@@ -16,10 +16,10 @@ enum {
     MODEL_NUMBERS_MAX = 50000000, /* state, all components and boundary cells */
     MODEL_LIST_MAX = 50000000,    /* numbers in parameters' lists and families */
     MODEL_COMPONENTS_MAX = 4096,  /* length of a vector */
-    MODEL_CHAIN_MAX = 400,        /* definitions that use one another, one behind the other */
+    MODEL_CHAIN_MAX = 400,        /* definitions each of which uses the next */
     MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
-#define MODEL_LOWERED_MAX 50000000u  /* trees lowered; a quantity counts at every use */
+#define MODEL_LOWERED_MAX 50000000u  /* trees lowered, those of a quantity at each of its uses */
 #define MODEL_TERMS_MAX 1e11         /* of nested sums and families, per evaluation */
 #define MODEL_CONSTANT_TERMS_MAX 1e8 /* of all sums in constants together, which are computed while the model is read */
 
@@ -74,7 +74,7 @@ typedef struct model_definition {
     const char *name;
     const statement *statement;
     definition_kind kind;
-    uint8_t progress; /* 0 not computed, 1 being computed (met again, it uses itself), 2 done */
+    uint8_t progress; /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
     int components;   /* 0: scalar */
     bool list;        /* list or family: an array over indices */
     int dims;
@@ -82,7 +82,7 @@ typedef struct model_definition {
     uint16_t log_array;   /* vary_record.h: 1 + its array over the pool, 0 none */
     uint32_t slot;        /* parameter without indices: its first pool slot */
     uint16_t array;       /* list: POOL array of component 0; quantity or invariant: OUT array */
-    struct value **known; /* quantity without indices: its nodes, by place and level of use */
+    struct value **known; /* quantity without indices: its nodes, by kind of place and level of its use */
     output *outputs;
     size_t output_count; /* quantity, invariant: into OUT from 0 */
     size_t numbers;
@@ -105,11 +105,11 @@ typedef struct model {
     uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
 
     vary_log log;
-    uint8_t *overridden;       /* vary.h: per place of the pool, 1: set, whatever its line says; NULL: none is */
+    uint8_t *overridden;       /* vary.h: by place of the pool, 1: set by motus_system_set; NULL: none is */
     struct exact_check *check; /* analysis.c: of the exact line; NULL: there is none */
     double constant_terms;     /* of sums in constants so far */
-    int depth;                 /* expressions within expressions, at present */
-    int start_depth;           /* initial values that use one another, at present */
+    int depth;                 /* present depth of expressions within expressions */
+    int start_depth;           /* present depth of initial values that use one another */
     uint64_t lowered;          /* trees lowered so far, which bounds the cost of quantities of quantities */
     model_state *states;
     uint32_t state_count;
@@ -129,7 +129,7 @@ typedef struct model {
     output *exact;
     size_t exact_count; /* into X and V */
     bool exact_given, exact_recognised;
-    traits traits; /* gyroscopic and gradient are found on demand (machine/) */
+    traits traits; /* but gyroscopic and gradient, which api/explain.c samples when they are needed */
 
     double start, step, until, every_time;
     bool start_known;

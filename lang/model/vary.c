@@ -11,7 +11,7 @@ struct vary {
     uint8_t *affected;
     vary_active *active;
     uint32_t active_count;
-    double *kept; /* copies of cells that an entry overwrites though other lines set them */
+    double *kept; /* copies of cells that an entry overwrites, but that other lines set */
 };
 
 /* ---- what is affected ---- */
@@ -59,7 +59,7 @@ static void mark_places(vary *v, const vary_entry *e)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
 }
 
-/* What is overridden is so as a whole: one number tells for all. */
+/* All numbers of a parameter or an initial value are overridden together, so the first one tells. */
 static bool overridden(const model *m, const vary_entry *e)
 {
     return m->overridden && m->overridden[place_of(m, e, 0)];
@@ -73,7 +73,7 @@ bool vary_override(model *m, size_t first, size_t count, bool yes)
     return true;
 }
 
-/* Extends `affected` to all places that follow from those marked so far, and collects the entries that compute them in
+/* Extends `affected` to all places that depend on those marked so far, and collects the entries that compute them in
  * `active`, if it is not NULL. */
 static void follow(vary *v, uint8_t *changed)
 {

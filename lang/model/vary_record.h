@@ -19,7 +19,7 @@ bool vary_record(model *, const output *target, const node *values, int parts, s
                  const int64_t first[], const int64_t last[], size_t hull, const uint8_t *map, uint8_t rank,
                  uint16_t *array);
 bool vary_record_scalar(model *, node, uint32_t slot);
-/* Logs that a node decides `what`, as in evaluate_number. */
+/* Logs that a node decides `what`: see evaluate_number. */
 void vary_freeze(model *, node, const char *what);
 
 #endif

@@ -216,7 +216,7 @@ motus_status analysis_exact(model *m, motus_error *err)
     const bool good = verify_exact(m);
     const motus_status status = good ? MOTUS_OK : m->source.failed ? m->source.status : MOTUS_MEMORY;
     m->source.error = NULL;
-    m->source.failed = false; /* the model is sound; the numbers are not those of its exact line */
+    m->source.failed = false; /* the text has no error: the numbers contradict its exact line */
     return status;
 }
 

@@ -89,7 +89,7 @@ static bool classify_definitions(model *m)
         if (d->kind != DEFINED_PARAMETER) {
             source_complain(&m->source, MOTUS_ARGUMENT, d->statement->value->at,
                             "%s is a parameter: what it is set to cannot depend on a state or on time", d->name);
-            source_hint(&m->source, "a force that moves is written in the model");
+            source_hint(&m->source, "write a force that depends on time in the model");
             return false;
         }
     }
@@ -125,7 +125,7 @@ static bool check_orphans(model *m)
         }
         if (s->kind == STATEMENT_START && s->primes >= named.state->order) {
             source_complain(&m->source, MOTUS_NAME, s->at,
-                            "%s has an equation of first order: its derivative at the start follows", s->name);
+                            "%s has an equation of first order, which gives its derivative at the start", s->name);
             return false;
         }
     }

@@ -43,7 +43,7 @@ static bool add_definition(model *m, const statement *s)
     if (known.state) {
         if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION) return true; /* a boundary line */
         source_complain(&m->source, MOTUS_NAME, s->name_at,
-                        "%s has an equation of motion in line %d and cannot be defined besides", s->name,
+                        "%s has an equation of motion in line %d and cannot be defined too", s->name,
                         source_line(&m->source, known.state->at));
         return false;
     }
@@ -117,7 +117,7 @@ static bool replace(model *m, uint32_t text)
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
         if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name)) continue;
-        source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s can only be set as a whole", one->name);
+        source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s can only be set with all of its numbers", one->name);
         if (old->value->kind == TREE_LIST)
             source_hint(s, "write %s = [1, 2, …]", one->name);
         else

@@ -101,7 +101,7 @@ static bool looked_at(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_SHAPE, s->at, "%s[…] needs an index that runs", d->name);
         return false;
     }
-    d->progress = 1; /* met again, it uses itself */
+    d->progress = 1; /* needed now, it depends on itself */
     value v = lower_expression(&l, s->value);
     if (source_failed(&m->source)) return false;
     d->progress = 2;

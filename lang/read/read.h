@@ -7,7 +7,7 @@
 /* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
 motus_status read_model(arena *, const motus_text_def *, model **out, motus_error *);
 
-/* Whether the exact line is still true, now that numbers have changed; no memory is needed. */
+/* Checks the exact line again after numbers have changed; takes no memory. */
 motus_status analysis_exact(model *, motus_error *);
 
 #endif

@@ -6,7 +6,7 @@
 #include "lang/model/model.h"
 
 bool collect_all(model *, const motus_text_def *); /* statements, with those of --set; the symbol table */
-bool classify_all(model *);                        /* parameters and quantities; initial values without a state */
+bool classify_all(model *);                        /* parameters or quantities; complains about lines without a state */
 bool settings_all(model *);                        /* method, step, until … */
 bool layout_all(model *);                          /* places of the states in x and v */
 bool equations_all(model *);                       /* outputs over the graph */

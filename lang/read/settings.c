@@ -37,7 +37,8 @@ bool settings_all(model *m)
             if (!s->steps) {
                 m->every_time = v;
             } else if (v != floor(v) || v > 9e15) {
-                source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "every %g steps: a whole number is due", v);
+                source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "every %g steps: the number must be whole",
+                                v);
                 return false;
             } else {
                 m->every_steps = (int64_t)v;

@@ -7,12 +7,12 @@
 #include "lang/tape/tape_isa.h"
 
 enum {
-    /* what all blocks together may take: most of a 32 KiB L1 cache, the state needs some too */
+    /* of all blocks together: most of a 32 KiB L1 cache, which also holds parts of the state */
     BLOCK_BYTES = 24 << 10,
     WIDEST = 1024,
-    /* doubles between blocks: blocks a power of two apart would fight for the same cache sets */
+    /* doubles between blocks: blocks a power of two apart would map to the same cache sets */
     PAD = 8,
-    FEW_LANES = 1 /* up to here calling a kernel costs more than it saves */
+    FEW_LANES = 1 /* up to this many lanes a call of a kernel costs more than it saves */
 };
 
 struct tape {
@@ -21,7 +21,7 @@ struct tape {
     tape_choice choice;
     const tape_machine *machine;
     code *with_blocks, *scalar; /* the latter only once it is wanted */
-    code *memory_for;           /* the code that registers were taken for */
+    code *memory_for;           /* the code for which the registers' memory was taken */
     binding binding;
     frame frame;
 };

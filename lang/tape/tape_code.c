@@ -1,4 +1,4 @@
-/* Writing the plan out as instructions.
+/* Writes the plan as instructions.
  *
  * Invariant: instructions are written in the order they run, loops nested by position; until the end registers are
  * virtual, each made by one instruction, and afterwards they are the numbers that tape_registers.c chose.
@@ -37,8 +37,8 @@ static uint32_t fresh(writer *w, register_kind kind)
     return w->registers.count++;
 }
 
-/* Read by the next instruction. A loop between the making and the reading reads it again and again: it lives to the
- * loop's end. */
+/* Notes that the next instruction reads the register. A register that was written before a loop and is read inside it
+ * lives until the end of the loop. */
 static void reads(writer *w, uint32_t reg)
 {
     if (w->plan.failed) return;
@@ -103,7 +103,7 @@ static uint32_t site_at(writer *w, const reference *ref, bool lanes)
     return w->sites.count++;
 }
 
-/* The lanes lie side by side whatever the sizes are: they run along the last index alone. */
+/* The lanes are contiguous for all sizes, because they run along the last index alone. */
 static bool contiguous(const reference *ref, int level)
 {
     for (int d = 0; d < ref->dims - 1; d++)
@@ -111,7 +111,7 @@ static bool contiguous(const reference *ref, int level)
     return ref->dims && ref->at[ref->dims - 1].level == level && ref->at[ref->dims - 1].modulus < 0;
 }
 
-/* No index moves it, and no modulus folds it. */
+/* The place depends on no index and no modulus. */
 static bool fixed(const reference *ref)
 {
     for (int d = 0; d < ref->dims; d++)
@@ -210,7 +210,7 @@ static void write_item(writer *w, uint32_t k)
 
 /* Sums ------------------------------------------------------------------------------------------------------------ */
 
-/* The term of this pass, or the lanes of terms, into the total. */
+/* Adds the term of this pass, or the lanes of terms, to the total. */
 static void write_update(writer *w, const plan_item *update)
 {
     const plan_item *item = &w->plan.items.at[update->sum];
@@ -332,7 +332,7 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
     for (uint32_t k = 0; k < w->registers.count; k++) {
         virtual_register *v = &w->registers.at[k];
         if (v->until == AT_RUN)
-            v->last = w->text.count + 1; /* made at bind, read at every evaluation: never given up */
+            v->last = w->text.count + 1; /* written at bind, read at every evaluation: it lives to the end */
         else if (v->until != NONE && w->plan.regions.at[v->until].end > v->last)
             v->last = w->plan.regions.at[v->until].end;
     }

@@ -1,8 +1,8 @@
 /* The interpreter's code: what tape_code.c writes, tape_registers.c completes and tape_run.c executes.
  *
  * Two kinds of registers. SCALARS hold one double. BLOCKS hold a value for each lane, n of them: n cells of the
- * innermost family index, or n terms of a sum; they are reached through pointers, so that a block may lie in the
- * state itself. How many lanes a frame has is the frame's affair: nothing in the code depends on it.
+ * innermost family index, or n terms of a sum; they are reached through pointers, so that a block may be part of the
+ * state itself. The number of lanes belongs to the frame; the code does not depend on it.
  */
 #ifndef LANG_TAPE_TAPE_CODE_H
 #define LANG_TAPE_TAPE_CODE_H
@@ -32,7 +32,7 @@ typedef enum tape_op {
     CODE_TARGET, /* pointer r = memory at site a, to be written by the next instruction */
     CODE_WRITE,  /* memory at site b, lane by lane = a (block or scalar) */
     CODE_LOOP,   /* begin loop a, or skip it */
-    CODE_NEXT,   /* end of loop a: again, or on */
+    CODE_NEXT,   /* end of loop a: repeat it, or continue */
     /* the lanes of a (FMA, FNMA: a b) go to total r in turn, where c (NONE: everywhere); kernel: ADD FMA FNMA */
     CODE_TERMS,
     CODE_END
@@ -121,7 +121,7 @@ typedef struct virtual_register {
 bool tape_registers_assign(const motus_allocator *, virtual_register *, uint32_t count, uint32_t instructions,
                            uint32_t counts[REGISTER_KINDS]);
 
-/* For tests: chosen by hand. width 0 and machine NULL: as tape_create and tape_bind choose. */
+/* For tests, which choose themselves. width 0 and machine NULL: as tape_create and tape_bind choose. */
 typedef struct tape_choice {
     size_t width;
     const char *machine;

@@ -31,7 +31,7 @@
 #endif
 
 #ifdef __GNUC__
-#define UNUSED __attribute__((unused)) /* its lanes may serve instead */
+#define UNUSED __attribute__((unused)) /* where the version in lanes is used instead */
 #else
 #define UNUSED
 #endif

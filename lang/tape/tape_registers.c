@@ -24,7 +24,7 @@ bool tape_registers_assign(const motus_allocator *hooks, virtual_register *v, ui
                 idle[v[j].kind * count + idle_count[v[j].kind]++] = v[j].number;
         uint32_t kind = v[i].kind;
         v[i].number = idle_count[kind] ? idle[kind * count + --idle_count[kind]] : counts[kind]++;
-        if (v[i].last <= v[i].first) v[i].last = v[i].first + 1; /* made and never read: it is still written */
+        if (v[i].last <= v[i].first) v[i].last = v[i].first + 1; /* never read, but it is written */
         if (v[i].last <= instructions) {
             v[i].next = ending[v[i].last];
             ending[v[i].last] = i;

@@ -1,8 +1,8 @@
-/* Running a tape: one loop over instructions. Scalars are computed in place, blocks by kernels; compiled for several
+/* Runs a tape: one loop over instructions. Scalars are computed in place, blocks by kernels; compiled for several
  * instruction sets, see tape_isa.h, so that a scalar fma is hardware too.
  *
- * Invariant: the pointers of block registers never move; those of views and targets are set by the instruction that
- * makes them, those of running totals by the loop that turns them.
+ * Invariant: the pointers of block registers never change, but for the current total of a sum, which its loop sets.
+ * The instruction that makes a view or a target sets its pointer.
  */
 #include "lang/tape/tape_isa.h"
 
@@ -170,8 +170,8 @@ static const instruction *enter(frame *f, const loop *l)
     return text + l->body;
 }
 
-/* The total of the pass that ends goes back to its part, that of the next one comes forth. */
-static void turn(frame *f, const loop *l, const total *t)
+/* Stores the total of the pass that ends in its partial sum, and loads that of the next pass. */
+static void next_partial(frame *f, const loop *l, const total *t)
 {
     int64_t m = f->term[l->level];
     if (t->block) {
@@ -188,7 +188,7 @@ static const instruction *again(frame *f, const loop *l)
     const total *totals = f->code->totals + l->first_total;
     bool brief = f->short_sum[l->level];
     if (l->kind == LOOP_SERIAL) {
-        for (uint32_t k = 0; !brief && k < l->total_count; k++) turn(f, l, &totals[k]);
+        for (uint32_t k = 0; !brief && k < l->total_count; k++) next_partial(f, l, &totals[k]);
         f->term[l->level]++;
         if (f->index[l->level]++ < f->last[l->level]) return text + l->body;
         for (uint32_t k = 0; brief && k < l->total_count; k++)
@@ -207,8 +207,8 @@ static const instruction *again(frame *f, const loop *l)
 
 /* Instructions ---------------------------------------------------------------------------------------------------- */
 
-/* Everything that is not a scalar operation; returns the next instruction. Kept out of line: the loop below is fast
- * as long as all it holds fits the processor's registers. */
+/* Everything that is not a scalar operation; returns the next instruction. Not inlined, because the loop below is fast
+ * as long as its variables fit the processor's registers. */
 static __attribute__((noinline)) const instruction *other(frame *f, const instruction *i)
 {
     double *const R = f->scalars;

@@ -141,7 +141,7 @@ static bool bracket(lexer *l, char c, uint32_t from)
         l->closer[l->depth++] = c == '(' ? ')' : ']';
     } else if (c == ')' || c == ']') {
         if (l->depth == 0) {
-            source_complain(l->source, MOTUS_SYNTAX, at, "this %c closes nothing", c);
+            source_complain(l->source, MOTUS_SYNTAX, at, "this %c has no opening bracket", c);
             source_hint(l->source, "remove it, or open it with %c before", c == ')' ? '(' : '[');
             return false;
         }

@@ -78,7 +78,7 @@ static void point(source *s, span at, motus_error *e)
 
 void source_complain(source *s, motus_status status, span at, const char *format, ...)
 {
-    if (source_failed(s)) /* want of memory is no fault of the text */
+    if (source_failed(s)) /* a failure for lack of memory is no error of the text */
         return;
     s->failed = true;
     s->status = status;

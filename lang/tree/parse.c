@@ -240,7 +240,7 @@ static tree *parse_name(parser *p)
         t->at.to = p->token.at.to;
         if (t->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", t->primes);
-            HINT(p, "Newton's second law is of second order; bring in a first-order variable s' = … for more");
+            HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
             return t;
         }
         advance(p);

@@ -161,7 +161,7 @@ static void parse_left(parser *p, statement *s)
         s->primes = p->token.primes;
         if (s->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
-            HINT(p, "Newton's second law is of second order; bring in a first-order variable s' = … for more");
+            HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
             return;
         }
         advance(p);
@@ -180,8 +180,7 @@ static void parse_left(parser *p, statement *s)
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
             if (s->start_at->kind == TREE_NAME)
-                HINT(p, "write %s%s = …; that it depends on t is understood", s->name,
-                     p->token.primes == 1 ? "'" : "''");
+                HINT(p, "write %s%s = …; the argument (t) is left out", s->name, p->token.primes == 1 ? "'" : "''");
             else
                 HINT(p, "write %s'(0) = …", s->name);
             return;
@@ -264,7 +263,7 @@ static void parse_statement(parser *p, statement *s)
     if (exact || invariant) {
         const char *what = exact ? "exact" : "invariant";
         if (s->kind != STATEMENT_DEFINITION) {
-            COMPLAIN(p, s->at, "behind %s stands a name alone", what);
+            COMPLAIN(p, s->at, "after %s only a name may stand before the =", what);
             if (exact) HINT(p, "write: exact %s = …; its velocity is its derivative", s->name);
             return;
         }

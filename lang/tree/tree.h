@@ -23,7 +23,7 @@ typedef enum tree_kind {
     TREE_NOT,
     TREE_VECTOR,
     TREE_LIST,
-    TREE_COMPONENT, /* item[0] of which, item[1] the 1-based number (x, y, z are numbers already) */
+    TREE_COMPONENT, /* item[0] the vector, item[1] the number of the component, from 1 (x, y, z are numbers already) */
     TREE_NORM,      /* |item[0]| */
     TREE_SUM        /* loops, items: conditions, then the body last */
 } tree_kind;
@@ -76,7 +76,7 @@ typedef struct statement {
     uint32_t loop_count;
     tree *replaced;   /* by --set: the model's expression that it replaces, */
     span stood;       /*   and the place of that statement */
-    uint8_t progress; /* START: 0 not computed, 1 being computed (met again, it uses itself), 2 done */
+    uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
     uint32_t next;    /* 1 + number of the next line about the same state; 0: none */
 } statement;
 

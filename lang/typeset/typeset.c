@@ -1,8 +1,8 @@
 /* Statements, and the loop that carries out the tasks. See typeset.h. */
 #include "lang/typeset/typeset_parts.h"
 
-/* Tasks are pushed in reading order and taken from the end, so each batch is reversed. */
-static void turn(task *tasks, uint32_t count)
+/* Tasks are pushed in reading order and taken from the end, so new tasks are reversed. */
+static void reverse(task *tasks, uint32_t count)
 {
     for (uint32_t i = 0; i < count / 2; i++) {
         task t = tasks[i];
@@ -13,7 +13,7 @@ static void turn(task *tasks, uint32_t count)
 
 static void do_all(typesetter *p)
 {
-    turn(p->tasks, p->count);
+    reverse(p->tasks, p->count);
     while (p->count && !p->failed) {
         task t = p->tasks[--p->count];
         uint32_t mark = p->count;
@@ -24,7 +24,7 @@ static void do_all(typesetter *p)
         case TASK_TAG: typeset_put(p, t.text); break;
         case TASK_SIGN: typeset_put(p, p->full ? "" : t.text); break;
         }
-        turn(p->tasks + mark, p->count - mark);
+        reverse(p->tasks + mark, p->count - mark);
     }
 }
 

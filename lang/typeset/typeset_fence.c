@@ -1,18 +1,18 @@
 /* Brackets, bars and braces of a typeset statement. See typeset_parts.h. */
 #include "lang/typeset/typeset_parts.h"
 
-/* Higher than a line. Who looks has little patience: of what is large, it is supposed. */
-static bool tall(const tree *t, int *patience)
+/* Whether an expression is higher than a line. One with more than `budget` nodes counts as high. */
+static bool tall(const tree *t, int *budget)
 {
     for (;; t = t->item[0]) {
-        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*patience < 0) return true;
+        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*budget < 0) return true;
         if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_START || t->kind == TREE_COMPONENT) return false;
         for (uint32_t i = 1; i < t->count && t->kind != TREE_POWER; i++)
-            if (tall(t->item[i], patience)) return true;
+            if (tall(t->item[i], budget)) return true;
     }
 }
 
-/* Fences stretch only about what is tall: fonts draw those that could stretch with more room about them. */
+/* Fences stretch only around high expressions, because fonts draw stretchy fences with more space around them. */
 static const char *const open_fence[][2] = {
     {"<mrow><mo stretchy=\"false\">(</mo>", "<mrow><mo>(</mo>"},
     {"<mrow><mo stretchy=\"false\">[</mo>", "<mrow><mo>[</mo>"},
@@ -27,10 +27,10 @@ static const char *const close_fence[][2] = {
 /* The items of a tree, or one that is no item of it. */
 static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, const tree *itself, place at)
 {
-    int patience = 256;
+    int budget = 256;
     bool stretch = false, cut = count > TYPESET_ITEMS_MAX;
     for (uint32_t i = 0; i < count && !stretch && !(at & PLACE_SMALL); i++)
-        stretch = tall(item ? item[i] : itself, &patience);
+        stretch = tall(item ? item[i] : itself, &budget);
     typeset_tag(p, open_fence[f][stretch]);
     for (uint32_t i = 0; i < count; i++) {
         if (i) typeset_sign(p, "<mo>,</mo>");

@@ -1,9 +1,8 @@
 /* The typesetter's state, shared by typeset.c (statements), typeset_tree.c, typeset_script.c and typeset_fence.c
  * (expressions), typeset_text.c (characters) and typeset_task.c (tasks).
  *
- * What is still to be written waits as tasks on a stack of their own, so that deep expressions do not exhaust the C
- * stack. A task writes, or it replaces itself by other tasks: `typeset_then` and its neighbours push these in reading
- * order.
+ * What is still to be written waits as tasks on a stack of its own, so that deep expressions do not exhaust the C
+ * stack. A task writes, or it replaces itself by other tasks, which `typeset_then` and the like push in reading order.
  */
 #ifndef LANG_TYPESET_TYPESET_PARTS_H
 #define LANG_TYPESET_TYPESET_PARTS_H
@@ -29,14 +28,14 @@ typedef enum tight {
     TIGHT_ATOM
 } tight;
 
-/* What an expression finds where it stands, in one word (a struct would be passed through memory in WebAssembly):
+/* The place of an expression, in one word (a struct would be passed through memory in WebAssembly):
  *
- *     tight    looser expressions are bracketed
- *     follow   what stands to the right, outside its brackets: a sign of sum would draw a factor in, a choice anything
- *     whole    one element is due, not a row of them
+ *     tight    looser expressions get brackets
+ *     follow   what stands to the right, outside its brackets: a sum sign would include a factor, a choice anything
+ *     element  one element is expected, not a row of elements
  *     small    in a superscript, a subscript or a limit
  *     chain    the left side of the same operator: its terms are counted already
- *     level    expressions about it, in the bits from PLACE_LEVEL on
+ *     level    the number of expressions around it, in the bits from PLACE_LEVEL on
  */
 typedef uint32_t place;
 enum {
@@ -45,7 +44,7 @@ enum {
     FOLLOW_TERM = 0x10,
     FOLLOW_FACTOR = 0x20,
     PLACE_FOLLOW = 0x30,
-    PLACE_WHOLE = 0x40,
+    PLACE_ELEMENT = 0x40,
     PLACE_SMALL = 0x80,
     PLACE_CHAIN = 0x100,
     PLACE_LEVEL = 0x10000
@@ -54,9 +53,9 @@ enum {
 /* A row of its own: in brackets, under a root … */
 static inline place place_inside(place at) { return ((at & PLACE_SMALL) | (at & ~0xFFFFu)) + PLACE_LEVEL; }
 /* One element of its own: a numerator, a base … */
-static inline place place_element(place at) { return place_inside(at) | PLACE_WHOLE; }
-static inline place place_script(place at) { return place_inside(at) | PLACE_WHOLE | PLACE_SMALL; }
-/* In the same row, with something to the right; the last in the row has to its right what the whole has. */
+static inline place place_element(place at) { return place_inside(at) | PLACE_ELEMENT; }
+static inline place place_script(place at) { return place_inside(at) | PLACE_ELEMENT | PLACE_SMALL; }
+/* In the same row, with something to its right; to the right of the last one stands what follows the row. */
 static inline place place_left(place at, tight t, uint32_t follow) { return place_inside(at) | t | follow; }
 static inline place place_last(place at, tight t) { return place_inside(at) | t | (at & PLACE_FOLLOW); }
 
@@ -65,7 +64,7 @@ typedef enum task_kind {
     TASK_NAME, /* a name without its subscript; TASK_TAIL: its subscript, without the name */
     TASK_TAIL,
     TASK_TAG, /* text that opens and closes elements: written whatever has been cut */
-    TASK_SIGN /* text that is left out together with the expressions about it */
+    TASK_SIGN /* text that is left out together with the expressions around it */
 } task_kind;
 
 typedef struct task {
@@ -92,7 +91,7 @@ void typeset_put(typesetter *, const char *text);
 void typeset_name(typesetter *, const char *name);
 void typeset_tail(typesetter *, const char *name);
 bool typeset_has_tail(const char *name);
-bool typeset_is_word(const char *name); /* set upright: touches its neighbours in a product */
+bool typeset_is_word(const char *name); /* set upright, so that it needs space in a product */
 void typeset_number(typesetter *, const tree *);
 bool typeset_has_exponent(const source *, const tree *);
 void typeset_plain(typesetter *, const char *text); /* of the model: escaped */

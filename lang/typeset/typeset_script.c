@@ -59,7 +59,7 @@ static void superscripts(typesetter *p, int primes, const tree *power, place at)
     if (both) typeset_tag(p, "</mrow>");
 }
 
-/* Primes and an exponent share the superscript, x′², and a value at a time is raised as a whole, x(0)². */
+/* Primes and an exponent share the superscript, x′²; a value at a time is raised with its bracket, x(0)². */
 void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
 {
     uint32_t parts = (uint32_t)typeset_has_tail(h->name->name) + h->name->index_count + (h->component != NULL);

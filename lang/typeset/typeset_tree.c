@@ -1,7 +1,7 @@
 /* Expressions of a typeset statement. See typeset_parts.h.
  *
- * Brackets stand where the meaning needs them, whether the text had them or not: a fraction, a root, bars and raised
- * exponents show by themselves what they hold.
+ * Brackets are written where the meaning needs them, whether the text has them or not: a fraction, a root, bars and
+ * raised exponents need none.
  */
 #include "lang/typeset/typeset_parts.h"
 
@@ -9,7 +9,7 @@
 
 /* Shapes ----------------------------------------------------------------------------------------------------------- */
 
-/* Functions whose name is written; the others have a shape. */
+/* Functions that are written by their name; the others have a notation of their own. */
 static const char *function_name(const tree *t)
 {
     if (t->kind != TREE_CALL) return NULL;
@@ -92,8 +92,8 @@ static bool digit_first(const tree *t)
 
 static bool barred(const tree *t) { return t->kind == TREE_NORM || typeset_calls(t, OP_ABS); }
 
-/* A number after a factor wants a dot; so does a fraction of numbers after a number, which would be read as 2½, and a
- * bracket after a state, which would be read as its value at that time. Words want a little room, and so do bars. */
+/* A number after a factor needs a dot; so does a fraction of numbers after a number, which would be read as 2½, and a
+ * bracket after a state, which would be read as its value at that time. Words and bars need some space. */
 static void times(typesetter *p, const tree *a, const tree *b, place at)
 {
     head h;
@@ -124,7 +124,7 @@ static int chain_of(tree_kind kind)
     }
 }
 
-/* Where a chain is too long, its beginning with an ellipsis behind it. */
+/* Of a chain that is too long, writes the beginning and an ellipsis. */
 static bool shortened(typesetter *p, const tree *t, place at)
 {
     static const char *const rest[] = {"", "<mo>+</mo><mi>⋯</mi>", "<mi>⋯</mi>",
@@ -284,7 +284,7 @@ void typeset_tree(typesetter *p, const tree *t, place at)
 {
     bool deep = at / PLACE_LEVEL > TYPESET_LEVELS_MAX, ends = !p->full && p->length > TYPESET_BYTES_MAX;
     if (p->full || deep || ends) {
-        typeset_put(p, !p->full ? "<mi>…</mi>" : at & PLACE_WHOLE ? "<mrow></mrow>" : "");
+        typeset_put(p, !p->full ? "<mi>…</mi>" : at & PLACE_ELEMENT ? "<mrow></mrow>" : "");
         p->full |= ends;
         return;
     }
@@ -293,9 +293,9 @@ void typeset_tree(typesetter *p, const tree *t, place at)
         (t->kind == TREE_SUM && follow == FOLLOW_FACTOR) || (typeset_calls(t, CALL_IF) && follow != FOLLOW_NOTHING);
     if (tight_of(p, t, at & PLACE_SMALL) < (at & PLACE_TIGHT) || swallows) {
         typeset_itself(p, FENCE_ROUND, t, at);
-    } else if (at & PLACE_WHOLE && !single(t, at & PLACE_SMALL)) {
+    } else if (at & PLACE_ELEMENT && !single(t, at & PLACE_SMALL)) {
         typeset_tag(p, "<mrow>");
-        typeset_then(p, t, at & ~(uint32_t)PLACE_WHOLE);
+        typeset_then(p, t, at & ~(uint32_t)PLACE_ELEMENT);
         typeset_tag(p, "</mrow>");
     } else {
         unbracketed(p, t, at);

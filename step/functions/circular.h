@@ -1,4 +1,4 @@
-/* sin, cos, tan over the whole range.
+/* sin, cos, tan of all doubles.
  *
  * |x| = q pi/2 + r, |r| <= pi/4, r a pair. Up to 2^22 by three parts of pi/2 [CodyWaite80]; the first two steps are
  * exact: the first because the fused product has all its bits, the second because it leaves a sum, and the second
@@ -128,8 +128,8 @@ INLINE circle NAME(circle_of)(pair r)
     y.cos.hi = FUSED(z.hi, REAL(-0.5), REAL(1.0));
     y.cos.lo = FUSED(z.hi, REAL(-0.5), REAL(1.0) - y.cos.hi);
     y.cos.lo = FUSED(z2, c, FUSED(-r.hi, r.lo, FUSED(z.lo, REAL(-0.5), y.cos.lo)));
-    /* The leading term, near -r^3/6, is kept apart from the others, with what the products of r^3 lose: it alone
-     * weighs. */
+    /* The leading term, near -r^3/6, is kept apart from the others, together with the rounding errors of r^3, because
+     * only these matter. */
     cube.lo = FUSED(r.hi, z.lo, cube.lo);
     y.sin.hi = r.hi;
     y.sin.lo = FUSED(cube.hi * z.hi, s, FUSED(cube.lo, REAL(-0x1.5555555555549p-3), r.lo * y.cos.hi));

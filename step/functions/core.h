@@ -1,22 +1,19 @@
-/* THE ELEMENTARY FUNCTIONS, what they stand on: the names that an includer supplies, and arithmetic on unevaluated
- * sums.
+/* THE ELEMENTARY FUNCTIONS, their foundation: the names that an includer supplies, and arithmetic on unevaluated sums.
  *
- * The texts functions_*.h are written once and read as C over scalars, over vectors of any width, and over whatever
- * else has these names. An includer includes <math.h> and <stdint.h>, then functions_lanes.h or a vocabulary of its
- * own or, for plain doubles, none; then this file, the texts it wants, in this order, and functions_end.h, after
- * which another vocabulary may follow:
+ * The texts of step/functions/ are written once, and compiled over doubles, over vectors of any width, and over every
+ * type for which an includer defines these names. An includer includes <math.h> and <stdint.h>; then lanes.h, or
+ * definitions of its own, or for plain doubles none; then this file, the texts that it needs, in this order, and end.h,
+ * after which other definitions may follow:
  *
- *     functions_core.h functions_plain.h functions_exponential.h functions_logarithm.h functions_power.h
- *         functions_hyperbolic.h
- *     functions_circular.h  functions_inverse.h  functions_root.h  functions_error.h  functions_end.h
+ *     core.h  plain.h  exponential.h  logarithm.h  power.h  hyperbolic.h  circular.h  inverse.h  root.h  error.h  end.h
  *
  *     reals, bits         doubles and unsigned 64-bit integers, one of each per lane
  *     mask                what a comparison of reals or of bits gives; & and | combine masks
  *     LANES, LANE(x, k)   how many lanes, and lane k of a variable
- *     NAME(f)             the name of f in this vocabulary; for plain doubles motus_##f
+ *     NAME(f)             the name of f for this type; for plain doubles motus_##f
  *     REAL(c), BITS(c)    a constant in every lane
  *     AS_BITS, AS_REAL    the same 64 bits, read the other way
- *     FUSED(a, b, c)        a b + c, rounded once
+ *     FUSED(a, b, c)      a b + c, rounded once
  *     SQRT(x)             rounded correctly
  *     SELECT(m, a, b)     a where m holds, else b; both are reals
  *     ANY(m)              whether m holds in some lane

@@ -1,6 +1,6 @@
-/* The end of an instance of the elementary functions: the vocabulary of functions_core.h is taken back.
+/* The end of an instance of the elementary functions: undefines the names of core.h.
  *
- * Invariant: after this file no macro of those texts is left; the functions and types, whose names NAME made, stay.
+ * Invariant: after this file no macro of those texts is defined; the functions and types, whose names NAME made, are.
  */
 #undef reals
 #undef bits

@@ -25,7 +25,7 @@ INLINE hyperbola NAME(hyperbola_of)(reals x)
     y.odd.hi = r;
     y.odd.lo = FUSED(r * z.hi, SERIES_SINH(z.hi, z2, z4), o.r.lo * y.even.hi);
     y.even.lo += FUSED(z2, SERIES_COSH(z.hi, z2, z4), FUSED(r, o.r.lo, REAL(0.5) * z.lo));
-    /* From k = 32 on u is not seen. */
+    /* From k = 32 on u is below the rounding. */
     bits twice = (AS_BITS(o.shifted) & BITS(0xffff)) << 1;
     reals u = SELECT(x > REAL(22.0), REAL(0.0), AS_REAL((BITS(1023) - twice) << 52));
     y.plus = NAME(sum_ordered)(REAL(1.0), u);

@@ -25,7 +25,7 @@ INLINE arc NAME(arc_of)(reals a)
     reals rest = FUSED(a, REAL(-0.5), REAL(0.5));
     reals z = SELECT(y.steep, rest, a * a), z2 = z * z, z4 = z2 * z2, z8 = z4 * z4;
     reals root = SQRT(rest);
-    /* A root of 0 has no error; the addend is too small to be seen beside any other. */
+    /* A root of 0 has no error; the addend is too small to change any other root. */
     reals root_lo = FUSED(-root, root, rest) / FUSED(root, REAL(2.0), REAL(0x1p-1000));
     y.s = SELECT(y.steep, root, a);
     y.s_lo = SELECT(y.steep, root_lo, REAL(0.0));
@@ -100,8 +100,8 @@ INLINE reals NAME(atan2)(reals y, reals x)
     reals a = ABSOLUTE(y), b = ABSOLUTE(x);
     mask steep = a > b, behind = AS_BITS(x) >= SIGN_BIT;
     reals n = SELECT(steep, b, a), d = SELECT(steep, a, b);
-    /* Infinite: the ratio is 1 or 0. Zero: it is 0. Else d is brought between 2^-900 and 2^900,
-     * where n is no subnormal unless the quotient is nothing. */
+    /* Infinite: the ratio is 1 or 0. Zero: it is 0. Else d is scaled to between 2^-900 and 2^900, where n is subnormal
+     * only if the quotient is negligible. */
     n = SELECT(d == INFINITE, SELECT(n == INFINITE, REAL(1.0), REAL(0.0)), n);
     d = SELECT((d == INFINITE) | (d == REAL(0.0)), REAL(1.0), d);
     reals factor = SELECT(d > REAL(0x1p600), REAL(0x1p-200), REAL(0x1p200));

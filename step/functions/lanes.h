@@ -1,6 +1,6 @@
-/* The vocabulary of functions_core.h for vectors of LANES doubles, as GCC and clang have them; the names end in _x
- * and the width: motus_sin_x4. It needs no header of the compiler's: reading <immintrin.h> takes longer than
- * compiling a model.
+/* The names of core.h for vectors of LANES doubles, as GCC and clang have them; functions end in _x and the width:
+ * motus_sin_x4. It includes no header of the compiler's, because reading <immintrin.h> takes longer than compiling a
+ * model.
  *
  * Invariant: an operation on a wide vector is the same operation on each lane. Where LANES is a register of the
  * machine, each is one instruction; wider vectors are made of such registers, and without them the loops below serve.

@@ -1,7 +1,7 @@
-/* The functions of the language that are one operation of the machine, or a few.
+/* The functions of the language that take one operation of the processor, or a few.
  *
- * Invariant: f(NaN) is NaN, and no result depends on the sign of a zero that the mathematics does not have. fmod is
- * exact, so every C library has the same one; all else here is made of operations that are rounded correctly.
+ * Invariant: f(NaN) is NaN, and the sign of a zero changes at most the sign of a zero. fmod is exact, so it is the
+ * same in every C library; all else here consists of operations that are rounded correctly.
  */
 INLINE reals NAME(sqrt)(reals x) { return SQRT(x); }
 INLINE reals NAME(abs)(reals x) { return ABSOLUTE(x); }

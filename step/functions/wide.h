@@ -1,8 +1,8 @@
-/* The elementary functions of vectors of LANES doubles by those of LANES_PART, an instance that is there already:
- * include functions_lanes.h and the texts with LANES = LANES_PART first, then this with both defined.
+/* The elementary functions of vectors of LANES doubles by those of LANES_PART: include lanes.h and the texts with LANES
+ * = LANES_PART first, then this file with both defined.
  *
- * Invariant: lane k is lane k modulo LANES_PART of a part. For vectors wider than a register this is the fast way: a
- * part's function stays in registers, where the texts written over the whole vector would not.
+ * Invariant: lane k is lane k modulo LANES_PART of a part. This is the fast way for vectors wider than a register: the
+ * function of a part stays in registers, and the texts compiled over the wide vector would not.
  */
 #define WIDE_JOIN_(f, n) motus_##f##_x##n
 #define WIDE_JOIN(f, n) WIDE_JOIN_(f, n)
