@@ -140,6 +140,15 @@ static void choose_portable(motus_ensemble *e)
     if (e->system->allocator.allocate) e->threads = 1; /* its hooks are called by one thread at a time */
 }
 
+/* What lanes have refused they would refuse again. */
+static void leave_lanes(motus_ensemble *e)
+{
+    lanes_destroy(e->lanes);
+    e->lanes = NULL;
+    choose_portable(e);
+    snprintf(e->note, sizeof e->note, "whether the method admits a trajectory is examined one trajectory at a time");
+}
+
 /* One trajectory at a time, compiled where that is wanted and possible. */
 static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_error *err)
 {
@@ -288,7 +297,7 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     if (singly && e->lanes) {
         status = lanes_run(e->lanes, count, p.values, p.until, results, stopped, err);
         singly = status == MOTUS_METHOD;
-        if (singly) choose_portable(e);
+        if (singly) leave_lanes(e);
     }
     if (singly) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;

@@ -18,6 +18,7 @@ typedef struct worker {
     motus_system *system;
     vary *vary;
     machine machine;
+    timing timing; /* of the trajectory that it computes */
     stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
     int number;
     pace pace;

@@ -110,6 +110,7 @@ static motus_status travel(group *b, motus_error *err)
 {
     const motus_ensemble *e = b->w->e;
     const timing *t = &e->timing;
+    b->w->timing = *t;
     const machine m = {.name = b->w->machine.name, .problem = &b->problem};
     motus_status status = start(b, err);
     if (status == MOTUS_OK)

@@ -105,7 +105,7 @@ static motus_status travel(single *s, const places *p, size_t k, motus_error *er
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
-    timing own, *t = &own;
+    timing *t = &w->timing;
     motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);
     if (status != MOTUS_OK) return status;

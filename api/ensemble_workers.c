@@ -17,7 +17,7 @@ static int tell(void *ctx, double now)
     const worker *w = ctx;
     motus_ensemble *e = w->e;
     (void)now;
-    const timing *t = &e->timing;
+    const timing *t = &w->timing;
     const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
     const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
     if (w->number == 0 && ensemble_watched(e, done / (double)e->count)) atomic_store(&e->stop, true);

@@ -248,7 +248,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     bool ok = true;
     for (int64_t k = 0; k < n && ok; k++) ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
     motus_status status = MOTUS_OK;
-    const stepper_count then = {steps, evaluations, iterations};
+    const stepper_count then = {.steps = steps, .evaluations = evaluations, .iterations = iterations};
     const double t = stepper_time_saved(r->stepper, then, carry);
     if (!ok || in.at != in.end)
         status = unreadable(err);

@@ -79,7 +79,7 @@ int64_t stepper_steps_before(const stepper *, double t);
  * that was created in the same way, it continues to the same bits. After a shorter last step this is the state before
  * it. */
 typedef struct stepper_count {
-    int64_t steps, evaluations, iterations;
+    int64_t steps, evaluations, iterations, refused;
 } stepper_count;
 size_t stepper_carry(const stepper *);
 stepper_count stepper_save(const stepper *, double *carry);

@@ -37,7 +37,7 @@ stepper_count stepper_get(const stepper *s, double *carry)
     for (int i = 0; i < count; i++) memcpy(carry + (size_t)i * w->nv, list[i], w->nv * sizeof *carry);
     const double time[STEPPER_CLOCKS] = {w->t, w->lost, w->next};
     memcpy(carry + (size_t)count * w->nv, time, clocks(w) * sizeof *time);
-    return (stepper_count){w->n, w->evaluations, w->iterations};
+    return (stepper_count){w->n, w->evaluations, w->iterations, w->refused};
 }
 
 void stepper_put(stepper *s, stepper_count at, const double *carry)
@@ -53,6 +53,7 @@ void stepper_put(stepper *s, stepper_count at, const double *carry)
     w->n = at.steps; /* first: what is carried depends on it */
     w->evaluations = at.evaluations;
     w->iterations = at.iterations;
+    w->refused = at.refused;
     w->fresh = w->stalled = false;
     w->moved = 0;
     const int count = s->body->carry(w, list);

@@ -51,6 +51,9 @@ const char *lanes_refuse(const lanes_def *d)
         return "the model is large: its trajectories are computed one at a time";
     if (d->model->graph->count > OPERATIONS_MAX)
         return "the equations are too long for a compiler: trajectories are computed one at a time";
+    const work plan = stepper_plan(d->problem, d->chosen, NULL);
+    if (plan.solves && (row_adaptive(d->chosen) || (d->chosen->row->gyroscopic && plan.stages > 2)))
+        return "the matrix changes from step to step, or within one: trajectories are computed one at a time";
     uint32_t count;
     const vary_active *active = vary_entries(d->vary, &count);
     for (uint32_t k = 0; k < count; k++)

@@ -100,8 +100,6 @@ static void finish(apart *s, const room *r, size_t lane)
 
 typedef bool due_now(const apart *, const room *, size_t lane);
 
-static bool at_start(const apart *s, const room *r, size_t lane) { return s->l->on_the_way || at_end(s, r, lane); }
-
 /* The observation at the end is not among those on the way. */
 static bool on_the_way(const apart *s, const room *r, size_t lane)
 {
@@ -113,18 +111,18 @@ static bool on_the_way(const apart *s, const room *r, size_t lane)
 static bool without_last(const apart *s, const room *r, size_t lane) { return (void)s, r->seats[lane].last == 0; }
 static bool anyone(const apart *s, const room *r, size_t lane) { return (void)s, (void)r, (void)lane, true; }
 
-/* All lanes that are observed together have been observed before, or none. */
+/* Lanes that are observed together are alike: all at the first step of a leg, or none; all observed before, or none. */
 static void observe(apart *s, const room *r, due_now *due, bool ends)
 {
     lanes_block block = r->block;
     bool any = false;
     block.job.ends = ends;
-    block.job.begins = due == at_start;
     for (size_t i = 0; i < s->lanes; i++) {
         const bool here = occupied(r, i) && !stopped(r, i) && due(s, r, i);
         block.job.where[i] = here;
         if (!here) continue;
         any = true;
+        block.job.begins = steps_of(r, i) == 0;
         block.job.first_observation = r->seats[i].observations == 0;
         r->seats[i].observations++;
         r->seats[i].observed = steps_of(r, i);
@@ -231,8 +229,9 @@ static void begin(apart *s)
     lanes_block_stop(&r->block);
     s->next += count;
     s->waiting = 0;
-    observe(s, r, at_start, false);
+    observe(s, r, at_end, true); /* no step leads to the end */
     finish_where(s, r, at_end);
+    if (s->l->on_the_way) observe(s, r, anyone, false);
     if (s->adaptive) return;
     first_step(r);
     if (s->l->on_the_way) observe(s, r, on_the_way, false);
@@ -334,8 +333,8 @@ void lanes_apart(lanes_item *b)
         else
             run_fixed(&s);
         if (l->on_the_way) observe(&s, &s.rooms[RUNNING], on_the_way, false);
-        if (b->told && lanes_item_tell(b, 0)) return;
-        if (atomic_load(&b->call->cancelled)) return;
+        if (b->told) lanes_item_tell(b, 0);
+        if (lanes_item_over(b)) return;
     }
     end_all(&s);
 }

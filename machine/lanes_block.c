@@ -160,12 +160,18 @@ void lanes_block_observe(const lanes_block *b)
             b->stopped[i] = lanes_block_time(b, i);
 }
 
+/* What is observed may overflow before what the steps carry does: Verlet's velocity is d/h. */
+#define NEAR_OVERFLOW 1e200
+
 bool lanes_block_broke(const lanes_block *b)
 {
     const lanes *l = b->l;
-    if (all_finite(b->job.carry, l->carried * (size_t)l->block)) return false;
-    for (size_t i = 0; i < (size_t)l->block; i++)
-        if (isnan(b->stopped[i]) && !lane_finite(l, b->job.carry, l->carried, i)) return true;
+    const double *carry = b->job.carry;
+    int all = 0;
+    for (size_t k = 0; k < l->carried * (size_t)l->block; k++) all |= !(fabs(carry[k]) < NEAR_OVERFLOW);
+    for (size_t i = 0; all && i < (size_t)l->block; i++)
+        for (size_t k = 0; isnan(b->stopped[i]) && k < l->carried; k++)
+            if (!(fabs(carry[lane_at(l, l->carried, k, i)]) < NEAR_OVERFLOW)) return true;
     return false;
 }
 
@@ -181,13 +187,13 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
     for (int64_t k = 0; k < steps; k++) {
         if (every && (n + k) % every == 0) lanes_block_observe(&b);
         double before[BLOCK_MAX];
-        for (size_t i = 0; i < (size_t)l->block; i++) before[i] = lanes_block_time(&b, i);
+        for (size_t i = 0; l->plan.solves && i < (size_t)l->block; i++) before[i] = lanes_block_time(&b, i);
         if (first)
             l->first(&b.job);
         else
             l->run(&b.job, 1, 0);
         /* an equation that could not be solved stops its lane before the step */
-        for (size_t i = 0; i < (size_t)l->block; i++)
+        for (size_t i = 0; l->plan.solves && i < (size_t)l->block; i++)
             if (isnan(b.stopped[i]) && isnan(b.job.lost[i])) b.stopped[i] = before[i];
         b.job.n++;
         lanes_block_stop(&b);
@@ -210,14 +216,15 @@ void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, 
     if (c->stopped) c->stopped[who] = stopped;
 }
 
-bool lanes_item_tell(lanes_item *b, double more)
+void lanes_item_tell(lanes_item *b, double more)
 {
     lanes_call *c = b->call;
     const lanes_def *d = &b->l->def;
     const double fraction = ((double)atomic_load(&c->done) + more) / (double)c->count;
     if (d->progress(d->context, fraction < 1 ? fraction : 1)) atomic_store(&c->cancelled, true);
-    return atomic_load(&c->cancelled);
 }
+
+bool lanes_item_over(const lanes_item *b) { return atomic_load(&b->call->cancelled) || atomic_load(&b->call->refused); }
 
 /* ---- all of them ---- */
 
@@ -226,8 +233,8 @@ static void run_item(void *ctx, size_t item, int thread)
 {
     lanes_call *c = ctx;
     lanes *l = c->l;
-    if (atomic_load(&c->cancelled) || atomic_load(&c->refused)) return;
     lanes_item b = {.l = l, .call = c, .first = item * c->most};
+    if (lanes_item_over(&b)) return;
     b.count = c->count - b.first < c->most ? c->count - b.first : c->most;
     b.memory = c->memory + (size_t)thread * c->thread_size;
     b.scratch = b.memory + c->blocks * c->block_size;
@@ -268,15 +275,16 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, cons
     const lanes_def *d = &l->def;
     /* To wake threads takes longer than a little work. */
     const bool little = !d->own_clock && (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
-    const size_t threads = little ? 1 : (size_t)d->threads;
+    size_t threads = little ? 1 : (size_t)d->threads;
     lanes_call c = {.l = l, .count = count, .values = values, .until = until, .results = results, .stopped = stopped};
     share_out(&c, threads);
+    if (threads > c.items) threads = c.items;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)
         return fail(err, MOTUS_MEMORY, "no memory for %zu trajectories at once", threads * c.blocks * (size_t)l->block);
     c.memory = memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT / sizeof(double);
     parallel_for((int)threads, c.items, run_item, &c);
     give(d->allocator, memory);
-    if (atomic_load(&c.refused)) return MOTUS_METHOD;
-    return atomic_load(&c.cancelled) ? fail(err, MOTUS_CANCELLED, "cancelled") : MOTUS_OK;
+    if (atomic_load(&c.cancelled)) return fail(err, MOTUS_CANCELLED, "cancelled");
+    return atomic_load(&c.refused) ? MOTUS_METHOD : MOTUS_OK;
 }

@@ -96,7 +96,7 @@ lanes_block lanes_block_of(const lanes_item *, size_t block);
 void lanes_block_save(const lanes_block *);
 /* Lane i of the block is at the start of trajectory who[i]. */
 void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *who);
-/* Whether an infinity or a NaN has appeared in the carry of a lane that has not stopped before. */
+/* Whether the carry of a lane that has not stopped before is infinite, NaN, or so large that what is observed may be. */
 bool lanes_block_broke(const lanes_block *);
 /* Lanes whose carry is not finite stop now. */
 void lanes_block_stop(const lanes_block *);
@@ -109,8 +109,10 @@ void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
 /* The results of one lane, after so many observations, are those of trajectory `who`. */
 void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t who, int64_t observations);
-/* Tells the caller's hook how far all have come, `more` trajectories of this item counted; true: enough. */
-bool lanes_item_tell(lanes_item *, double more);
+/* Tells the caller's hook how far all have come, `more` trajectories of this item counted. */
+void lanes_item_tell(lanes_item *, double more);
+/* Whether the call is cancelled, or refused: then no more is computed. */
+bool lanes_item_over(const lanes_item *);
 
 /* ---- lanes_together.c, lanes_apart.c ---- */
 

@@ -131,8 +131,8 @@ static motus_status whole_steps(together *s)
         b->n += s->steps;
         b->observations += s->every ? s->steps / s->every : 0;
         if (b->n == 1 && b->l->on_the_way && d->every == 1 && (d->whole > 1 || d->last != 0)) observe(s, NULL);
-        if (b->told && lanes_item_tell(b, (double)b->count * (double)b->n / (double)(d->whole + 1)))
-            return MOTUS_CANCELLED;
+        if (b->told) lanes_item_tell(b, (double)b->count * (double)b->n / (double)(d->whole + 1));
+        if (lanes_item_over(b)) return MOTUS_CANCELLED;
     }
     return MOTUS_OK;
 }

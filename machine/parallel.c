@@ -171,8 +171,10 @@ int parallel_processors(void)
 {
 #ifdef __linux__
     cpu_set_t mine;
-    if (!sched_getaffinity(0, sizeof mine, &mine)) return CPU_COUNT(&mine);
+    long count = sched_getaffinity(0, sizeof mine, &mine) ? sysconf(_SC_NPROCESSORS_ONLN) : CPU_COUNT(&mine);
+#else
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
 #endif
-    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    if (count > MOTUS_THREADS_MAX) count = MOTUS_THREADS_MAX;
     return count > 1 ? (int)count : 1;
 }

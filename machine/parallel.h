@@ -25,7 +25,7 @@ void parallel_dismiss(parallel_crew *);
 void parallel_by(parallel_crew *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
                  void *ctx);
 
-/* Processors that may be used; 1 where that is not known. */
+/* Processors that may be used, up to MOTUS_THREADS_MAX; 1 where that is not known. */
 int parallel_processors(void);
 
 #endif

@@ -55,7 +55,7 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     w->solves = m->gyroscopic;
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
     w->fsal = w->waits =
-        !count && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
+        !count && !m->gyroscopic && !m->adaptive && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
     if (!unit) return;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
     for (int i = 0; i <= last; i++) {

@@ -161,7 +161,7 @@ typedef struct work {
 
 /* Whether this is the first step since t0, for which some methods have another formula. */
 #ifndef FIRST
-#define FIRST(w) ((w)->n == 0)
+#define FIRST(w) (!ROW(w, adaptive) && (w)->n == 0)
 #endif
 
 /* y += c z, and the same by compensated addition with the error word e of y: Knuth's two-sum, exact whichever operand

@@ -177,6 +177,7 @@ static void ends(task *t, double start)
         const bool whole = !strcmp(t->method, "verlet-literal");
         const double way = t->step * (whole ? floor(steps) : i == 7 ? 0.3 : steps);
         until[i] = start + (i % 11 == 4 ? -way : way);
+        if (i == 20) until[i] = nextafter(start, INFINITY); /* no step leads there */
     }
     t->names[t->vary_count] = "until";
     t->value_list[t->vary_count] = until;

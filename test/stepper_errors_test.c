@@ -198,8 +198,8 @@ static void refused_requests(void **state)
                      MOTUS_ARGUMENT);
     s = begin(&p, "verlet", 0, 0.1, &zero, &zero);
     const double carry[2] = {1, NAN};
-    assert_int_equal(stepper_load(s, (stepper_count){1, 1, 0}, carry, &err), MOTUS_STATE);
-    assert_int_equal(stepper_load(s, (stepper_count){-1, 1, 0}, carry, &err), MOTUS_STATE);
+    assert_int_equal(stepper_load(s, (stepper_count){1, 1, 0, 0}, carry, &err), MOTUS_STATE);
+    assert_int_equal(stepper_load(s, (stepper_count){-1, 1, 0, 0}, carry, &err), MOTUS_STATE);
     stepper_destroy(s);
 }
 

@@ -58,8 +58,9 @@ int motus_run(work *given, whole steps)
         given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations,
         given->fresh = w->fresh;
 #if FACT_carried
-        given->t = w->t, given->lost = w->lost, given->h = w->h, given->next = w->next, given->refused = w->refused,
+        given->t = w->t, given->lost = w->lost, given->next = w->next, given->refused = w->refused,
         given->stalled = w->stalled;
+        work_scale(given, w->h);
 #endif
 #else
         some = steps;

@@ -228,7 +228,7 @@ static inline void lanes_observe_within(const lanes_job *job, work *w, const com
 static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t group)
 {
     real *own = job->clocks + group * LANES_CLOCKS;
-    own[LANES_N] = w->n;
+    own[LANES_N] = w->n, own[LANES_H] = w->h;
     own[LANES_T] = w->t, own[LANES_LOST] = w->lost, own[LANES_NEXT] = w->next;
 }
 #else
@@ -298,10 +298,11 @@ void motus_lanes_first(const lanes_job *job)
 
 /* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, or cannot
  * go on. */
-#define LANES_DUE(g)                                                                                          \
-    {                                                                                                         \
-        const real *own = job->clocks + g * LANES_CLOCKS;                                                     \
-        due = due | (work_##g.n == own[LANES_STOP]) | (work_##g.t == work_##g.until) | (*host_##g.lost != 0); \
+#define LANES_DUE(g)                                                                              \
+    {                                                                                             \
+        const real *own = job->clocks + g * LANES_CLOCKS;                                         \
+        const truth here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until; \
+        due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0)));    \
     }
 
 /* `steps` more, not the first one, and an observation after every `every` of them; every = 0: none. Adaptive: up to so

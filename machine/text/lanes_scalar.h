@@ -33,7 +33,7 @@ typedef real ticks;
 #define EVERY ALWAYS
 #define CHOOSE_WHERE(where, a, b) PICK(where, a, b)
 #define NONE(where) (!SOME(where))
-#define FIRST(w) ((w)->host->begins)
+#define FIRST(w) (!ROW(w, adaptive) && (w)->host->begins)
 #endif
 #define STOP(w, where, status) (*(w)->host->lost = PICK(where, MANY((double)NAN), *(w)->host->lost))
 #define SPOIL(w, y) solve_spoil(w, y)
