@@ -9,6 +9,7 @@ struct compiled_host {
     real *own, *bound;
     struct solving *solving;         /* of lanes: their linear systems, and which of them */
     real *lost;                      /*   could not be solved */
+    bool factored;                   /* those that are constant are factored */
     int (*run)(work *, whole steps); /* the library's own loop */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

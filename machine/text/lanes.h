@@ -17,12 +17,12 @@ void motus_lanes_table(const lanes_job *job, clock *table, whole count)
 #endif
 }
 
-static inline compiled_host lanes_host(const lanes_job *job, size_t group)
+static inline compiled_host lanes_host(const lanes_job *job, size_t group, bool factored)
 {
     compiled_host host = job->host;
     host.own += group * job->own_size;
     host.bound += group * job->bound_size;
-    solve_begin(&host, job, group);
+    solve_begin(&host, job, group, factored);
     return host;
 }
 
@@ -55,7 +55,7 @@ void motus_lanes_begin(const lanes_job *job)
 {
     const work *w = job->plan;
     for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
+        const compiled_host host = lanes_host(job, group, false);
         real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv);
         lanes_start(job, &host, job->values + group * (size_t)job->value_count);
         EACH(k) x[k] = job->from_x[k] < 0 ? MANY(job->x0[k]) : host.own[job->from_x[k]];
@@ -99,17 +99,20 @@ void motus_lanes_set(const lanes_job *job)
     lanes_load(w, job->carry + group * CARRIED * FACT(w, nv))
 #endif
 
-/* The first step of all, for which some methods have a formula of its own. */
-void motus_lanes_first(const lanes_job *job)
+/* A step after n, from which constant matrices are factored; `keeps`: its end becomes the state. */
+__attribute__((noinline)) static void lanes_step_once(const lanes_job *job, whole n, bool keeps)
 {
     for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
-        LANES_WORKSPACE(w, &host, 0);
+        const compiled_host host = lanes_host(job, group, false);
+        LANES_WORKSPACE(w, &host, n);
         family_step(w);
         time_tick(w, EVERY);
-        lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
+        if (keeps) lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
     }
 }
+
+/* The first step of all, for which some methods have a formula of its own. */
+void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, 0, true); }
 
 /* What is recorded of a state: `all` of it, or what has to be seen on the way. */
 static inline void lanes_keep(const lanes_job *job, const real *x, const real *v, const real *out, clock t, bool first,
@@ -147,7 +150,7 @@ void motus_lanes_look(const lanes_job *job)
 {
     const clock t = job->ends ? job->until : time_now(job->plan);
     for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
+        const compiled_host host = lanes_host(job, group, false);
         LANES_WORKSPACE(w, &host, job->plan->n);
         lanes_see(job, w, &host, t, group);
         if (job->record_count)
@@ -174,7 +177,7 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 #else
 #define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
 #endif
-#define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g);
+#define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g, SOLVE_CONSTANT);
 #define LANES_LOAD(g)                    \
     lanes_place(w, &host_##g, room_##g); \
     lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
@@ -199,6 +202,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
 #if LANES_LOCAL
     w->stride = NUMBERS;
 #endif
+    if (SOLVE_CONSTANT) lanes_step_once(job, job->plan->n, false);
     EVERY_GROUP(LANES_ROOM)
     EVERY_GROUP(LANES_HOST)
     EVERY_GROUP(LANES_LOAD)
