@@ -47,13 +47,15 @@ typedef bool mask;
 #define NONE(good) (!(good))
 #endif
 
-/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, and SOME is
- * whether it holds for any. A step that cannot go on STOPs with its status; of lanes it marks those `where` it
- * cannot, SPOIL makes NaN of what they compute, and the others go on. BLAME says which entry of v it was. */
+/* What a comparison of reals says: yes or no, unless real is a vector; then PICK chooses lane by lane, LARGER(a, b)
+ * is a where a > b, else b, and SOME is whether it holds for any. A step that cannot go on STOPs with its status; of
+ * lanes it marks those `where` it cannot, SPOIL makes NaN of what they compute, and the others go on. BLAME says which
+ * entry of v it was. */
 #ifndef ALWAYS
 typedef bool truth;
 #define ALWAYS true
 #define PICK(where, a, b) ((where) ? (a) : (b))
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define SOME(where) (where)
 #define STOP(w, where, status)      \
     do {                            \

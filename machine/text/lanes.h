@@ -3,7 +3,8 @@
  * Before it stand lanes_start, lanes_bind and lanes_looks, written for the model, and EVERY_GROUP(DO), DO(0) DO(1) …
  * for the groups of a block. Invariant: a lane never sees another; what a block needs between two calls lies in its
  * job. In between a block of a small model lives in registers and the first cache: each group takes its whole step,
- * and the processor overlaps the groups, whose chains of operations are strangers to one another.
+ * and the processor overlaps the groups, whose chains of operations are strangers to one another. Of a row that
+ * iterates the groups take their turns side by side, because a whole step is too long for the processor to look past.
  */
 void motus_lanes_bind(const double *pool, const int64_t *q, double *u) { lanes_bind(pool, q, u); }
 
@@ -177,7 +178,9 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
 #else
 #define LANES_ROOM(g) real *const room_##g = job->room + g * ARRAYS * w->stride;
 #endif
-#define LANES_HOST(g) const compiled_host host_##g = lanes_host(job, g, SOLVE_CONSTANT);
+#define LANES_HOST(g)                                            \
+    compiled_host host_##g = lanes_host(job, g, SOLVE_CONSTANT); \
+    SOLVE_NEAR(host_##g, solving_##g, lost_##g)
 #define LANES_LOAD(g)                    \
     lanes_place(w, &host_##g, room_##g); \
     lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
@@ -185,13 +188,28 @@ static inline void lanes_look_within(const lanes_job *job, work *w, const compil
     lanes_place(w, &host_##g, room_##g); \
     w->fresh = fresh;                    \
     family_step(w);
+/* Of a row that iterates: the turns of all groups side by side, until all equations of all are solved. A group that
+ * is done waits for the others; its lanes keep their values. */
+#define LANES_ITERATION(g) implicit_iteration iteration_##g;
+#define LANES_BEGIN(g)                   \
+    lanes_place(w, &host_##g, room_##g); \
+    w->fresh = fresh;                    \
+    implicit_begin(w, &iteration_##g);
+#define LANES_TURN(g)                    \
+    lanes_place(w, &host_##g, room_##g); \
+    implicit_turn(w, &iteration_##g);
+#define LANES_OPEN(g) | iteration_##g.open
+#define LANES_END(g)                     \
+    lanes_place(w, &host_##g, room_##g); \
+    implicit_end(w, &iteration_##g);
 #define LANES_LOOK(g)                    \
     lanes_place(w, &host_##g, room_##g); \
     w->fresh = false;                    \
     lanes_look_within(job, w, &host_##g, time_now(w), g);
-#define LANES_STORE(g)                   \
-    lanes_place(w, &host_##g, room_##g); \
-    lanes_store(w, job->carry + g * CARRIED * FACT(w, nv));
+#define LANES_STORE(g)                                      \
+    lanes_place(w, &host_##g, room_##g);                    \
+    lanes_store(w, job->carry + g * CARRIED * FACT(w, nv)); \
+    SOLVE_FAR(job, g, lost_##g)
 
 /* `steps` more, not the first one, and a look after every `every` of them; every = 0: none. */
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
@@ -215,7 +233,15 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {
             if (w->n < 1) __builtin_unreachable();
+#if ITERATES
+            EVERY_GROUP(LANES_ITERATION)
+            EVERY_GROUP(LANES_BEGIN)
+            EVERY_GROUP(LANES_TURN) /* by itself: in the first turn all are open, and nothing is compared */
+            while (iteration_0.turns < NEWTON_MAX && SOME(NEVER EVERY_GROUP(LANES_OPEN))) { EVERY_GROUP(LANES_TURN) }
+            EVERY_GROUP(LANES_END)
+#else
             EVERY_GROUP(LANES_STEP)
+#endif
             time_tick(w, EVERY);
             fresh = false;
         }

@@ -19,20 +19,37 @@ static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t
     host->solving = (solving *)(void *)(job->solving + group * SOLVE_SIZE);
     host->lost = job->lost + group;
     host->factored = factored;
-    if (!factored) *host->lost = MANY(0.0);
+    if (!factored) *host->lost = MANY(0.0), host->solving->lossy = false;
 }
+
+/* Within a loop over steps, matrices that change with the state are variables of that loop, from SOLVE_NEAR to
+ * SOLVE_FAR: a compiler keeps them in registers, and knows that no parameter changes with them. */
+#if SOLVE_CONSTANT
+#define SOLVE_NEAR(host, z, lost)
+#define SOLVE_FAR(job, group, lost)
+#else
+#define SOLVE_NEAR(host, z, lost_) \
+    solving z;                     \
+    real lost_ = MANY(0.0);        \
+    z.lossy = false;               \
+    host.solving = &z;             \
+    host.lost = &lost_;
+#define SOLVE_FAR(job, group, lost_) job->lost[group] = lost_;
+#endif
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
 /* Marks lanes; mostly there are none. */
 static inline void solve_lose(const compiled_host *host, truth where)
 {
-    if (SOME(where)) *host->lost = PICK(where, MANY((clock)NAN), *host->lost);
+    if (!SOME(where)) return;
+    *host->lost = PICK(where, MANY((clock)NAN), *host->lost);
+    host->solving->lossy = true;
 }
 static inline void solve_stop(work *w, truth where) { solve_lose(w->host, where); }
 static inline void solve_spoil(work *w, real *y)
 {
     const real lost = *w->host->lost;
-    if (SOME(lost != 0))
+    if (w->host->solving->lossy)
         EACHV(k) y[k] = PICK(lost == 0, y[k], lost);
 }
 
@@ -150,6 +167,7 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
     for (int k = 0; k < FACT_nv; k++) none[k] = MANY(0.0);
     solve_renew(host, host->solving, &all, ax, av, t, none, none);
     *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((clock)INFINITY));
+    host->solving->lossy = SOME(*host->lost != 0);
 }
 
 static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,

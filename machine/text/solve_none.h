@@ -1,5 +1,7 @@
 /* The words of solve.h for lanes of an explicit method. */
 #define SOLVE_CONSTANT 0
 #define solve_begin(host, job, group, factored) ((void)0)
+#define SOLVE_NEAR(host, z, lost)
+#define SOLVE_FAR(job, group, lost)
 #define solve_coefficients(host) ((clock *)0)
 const size_t motus_lanes_solving = 0;
