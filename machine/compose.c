@@ -294,9 +294,10 @@ bool compose(emit *e, const composition *c)
     emit_add(t, "#define DRIVEN %d\n#define TERMS %u\n#define LANES_OF_TIME %d\n", c->model->driven, e->terms, width);
     emit_add(t, "#define AT(array, element) (array)[element]\n");
     if (lanes) {
-        emit_add(
-            t, "#define OWN_CLOCK %d\n#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define EVERY_GROUP(DO)",
-            c->own_clock, c->model->boundary_count > 0, c->groups, c->width);
+        emit_add(t,
+                 "#define OWN_CLOCK %d\n#define BOUNDED %d\n#define GROUPS %d\n#define WIDTH %d\n#define ITERATES %d\n"
+                 "#define EVERY_GROUP(DO)",
+                 c->own_clock, c->model->boundary_count > 0, c->groups, c->width, c->chosen->row->family == IMPLICIT);
         for (int group = 0; group < c->groups; group++) emit_add(t, " DO(%d)", group);
         emit_add(t, "\n");
     }

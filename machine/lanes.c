@@ -12,8 +12,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* operations in one step of all groups; in a function; in a quantity */
+/* operations in one step of all groups; in a function; in a quantity; of an implicit row, unknowns in one turn of all
+ * groups, and those groups */
 enum { STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, OBSERVED_WEIGHT = 30 };
+enum { UNKNOWNS_WRITTEN_MAX = 6, TURNS_WRITTEN_MAX = 4 };
 enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
@@ -23,8 +25,8 @@ enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
-    if (plan->solves && !(plan->row->family == IMPLICIT ? plan->direct : plan->linear))
-        return 1; /* a step of several iterations is long */
+    const bool implicit = plan->row->family == IMPLICIT;
+    if (plan->solves && !implicit && !plan->linear) return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     /* what depends on time alone is in the table, where there is one */
     const unsigned counted = d->own_clock ? DEP_STATE | DEP_TIME : DEP_STATE;
@@ -35,7 +37,12 @@ static int best_groups(const lanes_def *d, const work *plan)
                       : d->sources[k].kind == SOURCE_DEFINITION ? OBSERVED_WEIGHT
                                                                 : 4;
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
-    const size_t groups = STEPS_WRITTEN_MAX / (step + 1);
+    size_t groups = STEPS_WRITTEN_MAX / (step + 1);
+    if (implicit && !plan->direct) { /* a turn for each unknown, which is judged as well */
+        const size_t most = UNKNOWNS_WRITTEN_MAX / ((size_t)plan->solves * d->model->nv);
+        groups = groups < most ? groups : most;
+        groups = groups < TURNS_WRITTEN_MAX ? groups : TURNS_WRITTEN_MAX;
+    }
     return groups < 1 ? 1 : groups > GROUPS_MAX ? GROUPS_MAX : (int)groups;
 }
 

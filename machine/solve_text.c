@@ -172,7 +172,7 @@ bool solve_text_write(emit_text *t, const composition *c)
                  s.n, s.lower, s.upper, s.stages, stepper_fixed(p, &plan));
         emit_add(t,
                  "typedef struct solving { real x[%zu], v[%zu], matrix[%zu], pivot[%zu]; clock a[2 * SOLVE_STAGES * "
-                 "SOLVE_STAGES]; bool factored; } solving;\n\n",
+                 "SOLVE_STAGES]; bool lossy; } solving;\n\n",
                  s.use_x ? s.x.start[s.x.columns] + 1 : 1, s.use_v ? s.v.start[s.v.columns] + 1 : 1,
                  diagonal ? s.n : s.n * s.n, s.n);
         emit_add(

@@ -37,59 +37,73 @@ static inline int implicit_matrix(work *w, truth *where)
     return solve_factor(w, where, s, ax, av, time_now(w) + ch, w->xs, w->vs);
 }
 
-static inline int implicit_iterate(work *w)
+/* The iteration, from one turn to the next. The parts of a step stand alone, so that lanes may take the turns of many
+ * trajectories side by side. */
+typedef struct implicit_iteration {
+    truth open;   /* the equation is not solved yet */
+    real before;  /* newton_judge's */
+    real renewed; /* matrices that were evaluated anew */
+    int turns;
+} implicit_iteration;
+
+/* The first guess of all stages is the acceleration at the start. */
+static inline int implicit_begin(work *w, implicit_iteration *it)
 {
-    enum { PATIENCE = 8, RENEWALS = 6 };
-    const int first = FACT(w, known), s = FACT(w, stages) - first;
     const size_t stride = w->stride;
-    real *K = w->ks + (size_t)first * stride, before = (real){0} - 1, renewed = {0};
-    truth open = ALWAYS;
-    int bad = implicit_matrix(w, &open);
-    for (int m = 0; m < NEWTON_MAX && !bad && SOME(open); m++) {
-        for (int i = 0; i < s; i++) {
-            real *r = w->r + (size_t)i * stride;
-            implicit_stage(w, first + i);
-            bad = accel_in(w, first + i, w->xs, w->vs, r);
-            if (bad) return bad;
-            EACHV(k) r[k] -= K[(size_t)i * stride + k];
-        }
-        solve_back(w, w->r);
-        w->iterations++;
-        for (int i = 0; i < s; i++) newton_correct(w, open, K + (size_t)i * stride, w->r + (size_t)i * stride);
-        const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &before);
-        STOP(w, open & now.lost, m == 0 ? STEP_DIVERGED : STEP_SOLVE);
-        open = open & NOT(now.lost | now.done);
-        if (!SOME(open) || FACT(w, direct)) return STEP_OK;
-        const truth stuck = open & now.stuck, slow = m % PATIENCE == PATIENCE - 1 ? open : stuck,
-                    renew = slow & (renewed < RENEWALS);
-        truth good = renew;
-        renewed = PICK(slow, renewed + 1, renewed);
-        STOP(w, stuck & NOT(renew), STEP_SOLVE);
-        if (SOME(renew)) bad = implicit_matrix(w, &good);
-        open = open & NOT(stuck & NOT(renew)) & (good == renew);
+    *it = (implicit_iteration){.open = ALWAYS, .before = (real){0} - 1};
+    if (!FACT(w, known) || FIRST(w)) { /* newmark's last stage is the next step's first */
+        EACH(k) w->xs[k] = w->x[k];
+        EACHV(k) w->vs[k] = w->v[k];
+        int bad = accel_now(w, w->xs, w->vs, w->a);
+        if (bad) return bad;
     }
-    if (bad) return bad;
-    STOP(w, open, STEP_SOLVE);
-    return STEP_OK;
+    for (int i = 0; i < FACT(w, stages); i++)
+        EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
+    truth regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
+    return implicit_matrix(w, &regular);
 }
 
-static int implicit_step(work *w)
+static inline bool implicit_goes_on(const implicit_iteration *it) { return it->turns < NEWTON_MAX && SOME(it->open); }
+
+static inline int implicit_turn(work *w, implicit_iteration *it)
+{
+    enum { PATIENCE = 8, RENEWALS = 6 };
+    const int first = FACT(w, known), s = FACT(w, stages) - first, turn = it->turns++;
+    const size_t stride = w->stride;
+    real *K = w->ks + (size_t)first * stride;
+    for (int i = 0; i < s; i++) {
+        real *r = w->r + (size_t)i * stride;
+        implicit_stage(w, first + i);
+        int bad = accel_in(w, first + i, w->xs, w->vs, r);
+        if (bad) return bad;
+        EACHV(k) r[k] -= K[(size_t)i * stride + k];
+    }
+    solve_back(w, w->r);
+    w->iterations++;
+    for (int i = 0; i < s; i++) newton_correct(w, it->open, K + (size_t)i * stride, w->r + (size_t)i * stride);
+    const newton_verdict now = newton_judge(w, w->r, K, s, w->v, w->per_h, &it->before);
+    STOP(w, it->open & now.lost, turn == 0 ? STEP_DIVERGED : STEP_SOLVE);
+    it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.lost | now.done);
+    if (!SOME(it->open)) return STEP_OK;
+    const truth stuck = it->open & now.stuck, slow = turn % PATIENCE == PATIENCE - 1 ? it->open : stuck;
+    if (!SOME(slow)) return STEP_OK;
+    const truth renew = slow & (it->renewed < RENEWALS);
+    truth good = renew;
+    it->renewed = PICK(slow, it->renewed + 1, it->renewed);
+    STOP(w, stuck & NOT(renew), STEP_SOLVE);
+    int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;
+    it->open = it->open & NOT(stuck & NOT(renew)) & (good == renew);
+    return bad;
+}
+
+static inline int implicit_end(work *w, const implicit_iteration *it)
 {
     real *restrict x = w->x, *restrict v = w->v, *restrict ex = w->ex, *restrict ev = w->ev;
     const real *restrict K = w->ks;
     const size_t stride = w->stride;
     const clock h = w->h;
     const int s = FACT(w, stages), b = tableau_b(w), bb = tableau_bb(w);
-    if (!FACT(w, known) || FIRST(w)) { /* newmark's last stage is the next step's first */
-        EACH(k) w->xs[k] = x[k];
-        EACHV(k) w->vs[k] = v[k];
-        int bad = accel_now(w, w->xs, w->vs, w->a);
-        if (bad) return bad;
-    }
-    for (int i = 0; i < s; i++)
-        EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
-    int bad = implicit_iterate(w);
-    if (bad) return bad;
+    if (it->turns == NEWTON_MAX) STOP(w, it->open, STEP_SOLVE);
     for (int i = 0; i < s; i++) SPOIL(w, w->ks + (size_t)i * stride);
     TRACE(w, s - 1);
     if (ROW(w, compensated)) {
@@ -102,6 +116,14 @@ static int implicit_step(work *w)
     if (FACT(w, known))
         EACHV(k) w->a[k] = K[(size_t)(s - 1) * stride + k];
     return STEP_OK;
+}
+
+static int implicit_step(work *w)
+{
+    implicit_iteration it;
+    int bad = implicit_begin(w, &it);
+    while (!bad && implicit_goes_on(&it)) bad = implicit_turn(w, &it);
+    return bad ? bad : implicit_end(w, &it);
 }
 #define implicit_accept step_is_final
 #define implicit_observe state_is_complete

@@ -25,7 +25,7 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
         EACHV(k) {
             const real size = ABS(value_i[k]) + ABS(unit * base[k]);
             const truth bad = NOT(FINITE(r_i[k]));
-            largest = PICK(size > largest, size, largest);
+            largest = LARGER(size, largest);
             BLAME(w, bad & NOT(lost), k);
             lost = lost | bad;
         }
@@ -34,16 +34,17 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
         const real *value_i = value + (size_t)i * w->stride, *r_i = r + (size_t)i * w->stride;
         EACHV(k) { /* 0/0 is no larger than anything */
             const real share = ABS(r_i[k]) / (ABS(value_i[k]) + ABS(unit * base[k]) + SQRT_EPSILON * largest);
-            const truth more = share > worst;
-            worst = PICK(more, share, worst);
-            BLAME(w, more & NOT(lost), k);
+            BLAME(w, (share > worst) & NOT(lost), k);
+            worst = LARGER(share, worst);
         }
     }
     const real last = *before;
-    const truth shrinks = worst < last, second = last >= 0;
+    newton_verdict verdict = {.lost = lost, .done = NOT(lost) & (worst == 0), .stuck = NEVER};
     *before = worst;
+    const truth second = last >= 0; /* the first correction has none before it to be compared with */
+    if (!SOME(second)) return verdict;
+    const truth shrinks = worst < last;
     const truth small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
-    newton_verdict verdict = {.lost = lost};
     verdict.done = NOT(lost) & ((worst == 0) | (second & small));
     verdict.stuck = NOT(lost) & NOT(verdict.done) & second & NOT(shrinks);
     return verdict;

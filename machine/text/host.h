@@ -10,6 +10,7 @@ struct compiled_host {
     struct solving *solving;         /* of lanes: their linear systems, and which of them */
     real *lost;                      /*   could not be solved, or go on */
     bool begins;                     /* of lanes with clocks of their own: every lane is at the first step of its leg */
+    bool factored;                   /* of lanes: constant matrices are factored */
     int (*run)(work *, whole steps); /* the library's own loop */
     int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);

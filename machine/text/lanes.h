@@ -5,7 +5,8 @@
  *
  * Invariant: a lane never sees another; what a block needs between two calls lies in its job. In between a block of a
  * small model lives in registers and the first cache: each group takes its whole step, and the processor overlaps the
- * groups, whose chains of operations are strangers to one another.
+ * groups, whose operations are independent. Of a row that iterates the groups take their turns side by side, because a
+ * whole step is too long for the processor to overlap.
  *
  * OWN_CLOCK: every lane has its own time and step. Those of an adaptive row accept their candidates one by one; those
  * of a row of fixed steps take as many steps as the library knows that all of them have to take.
@@ -24,15 +25,15 @@ void motus_lanes_table(const lanes_job *job, double *table, whole count)
 
 /* ---- a group: its host, its workspace, its arrays ---- */
 
-static inline compiled_host lanes_host(const lanes_job *job, size_t group)
+static inline compiled_host lanes_host(const lanes_job *job, size_t group, bool factored)
 {
     compiled_host host = job->host;
     host.own += group * job->own_size;
     host.bound += group * job->bound_size;
     host.begins = job->begins;
     host.lost = job->lost + group;
-    *host.lost = MANY(0.0);
-    solve_begin(&host, job, group);
+    if (!factored) *host.lost = MANY(0.0);
+    solve_begin(&host, job, group, factored);
     return host;
 }
 
@@ -112,7 +113,7 @@ void motus_lanes_begin(const lanes_job *job)
 {
     LANES_SIZES(w);
     for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
+        const compiled_host host = lanes_host(job, group, false);
         real *x = job->x + group * FACT(w, nx), *v = job->v + group * FACT(w, nv);
         lanes_start(job, &host, job->values + group * (size_t)job->value_count);
         EACH(k) x[k] = job->from_x[k] < 0 ? MANY(job->x0[k]) : host.own[job->from_x[k]];
@@ -198,7 +199,7 @@ static inline void lanes_see(const lanes_job *job, work *w, const compiled_host 
 void motus_lanes_observe(const lanes_job *job)
 {
     for (size_t group = 0; group < GROUPS; group++) {
-        const compiled_host host = lanes_host(job, group);
+        const compiled_host host = lanes_host(job, group, false);
         LANES_WORKSPACE(w, &host);
         const clock t = lanes_time(job, w, group);
         lanes_see(job, w, &host, t, group);
@@ -235,39 +236,45 @@ static inline void lanes_store_clock(const work *w, const lanes_job *job, size_t
 #define lanes_store_clock(w, job, group) ((void)0)
 #endif
 
-/* The first step of all, for which some methods have a formula of its own. */
-void motus_lanes_first(const lanes_job *job)
+/* One step, from which constant matrices are factored; `keeps`: its end becomes the state. */
+__attribute__((noinline)) static void lanes_step_once(const lanes_job *job, bool begins, bool keeps)
 {
     for (size_t group = 0; group < GROUPS; group++) {
-        compiled_host host = lanes_host(job, group);
-        host.begins = true;
+        compiled_host host = lanes_host(job, group, false);
+        host.begins = begins;
         LANES_WORKSPACE(w, &host);
         family_step(w);
         time_tick(w, EVERY);
         host.begins = false;
+        if (!keeps) continue;
         lanes_store(w, job->carry + group * CARRIED * FACT(w, nv));
         lanes_store_clock(w, job, group);
     }
 }
 
-#define LANES_HOST(g) compiled_host host_##g = lanes_host(job, g);
+/* The first step of all, for which some methods have a formula of its own. */
+void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true); }
+
+#define LANES_HOST(g)                                            \
+    compiled_host host_##g = lanes_host(job, g, SOLVE_CONSTANT); \
+    SOLVE_NEAR(host_##g, solving_##g, lost_##g)
 #if OWN_CLOCK
 /* Every group has a workspace. */
-#define LANES_BEGIN(g)                           \
+#define LANES_PREPARE(g)                         \
     LANES_NEW(work_##g);                         \
     clock scaled_##g[CONSTANTS + 1];             \
     lanes_clock(&work_##g, job, g, scaled_##g);  \
     host_##g.begins = false;                     \
     lanes_place(&work_##g, &host_##g, room_##g); \
     lanes_load(&work_##g, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_TURN(g) work *const w = &work_##g;
+#define LANES_SELECT(g) work *const w = &work_##g;
 #define LANES_TICK ((void)0)
 #else
 /* All groups share one, whose arrays change. */
-#define LANES_BEGIN(g)                   \
+#define LANES_PREPARE(g)                 \
     lanes_place(w, &host_##g, room_##g); \
     lanes_load(w, job->carry + g * CARRIED * FACT(w, nv));
-#define LANES_TURN(g) lanes_place(w, &host_##g, room_##g);
+#define LANES_SELECT(g) lanes_place(w, &host_##g, room_##g);
 #define LANES_TICK time_tick(w, EVERY)
 #endif
 #if ROW_adaptive
@@ -279,22 +286,44 @@ void motus_lanes_first(const lanes_job *job)
 #endif
 #define LANES_STEP(g)     \
     {                     \
-        LANES_TURN(g)     \
+        LANES_SELECT(g)   \
         w->fresh = fresh; \
         LANES_ADVANCE(w); \
     }
+/* Of a row that iterates: the turns of all groups side by side, until all equations of all are solved. A group that is
+ * done waits for the others; its lanes keep their values. */
+#define LANES_ITERATION(g) implicit_iteration iteration_##g;
+#define LANES_BEGIN(g)                     \
+    {                                      \
+        LANES_SELECT(g)                    \
+        w->fresh = fresh;                  \
+        implicit_begin(w, &iteration_##g); \
+    }
+#define LANES_TURN(g)                     \
+    {                                     \
+        LANES_SELECT(g)                   \
+        implicit_turn(w, &iteration_##g); \
+    }
+#define LANES_OPEN(g) | iteration_##g.open
+#define LANES_END(g)                        \
+    {                                       \
+        LANES_SELECT(g)                     \
+        implicit_end(w, &iteration_##g);    \
+        if (OWN_CLOCK) time_tick(w, EVERY); \
+    }
 #define LANES_OBSERVE(g)                            \
     {                                               \
-        LANES_TURN(g)                               \
+        LANES_SELECT(g)                             \
         w->fresh = false;                           \
         lanes_observe_within(job, w, &host_##g, g); \
     }
 #define LANES_STORE(g)                                          \
     {                                                           \
-        LANES_TURN(g)                                           \
+        LANES_SELECT(g)                                         \
         lanes_store(w, job->carry + g * CARRIED * FACT(w, nv)); \
         lanes_store_clock(w, job, g);                           \
-    }
+    }                                                           \
+    SOLVE_FAR(job, g, lost_##g)
 
 /* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, or cannot
  * go on. */
@@ -310,6 +339,7 @@ void motus_lanes_first(const lanes_job *job)
 __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps, whole every)
 {
     bool fresh = false; /* the accelerations of all groups are known, from an observation */
+    if (SOLVE_CONSTANT) lanes_step_once(job, false, false);
     EVERY_GROUP(LANES_ROOM)
     EVERY_GROUP(LANES_HOST)
 #if OWN_CLOCK
@@ -320,14 +350,22 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
     clock scaled[CONSTANTS + 1];
     lanes_clock(w, job, 0, scaled);
 #endif
-    EVERY_GROUP(LANES_BEGIN)
+    EVERY_GROUP(LANES_PREPARE)
     while (steps > 0) {
         const whole some = every && every < steps ? every : steps;
         for (whole left = some; left > 0; left--) {
 #if !OWN_CLOCK
             if (w->n < 1) __builtin_unreachable();
 #endif
+#if ITERATES
+            EVERY_GROUP(LANES_ITERATION)
+            EVERY_GROUP(LANES_BEGIN)
+            EVERY_GROUP(LANES_TURN) /* by itself: in the first turn all are open, and nothing is compared */
+            while (iteration_0.turns < NEWTON_MAX && SOME(NEVER EVERY_GROUP(LANES_OPEN))) { EVERY_GROUP(LANES_TURN) }
+            EVERY_GROUP(LANES_END)
+#else
             EVERY_GROUP(LANES_STEP)
+#endif
             LANES_TICK;
             fresh = false;
 #if ROW_adaptive

@@ -35,7 +35,18 @@ typedef real ticks;
 #define NONE(where) (!SOME(where))
 #define FIRST(w) (!ROW(w, adaptive) && (w)->host->begins)
 #endif
-#define STOP(w, where, status) (*(w)->host->lost = PICK(where, MANY((double)NAN), *(w)->host->lost))
+#if WIDTH == 8 && defined __AVX512F__ /* one instruction, which takes b where one of them is NaN */
+#ifdef __clang__
+#define LARGER(a, b) __builtin_ia32_maxpd512(a, b, 4)
+#else
+#define LARGER(a, b) __builtin_ia32_maxpd512_mask(a, b, b, (unsigned char)-1, 4)
+#endif
+#elif WIDTH == 4 && defined __AVX__
+#define LARGER(a, b) __builtin_ia32_maxpd256(a, b)
+#else
+#define LARGER(a, b) PICK((a) > (b), a, b)
+#endif
+#define STOP(w, where, status) solve_stop(w, where)
 #define SPOIL(w, y) solve_spoil(w, y)
 #define BLAME(w, where, k) ((void)0)
 #define EACH(k) for (size_t k = 0; k < FACT(w, nx); k++)

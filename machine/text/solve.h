@@ -14,17 +14,42 @@
 #define SOLVE_SIZE ((sizeof(solving) + 63) / 64 * 64)
 const size_t motus_lanes_solving = SOLVE_SIZE;
 
-static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t group)
+static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t group, bool factored)
 {
     host->solving = (solving *)(void *)(job->solving + group * SOLVE_SIZE);
-    host->solving->factored = false;
+    host->factored = factored;
+    if (!factored) host->solving->lossy = false;
 }
+
+/* Within a loop over steps, matrices that change with the state are variables of that loop, from SOLVE_NEAR to
+ * SOLVE_FAR: a compiler keeps them in registers, and knows that no parameter changes with them. */
+#if SOLVE_CONSTANT
+#define SOLVE_NEAR(host, z, lost)
+#define SOLVE_FAR(job, group, lost)
+#else
+#define SOLVE_NEAR(host, z, lost_) \
+    solving z;                     \
+    real lost_ = MANY(0.0);        \
+    z.lossy = false;               \
+    host.solving = &z;             \
+    host.lost = &lost_;
+#define SOLVE_FAR(job, group, lost_) job->lost[group] = lost_;
+#endif
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
+/* Marks lanes; mostly there are none. */
+static inline void solve_lose(const compiled_host *host, truth where)
+{
+    if (!SOME(where)) return;
+    *host->lost = PICK(where, MANY((double)NAN), *host->lost);
+    host->solving->lossy = true;
+}
+static inline void solve_stop(work *w, truth where) { solve_lose(w->host, where); }
 static inline void solve_spoil(work *w, real *y)
 {
     const real lost = *w->host->lost;
-    EACHV(k) y[k] = PICK(lost == 0, y[k], lost);
+    if (w->host->solving->lossy)
+        EACHV(k) y[k] = PICK(lost == 0, y[k], lost);
 }
 
 #define SOLVE_LAST(j, reach) ((j) + (reach) < SOLVE_N - 1 ? (j) + (reach) : SOLVE_N - 1)
@@ -119,10 +144,16 @@ static inline void solve_renew(const compiled_host *host, solving *z, truth *whe
     solve_derive(host, t, x, v, z);
     solve_fill(z, ax, av, m);
     const truth regular = solve_lu(m, pivot), singular = *where & NOT(regular);
-    *host->lost = PICK(singular, MANY((double)NAN), *host->lost);
-    for (int k = 0; k < SOLVE_MATRIX; k++)
-        z->matrix[k] = PICK(*where, PICK(singular, MANY((double)NAN), m[k]), z->matrix[k]);
-    for (int k = 0; k < SOLVE_N && !SOLVE_DIAGONAL; k++) z->pivot[k] = PICK(*where, pivot[k], z->pivot[k]);
+    solve_lose(host, singular);
+    if (SOME(singular))
+        for (int k = 0; k < SOLVE_MATRIX; k++) m[k] = PICK(singular, MANY((double)NAN), m[k]);
+    if (!SOME(NOT(*where))) {
+        for (int k = 0; k < SOLVE_MATRIX; k++) z->matrix[k] = m[k];
+        for (int k = 0; k < SOLVE_N && !SOLVE_DIAGONAL; k++) z->pivot[k] = pivot[k];
+    } else {
+        for (int k = 0; k < SOLVE_MATRIX; k++) z->matrix[k] = PICK(*where, m[k], z->matrix[k]);
+        for (int k = 0; k < SOLVE_N && !SOLVE_DIAGONAL; k++) z->pivot[k] = PICK(*where, pivot[k], z->pivot[k]);
+    }
     *where = *where & regular;
 }
 
@@ -135,7 +166,7 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
     for (int k = 0; k < FACT_nv; k++) none[k] = MANY(0.0);
     solve_renew(host, host->solving, &all, ax, av, t, none, none);
     *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((double)INFINITY));
-    host->solving->factored = true;
+    host->solving->lossy = SOME(*host->lost != 0);
 }
 
 static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
@@ -145,7 +176,7 @@ static inline int solve_factor(work *w, truth *where, int s, const clock *ax, co
     (void)s;
     if (!SOLVE_CONSTANT)
         solve_renew(host, host->solving, where, ax, av, t, x, v);
-    else if (!host->solving->factored)
+    else if (!host->factored)
         solve_once(host, ax, av, t);
     return STEP_OK;
 }

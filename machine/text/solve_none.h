@@ -1,4 +1,8 @@
 /* The words of solve.h for lanes of an explicit method. */
-#define solve_begin(host, job, group) ((void)0)
+#define SOLVE_CONSTANT 0
+#define solve_begin(host, job, group, factored) ((void)0)
+#define SOLVE_NEAR(host, z, lost)
+#define SOLVE_FAR(job, group, lost)
 #define solve_coefficients(host) ((clock *)0)
 const size_t motus_lanes_solving = 0;
+#define solve_stop(w, where) (*(w)->host->lost = PICK(where, MANY((double)NAN), *(w)->host->lost))
