@@ -4,8 +4,8 @@
 
 #include "machine/compiler.h"
 
-/* Loads the shared object of a C text: from the cache if it holds a sound one, else compiled. Returns a handle for dlsym
- * and dlclose; NULL: `why` gives the reason. FAST: compiled with the options of --fast; KEPT: from the cache alone. */
+/* Loads the shared object of a C text: from the cache where it has a sound one, else compiled. Returns a handle for
+ * dlsym and dlclose; NULL: `why` gives the reason. FAST: with the options of --fast; KEPT: from the cache alone. */
 enum { CACHE_FAST = 1, CACHE_KEPT = 2 };
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size);
 /* Removes every entry. Returns how many, or -1. */
