@@ -11,8 +11,8 @@
 
 #include <stdatomic.h>
 
-/* A worker is the state of one thread. Each has a system of its own, because a model's numbers change from trajectory to
- * trajectory and observing writes to memory of the system. The first worker uses the ensemble's, the others clones. */
+/* A worker is the state of one thread. Each has a system of its own, because a model's numbers change from trajectory
+ * to trajectory and observing writes to memory of the system: the first the ensemble's, the others clones. */
 typedef struct worker {
     motus_ensemble *e;
     motus_system *system;
