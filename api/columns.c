@@ -164,7 +164,7 @@ static motus_status evaluate(motus_system *s, const column_range *g, double t, d
     case MOTUS_COLUMN_QUANTITY:
     case MOTUS_COLUMN_INVARIANT:
         if (!s->model) return ask(s, g->kind, t, x, v, err);
-        if (!interpreter_look(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
+        if (!interpreter_observe(s->interpreter, &s->definitions[g->item], t, x, v, s->observed))
             return fail(err, MOTUS_MEMORY, "no memory to compute %s", definition(s, g)->name);
         return MOTUS_OK;
     case MOTUS_COLUMN_EXACT:

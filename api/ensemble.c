@@ -1,4 +1,4 @@
-/* Ensembles. See ensemble.h. */
+/* Ensembles: the public calls. See ensemble.h. */
 #include "api/ensemble.h"
 
 #include "api/choice.h"
@@ -14,12 +14,12 @@ _Static_assert((int)REDUCE_MEAN == (int)MOTUS_REDUCE_MEAN && (int)REDUCE_TIME_OF
 
 enum { ENSEMBLE_LANES_MAX = 64 };
 
-int ensemble_watched(void *context, double fraction)
+int ensemble_report(void *context, double fraction)
 {
     motus_ensemble *e = context;
     const double t = e->progress ? pace_now() : 0;
-    if (!e->progress || t - e->told < 0.01) return 0;
-    e->told = t;
+    if (!e->progress || t - e->reported < 0.01) return 0;
+    e->reported = t;
     return e->progress(e->context, fraction);
 }
 
@@ -63,10 +63,10 @@ static motus_status find_places(motus_ensemble *e, const motus_ensemble_def *d, 
     return MOTUS_OK;
 }
 
-/* Trajectories take different numbers of steps. */
+/* Whether trajectories take different numbers of steps. */
 static bool steps_differ(const motus_ensemble *e) { return e->until != SIZE_MAX || row_adaptive(&e->chosen); }
 
-/* A recorded column as lanes see it; false: they cannot. */
+/* A recorded column as a source of lanes; false: lanes cannot record it. */
 static bool source_of(const motus_system *s, const motus_record *r, lanes_source *out)
 {
     motus_column c = motus_default_column();
@@ -92,7 +92,7 @@ static bool source_of(const motus_system *s, const motus_record *r, lanes_source
     }
 }
 
-/* In lanes, where that can be done; else e->lanes stays NULL and e->note says why. */
+/* Chooses lanes where they can compute the ensemble; else e->lanes stays NULL and e->note says why. */
 static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, motus_error *err)
 {
     motus_system *s = e->system;
@@ -122,7 +122,7 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
                            .threads = e->threads,
                            .fast = d->fast != 0,
                            .allocator = &e->allocator,
-                           .progress = e->progress ? ensemble_watched : NULL,
+                           .progress = e->progress ? ensemble_report : NULL,
                            .context = e};
     const char *why = lanes_refuse(&def);
     if (why) {
@@ -133,11 +133,11 @@ static motus_status try_lanes(motus_ensemble *e, const motus_ensemble_def *d, mo
     return status == MOTUS_TOOL ? MOTUS_OK : status;
 }
 
-/* One trajectory at a time, by the interpreter. */
+/* Chooses one trajectory at a time, by the interpreter. */
 static void choose_portable(motus_ensemble *e)
 {
     e->machine = e->system->machine;
-    if (e->system->allocator.allocate) e->threads = 1; /* its hooks are called by one thread at a time */
+    if (e->system->allocator.allocate) e->threads = 1; /* only one thread at a time may call its hooks */
 }
 
 /* What lanes have refused they would refuse again. */
@@ -149,7 +149,7 @@ static void leave_lanes(motus_ensemble *e)
     snprintf(e->note, sizeof e->note, "whether the method admits a trajectory is examined one trajectory at a time");
 }
 
-/* One trajectory at a time, compiled where that is wanted and possible. */
+/* Chooses one trajectory at a time, compiled where that is wanted and possible. */
 static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_error *err)
 {
     motus_system *s = e->system;
@@ -171,7 +171,7 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     const motus_method *card;
     motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
-    /* where ends vary, only what all trajectories share is known now */
+    /* where ends vary, each trajectory gets its own timing later */
     const double until = e->until == SIZE_MAX ? d->until : s->start;
     if (status == MOTUS_OK) status = run_timing(s, &e->chosen, d->step, until, NAN, &e->timing, err);
     if (status == MOTUS_OK && s->model)
@@ -242,7 +242,7 @@ motus_status ensemble_timing(const motus_ensemble *e, const places *p, size_t k,
     return p->until ? run_timing(e->system, &e->chosen, e->step, p->until[k], NAN, t, err) : MOTUS_OK;
 }
 
-/* All ends are right, or nothing is computed. */
+/* Checks all ends before anything is computed. */
 static motus_status check_ends(const motus_ensemble *e, const places *p, size_t count, motus_error *err)
 {
     for (size_t k = 0; p->until && k < count; k++) {
@@ -257,7 +257,7 @@ static motus_status check_ends(const motus_ensemble *e, const places *p, size_t 
     return MOTUS_OK;
 }
 
-/* Where the values of a call come from. */
+/* Finds the arrays of values of a call, and that of the ends among them. */
 static motus_status find_values(motus_ensemble *e, const double *const *values, places *p, motus_error *err)
 {
     if (!e || (e->given && !values)) return fail(err, MOTUS_ARGUMENT, "an ensemble and values are needed");
@@ -293,13 +293,13 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     for (size_t r = 0; r < e->record_count; r++) p.observes |= e->records[r].how != MOTUS_REDUCE_FINAL;
     e->count = count;
     status = check_ends(e, &p, count, err);
-    bool singly = status == MOTUS_OK;
-    if (singly && e->lanes) {
+    bool by_workers = status == MOTUS_OK;
+    if (by_workers && e->lanes) {
         status = lanes_run(e->lanes, count, p.values, p.until, results, stopped, err);
-        singly = status == MOTUS_METHOD;
-        if (singly) leave_lanes(e);
+        by_workers = status == MOTUS_METHOD;
+        if (by_workers) leave_lanes(e);
     }
-    if (singly) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
+    if (by_workers) status = e->block > 0 ? ensemble_blocks(e, &p, err) : ensemble_singly(e, &p, err);
     e->seconds += pace_now() - began;
     modes_leave(m);
     return status;
@@ -311,7 +311,7 @@ void motus_ensemble_destroy(motus_ensemble *e)
     motus_allocator a = e->allocator;
     motus_system_hold(e->system, false);
     lanes_destroy(e->lanes);
-    ensemble_dismiss(e);
+    ensemble_workers_destroy(e);
     give(&a, e->places);
     give(&a, e->records);
     give(&a, (void *)e->values);

@@ -1,7 +1,7 @@
-/* An ensemble: what varies, what is recorded, and one of three ways to compute it: in lanes; blocks of a callback;
- * one trajectory at a time.
+/* An ensemble: which numbers vary, which are recorded, and one of three ways to compute the trajectories: in lanes, in
+ * blocks of a callback, or one at a time.
  *
- * Invariant: whoever computes a trajectory, on whichever thread, gives it the bits of a run with its values.
+ * Invariant: a trajectory has the bits of a run with its values, in each of these ways and on every thread.
  */
 #ifndef API_ENSEMBLE_H
 #define API_ENSEMBLE_H
@@ -11,19 +11,19 @@
 
 #include <stdatomic.h>
 
-/* What a thread has of its own. The first one's system is the ensemble's, the others' are read again: a model's
- * numbers change from trajectory to trajectory, and to look at a state takes scratch memory. */
+/* A worker is the state of one thread. Each has a system of its own, because a model's numbers change from trajectory
+ * to trajectory and observing writes to memory of the system: the first the ensemble's, the others clones. */
 typedef struct worker {
     motus_ensemble *e;
     motus_system *system;
     vary *vary;
     machine machine;
-    timing timing; /* of the trajectory that it computes */
+    timing timing;    /* of the trajectory that it computes */
     stepper *stepper; /* made for the first trajectory, and started again for the others; NULL */
     int number;
     pace pace;
-    size_t trajectories; /* that are computed at present */
-    size_t failed_at;    /* item, where status is not OK */
+    size_t trajectories; /* of the present item */
+    size_t failed_at;    /* the item that failed, where status is not OK */
     motus_status status;
     motus_error why;
 } worker;
@@ -35,56 +35,56 @@ struct motus_ensemble {
     timing timing;
     int64_t every;
     size_t vary_count, record_count; /* vary_count: without `until` */
-    size_t *places;                  /* of the pool; of a callback: of x, then v */
-    const double **values;           /* room for the values at them */
-    size_t given;                    /* arrays of values that a run is given: `until` among them */
-    size_t until;                    /* its place among them where it varies, or SIZE_MAX */
-    double step;                     /* as asked for; NaN: the model's */
+    size_t *places;                  /* of the numbers that vary: in the pool; of a callback: in x, then v */
+    const double **values;           /* of the present run, at these places */
+    size_t given;                    /* arrays of values that a run is given, `until` included */
+    size_t until;                    /* its index among them where it varies, or SIZE_MAX */
+    double step;                     /* of the definition; NaN: the model's */
     motus_record *records;
     vary *vary;
-    lanes *lanes;    /* NULL: one trajectory after the other */
-    machine machine; /* then, of the first worker */
-    /* `threads` of them, made when they are first needed; those not made yet are zero */
+    lanes *lanes;    /* NULL: workers compute the trajectories */
+    machine machine; /* of the first worker */
+    /* `threads` of them, each prepared when it is first needed; until then all its bytes are 0 */
     worker *workers;
-    size_t count, block; /* trajectories of this run; of a block, where a callback takes them so; else 0 */
-    atomic_size_t done;
-    atomic_bool stop; /* somebody failed, or nobody wants the rest */
+    size_t count, block; /* trajectories of the present run; of a block of a callback, or 0 */
+    atomic_size_t done;  /* trajectories */
+    atomic_bool stop;    /* an item failed, or the run was cancelled */
     int threads;
     double seconds;
     int (*progress)(void *context, double fraction);
     void *context;
-    double told; /* when `progress` was last called */
+    double reported; /* when `progress` was last called */
     char note[MOTUS_TEXT_MAX];
 };
 
-/* Tells the one who watches, not more often than every 10 ms; other than 0: cancel. The context is the ensemble. */
-int ensemble_watched(void *context, double fraction);
-/* What varies: its place in the pool of a model, or in x and then v of a callback. */
+/* Calls the progress hook, at most every 10 ms; other than 0: cancel. The context is the ensemble. */
+int ensemble_report(void *context, double fraction);
+/* The place of a number that varies: in the pool of a model, or in x and then v of a callback. */
 motus_status ensemble_place(const motus_system *, const char *name, size_t *place, motus_error *);
 
-/* What a run is given: where values come from and results go. */
+/* The arguments of a run: values, and room for results. */
 typedef struct places {
     const double *const *values; /* at e->places */
     const double *until;         /* where it varies; else NULL */
     double *const *results, *stopped;
-    bool observes; /* on the way, not at the end alone */
+    bool observes; /* also before the end */
 } places;
 /* The timing of trajectory k. */
 motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);
 
-/* ensemble_single.c: one trajectory after the other. ensemble_block.c: blocks of a callback. */
+/* ensemble_single.c: one trajectory at a time. ensemble_block.c: blocks of a callback. */
 motus_status ensemble_singly(motus_ensemble *, const places *, motus_error *);
 motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
 
-/* How many of a callback's trajectories go side by side by this method. */
+/* How many trajectories a block of a callback has with this method. */
 size_t ensemble_block_size(const motus_system *, const chosen *);
 
-/* ensemble_workers.c: one(worker, item, ctx) for every item by the ensemble's threads. The first item that fails
- * decides. */
+/* ensemble_workers.c: calls one(worker, item, ctx) for every item, by the ensemble's threads. Where items fail, returns
+ * the status of the one with the lowest number. */
 motus_status ensemble_each(motus_ensemble *, size_t items, motus_status (*one)(worker *, size_t item, void *ctx),
                            void *ctx, motus_error *);
-/* As stepper_advance, of the worker's stepper; where somebody watches, in pieces of some milliseconds. */
+/* As stepper_advance, of the worker's stepper; with a progress hook, in pieces of some milliseconds. */
 motus_status ensemble_advance(worker *, stepper_limit, stepper_stop *, motus_error *);
-void ensemble_dismiss(motus_ensemble *); /* the workers */
+void ensemble_workers_destroy(motus_ensemble *);
 
 #endif

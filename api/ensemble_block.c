@@ -1,7 +1,7 @@
 /* Blocks of a callback: several trajectories side by side, as one problem of the library's stepper. See ensemble.h.
  *
- * Invariant: an explicit method does the same to every number, so number k of trajectory j is what it would be alone.
- * A block in which one is lost is computed again in halves, down to that one.
+ * Invariant: an explicit method applies the same operations to every number, so a trajectory has the bits that it has
+ * alone. Where a trajectory of a block stops, the block is computed again in halves, down to that trajectory.
  */
 #include "api/ensemble.h"
 
@@ -11,31 +11,31 @@
 #include <math.h>
 #include <string.h>
 
-/* of one array: all arrays of a method should stay in the fastest cache */
+/* numbers in one array, so that all arrays of a method fit the first-level cache; trajectories in a block */
 enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };
 
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
-    /* What solves an equation solves one trajectory's. */
+    /* A method that solves equations solves those of one trajectory. */
     if (c->row->family == EXACT || stepper_plan(&s->problem, c, NULL).solves) return 1;
     const size_t fits = BLOCK_NUMBERS / s->problem.nv;
     return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
 }
 
-typedef struct group {
+typedef struct trajectory_block {
     worker *w;
     const places *places;
     calling calling;
     problem problem;
     size_t first, count;
-    double *x, *v, *kept, *one_x, *one_v; /* the last two: a single trajectory, to look at */
+    double *x, *v, *kept, *one_x, *one_v; /* one_x, one_v: the observed state of one trajectory */
     int64_t observations;
-} group;
+} trajectory_block;
 
-/* ---- looking ---- */
+/* ---- observations ---- */
 
-/* A number of every trajectory: a row of the state, or NULL where it must be computed one by one. */
-static const double *row_of(const group *b, size_t column)
+/* The numbers of a column in every trajectory: a row of the state, or NULL where they must be computed. */
+static const double *row_of(const trajectory_block *b, size_t column)
 {
     const motus_system *s = b->w->system;
     motus_column c = motus_default_column();
@@ -46,7 +46,7 @@ static const double *row_of(const group *b, size_t column)
     return (of_v ? b->v : b->x) + system_number(s, column - 1, of_v) * b->count;
 }
 
-static motus_status computed(group *b, size_t column, size_t j, double t, double *out, motus_error *err)
+static motus_status compute(trajectory_block *b, size_t column, size_t j, double t, double *out, motus_error *err)
 {
     const problem *p = &b->w->system->problem;
     for (size_t k = 0; k < p->nv; k++) {
@@ -58,7 +58,7 @@ static motus_status computed(group *b, size_t column, size_t j, double t, double
 
 static motus_status observe(void *ctx, motus_error *err)
 {
-    group *b = ctx;
+    trajectory_block *b = ctx;
     const motus_ensemble *e = b->w->e;
     const double t = stepper_time(b->w->stepper);
     motus_status status = stepper_sync(b->w->stepper, b->x, b->v, NULL, err);
@@ -67,7 +67,7 @@ static motus_status observe(void *ctx, motus_error *err)
         double *kept = b->kept + r * b->count * REDUCE_KEPT;
         for (size_t j = 0; j < b->count && status == MOTUS_OK; j++, kept += REDUCE_KEPT) {
             double now = numbers ? numbers[j] : t;
-            if (!numbers && e->records[r].column) status = computed(b, e->records[r].column, j, t, &now, err);
+            if (!numbers && e->records[r].column) status = compute(b, e->records[r].column, j, t, &now, err);
             if (b->observations == 0)
                 reduce_first(kept, now, t);
             else
@@ -80,7 +80,7 @@ static motus_status observe(void *ctx, motus_error *err)
 
 /* ---- a block ---- */
 
-static motus_status start(group *b, motus_error *err)
+static motus_status start(trajectory_block *b, motus_error *err)
 {
     const motus_ensemble *e = b->w->e;
     const motus_system *s = b->w->system;
@@ -102,11 +102,11 @@ static motus_status start(group *b, motus_error *err)
 
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    group *b = ctx;
+    trajectory_block *b = ctx;
     return ensemble_advance(b->w, limit, why, err);
 }
 
-static motus_status travel(group *b, motus_error *err)
+static motus_status run(trajectory_block *b, motus_error *err)
 {
     const motus_ensemble *e = b->w->e;
     const timing *t = &e->timing;
@@ -126,45 +126,46 @@ static motus_status travel(group *b, motus_error *err)
     return status;
 }
 
-static void write_down(const group *b, bool lost, double when)
+static void write_results(const trajectory_block *b, bool stopped, double when)
 {
     const motus_ensemble *e = b->w->e;
     for (size_t r = 0; r < e->record_count; r++)
         for (size_t j = 0; j < b->count; j++)
-            b->places->results[r][b->first + j] = lost ? NAN
-                                                       : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT,
-                                                                     (int)e->records[r].how, (double)b->observations);
-    for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = lost ? when : NAN;
+            b->places->results[r][b->first + j] = stopped
+                                                      ? NAN
+                                                      : reduce_last(b->kept + (r * b->count + j) * REDUCE_KEPT,
+                                                                    (int)e->records[r].how, (double)b->observations);
+    for (size_t j = 0; b->places->stopped && j < b->count; j++) b->places->stopped[b->first + j] = stopped ? when : NAN;
 }
 
-/* `memory` is as large as the whole block wants; a half uses less of it. */
-static motus_status part(worker *w, const places *p, size_t first, size_t count, double *memory)
+/* Computes a block, or its halves where a trajectory stops. `memory` suffices for the whole block. */
+static motus_status run_halving(worker *w, const places *p, size_t first, size_t count, double *memory)
 {
     const motus_ensemble *e = w->e;
     const size_t nx = w->system->problem.nx, nv = w->system->problem.nv;
-    group b = {.w = w,
-               .places = p,
-               .first = first,
-               .count = count,
-               .one_x = memory,
-               .one_v = memory + nx,
-               .x = memory + nx + nv};
+    trajectory_block b = {.w = w,
+                          .places = p,
+                          .first = first,
+                          .count = count,
+                          .one_x = memory,
+                          .one_v = memory + nx,
+                          .x = memory + nx + nv};
     b.v = b.x + nx * count;
     b.kept = b.v + nv * count;
     b.calling = (calling){.def = &w->system->callback, .first = first, .count = count};
     b.problem = callback_block(&b.calling, &w->system->problem);
     w->trajectories = count;
-    motus_status status = travel(&b, &w->why);
-    const bool lost =
+    motus_status status = run(&b, &w->why);
+    const bool stopped =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
-    if (status != MOTUS_OK && !lost) return status;
-    if (lost && count > 1) {
-        status = part(w, p, first, count / 2, memory);
-        return status == MOTUS_OK ? part(w, p, first + count / 2, count - count / 2, memory) : status;
+    if (status != MOTUS_OK && !stopped) return status;
+    if (stopped && count > 1) {
+        status = run_halving(w, p, first, count / 2, memory);
+        return status == MOTUS_OK ? run_halving(w, p, first + count / 2, count - count / 2, memory) : status;
     }
-    write_down(&b, lost, w->why.time);
+    write_results(&b, stopped, w->why.time);
     atomic_fetch_add(&w->e->done, count);
-    if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
+    if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count))
         return MOTUS_CANCELLED;
     return MOTUS_OK;
 }
@@ -176,7 +177,7 @@ static motus_status one_block(worker *w, size_t item, void *ctx)
     const size_t numbers = w->system->problem.nx + w->system->problem.nv;
     double *memory = take(&e->allocator, numbers + (numbers + e->record_count * REDUCE_KEPT) * count, sizeof *memory);
     if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for %zu trajectories", count);
-    motus_status status = part(w, ctx, first, count, memory);
+    motus_status status = run_halving(w, ctx, first, count, memory);
     give(&e->allocator, memory);
     return status;
 }

@@ -1,7 +1,7 @@
-/* One trajectory after the other: what every method and every machine can do. See ensemble.h.
+/* One trajectory at a time, by any method and machine. See ensemble.h.
  *
- * Invariant: a trajectory is what motus_run would compute with these values; it is looked at where lanes would look.
- * Afterwards the system is what it was: its own numbers are back.
+ * Invariant: a trajectory has the bits of a run with its values, and is observed at the same steps as in lanes.
+ * Afterwards the system has its own numbers again.
  */
 #include "api/ensemble.h"
 
@@ -11,16 +11,16 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct single {
+typedef struct trajectory {
     worker *w;
     double *x, *v, *kept, *now;
     size_t *columns;
     int64_t observations;
-} single;
+} trajectory;
 
 static motus_status observe(void *ctx, motus_error *err)
 {
-    single *s = ctx;
+    trajectory *s = ctx;
     const motus_ensemble *e = s->w->e;
     const double t = stepper_time(s->w->stepper);
     motus_status status = stepper_sync(s->w->stepper, s->x, s->v, NULL, err);
@@ -35,7 +35,7 @@ static motus_status observe(void *ctx, motus_error *err)
     return status;
 }
 
-/* ---- a model's own numbers, which trajectories replace by theirs ---- */
+/* ---- the model's own numbers, which the values of trajectories replace ---- */
 
 static size_t numbers_kept(const motus_ensemble *e)
 {
@@ -51,7 +51,7 @@ static void keep_numbers(const motus_ensemble *e, double *room)
     memcpy(room + m->pool_count + m->nx, m->v0, m->nv * sizeof *room);
 }
 
-/* What is bound a second time needs no memory, so this does not fail. */
+/* Cannot fail, because binding for a second time takes no memory. */
 static void put_back(motus_ensemble *e, const double *room)
 {
     model *m = e->system->model;
@@ -65,8 +65,8 @@ static void put_back(motus_ensemble *e, const double *room)
 
 /* ---- a trajectory ---- */
 
-/* The values of trajectory k, and the state that follows. */
-static motus_status start(single *s, const double *const *values, size_t k, motus_error *err)
+/* Sets the values of trajectory k and computes its initial state. */
+static motus_status start(trajectory *s, const double *const *values, size_t k, motus_error *err)
 {
     motus_ensemble *e = s->w->e;
     motus_system *y = s->w->system;
@@ -75,7 +75,7 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
         if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
         compiled_rebind(y->compiled);
-        /* which velocity terms do no work is seen at states, for these parameters */
+        /* whether the velocity term does no work is sampled for these parameters */
         if (e->chosen.row->gyroscopic) {
             y->sampled_gyroscopic = false;
             if (!system_sample_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
@@ -97,11 +97,11 @@ static motus_status start(single *s, const double *const *values, size_t k, motu
 
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
-    single *s = ctx;
+    trajectory *s = ctx;
     return ensemble_advance(s->w, limit, why, err);
 }
 
-static motus_status travel(single *s, const places *p, size_t k, motus_error *err)
+static motus_status run(trajectory *s, const places *p, size_t k, motus_error *err)
 {
     worker *w = s->w;
     const motus_ensemble *e = w->e;
@@ -117,7 +117,7 @@ static motus_status travel(single *s, const places *p, size_t k, motus_error *er
     return status == MOTUS_OK ? course_run(&course, err) : status;
 }
 
-static motus_status trajectory(worker *w, size_t k, void *ctx)
+static motus_status one_trajectory(worker *w, size_t k, void *ctx)
 {
     const motus_ensemble *e = w->e;
     const places *p = ctx;
@@ -125,26 +125,26 @@ static motus_status trajectory(worker *w, size_t k, void *ctx)
                  room = records > e->vary_count ? records : e->vary_count;
     double *memory = take(&e->allocator, nx + nv + records * REDUCE_KEPT + room + records, sizeof(double));
     if (!memory) return fail(&w->why, MOTUS_MEMORY, "no memory for a trajectory");
-    single s = {.w = w,
-                .x = memory,
-                .v = memory + nx,
-                .kept = memory + nx + nv,
-                .now = memory + nx + nv + records * REDUCE_KEPT};
+    trajectory s = {.w = w,
+                    .x = memory,
+                    .v = memory + nx,
+                    .kept = memory + nx + nv,
+                    .now = memory + nx + nv + records * REDUCE_KEPT};
     s.columns = (size_t *)(void *)(s.now + room);
     _Static_assert(sizeof(size_t) <= sizeof(double), "columns lie where doubles would");
     for (size_t r = 0; r < e->record_count; r++) s.columns[r] = e->records[r].column;
     w->trajectories = 1;
-    motus_status status = travel(&s, p, k, &w->why);
-    const bool lost =
+    motus_status status = run(&s, p, k, &w->why);
+    const bool stopped =
         status == MOTUS_DIVERGED || status == MOTUS_SOLVE || (status == MOTUS_CALLBACK && w->why.returned > 0);
-    if (lost || status == MOTUS_OK) {
+    if (stopped || status == MOTUS_OK) {
         for (size_t r = 0; r < e->record_count; r++)
             p->results[r][k] =
-                lost ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.observations);
-        if (p->stopped) p->stopped[k] = lost ? w->why.time : NAN;
+                stopped ? NAN : reduce_last(s.kept + r * REDUCE_KEPT, (int)e->records[r].how, (double)s.observations);
+        if (p->stopped) p->stopped[k] = stopped ? w->why.time : NAN;
         status = MOTUS_OK;
         atomic_fetch_add(&w->e->done, 1);
-        if (w->number == 0 && ensemble_watched(w->e, (double)atomic_load(&e->done) / (double)e->count))
+        if (w->number == 0 && ensemble_report(w->e, (double)atomic_load(&e->done) / (double)e->count))
             status = MOTUS_CANCELLED;
     }
     give(&e->allocator, memory);
@@ -157,7 +157,7 @@ motus_status ensemble_singly(motus_ensemble *e, const places *p, motus_error *er
     double *own = kept ? take(&e->allocator, kept, sizeof *own) : NULL;
     if (kept && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     if (kept) keep_numbers(e, own);
-    motus_status status = ensemble_each(e, e->count, trajectory, (void *)p, err);
+    motus_status status = ensemble_each(e, e->count, one_trajectory, (void *)p, err);
     if (kept) put_back(e, own);
     give(&e->allocator, own);
     return status;

@@ -1,7 +1,7 @@
-/* The threads of an ensemble that is not computed in lanes. See ensemble.h.
+/* The workers of an ensemble that is not computed in lanes. See ensemble.h.
  *
- * Invariant: workers share nothing that changes but two counters, so which of them computes an item is of no
- * consequence.
+ * Invariant: workers share no data that changes but `done` and `stop`, so the result of an item does not depend on
+ * which worker computes it.
  */
 #include "api/ensemble.h"
 
@@ -9,10 +9,10 @@
 
 #include "machine/parallel.h"
 
-/* ---- who works ---- */
+/* ---- workers ---- */
 
-/* Only the caller's own thread tells; whoever finds that enough is enough stops all. */
-static int tell(void *ctx, double now)
+/* Between two pieces of work: the caller's own thread calls the progress hook; every thread tests `stop`. */
+static int report(void *ctx, double now)
 {
     const worker *w = ctx;
     motus_ensemble *e = w->e;
@@ -20,11 +20,11 @@ static int tell(void *ctx, double now)
     const timing *t = &w->timing;
     const double part = t->until != t->t0 ? (stepper_time(w->stepper) - t->t0) / (t->until - t->t0) : 1;
     const double done = (double)atomic_load(&e->done) + (double)w->trajectories * part;
-    if (w->number == 0 && ensemble_watched(e, done / (double)e->count)) atomic_store(&e->stop, true);
+    if (w->number == 0 && ensemble_report(e, done / (double)e->count)) atomic_store(&e->stop, true);
     return atomic_load(&e->stop);
 }
 
-static motus_status hire(motus_ensemble *e, int number, motus_error *err)
+static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *err)
 {
     worker *w = &e->workers[number];
     motus_system *s = e->system;
@@ -50,11 +50,11 @@ static motus_status hire(motus_ensemble *e, int number, motus_error *err)
     w->e = e;
     w->system = s;
     w->number = number;
-    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? tell : NULL, .ctx = w};
+    w->pace = (pace){.seconds = 0.005, .tell = e->progress ? report : NULL, .ctx = w};
     return MOTUS_OK;
 }
 
-void ensemble_dismiss(motus_ensemble *e)
+void ensemble_workers_destroy(motus_ensemble *e)
 {
     for (int i = 0; e->workers && i < e->threads; i++) {
         stepper_destroy(e->workers[i].stepper);
@@ -64,17 +64,17 @@ void ensemble_dismiss(motus_ensemble *e)
     e->workers = NULL;
 }
 
-/* ---- work ---- */
+/* ---- items ---- */
 
-typedef struct work_list {
+typedef struct item_list {
     motus_ensemble *e;
     motus_status (*one)(worker *, size_t item, void *ctx);
     void *ctx;
-} work_list;
+} item_list;
 
 static void take_item(void *ctx, size_t item, int thread)
 {
-    const work_list *list = ctx;
+    const item_list *list = ctx;
     worker *w = &list->e->workers[thread];
     if (w->status != MOTUS_OK || atomic_load(&list->e->stop)) return;
     w->status = list->one(w, item, list->ctx);
@@ -89,19 +89,19 @@ motus_status ensemble_each(motus_ensemble *e, size_t items, motus_status (*one)(
     if (!e->workers && !(e->workers = take(&e->allocator, (size_t)e->threads, sizeof *e->workers)))
         return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     for (int i = 0; i < threads; i++) {
-        motus_status status = hire(e, i, err);
+        motus_status status = prepare_worker(e, i, err);
         if (status != MOTUS_OK) return status;
         e->workers[i].status = MOTUS_OK;
         e->workers[i].why = motus_default_error();
     }
     atomic_store(&e->done, 0);
     atomic_store(&e->stop, false);
-    work_list list = {e, one, ctx};
+    item_list list = {e, one, ctx};
     parallel_for(threads, items, take_item, &list);
     const worker *first = NULL;
     for (int i = 0; i < threads; i++) {
         const worker *w = &e->workers[i];
-        /* Those that stopped because another did have nothing to say. */
+        /* An error comes before a cancellation, which may be its consequence. */
         if (w->status != MOTUS_OK &&
             (!first || (first->status == MOTUS_CANCELLED) > (w->status == MOTUS_CANCELLED) ||
              ((first->status == MOTUS_CANCELLED) == (w->status == MOTUS_CANCELLED) && w->failed_at < first->failed_at)))

@@ -1,12 +1,12 @@
 /* The cache of compiled objects: $XDG_CACHE_HOME/motus/KEY.so. See cache.h.
  *
  * KEY is a hash of the C text, the options, the compiler (real path, size, time) and the processor's features, since
- * homes are shared between machines. An entry is an ELF object followed by a seal: a magic word, the length, and a
- * hash of all before it. It is written under another name, sealed, and renamed; it is never changed in place.
+ * several machines may share a home directory. An entry is a shared object followed by a seal: a magic word, the
+ * length, and a checksum of all before it. It is written under another name, sealed, and renamed; it is never changed
+ * in place.
  *
- * Invariant: nothing is loaded that has not been opened without following links, found to be a regular file that is
- * ours and that nobody else may write, in a directory that is ours and that nobody else may write, and whose seal
- * holds.
+ * Invariant: an entry is loaded only if it is a regular file, opened without following links, that the user owns and
+ * only the user may write, in a directory of which the same holds, and if its seal is valid.
  */
 #include "machine/cache.h"
 
@@ -33,8 +33,8 @@ typedef struct seal {
 } seal;
 static const char magic[8] = "motus so";
 
-/* Two multiplicative hashes of different constants: for damage and for telling texts apart, not against an enemy,
- * whom the owner and the mode of the file keep out. */
+/* Two multiplicative hashes with different constants. They detect damage and tell texts apart; against an attacker the
+ * owner and the mode of the file protect. */
 static hash hash_bytes(hash h, const void *bytes, size_t n)
 {
     const unsigned char *p = bytes;
@@ -58,7 +58,7 @@ static hash hash_processor(hash h)
                       !strncmp(line, "vendor_id", 9) || !strncmp(line, "stepping", 8) ||
                       !strncmp(line, "Features", 8) || !strncmp(line, "CPU ", 4);
         if (wanted) h = hash_text(h, line);
-        if (line[0] == '\n') break; /* the first core speaks for all */
+        if (line[0] == '\n') break; /* all cores are alike */
     }
     if (f) fclose(f);
     return h;
@@ -74,7 +74,7 @@ static bool private_directory(int fd)
     return !fstat(fd, &s) && S_ISDIR(s.st_mode) && s.st_uid == geteuid() && !(s.st_mode & 022);
 }
 
-/* The directory, or "" where none can be used (under sudo or setuid, no home). */
+/* The directory; "" where there is none: under sudo or setuid, or without a home. */
 static const char *directory_of(char *out, size_t size)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -88,7 +88,7 @@ static const char *directory_of(char *out, size_t size)
     return out;
 }
 
-/* Opens (and makes) the directory; -1 where it is missing or not private. */
+/* Opens the directory, which it makes where it is missing; -1: it cannot be made, or is not private. */
 static int open_directory(const char *path)
 {
     char up[PATH_MAX];
@@ -130,8 +130,8 @@ static void *load_sound(int directory, const char *name, const char *path)
 {
     int fd = openat(directory, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     if (fd < 0) return NULL;
-    /* By its path: the loader tells objects apart by name, and /proc/self/fd/N would be the name of many. The
-     * directory is ours alone, so the path still leads to what was judged. */
+    /* By its path, because the loader tells objects apart by name and /proc/self/fd/N would name several. Only the user
+     * may write the directory, so the path still names the file that was checked. */
     void *handle = sound(fd) ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
     close(fd);
     return handle;
@@ -179,26 +179,26 @@ static bool put_seal(const char *path)
     return ok;
 }
 
-/* Compiles in a directory of its own, seals, and (where there is a cache) moves the object to its place. */
+/* Compiles in a temporary directory, seals the object and, where there is a cache, renames it to `target`. */
 static void *build(const compiler *c, const char *text, size_t length, bool fast, const char *target, char *why,
                    size_t size)
 {
-    char workshop[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96];
+    char folder[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96];
     if (target) {
-        snprintf(workshop, sizeof workshop, "%s", target);
-        *strrchr(workshop, '/') = 0;
-        strcat(workshop, "/build-XXXXXX");
+        snprintf(folder, sizeof folder, "%s", target);
+        *strrchr(folder, '/') = 0;
+        strcat(folder, "/build-XXXXXX");
     } else {
         const char *tmp = getenv("TMPDIR");
-        snprintf(workshop, sizeof workshop, "%s/motus-XXXXXX",
+        snprintf(folder, sizeof folder, "%s/motus-XXXXXX",
                  !privileged() && tmp && tmp[0] == '/' && strlen(tmp) < 512 ? tmp : "/tmp");
     }
-    if (!mkdtemp(workshop)) {
-        snprintf(why, size, "%s: %s", workshop, strerror(errno));
+    if (!mkdtemp(folder)) {
+        snprintf(why, size, "%s: %s", folder, strerror(errno));
         return NULL;
     }
-    snprintf(source, sizeof source, "%s/model.c", workshop);
-    snprintf(object, sizeof object, "%s/model.so", workshop);
+    snprintf(source, sizeof source, "%s/model.c", folder);
+    snprintf(object, sizeof object, "%s/model.so", folder);
     void *handle = NULL;
     if (!write_source(source, text, length))
         snprintf(why, size, "%s cannot be written: %s", source, strerror(errno));
@@ -212,7 +212,7 @@ static void *build(const compiler *c, const char *text, size_t length, bool fast
         rename(object, target);
     unlink(source);
     unlink(object);
-    rmdir(workshop);
+    rmdir(folder);
     return handle;
 }
 

@@ -1,16 +1,15 @@
 /* The callback machine: the acceleration is the user's C function.
  *
- * Invariant: when a function of the user's returns other than 0, that number stands in `returned` of the calling, where
- * errors find it.
+ * Invariant: where a callback returns a value other than 0, `returned` of the calling holds it, for the error.
  */
 #include "machine/machine.h"
 
 #include <stdio.h>
 
-static int heard(calling *c, int answer)
+static int keep_returned(calling *c, int returned)
 {
-    if (answer) c->returned = answer;
-    return answer;
+    if (returned) c->returned = returned;
+    return returned;
 }
 
 static int accel(void *ctx, double t, double *x, double *v, double *a)
@@ -18,23 +17,23 @@ static int accel(void *ctx, double t, double *x, double *v, double *a)
     calling *c = ctx;
     const motus_callback_def *def = c->def;
     if (c->count || !def->acceleration)
-        return heard(c, def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a));
-    return heard(c, def->acceleration(def->context, t, x, v, a));
+        return keep_returned(c, def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a));
+    return keep_returned(c, def->acceleration(def->context, t, x, v, a));
 }
 
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)
 {
     calling *c = ctx;
-    return heard(c, c->def->derivative(c->def->context, t, x, v, dx ? dx : c->zeros, dv ? dv : c->zeros, da));
+    return keep_returned(c, c->def->derivative(c->def->context, t, x, v, dx ? dx : c->zeros, dv ? dv : c->zeros, da));
 }
 
 static int exact(void *ctx, double t, double *x, double *v)
 {
     calling *c = ctx;
-    return heard(c, c->def->exact(c->def->context, t, x, v));
+    return keep_returned(c, c->def->exact(c->def->context, t, x, v));
 }
 
-/* By the user's names, else x and s, counted from 1 where there are several. */
+/* The user's name, or x or s, with a number from 1 where there are several. */
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     const motus_callback_def *def = ((const calling *)ctx)->def;
@@ -84,6 +83,6 @@ problem callback_block(calling *c, const problem *one)
     p.returned = &c->returned;
     p.nx *= c->count;
     p.nv *= c->count;
-    p.jvp = NULL; /* a derivative that the user wrote knows of one trajectory only */
+    p.jvp = NULL; /* the user's derivative serves one trajectory only */
     return p;
 }

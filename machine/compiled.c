@@ -1,9 +1,9 @@
 /* The compiled machine: the model's acceleration, the row and the texts of step/ as one C text, compiled by the
  * system's compiler and loaded.
  *
- * Invariant: the object replaces only the function that advances, and the acceleration; so memory, errors, restart
- * and looking are the library's own, and the bits are the interpreter's. One object serves every N and every
- * parameter; the rows share nothing but the cache.
+ * Invariant: the object replaces only the loop that advances and the acceleration, so memory, errors, restart and
+ * observation are the library's, and the bits are the interpreter's. Each row has an object of its own, which serves
+ * every N and every parameter.
  */
 #include "machine/compiled.h"
 
@@ -31,23 +31,23 @@ typedef struct object {
 struct compiled {
     compiled_host host; /* what the objects read */
     model *model;
-    const problem *interpreted; /* the interpreter's */
-    problem problem;            /* and the one that the objects serve */
+    const problem *interpreted; /* the interpreter's problem */
+    problem problem;            /* the same with the compiled acceleration */
     object objects[OBJECTS_MAX];
     int count;
     program *force, *boundary;
     locality locality;
-    const tiling *tiling; /* where the force is divisible */
+    const tiling *tiling; /* where the outer indices can be divided; else NULL */
     double *u;
     int64_t *q;
-    /* of any of the objects: they have the same bits */
+    /* of the last object; all give the same bits */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a);
-    /* of the last object: what it computes is the same for every row */
+    /* of the last object; all compute the same */
     void (*bind)(const double *, const int64_t *, double *);
     char note[NOTE_MAX];
 };
 
-/* ---- the problem, for everything that is not a step ---- */
+/* ---- the problem, for evaluations outside the steps ---- */
 
 static const problem *of(void *ctx) { return ((compiled *)ctx)->interpreted; }
 
@@ -99,8 +99,8 @@ void compiled_close(compiled *c)
 {
     for (int i = 0; c && i < c->count; i++) dlclose(c->objects[i].handle);
     if (c) {
-        parallel_dismiss(c->host.crew);
-        c->host.crew = NULL;
+        parallel_pool_destroy(c->host.thread_pool);
+        c->host.thread_pool = NULL;
         c->count = 0;
         c->accel = NULL;
         c->bind = NULL;
@@ -141,7 +141,7 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 
 /* ---- objects ---- */
 
-/* The numbers that the text reads: bounds, strides, and what depends on parameters alone. The same for every row. */
+/* The numbers that the text reads: bounds, strides, and values of parameters alone. They are the same for every row. */
 static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *, const int64_t *, double *))
 {
     model *m = c->model;
@@ -151,8 +151,12 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
     for (uint32_t k = 0; k < e->int_count; k++) c->q[k] = emit_int_value(&e->ints[k], m->arrays, m->ints);
     c->bind = bind;
     bind(m->pool, c->q, c->u);
-    c->host = (compiled_host){
-        .pool = m->pool, .u = c->u, .q = c->q, .tiling = c->tiling, .crew = c->host.crew, .parallel = parallel_by};
+    c->host = (compiled_host){.pool = m->pool,
+                              .u = c->u,
+                              .q = c->q,
+                              .tiling = c->tiling,
+                              .thread_pool = c->host.thread_pool,
+                              .parallel = parallel_pool_for};
     return true;
 }
 
@@ -185,7 +189,7 @@ static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
                   .body = *stepper_best_body()};
     const stepper_body *library = stepper_best_body();
     o->body.name = "compiled";
-    /* POSIX promises that a function's address survives the way through void *. */
+    /* POSIX lets a void * hold the address of a function. */
     *(void **)&bind = dlsym(handle, "motus_bind");
     *(void **)&o->body.run = dlsym(handle, "motus_run");
     *(void **)&c->accel = dlsym(handle, "motus_accel");
@@ -218,11 +222,11 @@ motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, m
 {
     const stepper_body *body = body_of(c, chosen, 0);
     if (!body) return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
-    /* One crew for all runs of the model, large enough for any: more threads than processors bring nothing. */
+    /* One pool of threads serves all runs of the model. Threads beyond the processors gain nothing. */
     const int processors = parallel_processors();
-    if (chosen->threads > 1 && c->tiling && !c->host.crew)
-        c->host.crew =
-            parallel_hire(chosen->threads > processors ? chosen->threads : processors, &c->model->arena->allocator);
+    if (chosen->threads > 1 && c->tiling && !c->host.thread_pool)
+        c->host.thread_pool = parallel_pool_create(chosen->threads > processors ? chosen->threads : processors,
+                                                   &c->model->arena->allocator);
     c->problem.traits = c->interpreted->traits;
     *out = (machine){.name = "compiled", .problem = &c->problem, .body = body, .host = &c->host};
     return MOTUS_OK;

@@ -5,17 +5,17 @@
 #include "machine/machine.h"
 
 typedef struct compiled compiled;
-/* Nothing is compiled yet: that happens when a row is asked for. The interpreter's problem must outlive it. */
+/* Compiles nothing yet. The interpreter's problem must outlive it. */
 motus_status compiled_create(model *, const problem *interpreted, compiled **, motus_error *);
-/* After the model's numbers have changed. */
+/* To be called after the model's numbers have changed. */
 void compiled_rebind(compiled *);
-/* Closes what was loaded; the memory is the model's. */
+/* Unloads the objects; the memory is the model's. */
 void compiled_close(compiled *);
 /* The C text that runs a row of this model, in the model's arena; NULL: no memory. */
 const char *compiled_text(compiled *, const chosen *, size_t *length);
-/* Compiles (or finds; with `kept`, only finds) what a row needs. NULL, or why that failed. */
+/* Loads the object of a row from the cache, or compiles it, unless `kept`. NULL, or why that failed. */
 const char *compiled_prepare(compiled *, const chosen *, bool kept);
-/* The machine of a row, compiled now if need be. */
+/* The machine of a row, compiled now where that has not happened before. */
 motus_status compiled_machine(compiled *, const chosen *, machine *, motus_error *);
 
 #endif

@@ -1,7 +1,7 @@
 /* Finding and running the system's C compiler. See compiler.h.
  *
- * Invariant: no shell sees any of it; the child has limits of time and memory, and is killed with us (Linux) or by
- * the terminal's signal, since it stays in our process group.
+ * Invariant: no shell is involved. The compiler has limits of time and memory. It ends when this process ends (Linux),
+ * or by the terminal's signal, since it stays in the same process group.
  */
 #include "machine/compiler.h"
 
@@ -21,8 +21,8 @@
 #include <sys/prctl.h>
 #endif
 
-/* -fno-unroll-loops: clang would unroll every loop of unknown length, those around a whole acceleration too, which
- * doubles its time and makes nothing faster that was measured. gcc does not unroll such loops anyway. */
+/* -fno-unroll-loops: clang would unroll every loop of unknown length, even those around a whole acceleration, which
+ * doubles the time of compiling and made no measured model faster. gcc does not unroll such loops. */
 static const char *const options[] = {"-std=gnu17",
                                       "-O3",
                                       "-march=native",
@@ -35,9 +35,9 @@ static const char *const options[] = {"-std=gnu17",
                                       "-w",
                                       "-x",
                                       "c"};
-/* An object of arithmetic needs no start files, and of the libraries at most fmod, where the machine has none (and
- * fma, on old ones): linking the rest would take longer than compiling a small model. memcpy and memset come from the
- * C library that every process has. */
+/* Without start files and with few libraries, because linking the rest would take longer than compiling a small model.
+ * The object needs at most fmod and, on processors without the instruction, fma; memcpy and memset come from the C
+ * library of the process. */
 #ifdef __ELF__
 static const char *const libraries[] = {"-nostdlib", "-Wl,--as-needed", "-lm", "-lgcc"};
 #else
@@ -45,9 +45,9 @@ static const char *const libraries[] = {"-lm"};
 #endif
 enum { OPTIONS = sizeof options / sizeof *options, LIBRARIES = sizeof libraries / sizeof *libraries };
 
-/* --fast: products and sums may be fused, quotients become products. Not more: sums in another order would undo error
- * words and the reductions of the elementary functions, and numbers that are assumed finite could not be seen to
- * diverge. */
+/* --fast: the compiler may fuse products with sums and multiply by reciprocals. It may not reorder sums, which would
+ * break compensated addition and the argument reductions of the elementary functions, nor assume finite numbers, which
+ * would remove the test for divergence. */
 static const char *const fast_options[] = {"-ffp-contract=fast", "-freciprocal-math", "-fno-signed-zeros",
                                            "-fno-trapping-math"};
 enum { FAST_OPTIONS = sizeof fast_options / sizeof *fast_options };
@@ -80,7 +80,7 @@ static bool search(const char *name, compiler *c)
     while (*path) {
         size_t n = strcspn(path, ":");
         char full[PATH_MAX];
-        /* An empty entry means the present directory: not a place to take a compiler from. */
+        /* An empty or relative entry depends on the present directory, so no compiler is taken from it. */
         if (n > 0 && path[0] == '/' &&
             (size_t)snprintf(full, sizeof full, "%.*s/%s", (int)n, path, name) < sizeof full && executable(full, c))
             return true;

@@ -1,4 +1,4 @@
-/* The system's C compiler as a tool: found, described and run without a shell. */
+/* Finds and runs the system's C compiler, without a shell. */
 #ifndef MACHINE_COMPILER_H
 #define MACHINE_COMPILER_H
 
@@ -9,15 +9,15 @@ enum { COMPILER_PATH_MAX = 4096, COMPILER_SECONDS_MAX = 60 };
 
 typedef struct compiler {
     char path[COMPILER_PATH_MAX];          /* absolute, links resolved */
-    char identity[COMPILER_PATH_MAX + 96]; /* path, size and time of the file: what a cache key needs of it */
+    char identity[COMPILER_PATH_MAX + 96]; /* path, size and time of the file, for the cache key */
 } compiler;
 
-/* CC (a single program name or path), cc, gcc, clang: the first that is there. */
+/* The first that exists of CC (one program name or path), cc, gcc, clang. */
 bool compiler_find(compiler *);
-/* `source` to the shared object `object`; fast: with what --fast allows. On failure the first line of what the
- * compiler said is in `why`. */
+/* Compiles `source` to the shared object `object`; fast: with the options of --fast. On failure `why` holds the first
+ * line of the compiler's messages. */
 bool compiler_run(const compiler *, const char *source, const char *object, bool fast, char *why, size_t size);
-/* The options, as one text: part of a cache key. */
+/* A text that names the options, for the cache key. */
 const char *compiler_options(bool fast);
 
 #endif

@@ -1,4 +1,4 @@
-/* The interpreter: the portable machine. A model's programs as tapes, and the library's stepper over them. */
+/* The interpreter, the portable machine: evaluates a model's programs as tapes, for the library's stepper. */
 #include "machine/machine.h"
 
 #include "lang/tape/tape.h"
@@ -9,9 +9,8 @@ struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
     tape *jvp[4];         /* along dx (1), dv (2), or both (3) */
-    tape **looks;         /* one per definition, made when first looked at */
-    double *acceleration; /* scratch for quantities that contain x'' */
-    double *zeros;        /* stands in for a direction that is not given */
+    tape **observed;      /* one per definition, made when it is first observed */
+    double *acceleration; /* for quantities that contain x'' */
 };
 
 static tape *make(model *m, const output *outputs, size_t count)
@@ -76,7 +75,7 @@ static output *derivatives(model *m, int along)
     return o;
 }
 
-/* Derived only when a method asks for it: most do not. */
+/* Derived when a method first needs it: most methods do not. */
 static tape *derive(interpreter *in, int along)
 {
     if (in->jvp[along]) return in->jvp[along];
@@ -133,7 +132,7 @@ static size_t element(const model *m, const reference *r, const int64_t *index)
     return (size_t)at;
 }
 
-/* Every value of the loops from `level` on, then the entry. */
+/* Emits the entry for every combination of the loops' values from `level` on. */
 static void emit_loops(structure *s, const range *sums, int first_sum, int level, int levels, const reference *r)
 {
     if (level == levels) {
@@ -177,9 +176,9 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     in->accel = make(m, m->accel, m->accel_count);
     in->boundary = m->boundary_count ? make(m, m->boundary, m->boundary_count) : NULL;
     in->exact = m->exact_count && m->traits.has_exact ? make(m, m->exact, m->exact_count) : NULL;
-    in->looks = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->looks);
-    if (m->arena->failed || !in->accel || !in->looks) return fail(err, MOTUS_MEMORY, "no memory for the model");
-    memset(in->looks, 0, (m->definition_count + 1) * sizeof *in->looks);
+    in->observed = arena_room(m->arena, (m->definition_count + 1) * sizeof *in->observed);
+    if (m->arena->failed || !in->accel || !in->observed) return fail(err, MOTUS_MEMORY, "no memory for the model");
+    memset(in->observed, 0, (m->definition_count + 1) * sizeof *in->observed);
     *p = (problem){.ctx = in,
                    .nx = m->nx,
                    .nv = m->nv,
@@ -195,21 +194,21 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     return MOTUS_OK;
 }
 
-bool interpreter_look(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
+bool interpreter_observe(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
 {
     model *m = in->model;
-    tape **look = &in->looks[d - m->definitions];
-    bool wants_a = false;
-    if (!*look) *look = make(m, d->outputs, d->output_count);
-    for (size_t k = 0; k < d->output_count; k++) wants_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
-    if (wants_a && !in->acceleration) in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
-    if (!*look || (wants_a && !in->acceleration)) return false;
-    if (wants_a) {
+    tape **observed = &in->observed[d - m->definitions];
+    bool needs_a = false;
+    if (!*observed) *observed = make(m, d->outputs, d->output_count);
+    for (size_t k = 0; k < d->output_count; k++) needs_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
+    if (needs_a && !in->acceleration) in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
+    if (!*observed || (needs_a && !in->acceleration)) return false;
+    if (needs_a) {
         memset(in->acceleration, 0, m->nv * sizeof(double));
         accel(in, t, x, v, in->acceleration);
     }
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = in->acceleration, [SPACE_OUT] = out};
-    tape_run(*look, t, base);
+    tape_run(*observed, t, base);
     return true;
 }
 
@@ -221,7 +220,7 @@ bool interpreter_rebind(interpreter *in)
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     for (uint32_t k = 0; k < m->definition_count; k++)
-        if (in->looks[k] && !tape_bind(in->looks[k], &b)) return false;
+        if (in->observed[k] && !tape_bind(in->observed[k], &b)) return false;
     double *base[SPACES] = {[SPACE_X] = m->x0, [SPACE_V] = m->v0};
     if (in->boundary) tape_run(in->boundary, m->start, base);
     return true;

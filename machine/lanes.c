@@ -1,7 +1,7 @@
-/* Lanes: what they can do, the text, the object. See lanes.h.
+/* Lanes: which ensembles they admit, their text, their object. See lanes.h.
  *
- * Invariant: the text is made of the model, the row, what varies and what is observed at; numbers of trajectories and
- * of threads are not in it.
+ * Invariant: the text depends on the model, the row, which numbers vary and which are recorded, but not on how many
+ * trajectories or threads there are.
  */
 #include "machine/lanes_parts.h"
 
@@ -12,23 +12,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* operations in one step of all groups; in a function; in a quantity; of an implicit row, unknowns in one turn of all
- * groups, and those groups */
+/* operations in one step of all groups; of an elementary function; of an observed quantity. Of an implicit row,
+ * unknowns in one iteration of all groups, and those groups */
 enum { STEPS_WRITTEN_MAX = 600, FUNCTION_WEIGHT = 40, OBSERVED_WEIGHT = 30 };
 enum { UNKNOWNS_WRITTEN_MAX = 6, TURNS_WRITTEN_MAX = 4 };
 enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 
 /* ---- the shape ---- */
 
-/* So many vectors side by side that their chains of operations hide one another's latency; where a step is long, one
- * is company enough for itself, and a compiler has enough to do. */
+/* How many groups a block has. Several short chains of operations hide each other's latency; a long step has
+ * independent operations of its own, and several of them would take the compiler too long. */
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
     const bool implicit = plan->row->family == IMPLICIT;
     if (plan->solves && !implicit && !plan->linear) return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
-    /* what depends on time alone is in the table, where there is one */
+    /* values of time alone come from the table, except with own clocks */
     const unsigned counted = d->own_clock ? DEP_STATE | DEP_TIME : DEP_STATE;
     for (uint32_t k = 0; k < g->count; k++)
         operations += !(g->nodes[k].deps & counted) ? 0 : g->nodes[k].op >= OP_POW ? FUNCTION_WEIGHT : 1;
@@ -93,10 +93,10 @@ static size_t list_observed(const lanes_def *d, observed list[OBSERVED_MAX], siz
 
 #define CALL "(host->pool, host->q, host->u, host->bound, host->own, "
 
-/* What is recorded, as a table of the text. */
+/* Writes the table of records. */
 static void write_records(emit_text *t, const lanes_def *d, const observed *quantities, size_t observed_count)
 {
-    bool looking = false, velocity = false;
+    bool observing = false, velocity = false;
     emit_add(t, "static const lanes_record the_records[] = {");
     for (size_t i = 0; i < d->source_count; i++) {
         const lanes_source *s = &d->sources[i];
@@ -106,16 +106,16 @@ static void write_records(emit_text *t, const lanes_def *d, const observed *quan
         static const int from[] = {
             [SOURCE_TIME] = LANES_TIME, [SOURCE_X] = LANES_X, [SOURCE_V] = LANES_V, [SOURCE_DEFINITION] = LANES_OUT};
         emit_add(t, "%s{%d, %d, %zu}", i ? ", " : "", s->how, from[s->kind], first + s->place);
-        looking |= s->how != REDUCE_FINAL;
+        observing |= s->how != REDUCE_FINAL;
         velocity |= s->how != REDUCE_FINAL && (s->kind == SOURCE_V || s->kind == SOURCE_DEFINITION);
     }
     emit_add(t,
              "};\n#define RECORDS ((size_t)%zu)\n#define LOOKING %d\n#define SEES_VELOCITY %d\n#define "
              "WRITTEN_OUT_RECORDS%s\n",
-             d->source_count, looking, velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
+             d->source_count, observing, velocity, d->source_count > RECORDS_WRITTEN_MAX ? "" : " WRITTEN_OUT");
 }
 
-/* The functions of the text that call the programs, all of one kind in one. */
+/* Writes the functions that call all programs of one kind. */
 static char *write_glue(lanes *l, const composed_program *along, size_t entries, const observed *quantities,
                         size_t observed_count)
 {
@@ -189,7 +189,7 @@ static bool write_text(lanes *l)
     for (size_t k = 0; k < observed_count; k++) {
         const model_definition *definition = quantities[k].definition;
         for (size_t i = 0; i < definition->output_count; i++)
-            l->wants_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
+            l->needs_a |= (graph_deps(m->graph, definition->outputs[i].value) & DEP_A) != 0;
         snprintf(names + n * PROGRAM_NAME, PROGRAM_NAME, "quantity_%zu", k);
         programs[n] = (composed_program){program_create(m->graph, definition->outputs, definition->output_count),
                                          names + n * PROGRAM_NAME, false};
@@ -281,7 +281,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     if (!write_text(l)) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
     if (!l->handle) return MOTUS_TOOL;
-    /* POSIX promises that a function's address survives the way through void *. */
+    /* POSIX lets a void * hold the address of a function. */
     *(void **)&l->bind = dlsym(l->handle, "motus_lanes_bind");
     *(void **)&l->table = dlsym(l->handle, "motus_lanes_table");
     *(void **)&l->begin = dlsym(l->handle, "motus_lanes_begin");

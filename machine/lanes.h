@@ -1,6 +1,7 @@
-/* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, in a text compiled for
- * the model, the method and what varies. Where a method solves equations, they are small and of one structure; those
- * of families go one trajectory at a time.
+/* Lanes: many trajectories of one model at once, one in each lane of the processor's vectors, by a text compiled for
+ * the model, the row and the numbers that vary. A block is the trajectories that the text computes side by side; it
+ * consists of groups, each of which is one vector. A row that solves equations runs in lanes where they are few and of
+ * one structure; equations of families are solved one trajectory at a time.
  */
 #ifndef MACHINE_LANES_H
 #define MACHINE_LANES_H
@@ -10,7 +11,7 @@
 
 typedef struct lanes lanes;
 
-/* a number that is recorded: time, x[place], v[place], or number `place` of a definition */
+/* A number that is recorded: time, x[place], v[place], or number `place` of a definition. */
 typedef struct lanes_source {
     enum { SOURCE_TIME, SOURCE_X, SOURCE_V, SOURCE_DEFINITION } kind;
     const model_definition *definition;
@@ -24,27 +25,28 @@ typedef struct lanes_def {
     const chosen *chosen;
     const vary *vary;
     const size_t *places;
-    size_t place_count; /* of the pool, that vary */
+    size_t place_count; /* numbers of the pool that vary */
     const lanes_source *sources;
     size_t source_count;
     double t0, h, last, until; /* last: the shorter last step, 0 none */
-    int64_t whole, every;      /* observations every so many steps */
-    bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are not used */
-    int lanes, threads;        /* lanes 0: as many as suits */
+    int64_t whole, every;      /* whole steps; steps from one observation to the next */
+    bool own_clock;            /* steps adapt, or ends differ: whole, last and the sign of h are ignored */
+    int lanes, threads;        /* lanes 0: the library chooses */
     bool fast;
     const motus_allocator *allocator;
     int (*progress)(void *context, double fraction);
     void *context;
 } lanes_def;
 
-/* Whether lanes can do it at all: NULL, or why not. */
+/* NULL, or the reason why lanes cannot compute these trajectories. */
 const char *lanes_refuse(const lanes_def *);
-/* The definition's pointers must outlive it. note[size]: why there is no object, where the status is MOTUS_TOOL. */
+/* The definition's pointers must outlive it. MOTUS_TOOL, with no error: `note`, room for `size` characters, says why
+ * there is no object. */
 motus_status lanes_create(const lanes_def *, lanes **, char *note, size_t size, motus_error *);
 void lanes_destroy(lanes *);
 /* values[k][i], until[i] (NULL: that of the definition), results[r][i], stopped[i] (may be NULL) for i < count.
- * MOTUS_METHOD, with no error: lanes cannot tell
- * whether the method admits the parameters of every trajectory; one at a time can. */
+ * MOTUS_METHOD, with no error: the row may not admit the parameters of some trajectory, which is decided one trajectory
+ * at a time. */
 motus_status lanes_run(lanes *, size_t count, const double *const *values, const double *until, double *const *results,
                        double *stopped, motus_error *);
 int lanes_in_block(const lanes *);

@@ -1,12 +1,11 @@
-/* Lanes whose trajectories have a clock each: steps that adapt, ends that differ. See lanes_parts.h.
+/* Lanes whose trajectories have own clocks: steps adapt, or ends differ. See lanes_parts.h.
  *
- * Three blocks do it. In WAITING lie trajectories that are about to begin, all at their first step; in RUNNING every
- * lane is somewhere on its way; in ENDING trajectories have arrived at their last whole step. A lane of RUNNING that
- * arrives moves to ENDING, and the next one of WAITING takes its place; so first steps, which have formulas of their
- * own, and the shorter last ones are taken by whole blocks too.
+ * There are three blocks. WAITING holds trajectories at their first step, RUNNING trajectories at any step after it,
+ * and ENDING trajectories after their last whole step. A trajectory of RUNNING that has taken its last whole step moves
+ * to ENDING, and the next one of WAITING takes its lane. So whole blocks take the first steps, which have formulas of
+ * their own, and the shorter last steps.
  *
- * Invariant: a lane moves with everything that its trajectory is, so its bits do not depend on where it runs, nor
- * beside which others.
+ * Invariant: a trajectory moves with all its numbers, so its bits depend neither on its lane nor on its neighbours.
  */
 #include "machine/lanes_parts.h"
 
@@ -17,56 +16,56 @@
 
 enum { RUNNING, WAITING, ENDING, BLOCKS };
 
-typedef struct seat {     /* of one lane */
-    size_t who;           /* the trajectory, or NOBODY */
-    int64_t whole;        /* steps to its end; adaptive: unknown */
-    double last;          /* size of the shorter step after them, 0: none */
-    int64_t observations; /* so far, */
-    int64_t observed;     /*   and the number of steps at the last one */
-} seat;
-#define NOBODY SIZE_MAX
+typedef struct trajectory { /* of one lane */
+    size_t number;          /* NO_TRAJECTORY: the lane is free */
+    int64_t whole;          /* steps to its end; adaptive: unknown */
+    double last;            /* size of the shorter step after them; 0: none */
+    int64_t observations;   /* so far, */
+    int64_t observed;       /*   and the number of steps at the last one */
+} trajectory;
+#define NO_TRAJECTORY SIZE_MAX
 
-typedef struct room { /* a block and its seats */
+typedef struct apart_block {
     lanes_block block;
-    seat *seats;
-} room;
+    trajectory *trajectories; /* of its lanes */
+} apart_block;
 
 typedef struct apart {
     lanes_item *item;
     const lanes *l;
-    room rooms[BLOCKS];
+    apart_block blocks[BLOCKS];
     size_t lanes;   /* in a block */
     size_t next;    /* trajectories of the item that have begun */
-    size_t waiting; /* the first lane of WAITING that may have a trajectory */
-    size_t ending;  /* lanes of ENDING that have one */
+    size_t waiting; /* the first lane of WAITING that may be occupied */
+    size_t ending;  /* how many lanes of ENDING are occupied */
     bool adaptive;
 } apart;
 
 size_t lanes_apart_blocks(void) { return BLOCKS; }
-size_t lanes_apart_size(const lanes *l) { return BLOCKS * lines(l, sizeof(seat) / sizeof(double)); }
+size_t lanes_apart_size(const lanes *l) { return BLOCKS * lines(l, sizeof(trajectory) / sizeof(double)); }
 
 /* ---- one lane ---- */
 
-static double *clock_of(const room *r, size_t lane, int k)
+static double *clock_of(const apart_block *b, size_t lane, int k)
 {
-    return &r->block.job.clocks[lane_at(r->block.l, LANES_CLOCKS, (size_t)k, lane)];
+    return &b->block.job.clocks[lane_at(b->block.l, LANES_CLOCKS, (size_t)k, lane)];
 }
-static int64_t steps_of(const room *r, size_t lane) { return (int64_t)*clock_of(r, lane, LANES_N); }
-static bool occupied(const room *r, size_t lane) { return r->seats[lane].who != NOBODY; }
-static bool stopped(const room *r, size_t lane) { return !isnan(r->block.stopped[lane]); }
+static int64_t steps_of(const apart_block *b, size_t lane) { return (int64_t)*clock_of(b, lane, LANES_N); }
+static bool occupied(const apart_block *b, size_t lane) { return b->trajectories[lane].number != NO_TRAJECTORY; }
+static bool stopped(const apart_block *b, size_t lane) { return !isnan(b->block.stopped[lane]); }
 
-static bool at_end(const apart *s, const room *r, size_t lane)
+static bool at_end(const apart *s, const apart_block *b, size_t lane)
 {
-    if (s->adaptive) return *clock_of(r, lane, LANES_T) == *clock_of(r, lane, LANES_UNTIL);
-    return steps_of(r, lane) == r->seats[lane].whole;
+    if (s->adaptive) return *clock_of(b, lane, LANES_T) == *clock_of(b, lane, LANES_UNTIL);
+    return steps_of(b, lane) == b->trajectories[lane].whole;
 }
 
-/* The lane counts as stopped, since the numbers that it goes on to make are no trajectory's. */
-static void leave(const room *r, size_t lane)
+/* Frees a lane. It counts as stopped, because it goes on to compute numbers that belong to no trajectory. */
+static void free_lane(const apart_block *b, size_t lane)
 {
-    r->seats[lane].who = NOBODY;
-    *clock_of(r, lane, LANES_UNTIL) = *clock_of(r, lane, LANES_STOP) = NAN;
-    r->block.stopped[lane] = 0;
+    b->trajectories[lane].number = NO_TRAJECTORY;
+    *clock_of(b, lane, LANES_UNTIL) = *clock_of(b, lane, LANES_STOP) = NAN;
+    b->block.stopped[lane] = 0;
 }
 
 static void copy(const lanes *l, double *to, size_t at, const double *from, size_t lane, size_t elements)
@@ -74,115 +73,119 @@ static void copy(const lanes *l, double *to, size_t at, const double *from, size
     for (size_t k = 0; k < elements; k++) to[lane_at(l, elements, k, at)] = from[lane_at(l, elements, k, lane)];
 }
 
-static void move(const room *from, size_t lane, const room *to, size_t at)
+static void move(const apart_block *from, size_t lane, const apart_block *to, size_t at)
 {
     const lanes *l = from->block.l;
-    const lanes_job *a = &from->block.job, *b = &to->block.job;
-    copy(l, b->host.own, at, a->host.own, lane, a->own_size);
-    copy(l, b->host.bound, at, a->host.bound, lane, a->bound_size);
-    copy(l, b->carry, at, a->carry, lane, l->carried);
-    copy(l, b->kept, at, a->kept, lane, l->def.source_count * REDUCE_KEPT);
-    copy(l, b->clocks, at, a->clocks, lane, LANES_CLOCKS);
+    const lanes_job *source = &from->block.job, *target = &to->block.job;
+    copy(l, target->host.own, at, source->host.own, lane, source->own_size);
+    copy(l, target->host.bound, at, source->host.bound, lane, source->bound_size);
+    copy(l, target->carry, at, source->carry, lane, l->carried);
+    copy(l, target->kept, at, source->kept, lane, l->def.source_count * REDUCE_KEPT);
+    copy(l, target->clocks, at, source->clocks, lane, LANES_CLOCKS);
     to->block.stopped[at] = from->block.stopped[lane];
-    to->seats[at] = from->seats[lane];
-    leave(from, lane);
+    to->trajectories[at] = from->trajectories[lane];
+    free_lane(from, lane);
 }
 
-static void finish(apart *s, const room *r, size_t lane)
+static void finish(apart *s, const apart_block *b, size_t lane)
 {
-    const seat *p = &r->seats[lane];
-    lanes_block_result(&r->block, s->item->call, lane, p->who, p->observations);
+    const trajectory *p = &b->trajectories[lane];
+    lanes_block_result(&b->block, s->item->call, lane, p->number, p->observations);
     atomic_fetch_add(&s->item->call->done, 1);
-    leave(r, lane);
+    free_lane(b, lane);
 }
 
 /* ---- observations ---- */
 
-typedef bool due_now(const apart *, const room *, size_t lane);
+typedef bool due_now(const apart *, const apart_block *, size_t lane);
 
-/* The observation at the end is not among those on the way. */
-static bool on_the_way(const apart *s, const room *r, size_t lane)
+/* Excludes the observation at the end. */
+static bool on_the_way(const apart *s, const apart_block *b, size_t lane)
 {
-    const seat *p = &r->seats[lane];
-    const int64_t n = steps_of(r, lane);
-    return n % s->l->def.every == 0 && n != p->observed && !(p->last == 0 && at_end(s, r, lane));
+    const trajectory *p = &b->trajectories[lane];
+    const int64_t n = steps_of(b, lane);
+    return n % s->l->def.every == 0 && n != p->observed && !(p->last == 0 && at_end(s, b, lane));
 }
 
-static bool without_last(const apart *s, const room *r, size_t lane) { return (void)s, r->seats[lane].last == 0; }
-static bool anyone(const apart *s, const room *r, size_t lane) { return (void)s, (void)r, (void)lane, true; }
-
-/* Lanes that are observed together are alike: all at the first step of a leg, or none; all observed before, or none. */
-static void observe(apart *s, const room *r, due_now *due, bool ends)
+static bool without_last(const apart *s, const apart_block *b, size_t lane)
 {
-    lanes_block block = r->block;
+    return (void)s, b->trajectories[lane].last == 0;
+}
+static bool every_lane(const apart *s, const apart_block *b, size_t lane) { return (void)s, (void)b, (void)lane, true; }
+
+/* Observes the lanes for which `due` holds. They are alike: all at the first step of a leg, or none; all observed
+ * before, or none. */
+static void observe(apart *s, const apart_block *b, due_now *due, bool ends)
+{
+    lanes_block block = b->block;
     bool any = false;
     block.job.ends = ends;
     for (size_t i = 0; i < s->lanes; i++) {
-        const bool here = occupied(r, i) && !stopped(r, i) && due(s, r, i);
+        const bool here = occupied(b, i) && !stopped(b, i) && due(s, b, i);
         block.job.where[i] = here;
         if (!here) continue;
         any = true;
-        block.job.begins = steps_of(r, i) == 0;
-        block.job.first_observation = r->seats[i].observations == 0;
-        r->seats[i].observations++;
-        r->seats[i].observed = steps_of(r, i);
+        block.job.begins = steps_of(b, i) == 0;
+        block.job.first_observation = b->trajectories[i].observations == 0;
+        b->trajectories[i].observations++;
+        b->trajectories[i].observed = steps_of(b, i);
     }
     if (any) lanes_block_observe(&block);
 }
 
 /* ---- the end ---- */
 
-static void finish_where(apart *s, const room *r, due_now *done)
+static void finish_where(apart *s, const apart_block *b, due_now *done)
 {
     for (size_t i = 0; i < s->lanes; i++)
-        if (occupied(r, i) && (stopped(r, i) || done(s, r, i))) finish(s, r, i);
+        if (occupied(b, i) && (stopped(b, i) || done(s, b, i))) finish(s, b, i);
 }
 
 /* One step of all lanes by the formula of the first step of a leg. */
-static void first_step(const room *r)
+static void first_step(const apart_block *b)
 {
-    lanes_block_save(&r->block);
-    r->block.l->first(&r->block.job);
-    if (lanes_block_broke(&r->block)) lanes_block_trace(&r->block, true, 1, 0, 0);
+    lanes_block_save(&b->block);
+    b->block.l->first(&b->block.job);
+    if (lanes_block_diverged(&b->block)) lanes_block_trace(&b->block, true, 1, 0, 0);
 }
 
-/* What is in ENDING comes to its end: by the shorter last step, a leg of its own, where there is one. */
+/* Takes the trajectories of ENDING to their ends, by a shorter last step, a leg of its own, where there is one. */
 static void end_all(apart *s)
 {
-    const room *r = &s->rooms[ENDING];
+    const apart_block *b = &s->blocks[ENDING];
     bool any = false;
-    observe(s, r, without_last, true);
-    finish_where(s, r, without_last);
-    for (size_t i = 0; i < s->lanes; i++) any |= occupied(r, i);
+    observe(s, b, without_last, true);
+    finish_where(s, b, without_last);
+    for (size_t i = 0; i < s->lanes; i++) any |= occupied(b, i);
     s->ending = 0;
     if (!any) return;
-    lanes_job j = r->block.job;
+    lanes_job j = b->block.job;
     j.record_count = 0;
     s->l->observe(&j);
     s->l->set(&j);
     for (size_t i = 0; i < s->lanes; i++) {
-        if (!occupied(r, i)) continue;
-        *clock_of(r, i, LANES_T0) = lanes_block_time(&r->block, i);
-        *clock_of(r, i, LANES_H) = r->seats[i].last;
-        *clock_of(r, i, LANES_N) = 0;
+        if (!occupied(b, i)) continue;
+        *clock_of(b, i, LANES_T0) = lanes_block_time(&b->block, i);
+        *clock_of(b, i, LANES_H) = b->trajectories[i].last;
+        *clock_of(b, i, LANES_N) = 0;
     }
-    first_step(r);
-    observe(s, r, anyone, true);
-    finish_where(s, r, anyone);
+    first_step(b);
+    observe(s, b, every_lane, true);
+    finish_where(s, b, every_lane);
 }
 
-/* Trajectories that stopped or arrived leave their lanes; whether there were any. */
-static bool settle(apart *s)
+/* Removes the trajectories of RUNNING that stopped or took their last whole step; whether there were any. */
+static bool remove_ended(apart *s)
 {
-    const room *r = &s->rooms[RUNNING];
+    const apart_block *b = &s->blocks[RUNNING];
     bool any = false;
     for (size_t i = 0; i < s->lanes; i++) {
-        if (!occupied(r, i)) continue;
-        if (stopped(r, i)) {
-            finish(s, r, i);
-        } else if (at_end(s, r, i)) {
+        if (!occupied(b, i)) continue;
+        if (stopped(b, i)) {
+            finish(s, b, i);
+        } else if (at_end(s, b, i)) {
             if (s->ending == s->lanes) end_all(s);
-            move(r, i, &s->rooms[ENDING], s->ending++);
+            move(b, i, &s->blocks[ENDING], s->ending++);
         } else {
             continue;
         }
@@ -193,15 +196,15 @@ static bool settle(apart *s)
 
 /* ---- the start ---- */
 
-/* Trajectory k is about to begin in a lane of WAITING. */
-static void take_seat(apart *s, size_t lane, size_t k)
+/* Gives a lane of WAITING to trajectory k: its clock and its steps. */
+static void set_lane(apart *s, size_t lane, size_t k)
 {
-    const room *r = &s->rooms[WAITING];
+    const apart_block *b = &s->blocks[WAITING];
     const lanes_def *d = &s->l->def;
     const double until = s->item->call->until ? s->item->call->until[k] : d->until;
     double h = until < d->t0 ? -fabs(d->h) : fabs(d->h);
     stepper_way way = s->adaptive ? (stepper_way){INT64_MAX, 0} : stepper_way_of(d->t0, h, until);
-    if (way.whole == 0 && way.last != 0) { /* the shorter step is the only one */
+    if (way.whole == 0 && way.last != 0) { /* the shorter step is the only step */
         h = way.last;
         way = (stepper_way){1, 0};
     }
@@ -209,38 +212,38 @@ static void take_seat(apart *s, size_t lane, size_t k)
         [LANES_T0] = d->t0, [LANES_H] = h,         [LANES_T] = d->t0,
         [LANES_NEXT] = h,   [LANES_UNTIL] = until, [LANES_STOP] = NAN,
     };
-    for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(r, lane, i) = own[i];
-    r->seats[lane] = (seat){.who = k, .whole = way.whole, .last = way.last};
+    for (int i = 0; i < LANES_CLOCKS; i++) *clock_of(b, lane, i) = own[i];
+    b->trajectories[lane] = (trajectory){.number = k, .whole = way.whole, .last = way.last};
 }
 
-/* The next trajectories begin, and take their first step where that has a formula of its own. */
+/* Begins the next trajectories in WAITING; of fixed steps, takes the first one. */
 static void begin(apart *s)
 {
-    lanes_item *b = s->item;
-    const room *r = &s->rooms[WAITING];
-    size_t who[BLOCK_MAX];
-    const size_t left = b->count - s->next, count = left < s->lanes ? left : s->lanes;
+    lanes_item *item = s->item;
+    const apart_block *b = &s->blocks[WAITING];
+    size_t numbers[BLOCK_MAX];
+    const size_t left = item->count - s->next, count = left < s->lanes ? left : s->lanes;
     for (size_t i = 0; i < s->lanes; i++) {
-        who[i] = b->first + s->next + (i < count ? i : count - 1);
-        take_seat(s, i, who[i]);
+        numbers[i] = item->first + s->next + (i < count ? i : count - 1);
+        set_lane(s, i, numbers[i]);
     }
-    lanes_block_begin(&r->block, b, who);
-    for (size_t i = count; i < s->lanes; i++) leave(r, i);
-    lanes_block_stop(&r->block);
+    lanes_block_begin(&b->block, item, numbers);
+    for (size_t i = count; i < s->lanes; i++) free_lane(b, i);
+    lanes_block_stop(&b->block);
     s->next += count;
     s->waiting = 0;
-    observe(s, r, at_end, true); /* no step leads to the end */
-    finish_where(s, r, at_end);
-    if (s->l->on_the_way) observe(s, r, anyone, false);
+    observe(s, b, at_end, true); /* where no step leads to the end */
+    finish_where(s, b, at_end);
+    if (s->l->on_the_way) observe(s, b, every_lane, false);
     if (s->adaptive) return;
-    first_step(r);
-    if (s->l->on_the_way) observe(s, r, on_the_way, false);
+    first_step(b);
+    if (s->l->on_the_way) observe(s, b, on_the_way, false);
 }
 
-/* Lanes of RUNNING that are free take the next trajectories that wait; whether any lane has one. */
+/* Moves trajectories of WAITING to the free lanes of RUNNING; whether RUNNING has any trajectory. */
 static bool refill(apart *s)
 {
-    const room *running = &s->rooms[RUNNING], *waiting = &s->rooms[WAITING];
+    const apart_block *running = &s->blocks[RUNNING], *waiting = &s->blocks[WAITING];
     bool any = false;
     for (size_t i = 0; i < s->lanes; i++) {
         while (!occupied(running, i)) {
@@ -257,19 +260,19 @@ static bool refill(apart *s)
     return any;
 }
 
-/* ---- on the way ---- */
+/* ---- steps ---- */
 
-/* So many steps that no lane passes its end, nor a moment at which it is to be observed. Where all lanes are observed
- * at the same steps, the object observes them on the way, after every *every of them, beginning at step *n. */
-static int64_t steps_to_take(const apart *s, const room *r, int64_t *n, int64_t *every)
+/* How many steps all lanes can take before one reaches its end or an observation. Where all lanes are observed at the
+ * same steps, the object makes the observations, after every *every steps, counted from step *n. */
+static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *n, int64_t *every)
 {
     const int64_t period = s->l->def.every;
     int64_t steps = CHUNK, due = CHUNK, phase = -1;
     bool alike = true;
     *every = *n = 0;
     for (size_t i = 0; i < s->lanes; i++) {
-        if (!occupied(r, i)) continue;
-        const int64_t taken = steps_of(r, i), left = r->seats[i].whole - taken;
+        if (!occupied(b, i)) continue;
+        const int64_t taken = steps_of(b, i), left = b->trajectories[i].whole - taken;
         if (left < steps) steps = left;
         if (!s->l->on_the_way) continue;
         const int64_t here = taken % period;
@@ -279,7 +282,7 @@ static int64_t steps_to_take(const apart *s, const room *r, int64_t *n, int64_t 
         *n = taken;
     }
     if (!s->l->on_the_way || due > steps) return steps;
-    const int64_t inner = (steps - 1) / period * period; /* the last one may be the end */
+    const int64_t inner = (steps - 1) / period * period; /* the last observation may be at the end */
     if (!alike || phase != 0 || inner == 0) return due;
     *every = period;
     return inner;
@@ -287,54 +290,55 @@ static int64_t steps_to_take(const apart *s, const room *r, int64_t *n, int64_t 
 
 static void run_fixed(apart *s)
 {
-    const room *r = &s->rooms[RUNNING];
+    const apart_block *b = &s->blocks[RUNNING];
     int64_t n, every;
-    const int64_t steps = steps_to_take(s, r, &n, &every);
-    for (size_t i = 0; every && i < s->lanes; i++) r->block.job.where[i] = occupied(r, i);
-    lanes_block_save(&r->block);
-    s->l->run(&r->block.job, steps, every);
+    const int64_t steps = steps_to_take(s, b, &n, &every);
+    for (size_t i = 0; every && i < s->lanes; i++) b->block.job.where[i] = occupied(b, i);
+    lanes_block_save(&b->block);
+    s->l->run(&b->block.job, steps, every);
     for (size_t i = 0; every && i < s->lanes; i++) {
-        r->seats[i].observations += steps / every;
-        r->seats[i].observed = steps_of(r, i);
+        b->trajectories[i].observations += steps / every;
+        b->trajectories[i].observed = steps_of(b, i);
     }
-    if (lanes_block_broke(&r->block)) lanes_block_trace(&r->block, false, steps, n, every);
+    if (lanes_block_diverged(&b->block)) lanes_block_trace(&b->block, false, steps, n, every);
 }
 
-/* Candidates, until some lane is at its end, at an observation, or cannot go on. */
+/* Computes candidates until some lane is at its end or at an observation, or fails. */
 static void run_adaptive(apart *s)
 {
-    const room *r = &s->rooms[RUNNING];
+    const apart_block *b = &s->blocks[RUNNING];
     const int64_t every = s->l->def.every;
     for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
-        if (occupied(r, i)) *clock_of(r, i, LANES_STOP) = (double)((steps_of(r, i) / every + 1) * every);
-    s->l->run(&r->block.job, CHUNK, 0);
+        if (occupied(b, i)) *clock_of(b, i, LANES_STOP) = (double)((steps_of(b, i) / every + 1) * every);
+    s->l->run(&b->block.job, CHUNK, 0);
     for (size_t i = 0; i < s->lanes; i++)
-        if (occupied(r, i) && r->block.job.lost[i] != 0) r->block.stopped[i] = lanes_block_time(&r->block, i);
+        if (occupied(b, i) && b->block.job.lost[i] != 0) b->block.stopped[i] = lanes_block_time(&b->block, i);
 }
 
-void lanes_apart(lanes_item *b)
+void lanes_apart(lanes_item *item)
 {
-    lanes *l = b->l;
-    apart s = {.item = b, .l = l, .lanes = (size_t)l->block, .waiting = (size_t)l->block, .adaptive = l->plan.carried};
-    memset(b->memory, 0, BLOCKS * b->call->block_size * sizeof(double));
+    lanes *l = item->l;
+    apart s = {
+        .item = item, .l = l, .lanes = (size_t)l->block, .waiting = (size_t)l->block, .adaptive = l->plan.carried};
+    memset(item->memory, 0, BLOCKS * item->call->block_size * sizeof(double));
     for (size_t k = 0; k < BLOCKS; k++) {
-        void *seats = b->table + k * lines(l, sizeof(seat) / sizeof(double));
-        s.rooms[k] = (room){lanes_block_of(b, k), seats};
-        s.rooms[k].block.job.first_observation = false;
-        for (size_t i = 0; i < s.lanes; i++) leave(&s.rooms[k], i);
+        void *trajectories = item->table + k * lines(l, sizeof(trajectory) / sizeof(double));
+        s.blocks[k] = (apart_block){lanes_block_of(item, k), trajectories};
+        s.blocks[k].block.job.first_observation = false;
+        for (size_t i = 0; i < s.lanes; i++) free_lane(&s.blocks[k], i);
     }
     for (;;) {
         bool any;
         do any = refill(&s);
-        while (settle(&s));
+        while (remove_ended(&s));
         if (!any) break;
         if (s.adaptive)
             run_adaptive(&s);
         else
             run_fixed(&s);
-        if (l->on_the_way) observe(&s, &s.rooms[RUNNING], on_the_way, false);
-        if (b->told) lanes_item_tell(b, 0);
-        if (lanes_item_over(b)) return;
+        if (l->on_the_way) observe(&s, &s.blocks[RUNNING], on_the_way, false);
+        if (item->reports) lanes_item_report(item, 0);
+        if (lanes_item_over(item)) return;
     }
     end_all(&s);
 }

@@ -1,7 +1,7 @@
-/* Lanes: one block of trajectories, and the calls that take many of them. See lanes_parts.h.
+/* Lanes: one block of trajectories, and the division of a call into items of many blocks. See lanes_parts.h.
  *
- * Invariant: the results of a trajectory depend neither on the block it is in nor on the thread that computes it. A
- * block in which a number stopped being finite takes its last steps again, one by one, to see when.
+ * Invariant: the results of a trajectory depend neither on its block nor on the thread that computes it. A block in
+ * which a number is no longer finite takes its last steps again, one by one, to find the time.
  */
 #include "machine/lanes_parts.h"
 
@@ -10,13 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { ITEM_BYTES = 256 << 10 }; /* an item's blocks fit the second cache */
-enum { REFILLS = 16 };           /* blocks' worth of trajectories in an item that has one running block */
-#define LITTLE_WORK 1e6          /* operations: some 0.1 ms in lanes */
+enum { ITEM_BYTES = 256 << 10 }; /* the blocks of an item fit the second-level cache */
+enum { REFILLS = 16 };  /* own clocks: blocks of trajectories that pass through the one running block of an item */
+#define LITTLE_WORK 1e6 /* operations: some 0.1 ms in lanes */
 
 /* ---- memory ---- */
 
-/* Its own parameters, what follows from them, what it carries, the records, the clocks, when a lane stopped. */
+/* Own parameters, numbers that depend on them, carry, records, clocks, times at which lanes stopped. */
 size_t lanes_block_size(const lanes *l)
 {
     return l->own_size + l->bound_size + l->carry_size + l->kept_size + l->clock_size + lines(l, 1);
@@ -28,7 +28,7 @@ static size_t saved_size(const lanes *l)
     return saved > values ? saved : values;
 }
 
-/* Of whichever block is at work: workspaces, the observed state, linear systems, what is saved, two numbers a lane. */
+/* Workspaces, the observed state, linear systems, the saved carry, two numbers a lane. */
 size_t lanes_scratch_size(const lanes *l)
 {
     return l->work_size + l->observed_size + l->solve_size + saved_size(l) + 2 * lines(l, 1);
@@ -69,7 +69,7 @@ lanes_block lanes_block_of(const lanes_item *b, size_t block)
     j.room = b->scratch;
     j.x = observed;
     j.v = observed + m->nx * n;
-    j.a = l->wants_a ? observed + (m->nx + m->nv) * n : NULL;
+    j.a = l->needs_a ? observed + (m->nx + m->nv) * n : NULL;
     j.out = observed + (m->nx + 2 * m->nv) * n;
     j.solving = (char *)(observed + l->observed_size);
     j.lost = saved + saved_size(l);
@@ -86,7 +86,7 @@ void lanes_block_save(const lanes_block *k)
 
 /* ---- the start ---- */
 
-void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *who)
+void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size_t *trajectories)
 {
     const lanes *l = block->l;
     const model *m = l->def.model;
@@ -96,7 +96,7 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
     for (size_t g = 0; g < (size_t)l->groups; g++) {
         for (size_t k = 0; k < count; k++)
             for (size_t i = 0; i < width; i++)
-                values[(g * count + k) * width + i] = b->call->values[k][who[g * width + i]];
+                values[(g * count + k) * width + i] = b->call->values[k][trajectories[g * width + i]];
         for (size_t k = 0; l->own_size && k < m->pool_count; k++)
             for (size_t i = 0; i < width; i++) j.host.own[(g * m->pool_count + k) * width + i] = m->pool[k];
     }
@@ -106,7 +106,7 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
     l->set(&j);
 }
 
-/* ---- what is no longer finite ---- */
+/* ---- lanes that are no longer finite ---- */
 
 static bool all_finite(const double *numbers, size_t count)
 {
@@ -145,8 +145,8 @@ void lanes_block_stop(const lanes_block *b)
             b->stopped[i] = lanes_block_time(b, i);
 }
 
-/* The state that is observed may be infinite a step before what the steps carry is. Lanes that are not observed now
- * have other numbers there. */
+/* The observed state may stop being finite one step before the carry does. In lanes that are not observed now it holds
+ * no valid numbers. */
 void lanes_block_observe(const lanes_block *b)
 {
     const lanes *l = b->l;
@@ -163,7 +163,7 @@ void lanes_block_observe(const lanes_block *b)
 /* What is observed may overflow before what the steps carry does: Verlet's velocity is d/h. */
 #define NEAR_OVERFLOW 1e200
 
-bool lanes_block_broke(const lanes_block *b)
+bool lanes_block_diverged(const lanes_block *b)
 {
     const lanes *l = b->l;
     const double *carry = b->job.carry;
@@ -202,7 +202,7 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
 
 /* ---- the end ---- */
 
-void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t who, int64_t observations)
+void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, size_t trajectory, int64_t observations)
 {
     const lanes *l = b->l;
     const lanes_job *j = &b->job;
@@ -211,12 +211,13 @@ void lanes_block_result(const lanes_block *b, const lanes_call *c, size_t lane, 
     for (size_t r = 0; r < l->def.source_count; r++) {
         const double kept[REDUCE_KEPT] = {j->kept[lane_at(l, all, r * REDUCE_KEPT, lane)],
                                           j->kept[lane_at(l, all, r * REDUCE_KEPT + 1, lane)]};
-        c->results[r][who] = isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
+        c->results[r][trajectory] =
+            isnan(stopped) ? reduce_last(kept, l->def.sources[r].how, (double)observations) : NAN;
     }
-    if (c->stopped) c->stopped[who] = stopped;
+    if (c->stopped) c->stopped[trajectory] = stopped;
 }
 
-void lanes_item_tell(lanes_item *b, double more)
+void lanes_item_report(lanes_item *b, double more)
 {
     lanes_call *c = b->call;
     const lanes_def *d = &b->l->def;
@@ -226,9 +227,9 @@ void lanes_item_tell(lanes_item *b, double more)
 
 bool lanes_item_over(const lanes_item *b) { return atomic_load(&b->call->cancelled) || atomic_load(&b->call->refused); }
 
-/* ---- all of them ---- */
+/* ---- all trajectories ---- */
 
-/* One item of the work, from the start to the end, by one thread, with memory of its own. */
+/* Computes one item from start to end, in the memory of its thread. */
 static void run_item(void *ctx, size_t item, int thread)
 {
     lanes_call *c = ctx;
@@ -239,18 +240,19 @@ static void run_item(void *ctx, size_t item, int thread)
     b.memory = c->memory + (size_t)thread * c->thread_size;
     b.scratch = b.memory + c->blocks * c->block_size;
     b.table = b.scratch + c->scratch_size;
-    b.told = thread == 0 && l->def.progress; /* the caller's hook is called by the caller's thread */
+    b.reports = thread == 0 && l->def.progress; /* only the caller's thread calls the caller's hook */
     if (l->def.own_clock) {
         lanes_apart(&b);
     } else {
         lanes_together(&b, (b.count + (size_t)l->block - 1) / (size_t)l->block);
         atomic_fetch_add(&c->done, b.count);
     }
-    if (b.told) lanes_item_tell(&b, 0);
+    if (b.reports) lanes_item_report(&b, 0);
 }
 
-/* Items large enough for the work to be worth it, and several for every thread; blocks as they fit a cache. */
-static void share_out(lanes_call *c, size_t threads)
+/* Divides the trajectories into items: several for each thread, to balance the load, but none whose blocks exceed the
+ * cache. */
+static void divide_work(lanes_call *c, size_t threads)
 {
     const lanes *l = c->l;
     const size_t block = (size_t)l->block, all = (c->count + block - 1) / block,
@@ -273,11 +275,11 @@ motus_status lanes_run(lanes *l, size_t count, const double *const *values, cons
                        double *stopped, motus_error *err)
 {
     const lanes_def *d = &l->def;
-    /* To wake threads takes longer than a little work. */
+    /* Threads take longer to start than a little work takes. */
     const bool little = !d->own_clock && (double)count * (double)(d->whole + 10) * d->model->graph->count < LITTLE_WORK;
     size_t threads = little ? 1 : (size_t)d->threads;
     lanes_call c = {.l = l, .count = count, .values = values, .until = until, .results = results, .stopped = stopped};
-    share_out(&c, threads);
+    divide_work(&c, threads);
     if (threads > c.items) threads = c.items;
     double *memory = take(d->allocator, threads * c.thread_size + ALIGNMENT / sizeof(double), sizeof(double));
     if (!memory)

@@ -1,5 +1,5 @@
-/* What the files of lanes share: lanes.c (text and object), lanes_block.c (one block of trajectories),
- * lanes_together.c (blocks whose trajectories share one clock) and lanes_apart.c (every trajectory has its own).
+/* The structs and internal functions of lanes, shared by lanes.c (text and object), lanes_block.c (one block),
+ * lanes_together.c (blocks whose trajectories share one clock) and lanes_apart.c (trajectories with own clocks).
  */
 #ifndef MACHINE_LANES_PARTS_H
 #define MACHINE_LANES_PARTS_H
@@ -14,13 +14,13 @@
 #include <stdatomic.h>
 
 enum { ALIGNMENT = 64 }; /* bytes of a cache line, and of the widest vector */
-enum { CHUNK = 512 };    /* steps that are taken in one call */
+enum { CHUNK = 512 };    /* steps of one call of the object, at most */
 enum { GROUPS_MAX = 12, BLOCK_MAX = GROUPS_MAX * 8 };
 
 struct lanes {
     lanes_def def;
     work plan;                /* of the row, for no particular step */
-    int width, groups, block; /* block: trajectories in one */
+    int width, groups, block; /* trajectories in a vector; vectors in a block; trajectories in a block */
     emit e;
     void *handle;
     void (*bind)(const double *, const int64_t *, double *);
@@ -32,19 +32,19 @@ struct lanes {
     void (*run)(const lanes_job *, whole, whole);
     double *u;
     int64_t *q, *places, *from_x, *from_v;
-    size_t outs; /* numbers of the definitions that are observed */
-    bool wants_a;
-    bool on_the_way; /* something is recorded on the way, not at the end alone */
+    size_t outs;     /* numbers of the definitions that are observed */
+    bool needs_a;    /* some of them contain x'' */
+    bool on_the_way; /* some record needs observations before the end */
     size_t solving;  /* bytes of the linear systems of a group */
     size_t carried;  /* elements of a group's carry */
-    /* of one block, in doubles, whole cache lines */
+    /* sizes for one block, in doubles, whole cache lines */
     size_t own_size, bound_size, carry_size, kept_size, clock_size, work_size, observed_size, solve_size;
 };
 
-/* Doubles for so many elements of every lane of a block, in whole cache lines. */
+/* Doubles for `elements` elements of every lane of a block, in whole cache lines. */
 static inline size_t lines(const lanes *l, size_t elements) { return (elements * (size_t)l->block + 7) / 8 * 8; }
 
-/* Element k of lane i of a block, where a group has so many elements. */
+/* The index of element k of lane i of a block, where a group has `elements` elements. */
 static inline size_t lane_at(const lanes *l, size_t elements, size_t k, size_t i)
 {
     const size_t width = (size_t)l->width;
@@ -58,34 +58,33 @@ typedef struct lanes_call {
     const double *const *values;
     const double *until; /* of every trajectory, or NULL: the same for all */
     double *const *results, *stopped;
-    double *memory; /* of every thread: its blocks, its scratch */
+    double *memory; /* of every thread: its blocks, its scratch, its table */
     size_t blocks, block_size, scratch_size, table_size, thread_size;
-    size_t items, most; /* pieces of the work, and how many trajectories one has */
+    size_t items, most; /* items of work, and trajectories in one */
     atomic_size_t done; /* trajectories */
     atomic_bool cancelled;
     atomic_bool refused; /* the row does not admit the parameters of some lane */
 } lanes_call;
 
-/* One piece of the work: trajectories first … first + count - 1, taken through time by one thread with blocks of its
- * own. */
+/* One item of work: trajectories first … first + count - 1, computed by one thread in blocks of its own. */
 typedef struct lanes_item {
     lanes *l;
     lanes_call *call;
     size_t first, count;
-    bool told;                        /* it reports the progress */
-    double *memory, *scratch, *table; /* of the blocks; of whichever block is at work; of time */
+    bool reports;                     /* calls the progress hook */
+    double *memory, *scratch, *table; /* of all blocks; of the present block; of values of time alone */
     double t0, h;                     /* the leg that all share, */
     int64_t n, first_row;             /*   the steps taken in it, and the first row of the table */
     int64_t observations;             /* recorded so far */
-    bool ends;                        /* the observation to come is the last */
+    bool ends;                        /* the next observation is the one at the end */
 } lanes_item;
 
-/* One block of an item: what the object is given, and what it is not. */
+/* One block of an item: the object's arguments, and the library's own data. */
 typedef struct lanes_block {
     lanes *l;
     lanes_job job;
-    double *stopped; /* when each lane stopped; NaN: it goes on */
-    double *saved;   /* carry and clocks, before steps that may have to be taken once more */
+    double *stopped; /* the time at which each lane stopped; NaN: it has not */
+    double *saved;   /* carry and clocks before the latest steps */
 } lanes_block;
 
 /* ---- lanes_block.c ---- */
@@ -94,23 +93,23 @@ size_t lanes_block_size(const lanes *);
 size_t lanes_scratch_size(const lanes *);
 lanes_block lanes_block_of(const lanes_item *, size_t block);
 void lanes_block_save(const lanes_block *);
-/* Lane i of the block is at the start of trajectory who[i]. */
-void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *who);
-/* Whether the carry of a lane that has not stopped before is infinite, NaN, or so large that what is observed may be. */
-bool lanes_block_broke(const lanes_block *);
-/* Lanes whose carry is not finite stop now. */
+/* Sets lane i of the block to the start of trajectory trajectories[i]. */
+void lanes_block_begin(const lanes_block *, const lanes_item *, const size_t *trajectories);
+/* Whether the carry of a lane that has not stopped is infinite, NaN, or so large that what is observed may be. */
+bool lanes_block_diverged(const lanes_block *);
+/* Marks the lanes whose carry is not finite as stopped now. */
 void lanes_block_stop(const lanes_block *);
-/* The steps since lanes_block_save once more, one by one, to see when each lane stopped. every: observations among
- * them, 0 none, counted from step n. */
+/* Takes the steps since lanes_block_save again, one by one, to find the time at which each lane stopped. Observes after
+ * every `every` steps, counted from step n; 0: never. */
 void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n, int64_t every);
-/* Observes a block, and stops lanes whose observed state is not finite; of lanes with own clocks, those in
- * job.where. */
+/* Observes a block (with own clocks, the lanes in job.where) and marks the lanes whose observed state is not finite as
+ * stopped. */
 void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
-/* The results of one lane, after so many observations, are those of trajectory `who`. */
-void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t who, int64_t observations);
-/* Tells the caller's hook how far all have come, `more` trajectories of this item counted. */
-void lanes_item_tell(lanes_item *, double more);
+/* Writes the results of one lane, after so many observations, as those of a trajectory. */
+void lanes_block_result(const lanes_block *, const lanes_call *, size_t lane, size_t trajectory, int64_t observations);
+/* Calls the progress hook with the fraction done, `more` trajectories of this item included. */
+void lanes_item_report(lanes_item *, double more);
 /* Whether the call is cancelled, or refused: then no more is computed. */
 bool lanes_item_over(const lanes_item *);
 
@@ -119,7 +118,7 @@ bool lanes_item_over(const lanes_item *);
 void lanes_together(lanes_item *, size_t blocks);
 void lanes_apart(lanes_item *);
 size_t lanes_apart_blocks(void);
-/* Doubles that lanes_apart needs of scratch besides. */
+/* Doubles that lanes_apart needs in the table. */
 size_t lanes_apart_size(const lanes *);
 
 #endif

@@ -1,5 +1,5 @@
-/* Lanes whose trajectories share one clock: blocks go through time in chunks of steps, side by side, so that what
- * depends on time alone is tabulated once for all of them. See lanes_parts.h.
+/* Lanes whose trajectories share one clock. All blocks of an item advance by the same chunk of steps before the next
+ * chunk, so that the values that depend on time alone are tabulated once for all blocks. See lanes_parts.h.
  */
 #include "machine/lanes_parts.h"
 
@@ -10,7 +10,7 @@
 typedef struct together {
     lanes_item *item;
     size_t blocks;
-    int64_t steps, every; /* the present chunk: steps to take, and from one observation in it to the next; 0: none */
+    int64_t steps, every; /* the present chunk: its steps, and steps from one observation to the next; 0: none */
 } together;
 
 static void each_block(const together *s, void (*body)(const together *, size_t))
@@ -18,17 +18,17 @@ static void each_block(const together *s, void (*body)(const together *, size_t)
     for (size_t k = 0; k < s->blocks; k++) body(s, k);
 }
 
-/* Lanes too many in the last block repeat the last trajectory. */
+/* Surplus lanes of the last block repeat the last trajectory. */
 static void begin_block(const together *s, size_t number)
 {
     const lanes_item *b = s->item;
     const lanes_block block = lanes_block_of(b, number);
-    size_t who[BLOCK_MAX];
+    size_t trajectories[BLOCK_MAX];
     for (size_t i = 0; i < (size_t)b->l->block; i++) {
         const size_t k = number * (size_t)b->l->block + i;
-        who[i] = b->first + (k < b->count ? k : b->count - 1);
+        trajectories[i] = b->first + (k < b->count ? k : b->count - 1);
     }
-    lanes_block_begin(&block, b, who);
+    lanes_block_begin(&block, b, trajectories);
 }
 
 static void run_block(const together *s, size_t number)
@@ -43,7 +43,7 @@ static void run_block(const together *s, size_t number)
         l->run(&block.job, s->steps, s->every);
     for (size_t i = 0; l->plan.solves && b->n == 0 && i < (size_t)l->block; i++)
         if (isinf(block.job.lost[i])) atomic_store(&b->call->refused, true);
-    if (lanes_block_broke(&block))
+    if (lanes_block_diverged(&block))
         lanes_block_trace(&block, b->n == 0, s->steps, b->n, l->on_the_way ? l->def.every : 0);
 }
 
@@ -53,8 +53,8 @@ static void observe_block(const together *s, size_t number)
     lanes_block_observe(&block);
 }
 
-/* The shorter last step is a leg of its own, from the state at the end of the whole ones. */
-static void turn_block(const together *s, size_t number)
+/* Begins the leg of the shorter last step, from the state after the whole steps. */
+static void begin_last_leg(const together *s, size_t number)
 {
     lanes_block block = lanes_block_of(s->item, number);
     block.job.record_count = 0;
@@ -71,9 +71,9 @@ static void end_block(const together *s, size_t number)
         lanes_block_result(&block, b->call, i, b->first + first + i, b->observations);
 }
 
-/* ---- through time ---- */
+/* ---- steps and observations ---- */
 
-/* What depends on time alone, from the present step on. */
+/* Tabulates the values that depend on time alone, from the present step on. */
 static void fill_table(const together *s, int64_t steps)
 {
     lanes_item *b = s->item;
@@ -82,7 +82,7 @@ static void fill_table(const together *s, int64_t steps)
     b->l->table(&block.job, b->table, steps + 1);
 }
 
-/* The next chunk. The first step is one of its own; the observation at the end is not among those on the way. */
+/* Chooses the next chunk. The first step is a chunk of its own. The observation at the end belongs to no chunk. */
 static void next_chunk(together *s)
 {
     const lanes_item *b = s->item;
@@ -119,7 +119,7 @@ static motus_status observe(void *ctx, motus_error *err)
     return MOTUS_OK;
 }
 
-/* An observation that falls between two chunks is made here, one within a chunk by the object. */
+/* The object makes the observations within a chunk, this function those between two chunks. */
 static motus_status whole_steps(together *s)
 {
     lanes_item *b = s->item;
@@ -131,7 +131,7 @@ static motus_status whole_steps(together *s)
         b->n += s->steps;
         b->observations += s->every ? s->steps / s->every : 0;
         if (b->n == 1 && b->l->on_the_way && d->every == 1 && (d->whole > 1 || d->last != 0)) observe(s, NULL);
-        if (b->told) lanes_item_tell(b, (double)b->count * (double)b->n / (double)(d->whole + 1));
+        if (b->reports) lanes_item_report(b, (double)b->count * (double)b->n / (double)(d->whole + 1));
         if (lanes_item_over(b)) return MOTUS_CANCELLED;
     }
     return MOTUS_OK;
@@ -142,7 +142,7 @@ static void short_step(together *s)
     lanes_item *b = s->item;
     const lanes_block block = lanes_block_of(b, 0);
     fill_table(s, 0);
-    each_block(s, turn_block);
+    each_block(s, begin_last_leg);
     new_leg(b, lanes_block_time(&block, 0), b->l->def.last);
     s->steps = 1;
     s->every = 0;
@@ -151,7 +151,7 @@ static void short_step(together *s)
     b->n = 1;
 }
 
-/* All the way, or nothing: the object observes on its way. */
+/* Takes all steps or none, since the observations before the end are made here and by the object. */
 static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, motus_error *err)
 {
     together *s = ctx;

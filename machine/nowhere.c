@@ -1,5 +1,5 @@
-/* The compiled machine where there is no compiler: in a browser. It stands in for machine/compiled.c (and all that it
- * needs) in the page's module; whoever asks for machine code is told, and the interpreter serves.
+/* The compiled machine in a browser, where there is no compiler: replaces machine/compiled.c in the page's module.
+ * Every request to compile fails, and the caller uses the interpreter.
  */
 #include "machine/compiled.h"
 

@@ -1,9 +1,10 @@
-/* See parallel.h. POSIX threads, which wait for a moment awake, in case there is more, and then asleep.
+/* POSIX threads. See parallel.h. After a call a thread first spins, because the next call often follows at once, and
+ * then sleeps.
  *
- * Invariant: a call ends when its items are done, and waits for nobody who had none of them. So threads that other
- * programs keep from the processors cost time only while they hold an item; a barrier, such as those of OpenMP, would
- * wait for them at every call. (OpenMP's threads also wait awake, for milliseconds: on a computer that is busy
- * otherwise, sums over a thousand pairs took ten times as long with two of them.)
+ * Invariant: a call ends when its items are done, and waits only for threads that took an item. A thread that the
+ * operating system has suspended therefore delays a call only while it holds an item; a barrier, such as OpenMP's,
+ * would wait for it at every call. (OpenMP's threads also spin for milliseconds: on a computer with other load, sums
+ * over a thousand pairs took ten times as long with two threads as with one.)
  */
 #include "machine/parallel.h"
 
@@ -17,23 +18,24 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { AWAKE = 1 << 11 }; /* looks, some tens of nanoseconds apart, before a thread sleeps */
+enum { SPINS = 1 << 11 }; /* of some tens of nanoseconds, before a thread sleeps */
 
-struct parallel_crew {
-    pthread_mutex_t lock; /* of all that follows but the atomic numbers */
+struct parallel_pool {
+    pthread_mutex_t lock; /* of all members below that are not atomic */
     pthread_cond_t work, end;
-    atomic_uint call;   /* changes with every call */
+    atomic_uint call;   /* the number of the present call */
     atomic_size_t next; /* item */
-    atomic_int busy;    /* threads, besides the caller's, that may hold an item */
-    atomic_flag taken;  /* a call is going on */
-    bool open, over;    /* the present call takes more threads; there will be none any more */
-    int joined, most;   /* threads of the present call, and how many there may be */
+    atomic_int busy;    /* threads besides the caller's that may hold an item */
+    atomic_flag taken;  /* a call uses the pool */
+    bool open;          /* threads may still join the present call */
+    bool closing;       /* the threads shall end */
+    int joined, most;   /* threads of the present call, and how many it may have */
     size_t items;
     void (*body)(void *ctx, size_t item, int thread);
     void *ctx;
     fenv_t modes;
     motus_allocator allocator;
-    int hired;
+    int count; /* of `threads`, which do not include the caller's */
     pthread_t threads[];
 };
 
@@ -46,125 +48,125 @@ static void pause_a_moment(void)
 #endif
 }
 
-static void take_items(parallel_crew *c, int thread)
+static void take_items(parallel_pool *p, int thread)
 {
-    for (size_t k; (k = atomic_fetch_add(&c->next, 1)) < c->items;) c->body(c->ctx, k, thread);
+    for (size_t k; (k = atomic_fetch_add(&p->next, 1)) < p->items;) p->body(p->ctx, k, thread);
 }
 
-static void *live(void *ctx)
+static void *run_thread(void *ctx)
 {
-    parallel_crew *c = ctx;
+    parallel_pool *p = ctx;
     unsigned seen = 0;
     for (;;) {
-        for (int k = 0; k < AWAKE && atomic_load_explicit(&c->call, memory_order_relaxed) == seen; k++)
+        for (int k = 0; k < SPINS && atomic_load_explicit(&p->call, memory_order_relaxed) == seen; k++)
             pause_a_moment();
-        pthread_mutex_lock(&c->lock);
-        while (atomic_load(&c->call) == seen && !c->over) pthread_cond_wait(&c->work, &c->lock);
-        const bool over = c->over;
+        pthread_mutex_lock(&p->lock);
+        while (atomic_load(&p->call) == seen && !p->closing) pthread_cond_wait(&p->work, &p->lock);
+        const bool closing = p->closing;
         int thread = 0;
-        seen = atomic_load(&c->call);
-        if (!over && c->open && c->joined < c->most) {
-            thread = c->joined++;
-            atomic_fetch_add(&c->busy, 1);
+        seen = atomic_load(&p->call);
+        if (!closing && p->open && p->joined < p->most) {
+            thread = p->joined++;
+            atomic_fetch_add(&p->busy, 1);
         }
-        pthread_mutex_unlock(&c->lock);
-        if (over) return NULL;
+        pthread_mutex_unlock(&p->lock);
+        if (closing) return NULL;
         if (!thread) continue;
-        fesetenv(&c->modes);
-        take_items(c, thread);
-        pthread_mutex_lock(&c->lock);
-        if (atomic_fetch_sub(&c->busy, 1) == 1) pthread_cond_signal(&c->end);
-        pthread_mutex_unlock(&c->lock);
+        fesetenv(&p->modes);
+        take_items(p, thread);
+        pthread_mutex_lock(&p->lock);
+        if (atomic_fetch_sub(&p->busy, 1) == 1) pthread_cond_signal(&p->end);
+        pthread_mutex_unlock(&p->lock);
     }
 }
 
-/* `c` is all zeros. Signals stay with the threads that the user knows. */
-static void hire(parallel_crew *c, int threads)
+/* All bytes of `p` are 0. The threads block all signals, so that handlers run in the user's own threads. */
+static void open_pool(parallel_pool *p, int threads)
 {
     sigset_t all, before;
-    atomic_flag_clear(&c->taken);
-    pthread_mutex_init(&c->lock, NULL);
-    pthread_cond_init(&c->work, NULL);
-    pthread_cond_init(&c->end, NULL);
+    atomic_flag_clear(&p->taken);
+    pthread_mutex_init(&p->lock, NULL);
+    pthread_cond_init(&p->work, NULL);
+    pthread_cond_init(&p->end, NULL);
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    while (c->hired < threads && !pthread_create(&c->threads[c->hired], NULL, live, c)) c->hired++;
+    while (p->count < threads && !pthread_create(&p->threads[p->count], NULL, run_thread, p)) p->count++;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-parallel_crew *parallel_hire(int threads, const motus_allocator *allocator)
+parallel_pool *parallel_pool_create(int threads, const motus_allocator *allocator)
 {
     if (threads < 2) return NULL;
-    parallel_crew *c = take(allocator, 1, sizeof *c + (size_t)(threads - 1) * sizeof *c->threads);
-    if (!c) return NULL;
-    if (allocator) c->allocator = *allocator;
-    hire(c, threads - 1);
-    return c;
+    parallel_pool *p = take(allocator, 1, sizeof *p + (size_t)(threads - 1) * sizeof *p->threads);
+    if (!p) return NULL;
+    if (allocator) p->allocator = *allocator;
+    open_pool(p, threads - 1);
+    return p;
 }
 
-static void dismiss(parallel_crew *c)
+static void close_pool(parallel_pool *p)
 {
-    pthread_mutex_lock(&c->lock);
-    c->over = true;
-    pthread_cond_broadcast(&c->work);
-    pthread_mutex_unlock(&c->lock);
-    for (int k = 0; k < c->hired; k++) pthread_join(c->threads[k], NULL);
-    pthread_cond_destroy(&c->work);
-    pthread_cond_destroy(&c->end);
-    pthread_mutex_destroy(&c->lock);
+    pthread_mutex_lock(&p->lock);
+    p->closing = true;
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->lock);
+    for (int k = 0; k < p->count; k++) pthread_join(p->threads[k], NULL);
+    pthread_cond_destroy(&p->work);
+    pthread_cond_destroy(&p->end);
+    pthread_mutex_destroy(&p->lock);
 }
 
-void parallel_dismiss(parallel_crew *c)
+void parallel_pool_destroy(parallel_pool *p)
 {
-    if (!c) return;
-    dismiss(c);
-    const motus_allocator allocator = c->allocator;
-    give(&allocator, c);
+    if (!p) return;
+    close_pool(p);
+    const motus_allocator allocator = p->allocator;
+    give(&allocator, p);
 }
 
-void parallel_by(parallel_crew *c, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
-                 void *ctx)
+void parallel_pool_for(parallel_pool *p, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
+                       void *ctx)
 {
-    if (!c || threads < 2 || items < 2 || atomic_flag_test_and_set(&c->taken)) {
+    if (!p || threads < 2 || items < 2 || atomic_flag_test_and_set(&p->taken)) {
         for (size_t k = 0; k < items; k++) body(ctx, k, 0);
         return;
     }
-    pthread_mutex_lock(&c->lock);
-    c->items = items;
-    c->body = body;
-    c->ctx = ctx;
-    c->joined = 1;
-    c->most = (size_t)threads < items ? threads : (int)items;
-    c->open = true;
-    fegetenv(&c->modes);
-    atomic_store(&c->next, 0);
-    atomic_fetch_add(&c->call, 1);
-    pthread_cond_broadcast(&c->work);
-    pthread_mutex_unlock(&c->lock);
-    take_items(c, 0);
-    for (int k = 0; k < AWAKE && atomic_load_explicit(&c->busy, memory_order_relaxed); k++) pause_a_moment();
-    pthread_mutex_lock(&c->lock);
-    c->open = false;
-    while (atomic_load(&c->busy)) pthread_cond_wait(&c->end, &c->lock);
-    pthread_mutex_unlock(&c->lock);
-    atomic_flag_clear(&c->taken);
+    pthread_mutex_lock(&p->lock);
+    p->items = items;
+    p->body = body;
+    p->ctx = ctx;
+    p->joined = 1;
+    p->most = (size_t)threads < items ? threads : (int)items;
+    p->open = true;
+    fegetenv(&p->modes);
+    atomic_store(&p->next, 0);
+    atomic_fetch_add(&p->call, 1);
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->lock);
+    take_items(p, 0);
+    for (int k = 0; k < SPINS && atomic_load_explicit(&p->busy, memory_order_relaxed); k++) pause_a_moment();
+    pthread_mutex_lock(&p->lock);
+    p->open = false;
+    while (atomic_load(&p->busy)) pthread_cond_wait(&p->end, &p->lock);
+    pthread_mutex_unlock(&p->lock);
+    atomic_flag_clear(&p->taken);
 }
 
 void parallel_for(int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx)
 {
     union {
-        parallel_crew crew;
-        char room[sizeof(parallel_crew) + MOTUS_THREADS_MAX * sizeof(pthread_t)];
+        parallel_pool pool;
+        char bytes[sizeof(parallel_pool) + MOTUS_THREADS_MAX * sizeof(pthread_t)];
     } here;
     const int most = items < (size_t)threads ? (int)items : threads;
     if (most < 2) {
-        parallel_by(NULL, 1, items, body, ctx);
+        parallel_pool_for(NULL, 1, items, body, ctx);
         return;
     }
-    memset(&here.crew, 0, sizeof here.crew);
-    hire(&here.crew, most - 1);
-    parallel_by(&here.crew, most, items, body, ctx);
-    dismiss(&here.crew);
+    memset(&here.pool, 0, sizeof here.pool);
+    open_pool(&here.pool, most - 1);
+    parallel_pool_for(&here.pool, most, items, body, ctx);
+    close_pool(&here.pool);
 }
 
 int parallel_processors(void)

@@ -1,7 +1,7 @@
-/* Work in independent pieces, by several threads: the one way in which this library uses more than one core.
+/* Independent pieces of work, done by several threads: the only way in which the library uses more than one core.
  *
- * Invariant: a piece is done once, by one thread, in the caller's floating-point modes; which thread does it, and
- * when, is left to chance. So whoever writes only to what belongs to a piece, or to a thread, gets the same bits from
+ * Invariant: each piece is done once, by one thread, in the caller's floating-point modes. Which thread does it, and
+ * when, is not determined, so a body that writes only to memory of its piece or of its thread gives the same bits with
  * any number of threads.
  */
 #ifndef MACHINE_PARALLEL_H
@@ -11,21 +11,22 @@
 
 #include <stddef.h>
 
-/* body(ctx, item, thread) for item = 0 … items - 1; the next free thread takes the next item. `thread` is 0 … threads
- * - 1, and 0 is the caller's own: two pieces that see the same number are never at work at once. Comes back when all
- * is done. Threads that cannot be had are done without. */
+/* Calls body(ctx, item, thread) for item = 0 … items - 1, and returns when all calls have returned. A free thread takes
+ * the next item. `thread` is 0 … threads - 1, and 0 is the caller's own; calls with the same `thread` never overlap.
+ * Where fewer threads can be created, those do all the work. */
 void parallel_for(int threads, size_t items, void (*body)(void *ctx, size_t item, int thread), void *ctx);
 
-/* Threads that wait for the next work, for those who have much of it in small portions. NULL: none can be had. */
-typedef struct parallel_crew parallel_crew;
-parallel_crew *parallel_hire(int threads, const motus_allocator *);
-void parallel_dismiss(parallel_crew *);
-/* As parallel_for, by the caller and his crew (NULL: the caller alone). Who calls while others have the crew does his
- * work alone. */
-void parallel_by(parallel_crew *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
-                 void *ctx);
+/* A pool of threads that wait from one call to the next, because creating threads costs more than a short call. The
+ * caller counts as one of `threads`. NULL: fewer than two threads, or no memory. */
+typedef struct parallel_pool parallel_pool;
+parallel_pool *parallel_pool_create(int threads, const motus_allocator *);
+void parallel_pool_destroy(parallel_pool *);
+/* As parallel_for, by the caller and the pool's threads. Where the pool is NULL, or serves another call, the caller
+ * does all items. */
+void parallel_pool_for(parallel_pool *, int threads, size_t items, void (*body)(void *ctx, size_t item, int thread),
+                       void *ctx);
 
-/* Processors that may be used, up to MOTUS_THREADS_MAX; 1 where that is not known. */
+/* How many processors this process may use, up to MOTUS_THREADS_MAX; 1 where that is not known. */
 int parallel_processors(void);
 
 #endif

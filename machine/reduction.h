@@ -1,8 +1,8 @@
-/* machine/text/reduce.h for one number at a time. */
+/* machine/text/reduce.h with real = double. */
 #ifndef MACHINE_REDUCTION_H
 #define MACHINE_REDUCTION_H
 
-#include <time.h> /* before `clock` is the texts' */
+#include <time.h> /* before the texts define `clock` */
 #include "core/stepper_body.h"
 #include "lang/base/functions.h"
 

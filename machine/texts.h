@@ -1,4 +1,4 @@
-/* The texts of step/, carried in the library so that an installed motus can compile them. */
+/* The texts of step/ and machine/text/, embedded in the library so that an installed motus can compile them. */
 #ifndef MACHINE_TEXTS_H
 #define MACHINE_TEXTS_H
 

@@ -1,12 +1,12 @@
-/* See tiles.h. */
+/* Tiles: the memory layout of a model of neighbours. See tiles.h. */
 #include "machine/tiles.h"
 
-enum { LINE = 8 }; /* numbers in a cache line: where windows of a chain begin and end */
+enum { LINE = 8 }; /* numbers in a cache line: windows of a chain begin and end at multiples of it */
 
 static whole up_to(whole k, whole unit) { return (k + unit - 1) / unit * unit; }
 
-/* One stretch for every run of cells without an equation; `to` NULL: only counted. */
-static size_t stills(const model *m, size_t *to)
+/* Writes the ranges of fixed cells; `to` NULL: counts them. */
+static size_t list_fixed(const model *m, size_t *to)
 {
     size_t count = 0, end = SIZE_MAX;
     for (int order = 2; order >= 1; order--)
@@ -32,12 +32,12 @@ const tiling *tiles_create(const model *m, const locality *l)
         parts += m->states[i].components ? (size_t)m->states[i].components : 1;
     tiling *t = arena_room(m->arena, sizeof *t);
     tiling_part *part = arena_room(m->arena, (parts + 1) * sizeof *part);
-    const size_t count = stills(m, NULL);
-    size_t *still = arena_room(m->arena, (2 * count + 1) * sizeof *still);
-    if (!t || !part || !still) return NULL;
-    stills(m, still);
+    const size_t count = list_fixed(m, NULL);
+    size_t *fixed = arena_room(m->arena, (2 * count + 1) * sizeof *fixed);
+    if (!t || !part || !fixed) return NULL;
+    list_fixed(m, fixed);
     *t = (tiling){
-        .part = part, .still = still, .stills = count, .first = INT64_MAX, .last = INT64_MIN, .reach = l->reach};
+        .part = part, .fixed = fixed, .fixed_count = count, .first = INT64_MAX, .last = INT64_MIN, .reach = l->reach};
     for (int order = 2; order >= 1; order--)
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];

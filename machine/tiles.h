@@ -1,6 +1,8 @@
-/* What a compiled model is told about its own shape, so that large systems can be taken in tiles, by several threads.
+/* The memory layout of a model of neighbours, by which a compiled model computes large systems in tiles, by several
+ * threads.
  *
- * Invariant: the numbers of an outer index lie together, part by part, in the order of the state's arrays. */
+ * Invariant: the numbers of an outer index are contiguous in each part; parts are in the order of the state's arrays.
+ */
 #ifndef MACHINE_TILES_H
 #define MACHINE_TILES_H
 
@@ -12,7 +14,7 @@
 typedef int64_t whole;
 #include "machine/text/tiling.h"
 
-/* In the model's arena; NULL where there is no memory. Every state must have an index. */
+/* In the model's arena; NULL: no memory. Every state must have an index. */
 const tiling *tiles_create(const model *, const locality *);
 
 #endif

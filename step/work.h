@@ -53,8 +53,8 @@ typedef whole ticks;
 
 /* The result of comparing reals: one bool, or one for each lane where real is a vector. PICK chooses lane by lane,
  * LARGER(a, b) is a where a > b, else b, and SOME tells whether it holds in any lane. STOP ends a step that cannot go
- * on, with its status; of lanes it marks those `where` this holds, SPOIL sets their values to NaN, and the others go on.
- * BLAME notes the entry of v that failed. */
+ * on, with its status; of lanes it marks those `where` this holds, SPOIL sets their values to NaN, and the others go
+ * on. BLAME notes the entry of v that failed. */
 #ifndef ALWAYS
 typedef bool truth;
 #define ALWAYS true

@@ -430,7 +430,7 @@ static void exact_and_invariant_callbacks(void **state)
 
 /* A ring of three masses and the work done on the first, with names or without. */
 typedef struct ring {
-    int64_t looks;
+    int64_t calls;
     int fail;
 } ring;
 
@@ -448,7 +448,7 @@ static int ring_quantity(void *context, double t, const double *x, const double 
 {
     ring *r = context;
     (void)v;
-    r->looks++;
+    r->calls++;
     values[0] = x[0] + x[1];
     values[1] = t;
     return r->fail;
@@ -458,7 +458,7 @@ static int ring_invariant(void *context, double t, const double *x, const double
 {
     ring *r = context;
     (void)t;
-    r->looks++;
+    r->calls++;
     values[0] = v[0] + v[1] + v[2];
     values[1] = 0;
     for (int k = 0; k < 3; k++) values[1] += v[k] * v[k] / 2 + (x[k] - x[(k + 1) % 3]) * (x[k] - x[(k + 1) % 3]) / 2;
@@ -571,9 +571,9 @@ static void quantities_and_invariants(void **state)
     const size_t columns[6] = {column(s, "energy"),      column(s, "momentum"), column(s, "quantity[2]"),
                                column(s, "quantity[1]"), column(s, "x[2]"),     column(s, "energy")};
     must(motus_run_state(run, x, v, &err), &err, "state");
-    r.looks = 0;
+    r.calls = 0;
     must(motus_run_values(run, columns, 6, out, &err), &err, "values");
-    assert_int_equal(r.looks, 3); /* invariants, quantities, and invariants again */
+    assert_int_equal(r.calls, 3); /* invariants, quantities, and invariants again */
     assert_true(out[0] == out[5] && out[1] == v[0] + v[1] + v[2] && out[2] == motus_run_time(run) &&
                 out[3] == x[0] + x[1] && out[4] == x[1]);
     near(out[1], -0.5, 100 * 8 * ROUNDING, "the momentum");

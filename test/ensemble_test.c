@@ -232,18 +232,18 @@ static motus_ensemble *make(const task *t, const char *machine, int lanes, int t
 
 /* The oracle: a run ------------------------------------------------------------------------------------------------ */
 
-static void look_at(const task *t, motus_run *r, double *kept, double *when, int64_t looks)
+static void observe(const task *t, motus_run *r, double *kept, double *when, int64_t observations)
 {
     motus_error err = motus_default_error();
     for (size_t i = 0; i < t->record_count; i++) {
         const motus_record *one = &t->records[i];
         double now;
-        must(motus_run_values(r, &one->column, 1, &now, &err), &err, "look");
+        must(motus_run_values(r, &one->column, 1, &now, &err), &err, "observe");
         bool better =
-            looks == 0 || isnan(now) ||
+            observations == 0 || isnan(now) ||
             (one->how == MOTUS_REDUCE_MIN || one->how == MOTUS_REDUCE_TIME_OF_MIN ? now < kept[i] : now > kept[i]);
         if (one->how == MOTUS_REDUCE_MEAN)
-            kept[i] = looks ? kept[i] + now : now;
+            kept[i] = observations ? kept[i] + now : now;
         else if (one->how == MOTUS_REDUCE_FINAL || better)
             kept[i] = now;
         if (better && !isnan(now)) when[i] = motus_run_time(r);
@@ -268,11 +268,11 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
     const double until = t->ends ? t->values[t->vary_count][i] : t->until;
     motus_run *r = given_run(s, t->method, t->step, until);
     double *kept = calloc(2 * t->record_count, sizeof *kept), *when = kept + t->record_count;
-    int64_t looks = 0;
+    int64_t observations = 0;
     motus_error err = motus_default_error();
     motus_status status = MOTUS_OK;
     while (status == MOTUS_OK) {
-        if (motus_run_done(r) || motus_run_steps(r) % t->every == 0) look_at(t, r, kept, when, looks++);
+        if (motus_run_done(r) || motus_run_steps(r) % t->every == 0) observe(t, r, kept, when, observations++);
         if (motus_run_done(r)) break;
         status = motus_run_step(r, 1, &err);
     }
@@ -284,7 +284,7 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
     for (size_t k = 0; status != MOTUS_OK && k < t->record_count; k++) assert_true(isnan(o->at[k][i]));
     for (size_t k = 0; status == MOTUS_OK && k < t->record_count; k++) {
         const motus_reduction how = t->records[k].how;
-        double expected = how == MOTUS_REDUCE_MEAN                                             ? kept[k] / (double)looks
+        double expected = how == MOTUS_REDUCE_MEAN ? kept[k] / (double)observations
                           : how == MOTUS_REDUCE_TIME_OF_MIN || how == MOTUS_REDUCE_TIME_OF_MAX ? when[k]
                                                                                                : kept[k];
         /* The sign of a zero that is a minimum or maximum is not specified. */

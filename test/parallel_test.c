@@ -1,5 +1,5 @@
-/* Work in pieces: every piece is done once, by one thread at a time, in the caller's floating-point modes; whether
- * threads start at once, wake from sleep, or cannot be created. */
+/* Pieces of work: every piece is done once, in the caller's floating-point modes, and no two threads have the same
+ * number at once; with new threads, with a pool of threads that spin or sleep, and without threads. */
 #include "machine/parallel.h"
 
 #include <fenv.h>
@@ -19,7 +19,7 @@ enum { ITEMS_MAX = 1000, THREADS = 8 };
 typedef struct count {
     atomic_int done[ITEMS_MAX], at_work[THREADS], wrong;
     int threads, modes;
-    parallel_crew *crew; /* also called within a piece of work */
+    parallel_pool *pool; /* also used within a piece of work */
     atomic_int inside;
 } count;
 
@@ -38,7 +38,7 @@ static void piece(void *ctx, size_t item, int thread)
         atomic_store(&c->wrong, 1);
     for (volatile int k = 0; k < 300; k++)
         ;
-    if (c->crew && item % 100 == 3) parallel_by(c->crew, c->threads, 5, inner, c);
+    if (c->pool && item % 100 == 3) parallel_pool_for(c->pool, c->threads, 5, inner, c);
     atomic_fetch_add(&c->done[item], 1);
     atomic_fetch_sub(&c->at_work[thread], 1);
 }
@@ -66,68 +66,68 @@ static void every_piece_once(void **state)
         }
 }
 
-static void a_crew_comes_again(void **state)
+static void a_pool_is_used_again(void **state)
 {
     (void)state;
-    parallel_crew *crew = parallel_hire(4, NULL);
-    assert_non_null(crew);
+    parallel_pool *pool = parallel_pool_create(4, NULL);
+    assert_non_null(pool);
     for (int round = 0; round < 300; round++) {
         if (round % 100 == 99) /* until they sleep */
             nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
         clear(&all, 1 + round % 4);
-        parallel_by(crew, 1 + round % 4, sizes[round % SIZES], piece, &all);
+        parallel_pool_for(pool, 1 + round % 4, sizes[round % SIZES], piece, &all);
         judge(&all, sizes[round % SIZES]);
     }
-    parallel_dismiss(crew);
+    parallel_pool_destroy(pool);
 }
 
-static void a_crew_that_is_taken(void **state)
+static void a_pool_that_serves_another_call(void **state)
 {
     (void)state;
-    parallel_crew *crew = parallel_hire(3, NULL);
+    parallel_pool *pool = parallel_pool_create(3, NULL);
     clear(&all, 3);
-    all.crew = crew;
-    parallel_by(crew, 3, ITEMS_MAX, piece, &all);
+    all.pool = pool;
+    parallel_pool_for(pool, 3, ITEMS_MAX, piece, &all);
     judge(&all, ITEMS_MAX);
     assert_int_equal(atomic_load(&all.inside), 50);
-    parallel_dismiss(crew);
+    parallel_pool_destroy(pool);
 }
 
 static void the_callers_modes(void **state)
 {
     (void)state;
-    parallel_crew *crew = parallel_hire(4, NULL);
+    parallel_pool *pool = parallel_pool_create(4, NULL);
     const int before = fegetround();
     for (int round = 0; round < 20; round++) {
         fesetround(round % 2 ? FE_UPWARD : FE_DOWNWARD);
         clear(&all, 4);
-        parallel_by(crew, 4, ITEMS_MAX, piece, &all);
+        parallel_pool_for(pool, 4, ITEMS_MAX, piece, &all);
         fesetround(before);
         judge(&all, ITEMS_MAX);
     }
-    parallel_dismiss(crew);
+    parallel_pool_destroy(pool);
 }
 
 static void *refuse(void *context, size_t bytes) { return (void)context, (void)bytes, NULL; }
 static void release(void *context, void *block) { (void)context, (void)block; }
 
-static void nobody_to_be_had(void **state)
+static void without_a_pool(void **state)
 {
     (void)state;
     const motus_allocator none = {.allocate = refuse, .release = release};
-    assert_null(parallel_hire(4, &none));
-    assert_null(parallel_hire(1, NULL));
+    assert_null(parallel_pool_create(4, &none));
+    assert_null(parallel_pool_create(1, NULL));
     clear(&all, 1);
-    parallel_by(NULL, 4, ITEMS_MAX, piece, &all);
+    parallel_pool_for(NULL, 4, ITEMS_MAX, piece, &all);
     judge(&all, ITEMS_MAX);
-    parallel_dismiss(NULL);
+    parallel_pool_destroy(NULL);
     assert_true(parallel_processors() >= 1);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once), cmocka_unit_test(a_crew_comes_again),
-                                       cmocka_unit_test(a_crew_that_is_taken), cmocka_unit_test(the_callers_modes),
-                                       cmocka_unit_test(nobody_to_be_had)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_piece_once), cmocka_unit_test(a_pool_is_used_again),
+                                       cmocka_unit_test(a_pool_that_serves_another_call),
+                                       cmocka_unit_test(the_callers_modes), cmocka_unit_test(without_a_pool)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,16 @@
-/* The text of a compiled model that joins the generated acceleration to the texts of step/; compiled_run.h or lanes.h
- * comes last.
+/* The text of a compiled model that defines accel and the solver's functions (work.h) by the generated acceleration;
+ * compiled_run.h or lanes.h comes last.
  *
- * Before it stand what is known of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), work.h, host.h
- * with their vocabulary, the functions and operations that the model uses, `compiled_force`, and `compiled_boundary`
- * where the boundary is driven.
+ * Before it stand the constants of the row and of the problem (ROW_…, FACT_…, DRIVEN, MOMENTS, TERMS), work.h and
+ * host.h with what they need, the functions and operations that the model uses, `compiled_force`, and
+ * `compiled_boundary` where the boundary is driven.
  *
- * Invariant: TERMS values of time alone are computed at all moments of the next steps at once, in lanes, and wait in
- * w->table. They are the values that one evaluation would compute.
+ * Invariant: the TERMS values that depend on time alone are computed for all moments of the next steps at once, in
+ * lanes, and stored in w->table, with the bits that one evaluation gives.
  */
 #define BOUNDARY(host, t, x, v, a) \
     compiled_boundary(host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, (real *)0)
-#if WINDOWED /* pass.h: of all outer indices, and of those that are the workspace's turn */
+#if WINDOWED /* pass.h: over all outer indices, and over those of w->window */
 static void pass_all(const compiled_host *, clock t, const clock *T, real *x, real *v, real *a);
 static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *a);
 #define FORCE(host, t, T, x, v, a) pass_all(host, t, T, x, v, a)
@@ -21,7 +21,7 @@ static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *
 #define FORCE_OF(w, t, T, x, v, a) FORCE(w->host, t, T, x, v, a)
 #endif
 
-/* The values of time alone, now; T is room for them. */
+/* The values that depend on time alone, at t; T is room for them. */
 static inline const clock *compiled_terms(const compiled_host *host, clock t, clock *T)
 {
 #if TERMS
@@ -65,7 +65,7 @@ static inline const clock *compiled_table(const work *w, int moment)
     return w->table + ((w->n - w->first) * MOMENTS + moment) * TERMS;
 }
 
-/* Within a step there always is a table. */
+/* Within a step w->table is never NULL. */
 static inline int compiled_accel_in(work *w, int i, real *x, real *v, real *a)
 {
     return accel_with(w, time_in(w, FACT(w, c)[i]), compiled_table(w, fact_moment[i]), x, v, a);
@@ -77,8 +77,8 @@ static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
     return accel_with(w, time_now(w), compiled_table(w, 0), x, v, a);
 }
 
-/* The table of LANES_OF_TIME steps from number `n` on. It is given time and step alone, so that a workspace may stay
- * in registers. */
+/* The table of LANES_OF_TIME steps from step n on. It takes t0 and h instead of a workspace, so that the workspace can
+ * stay in registers. */
 static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n)
 {
     const work clockwork = {.t0 = t0, .h = h}, *w = &clockwork;
@@ -93,7 +93,7 @@ static inline void compiled_fill_some(const compiled_host *host, clock t0, clock
     }
 }
 
-/* Of `count` steps, and as many more as fill a vector. */
+/* The table of `count` steps, rounded up to whole vectors. */
 __attribute__((noinline)) static void compiled_fill(const compiled_host *host, clock t0, clock h, clock *restrict table,
                                                     whole n, whole count)
 {
@@ -102,12 +102,12 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 }
 #endif
 
-/* Who asks for the exact motion asks the library. */
+/* The library computes the exact motion. */
 #define exact_at(w, t, x, v) STEP_OK
 
 /* Lanes have a text of their own: solve.h. */
 #ifndef GROUPS
-/* One equation in v alone: its diagonal, where it is constant, is fetched once. */
+/* For one equation in v alone the constant diagonal, where there is one, is fetched once. */
 #define ONE_SLOPE (FACT(w, solves) == 1 && !FACT(w, solves_x))
 static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
                                real *v)

@@ -1,13 +1,13 @@
-/* The last text of a compiled model of one trajectory: what the library's stepper calls.
+/* The last text of a compiled model of one trajectory: the functions that the library's stepper calls.
  *
- * Invariant: the library's workspace is copied, run and copied back. Where the system is SMALL its arrays are copied
- * too, so that the compiler may keep them in registers, and the copy is looked at for infinities once in SPAN steps:
- * what is not finite stays so. Then, or when a step fails, the library's own loop takes these steps again, from the
- * state that it still has.
+ * Invariant: motus_run copies the library's workspace, advances the copy and copies it back. Where the system is SMALL
+ * it copies the arrays too, so that the compiler can keep them in registers, and tests only after every SPAN steps
+ * whether the copy is finite, since a number that is not finite stays so. Where that test or a step fails, the
+ * library's own loop takes these steps again, from the workspace as it was.
  */
 #if TERMS
-/* LANES_OF_TIME steps at a time, the table of the next ones before them: the processor fills it while it waits for
- * the motion. */
+/* Takes LANES_OF_TIME steps at a time and first computes the table of the steps after them, which the processor
+ * overlaps with the latency of the present steps. */
 static inline int compiled_steps(work *w, whole steps)
 {
     enum { HALF = LANES_OF_TIME * MOMENTS * TERMS };
@@ -31,13 +31,13 @@ static inline int compiled_steps(work *w, whole steps)
 #define compiled_steps advance_run
 #endif
 
-/* a workspace that no call sees can live in registers, and what the plan says is known everywhere */
+/* inlined, so that the workspace can stay in registers and the plan's numbers are constants */
 #if SMALL
 __attribute__((flatten))
 #endif
 int motus_run(work *given, whole steps)
 {
-    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 }; /* the stride that the library's solver expects */
+    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 }; /* as the library's solver expects it */
     for (whole some; steps > 0; steps -= some) {
         work local = *given, *w = &local;
         w->diagonal = NULL;

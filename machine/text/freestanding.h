@@ -1,6 +1,5 @@
-/* The first text of a compiled model: what the other texts would have from C's headers, in the compiler's own words,
- * because reading the headers takes a compiler longer than compiling a small model. GCC and clang have these words on
- * every target.
+/* The first text of a compiled model. It replaces C's headers by built-in names of the compiler, because reading the
+ * headers takes longer than compiling a small model. GCC and clang have these names on every target.
  */
 typedef __SIZE_TYPE__ size_t;
 typedef __INT64_TYPE__ int64_t;
@@ -19,7 +18,7 @@ typedef __UINT64_TYPE__ uint64_t;
 #define fmod __builtin_fmod
 #define copysign __builtin_copysign
 #define signbit __builtin_signbit
-/* Before a loop whose turns are known in number: it is written out. */
+/* Before a loop whose count is constant: the compiler unrolls it completely. */
 #ifdef __clang__
 #define WRITTEN_OUT _Pragma("clang loop unroll(full)")
 #else

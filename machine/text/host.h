@@ -18,8 +18,9 @@ struct compiled_host {
     /* the factored matrix, where it is that and stays so; else NULL */
     const real *(*diagonal)(const work *);
     const struct tiling *tiling; /* of families whose outer indices can be taken apart; NULL */
-    struct parallel_crew *crew;  /* and its parallel_by */
-    void (*parallel)(struct parallel_crew *, int threads, size_t items,
+    /* parallel_pool_for and the pool of threads for it */
+    struct parallel_pool *thread_pool;
+    void (*parallel)(struct parallel_pool *, int threads, size_t items,
                      void (*body)(void *ctx, size_t item, int thread), void *ctx);
 };
 typedef struct compiled_host compiled_host;

@@ -1,13 +1,12 @@
 /* Lanes along an index: a loop over the cells of a family, or over the terms of a sum, takes WIDTH values of its
  * index at a time.
  *
- * Invariant: lane l is the l-th of them, and sees the operations that it would see alone. What is left of the loop is
- * taken one by one.
+ * Invariant: lane l is the l-th of them and goes through the operations of the scalar loop, which also takes the
+ * remaining values.
  */
 typedef reals reals_anywhere __attribute__((aligned(8))); /* GCC and clang let a vector alias its elements */
 
-/* Keeps a vector in a register. Compilers like to read memory again for every use of a value; here that is what
- * bounds the speed. */
+/* Keeps a vector in a register. Compilers tend to load a value again for every use, and loads limit the speed here. */
 #if (defined __AVX512F__ && WIDTH == 8)
 #define INDEX_KEEP(x) __asm__("" : "+v"(x))
 #elif (defined __AVX__ && WIDTH == 4) || (defined __SSE2__ && WIDTH == 2)
@@ -18,7 +17,7 @@ typedef reals reals_anywhere __attribute__((aligned(8))); /* GCC and clang let a
 #define INDEX_KEEP(x) ((void)0)
 #endif
 
-/* In the loop over the rest, which is too short to be turned into lanes again. */
+/* In the loop over the remaining values, so that the compiler does not vectorise it: it is too short. */
 #define INDEX_REST __asm__ volatile("")
 
 static inline reals index_load(const double *p)
@@ -44,7 +43,7 @@ static inline reals index_count(int64_t j)
 }
 
 #ifdef WRAPS
-/* On a ring of n numbers, from place k on. */
+/* The numbers from index k on of a ring of n numbers. */
 static inline reals index_around(const double *ring, int64_t k, int64_t n)
 {
     k = wrapped(k, n);

@@ -1,8 +1,8 @@
-/* What the library gives to the compiled text of lanes: a block of trajectories, GROUPS vectors of them.
+/* The arguments of the compiled text of lanes: a block of trajectories, GROUPS vectors of them.
  *
- * In the library `real` is a double there, and every array as many times as long as a vector is wide. The arrays of a
- * group lie together, the groups one after the other. No member is a `clock`: the library's is a double, the text's
- * may be a vector.
+ * In the library `real` is a double here, and every array is longer by the factor WIDTH. The arrays of a group are
+ * contiguous, and the groups follow one another. No member is a `clock`, which is a double in the library and may be a
+ * vector in the text.
  */
 typedef struct lanes_record {
     int how;
@@ -11,39 +11,39 @@ typedef struct lanes_record {
 } lanes_record; /* from: LANES_TIME, LANES_X, LANES_V, LANES_OUT */
 enum { LANES_TIME, LANES_X, LANES_V, LANES_OUT };
 
-/* The clock of every lane, as in work.h; STOP: the number of steps after which motus_lanes_run returns. A lane without
- * a trajectory has NaN there and in UNTIL. */
+/* The clock of a lane, as in work.h. STOP: the number of steps after which motus_lanes_run returns. A lane without a
+ * trajectory has NaN in STOP and in UNTIL. */
 enum { LANES_T0, LANES_H, LANES_N, LANES_T, LANES_LOST, LANES_NEXT, LANES_UNTIL, LANES_STOP, LANES_CLOCKS };
 
 typedef struct lanes_job {
-    compiled_host host;          /* its own and bound are the first group's */
+    compiled_host host;          /* `own` and `bound` of the first group */
     size_t own_size, bound_size; /* elements of each group: 0 where there are none */
     size_t nx, nv, stride;       /* of a workspace, as in work.h */
     real *clocks;                /* LANES_CLOCKS of each group, where every lane has its own; */
     double t0, h;                /*   else the time that all share, */
     whole n;                     /*   and the steps taken since t0 */
-    const double *table;         /* of what depends on time alone, from step `first_row` on */
+    const double *table;         /* of the values that depend on time alone, from step `first_row` on */
     whole first_row;
 
-    const real *values;  /* of what varies: value_count of each group */
-    const whole *places; /* of the pool where they go */
+    const real *values;  /* that vary: value_count of each group */
+    const whole *places; /* where the values go in the pool */
     whole value_count;
     const whole *from_x, *from_v; /* places of the pool where x and v start */
-    const double *x0, *v0;        /* and their values where no lane has its own: from_x[k] < 0 */
+    const double *x0, *v0;        /* and their values where all lanes share them: from_x[k] < 0 */
 
     real *carry;   /* what a trajectory carries from step to step: CARRIED arrays of each group */
     real *room;    /* ARRAYS arrays of each group, where they are not local */
-    real *lost;    /* of each group: NaN in lanes whose step could not be taken in this call; infinite where the row
-                     * does not admit the lane's parameters; else 0 */
+    real *lost;    /* of each group: NaN in lanes that failed to take a step in this call; infinite where the row does
+                     * not admit the lane's parameters; else 0 */
     char *solving; /* room for motus_lanes_solving bytes of each group */
-    real *x, *v, *a, *out; /* the state when it was observed; quantities, out_size of each group */
+    real *x, *v, *a, *out; /* the observed state; quantities, out_size of each group */
     size_t out_size;
 
-    whole record_count;     /* of the text's records; 0: nothing is recorded of this observation */
-    bool first_observation; /* nothing has been recorded before */
-    bool ends;              /* it is the one at the end, whose time is `until` */
+    whole record_count;     /* of the text's records; 0: this observation records nothing */
+    bool first_observation; /* no observation before this one recorded anything */
+    bool ends;              /* it is the observation at the end, whose time is `until` */
     bool begins;            /* own clocks: every lane is at the first step of its leg */
     double until;
-    real *where; /* own clocks: 1 in the lanes, of each group, that are observed; else 0 */
-    real *kept;
+    real *where; /* own clocks, of each group: 1 in the lanes that are observed, else 0 */
+    real *kept;  /* REDUCE_KEPT numbers of each record of each group */
 } lanes_job;

@@ -1,6 +1,6 @@
-/* The vocabulary of the texts for lanes: `real` is a vector, one trajectory a lane; an element of an array is GROUPS
- * of them, so that short chains of operations have company. The includer has `reals`, MANY_FUSED, GROUPS and OWN_CLOCK:
- * whether time and step are a vector too, or the same for all.
+/* The definitions that work.h expects, for lanes: `real` is a vector with one trajectory in each lane. The includer
+ * defines `reals`, MANY_FUSED, GROUPS and OWN_CLOCK: 1 where every lane has its own time and step, 0 where all share
+ * them.
  */
 #define clock motus_clock
 #define real reals

@@ -1,4 +1,4 @@
-/* What look.h and reduce.h need of lanes. */
+/* The definitions that step/observe.h and reduce.h expect, for lanes. */
 #if DRIVEN
 #define refresh_at(w, t, x, v) BOUNDARY(w->host, t, x, v, (real *)0)
 #else

@@ -1,11 +1,9 @@
-/* The acceleration of a model whose outer indices can be taken apart: of a window, or of all of them by several
- * threads; and the pass of a model of neighbours, which makes acceleration, kick and drift one sweep over memory.
+/* The acceleration of a model whose outer indices can be divided: over a window, or over all of them by several
+ * threads; and the pass of a model of neighbours, which computes acceleration, kick and drift in one sweep over memory.
  *
- * Invariant: the operations on a number, and their order, are those of splitting.h; where they happen is all that
- * differs.
+ * Invariant: the operations on a number, and their order, are those of splitting.h.
  */
-/* Functions of their own, so that their loops have all registers, and whether there is a pass is known when they are
- * compiled. */
+/* Not inlined, so that their loops have all registers, and whether they make a pass is a compile-time constant. */
 #define PASS_WINDOW(...)                                                                                             \
     compiled_force(host->pool, host->q, host->u, host->bound, host->own, t, T, x, v, a, (real *)0, at->from, at->to, \
                    &(window_put){__VA_ARGS__})
@@ -16,33 +14,32 @@ __attribute__((noinline, flatten)) static void pass_keep(const compiled_host *ho
     PASS_WINDOW(.pass = false);
 }
 
-/* The library's accelerations may lie where a pass had its other copy of x, so what no equation moves is written as
- * well. */
+/* A pass may have used the array for its other copy of x, so the accelerations of fixed cells are written too. */
 static void pass_all(const compiled_host *host, clock t, const clock *T, real *x, real *v, real *a)
 {
     const tiling *in = host->tiling;
-    for (size_t i = 0; i < in->stills; i++)
-        for (size_t k = in->still[2 * i]; k < in->still[2 * i + 1]; k++) a[k] = 0;
+    for (size_t i = 0; i < in->fixed_count; i++)
+        for (size_t k = in->fixed[2 * i]; k < in->fixed[2 * i + 1]; k++) a[k] = 0;
     pass_keep(host, t, T, x, v, a, &(window){.from = -WINDOW_ALL, .to = WINDOW_ALL});
 }
 
 #if LOCAL
-/* The numbers in the window that no equation moves: their acceleration is 0. */
-__attribute__((noinline)) static void pass_still(const work *w, real *x, real *v, real *a, const window_put *move)
+/* The fixed cells in the window: their acceleration is 0. */
+__attribute__((noinline)) static void pass_fixed(const work *w, real *x, real *v, real *a, const window_put *move)
 {
     const tiling *in = w->host->tiling;
     for (int p = 0; p < in->parts; p++) {
         const size_t begin = window_place(&in->part[p], w->window.from), end = window_place(&in->part[p], w->window.to);
-        size_t low = 0, high = in->stills; /* the first stretch that ends behind `begin` */
+        size_t low = 0, high = in->fixed_count; /* the first range that ends after `begin` */
         while (low < high) {
             const size_t middle = (low + high) / 2;
-            if (in->still[2 * middle + 1] <= begin)
+            if (in->fixed[2 * middle + 1] <= begin)
                 low = middle + 1;
             else
                 high = middle;
         }
-        for (; low < in->stills && in->still[2 * low] < end; low++)
-            for (size_t k = in->still[2 * low]; k < in->still[2 * low + 1]; k++)
+        for (; low < in->fixed_count && in->fixed[2 * low] < end; low++)
+            for (size_t k = in->fixed[2 * low]; k < in->fixed[2 * low + 1]; k++)
                 if (k >= begin && k < end) PUT(k, 0);
     }
 }
@@ -50,7 +47,7 @@ __attribute__((noinline)) static void pass_still(const work *w, real *x, real *v
 __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
 {
     window_move(w, w->host->tiling->around);
-    pass_still(w, x, v, a, &(window_put){.pass = false});
+    pass_fixed(w, x, v, a, &(window_put){.pass = false});
     pass_keep(w->host, t, T, x, v, a, &w->window);
     window_move(w, w->host->tiling->around);
 }
@@ -65,8 +62,8 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
 PASS_MOVE(pass_move, false)
 PASS_MOVE(pass_move_twice, true)
 
-/* Stage i: v += b a, x += c v; and the drift that the next step begins with, where it begins with one and is in the
- * same tile. */
+/* Stage i: v += b a, x += c v; then the opening drift of the next step, where there is one and that step is in the same
+ * tile. */
 #define PASS(w, i, b, c) pass_run(w, i, b, c)
 __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 {
@@ -82,7 +79,7 @@ __attribute__((noinline)) static void pass_run(work *w, int i, clock b, clock c)
 #endif
     w->evaluations++;
     window_move(w, w->host->tiling->pass);
-    pass_still(w, x, w->v, next, &move);
+    pass_fixed(w, x, w->v, next, &move);
     if (twice)
         pass_move_twice(w->host, t, T, x, w->v, next, &w->window, &move);
     else
@@ -114,7 +111,7 @@ static void pass_task(void *ctx, size_t k, int thread)
     pass_keep(job->host, job->t, job->T, job->x, job->v, job->a, &part);
 }
 
-/* for each thread, to even out; and cells that are worth a task */
+/* tasks for each thread, to balance the load; the fewest cells of a task */
 enum { PASS_TASKS = 8, PASS_CELLS_MIN = 16 };
 
 __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *T, real *x, real *v, real *a)
@@ -126,6 +123,6 @@ __attribute__((noinline)) static void pass_force(work *w, clock t, const clock *
         return;
     }
     pass_job job = {host, t, T, x, v, a, (size_t)window_sooner(w->threads * PASS_TASKS, most)};
-    host->parallel(host->crew, w->threads, job.tasks, pass_task, &job);
+    host->parallel(host->thread_pool, w->threads, job.tasks, pass_task, &job);
 }
 #endif

@@ -1,9 +1,8 @@
-/* What is kept of a number that is looked at again and again: its last value, extremes, sum, and when an extreme was
- * met first.
+/* Reductions of a number over the observations of a trajectory: its last value, extremes, mean, and the time at which
+ * an extreme occurred first.
  *
- * The includer defines `real` and `clock`, LEAST(a, b) and MOST(a, b) that pass a NaN on, and CHOOSE(condition, a,
- * b). kept[0] is the value, kept[1] the time of an extreme. Invariant: what is kept depends on the numbers and their
- * order alone.
+ * The includer defines `real` and `clock`, LEAST(a, b) and MOST(a, b), which propagate NaN, and CHOOSE(condition, a,
+ * b). kept[0] is the value, kept[1] the time of an extreme. Invariant: both depend only on the numbers and their order.
  */
 enum { REDUCE_FINAL, REDUCE_MIN, REDUCE_MAX, REDUCE_MEAN, REDUCE_TIME_OF_MIN, REDUCE_TIME_OF_MAX, REDUCE_KEPT = 2 };
 
@@ -31,7 +30,7 @@ static inline void reduce_next(real *kept, int how, real value, real t)
     }
 }
 
-/* The result after `count` looks. */
+/* The result after `count` observations. */
 static inline real reduce_last(const real *kept, int how, clock count)
 {
     return how == REDUCE_MEAN                                       ? kept[0] / count

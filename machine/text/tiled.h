@@ -1,21 +1,22 @@
-/* TILES: several steps of a model of neighbours in one sweep over memory, by as many threads as there are blocks.
+/* TILES: trapezoidal tiling of a model of neighbours, several steps in one sweep over memory, by several threads.
  *
  * The outer indices are cut into blocks. In the plane of index and time a block is first advanced over the trapezoid
- * that needs nothing from its neighbours: its inner ends draw in with every pass. Then the seams between blocks,
- * triangles that widen by as much, are filled. Blocks, and after them seams, need nothing of each other, so threads
- * may take them in any order. Within a block the trapezoid is cut into strips that lean to lower indices: strip after
- * strip, every strip all the steps, so a strip's numbers stay in the cache. Whether all are finite at the end is seen
- * while they are there.
+ * that needs no value of its neighbours: its inner ends move inwards with every pass. Then the seams between blocks,
+ * triangles that widen by as much, are computed. Blocks do not depend on each other, nor do seams, so threads may take
+ * them in any order. Within a block the trapezoid is cut into strips that lean to lower indices. A strip takes all
+ * steps before the next strip begins, so its numbers stay in the cache; the test whether they are finite at the end
+ * happens there too.
  *
- * Invariant: every number sees the operations of the untiled loop in their order, with the same operands. What a step
- * changes besides the numbers (count, copies exchanged) is the same for every tile; it is kept from one of them.
+ * Invariant: every number goes through the operations of the untiled loop in their order, with the same operands. What
+ * a step changes besides the numbers (the step count, which copy of x is current) is the same for every tile; it is
+ * taken from one of them.
  */
 enum {
     /* bytes that a strip of one step touches, and all its steps */
     TILED_STRIP = 24 << 10,
     TILED_REACH = 192 << 10,
     TILED_LINE = 8,   /* numbers in a cache line */
-    TILED_BLOCKS = 4, /* for each thread, to even out */
+    TILED_BLOCKS = 4, /* for each thread, to balance the load */
     /* in a sweep; what depends on time alone is computed for all of them beforehand */
     TILED_STEPS = TERMS * MOMENTS <= 128 ? 64 : 4
 };
@@ -25,7 +26,7 @@ typedef struct tiled_job {
     work end;
     whole steps, strip, block;
     int blocks;
-    bool last, lost; /* sweep; a number is not finite at its end */
+    bool last, diverged; /* last: sweep; diverged: a number is not finite at its end */
 } tiled_job;
 
 __attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)
@@ -34,7 +35,7 @@ __attribute__((noinline)) static void tiled_steps(tiled_job *job, work *w)
         w->window.more = s + 1 < job->steps;
         (void)advance_step(w); /* nothing here can fail: no solver, no callback */
     }
-    if (job->last && !advance_finite(w)) __atomic_store_n(&job->lost, true, __ATOMIC_RELAXED);
+    if (job->last && !advance_finite(w)) __atomic_store_n(&job->diverged, true, __ATOMIC_RELAXED);
 }
 
 static whole tiled_border(const tiled_job *job, int k) { return job->begin->host->tiling->first + k * job->block; }
@@ -76,7 +77,7 @@ static inline void tiled_run(work *w, whole steps)
     const compiled_host *host = w->host;
     const tiling *in = host->tiling;
     const whole cells = in->last - in->first + 1, row = (whole)(in->numbers * ARRAYS * sizeof(real));
-    /* of a window in a step, at most */
+    /* how far a window moves in one step, at most */
     const whole way = (w->stages > 1 ? w->stages : 1) * window_later(in->pass, 2 * in->around);
     tiled_job job = {.begin = w, .strip = TILED_STRIP / row, .blocks = 1};
     if (job.strip >= TILED_LINE) job.strip -= job.strip % TILED_LINE;
@@ -99,12 +100,12 @@ static inline void tiled_run(work *w, whole steps)
         w->first = w->n;
         compiled_fill(host, w->t0, w->h, table, w->n, job.steps + 1);
 #endif
-        host->parallel(host->crew, w->threads, (size_t)job.blocks, tiled_block, &job);
-        host->parallel(host->crew, w->threads, (size_t)job.blocks - 1, tiled_seam, &job);
+        host->parallel(host->thread_pool, w->threads, (size_t)job.blocks, tiled_block, &job);
+        host->parallel(host->thread_pool, w->threads, (size_t)job.blocks - 1, tiled_seam, &job);
         *w = job.end;
         window_open(w);
         steps -= job.steps;
     }
     w->table = NULL;
-    w->finite = !job.lost;
+    w->finite = !job.diverged;
 }

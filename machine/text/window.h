@@ -1,13 +1,13 @@
-/* Windows: the same texts over some of a model's outer indices instead of all.
+/* Windows: the same texts over a range of a model's outer indices instead of all.
  *
- * EACH and EACHV run over the numbers in w->window, and so does compiled_force, which is written over
+ * EACH and EACHV run over the numbers in w->window. compiled_force does too; its text uses
  *     from, to            the window
- *     PUT(k, value)       what becomes of the acceleration of number k
- *     window_later, window_sooner
+ *     PUT(k, value)       stores or applies the acceleration of number k
+ *     window_later, window_sooner    the greater and the smaller of two indices
  *
- * Why windows of neighbouring steps may overlap in memory, and so why tiles give the same bits: whatever reads beyond
- * its own index reads `reach` indices away, and window_move takes a window out of the reach of what was written
- * before it and of what will be read after it, on the side that is open. tiled.h says which windows there are.
+ * Windows of neighbouring steps may overlap in memory, and tiles give the same bits nevertheless: an acceleration reads
+ * at most `reach` indices away, and window_move moves a window so far that it reads nothing that a later step has
+ * written, and writes nothing that an earlier step still has to read. tiled.h says which windows there are.
  */
 static inline whole window_later(whole a, whole b) { return a > b ? a : b; }
 static inline whole window_sooner(whole a, whole b) { return a < b ? a : b; }
@@ -52,9 +52,9 @@ static inline void window_open(work *w)
     window_meet(&w->window);
 }
 
-/* What PUT does: keeps the acceleration or, in a pass, kicks and drifts at once; the new position goes to another
- * copy of x, which stands where the accelerations would, so that neighbours still find the old one. `twice`: a drift
- * `next`, which the next step begins with, follows. */
+/* What PUT does: stores the acceleration or, in a pass, kicks and drifts at once. Neighbours still need the old
+ * position, so a pass writes the new one to another copy of x, in the array of the accelerations. `twice`: the opening
+ * drift `next` of the next step follows. */
 typedef struct window_put {
     bool pass, twice;
     clock b, c, next;

@@ -1,5 +1,6 @@
-/* What PUT does, for one number or, read again, for WIDTH neighbours at once: NUMBER is their type, NUMBER_OF(x) one
- * for all of them, NUMBER_AT(a, k) those at a[k], window_number the function's name.
+/* What PUT does. Included twice: for one number, and for WIDTH numbers side by side. The includer defines NUMBER, their
+ * type; NUMBER_OF(x), x as that type; NUMBER_AT(a, k), the element or elements at a[k]; window_number, the function's
+ * name.
  */
 static inline void window_number(const window_put *how, real *restrict x, real *restrict v, real *restrict a, size_t k,
                                  NUMBER value)
