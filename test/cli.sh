@@ -69,10 +69,10 @@ refuses "a value missing" 2 "--step: its value is missing" "$motus" run $osc --s
 refuses "a flag with a value" 2 "--json takes no value" "$motus" run $osc --json=yes --quiet
 refuses "--tolerance" 2 "every method takes fixed steps" "$motus" compare $osc --tolerance 1e-9
 refuses "--from" 2 "x(c)" "$motus" run $osc --from 1
-run_compiled=$(XDG_CACHE_HOME=$PWD/cache "$motus" run $osc --machine compiled --json) run_interpreted=$("$motus" run $osc --machine interpreter --json)
+run_compiled=$(XDG_CACHE_HOME=$place/cache "$motus" run $osc --machine compiled --json) run_interpreted=$("$motus" run $osc --machine interpreter --json)
 that "--machine compiled: the same bits" [ "$(jq -c .state <<<"$run_interpreted")" = "$(jq -c .state <<<"$run_compiled")" ]
 that "--machine compiled is named" [ "$(jq -r .machine <<<"$run_compiled")" = compiled ]
-that "motus cache --clear" [ "$(XDG_CACHE_HOME=$PWD/cache "$motus" cache --clear --json | jq .removed)" = 1 ]
+that "motus cache --clear" [ "$(XDG_CACHE_HOME=$place/cache "$motus" cache --clear --json | jq .removed)" = 1 ]
 gives "--emit-c" 0 "$motus" run $osc --emit-c
 that "--emit-c prints the loop" says advance_run
 refuses "motus cache alone" 2 "motus cache needs --clear" "$motus" cache

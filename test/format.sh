@@ -7,7 +7,7 @@ judge() {
     if [ -z "$2" ]; then passed=$((passed + 1)); echo "ok - $1"
     else failed=$((failed + 1)); echo "not ok - $1"; sed 's/^/    /' <<<"$2"; fi
 }
-ours() { find . \( -name node_modules -o -name build -o -name out -o -name cache \) -prune -o -type f \( "$@" \) -print0; }
+ours() { find . \( -name node_modules -o -name build -o -name out \) -prune -o -type f \( "$@" \) -print0; }
 
 # The output of clang-format differs between versions; version 14 decides.
 tool=$(command -v clang-format-14 || command -v clang-format)
