@@ -23,7 +23,7 @@ static inline int family_step(work *w)
 
 #define CASE_ACCEPT(NAME, name, shared) \
     case NAME: name##_accept(w, good); break;
-static inline void family_accept(work *w, mask good) { FAMILY_SWITCH(CASE_ACCEPT) }
+static inline void family_accept(work *w, clock_mask good) { FAMILY_SWITCH(CASE_ACCEPT) }
 
 #define CASE_OBSERVE(NAME, name, shared) \
     case NAME: return name##_observe(w);

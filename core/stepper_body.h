@@ -32,7 +32,7 @@ typedef struct stepper_body {
     int (*observe)(work *);                         /* advance_observe */
     void (*dense)(const work *, const dense_end end[2], clock t, real *x, real *v);
     /* A compiled body calls these of the library's. */
-    int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
+    int (*factor)(work *, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
     const real *(*diagonal)(const work *); /* solver_diagonal */

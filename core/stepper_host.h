@@ -9,8 +9,7 @@ static inline int accel(work *w, clock t, real *x, real *v, real *a)
     return p->accel(p->ctx, t, x, v, a) ? STEP_CALLBACK : STEP_OK;
 }
 
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
-                               real *v)
+static inline int solve_factor(work *w, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     (void)where, (void)s; /* the solver was made for this number of stages */
     switch (solver_factor(w->library->solver, ax, av, t, x, v, &w->evaluations)) {

@@ -144,7 +144,7 @@ static void write_apply(emit_text *t, const structure *s, size_t nv)
 /* Whether da/dv does no work, as a gyroscopic row wants: exactly antisymmetric, entry by entry. */
 static void write_turns(emit_text *t, const structure *s, bool gyroscopic)
 {
-    emit_add(t, "static inline truth solve_turns(const solving *z)\n{\n    truth turns = ALWAYS;\n    (void)z;\n");
+    emit_add(t, "static inline mask solve_turns(const solving *z)\n{\n    mask turns = ALWAYS;\n    (void)z;\n");
     for (size_t c = 0; gyroscopic && c < s->v.columns; c++)
         for (size_t e = s->v.start[c]; e < s->v.start[c + 1]; e++) {
             const size_t row = s->v.row[e];

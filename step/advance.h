@@ -15,7 +15,7 @@ ADVANCE_STEP int advance_step(work *w)
         time_tick(w, EVERY);
         return STEP_OK;
     }
-    const mask good = control_judge(w);
+    const clock_mask good = control_judge(w);
     family_accept(w, good);
     time_tick(w, good);
     STOP(w, w->stalled, STEP_STALLED);

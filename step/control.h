@@ -11,9 +11,9 @@ static inline clock control_size(work *w)
 }
 
 /* An error that is not a number is refused like one that is too large. */
-static inline mask control_judge(work *w)
+static inline clock_mask control_judge(work *w)
 {
-    const mask good = w->error <= 1, ample = w->error * (2 << (FACT(w, order) + 1)) <= 1;
+    const clock_mask good = w->error <= 1, ample = w->error * (2 << (FACT(w, order) + 1)) <= 1;
     const clock kept = CHOOSE_WHERE(good, w->next, w->h / 2);
     w->next = CHOOSE_WHERE(ample, 2 * kept, kept);
     w->stalled = w->t + w->next == w->t;

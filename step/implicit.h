@@ -18,7 +18,7 @@ static inline void implicit_stage(work *w, int i)
 
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
  * first. */
-static inline int implicit_matrix(work *w, truth *where)
+static inline int implicit_matrix(work *w, mask *where)
 {
     const int first = FACT(w, known), all = FACT(w, stages), s = all - first;
     clock *ax = w->matrix, *av = ax + s * s;
@@ -40,7 +40,7 @@ static inline int implicit_matrix(work *w, truth *where)
 /* The iteration, from one turn to the next. The parts of a step stand alone, so that lanes may take the turns of many
  * trajectories side by side. */
 typedef struct implicit_iteration {
-    truth open;   /* the equation is not solved yet */
+    mask open;    /* the equation is not solved yet */
     real before;  /* newton_judge's */
     real renewed; /* matrices that were evaluated anew */
     int turns;
@@ -59,7 +59,7 @@ static inline int implicit_begin(work *w, implicit_iteration *it)
     }
     for (int i = 0; i < FACT(w, stages); i++)
         EACHV(k) w->ks[(size_t)i * stride + k] = w->a[k];
-    truth regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
+    mask regular = ALWAYS; /* an equation whose matrix is not will be lost in the first turn */
     return implicit_matrix(w, &regular);
 }
 
@@ -85,10 +85,10 @@ static inline int implicit_turn(work *w, implicit_iteration *it)
     STOP(w, it->open & now.lost, turn == 0 ? STEP_DIVERGED : STEP_SOLVE);
     it->open = FACT(w, direct) ? NEVER : it->open & NOT(now.lost | now.done);
     if (!SOME(it->open)) return STEP_OK;
-    const truth stuck = it->open & now.stuck, slow = turn % PATIENCE == PATIENCE - 1 ? it->open : stuck;
+    const mask stuck = it->open & now.stuck, slow = turn % PATIENCE == PATIENCE - 1 ? it->open : stuck;
     if (!SOME(slow)) return STEP_OK;
-    const truth renew = slow & (it->renewed < RENEWALS);
-    truth good = renew;
+    const mask renew = slow & (it->renewed < RENEWALS);
+    mask good = renew;
     it->renewed = PICK(slow, it->renewed + 1, it->renewed);
     STOP(w, stuck & NOT(renew), STEP_SOLVE);
     int bad = SOME(renew) ? implicit_matrix(w, &good) : STEP_OK;

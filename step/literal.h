@@ -9,7 +9,7 @@ static int literal_observe(work *w)
     real *restrict next = w->next_x;
     const real *x = w->x, *old = w->old;
     const clock t = time_now(w), h = w->h, hh = w->hh, none = {0}, slope = h / 2;
-    truth all = ALWAYS;
+    mask all = ALWAYS;
     int bad = STEP_OK;
     if (FIRST(w)) {
         bad = accel_now(w, w->x, w->v, w->a);

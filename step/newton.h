@@ -9,7 +9,7 @@ enum { NEWTON_MAX = 100 };
 
 /* The verdict on a correction; where no member holds, the iteration goes on. */
 typedef struct newton_verdict {
-    truth done, stuck, lost;
+    mask done, stuck, lost;
 } newton_verdict;
 
 /* Judges the correction r of `value` (`count` vectors each), which will be added to `unit` times `base`. *before: the
@@ -18,13 +18,13 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
                                           clock unit, real *before)
 {
     real largest = {0}, worst = {0};
-    truth lost = NEVER;
+    mask lost = NEVER;
     w->in_v = true;
     for (int i = 0; i < count; i++) {
         const real *value_i = value + (size_t)i * w->stride, *r_i = r + (size_t)i * w->stride;
         EACHV(k) {
             const real size = ABS(value_i[k]) + ABS(unit * base[k]);
-            const truth bad = NOT(FINITE(r_i[k]));
+            const mask bad = NOT(FINITE(r_i[k]));
             largest = LARGER(size, largest);
             BLAME(w, bad & NOT(lost), k);
             lost = lost | bad;
@@ -41,17 +41,17 @@ static inline newton_verdict newton_judge(work *w, const real *r, const real *va
     const real last = *before;
     newton_verdict verdict = {.lost = lost, .done = NOT(lost) & (worst == 0), .stuck = NEVER};
     *before = worst;
-    const truth second = last >= 0; /* the first correction has none before it to be compared with */
+    const mask second = last >= 0; /* the first correction has none before it to be compared with */
     if (!SOME(second)) return verdict;
-    const truth shrinks = worst < last;
-    const truth small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
+    const mask shrinks = worst < last;
+    const mask small = (shrinks & (worst * (worst / last) < EPSILON / 64)) | (NOT(shrinks) & (worst < SQRT_EPSILON));
     verdict.done = NOT(lost) & ((worst == 0) | (second & small));
     verdict.stuck = NOT(lost) & NOT(verdict.done) & second & NOT(shrinks);
     return verdict;
 }
 
 /* y += r where the equation is open. In the common case it is open in all lanes, and no lane needs a choice. */
-static inline void newton_correct(const work *w, truth open, real *restrict y, const real *restrict r)
+static inline void newton_correct(const work *w, mask open, real *restrict y, const real *restrict r)
 {
     if (!SOME(NOT(open)))
         EACHV(k) y[k] += r[k];
@@ -68,7 +68,7 @@ static inline int newton_increment(work *w, clock g, clock s, const real *u, int
     real *restrict delta = w->delta, *restrict r = w->r, *restrict V = w->vs;
     const clock none = {0}, slope = g * s / 2, t = stage == NEWTON_NOW ? time_now(w) : time_in(w, FACT(w, c)[stage]);
     real before = (real){0} - 1;
-    truth open = ALWAYS;
+    mask open = ALWAYS;
     EACHV(k) delta[k] = (real){0};
     for (int i = 0; i < NEWTON_MAX && SOME(open); i++) {
         EACHV(k) V[k] = s * FMA(0.5, delta[k], u[k]);

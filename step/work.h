@@ -40,10 +40,10 @@
 
 enum { STEP_OK, STEP_CALLBACK, STEP_SOLVE, STEP_DIVERGED, STEP_STALLED, STEP_MEMORY };
 
-/* A mask says for which trajectories of the workspace something holds; ticks are how many steps they have taken. There
+/* A clock_mask says for which clocks of the workspace something holds; ticks are the steps that each has counted. There
  * are as many of both as there are clocks. */
 #ifndef EVERY
-typedef bool mask;
+typedef bool clock_mask;
 typedef whole ticks;
 #define EVERY true
 #define CHOOSE_WHERE(good, a, b) ((good) ? (a) : (b))
@@ -56,7 +56,7 @@ typedef whole ticks;
  * on, with its status; of lanes it marks those `where` this holds, SPOIL sets their values to NaN, and the others go
  * on. BLAME notes the entry of v that failed. */
 #ifndef ALWAYS
-typedef bool truth;
+typedef bool mask;
 #define ALWAYS true
 #define PICK(where, a, b) ((where) ? (a) : (b))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
@@ -101,8 +101,8 @@ typedef struct work {
 
     /* Time. Fixed: step n begins at t0 + n h. Carried: it begins at t, a sum whose rounding error is `lost`. */
     bool carried;
-    mask stalled; /* the next step would not move time on */
-    mask ends;    /* the candidate reaches `until` */
+    clock_mask stalled; /* the next step would not move time on */
+    clock_mask ends;    /* the candidate reaches `until` */
     clock t0, h;
     ticks n;              /* steps finished since t0 */
     clock t, lost, until; /* carried only; no step passes `until` */
@@ -192,7 +192,7 @@ static inline clock time_in(const work *w, coef c)
 static inline clock time_now(const work *w) { return time_in(w, 0); }
 
 /* The step is finished, for those trajectories that accepted it. */
-static inline void time_tick(work *w, mask good)
+static inline void time_tick(work *w, clock_mask good)
 {
     if (NONE(good)) return;
     if (FACT(w, carried)) {
@@ -300,5 +300,5 @@ static inline int work_sync_main(work *w, real *x, real *v)
     EACHV(k) v[k] = w->v[k];
     return STEP_OK;
 }
-static inline void step_is_final(work *w, mask good) { (void)w, (void)good; }
+static inline void step_is_final(work *w, clock_mask good) { (void)w, (void)good; }
 static inline int state_is_complete(work *w) { return (void)w, STEP_OK; }

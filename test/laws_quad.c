@@ -46,7 +46,7 @@ static int accel(work *w, quad t, quad *x, quad *v, quad *a)
     return STEP_OK;
 }
 
-static int solve_factor(work *w, truth *where, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
+static int solve_factor(work *w, mask *where, int s, const quad *ax, const quad *av, quad t, quad *x, quad *v)
 {
     dense *d = w->library;
     const int nv = (int)w->nv;

@@ -109,8 +109,7 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
 #ifndef GROUPS
 /* For one equation in v alone the constant diagonal, where there is one, is fetched once. */
 #define ONE_SLOPE (FACT(w, solves) == 1 && !FACT(w, solves_x))
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
-                               real *v)
+static inline int solve_factor(work *w, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     const compiled_host *host = w->host;
     if (!ONE_SLOPE) return host->factor(w, where, s, ax, av, t, x, v);

@@ -12,7 +12,7 @@ struct compiled_host {
     bool begins;                     /* of lanes with clocks of their own: every lane is at the first step of its leg */
     bool factored;                   /* of lanes: constant matrices are factored */
     int (*run)(work *, whole steps); /* the library's own loop */
-    int (*factor)(work *, truth *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
+    int (*factor)(work *, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v);
     void (*back)(work *, real *r);
     void (*apply)(work *, clock c, const real *y, real *out);
     /* the factored matrix, where it is that and stays so; else NULL */

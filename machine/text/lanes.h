@@ -160,7 +160,7 @@ static inline void lanes_keep(const lanes_job *job, const real *x, const real *v
         else
             reduce_next(now, r->how, value, MANY(t));
 #if OWN_CLOCK
-        const truth where = job->where[group] != 0;
+        const mask where = job->where[group] != 0;
         for (int k = 0; k < REDUCE_KEPT; k++) kept[k] = PICK(where, now[k], kept[k]);
 #else
         for (int k = 0; k < REDUCE_KEPT; k++) kept[k] = now[k];
@@ -172,7 +172,7 @@ static inline void lanes_keep(const lanes_job *job, const real *x, const real *v
 static inline clock lanes_time(const lanes_job *job, const work *w, size_t group)
 {
 #if OWN_CLOCK
-    const truth ends = job->ends ? job->where[group] != 0 : NEVER;
+    const mask ends = job->ends ? job->where[group] != 0 : NEVER;
     return PICK(ends, job->clocks[group * LANES_CLOCKS + LANES_UNTIL], time_now(w));
 #else
     (void)group;
@@ -327,11 +327,11 @@ void motus_lanes_first(const lanes_job *job) { lanes_step_once(job, true, true);
 
 /* Adaptive: whether some lane has to be looked after: it has taken the steps that it should, is at its end, or cannot
  * go on. */
-#define LANES_DUE(g)                                                                              \
-    {                                                                                             \
-        const real *own = job->clocks + g * LANES_CLOCKS;                                         \
-        const truth here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until; \
-        due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0)));    \
+#define LANES_DUE(g)                                                                             \
+    {                                                                                            \
+        const real *own = job->clocks + g * LANES_CLOCKS;                                        \
+        const mask here = work_##g.until == work_##g.until, ends = work_##g.t == work_##g.until; \
+        due = due | (here & ((work_##g.n == own[LANES_STOP]) | ends | (*host_##g.lost != 0)));   \
     }
 
 /* `steps` more, not the first one, and an observation after every `every` of them; every = 0: none. Adaptive: up to so
@@ -369,7 +369,7 @@ __attribute__((flatten)) void motus_lanes_run(const lanes_job *job, whole steps,
             LANES_TICK;
             fresh = false;
 #if ROW_adaptive
-            truth due = NEVER;
+            mask due = NEVER;
             EVERY_GROUP(LANES_DUE)
             if (SOME(due)) break;
 #endif

@@ -16,19 +16,19 @@ typedef int64_t whole;
 #define SQRT_EPSILON 0x1p-26
 #if WIDTH > 1
 #define ABS(x) ((real)((OF_LANES(bits))(x) & ((OF_LANES(bits)){0} + 0x7fffffffffffffffu)))
-typedef OF_LANES(mask) truth;
-#define ALWAYS ((truth){0} == 0)
+typedef OF_LANES(mask) mask;
+#define ALWAYS ((mask){0} == 0)
 #define PICK(where, a, b) CHOOSE(where, a, b)
 #define SOME(where) OF_LANES(any)(where)
 #else
 #define ABS(x) fabs(x)
-typedef bool truth;
+typedef bool mask;
 #define ALWAYS true
 #define PICK(where, a, b) ((where) ? (a) : (b))
 #define SOME(where) (where)
 #endif
 #if OWN_CLOCK
-typedef truth mask;
+typedef mask clock_mask;
 typedef real ticks;
 #define EVERY ALWAYS
 #define CHOOSE_WHERE(where, a, b) PICK(where, a, b)

@@ -38,13 +38,13 @@ static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t
 static inline clock *solve_coefficients(const compiled_host *host) { return host->solving->a; }
 
 /* Marks lanes; mostly there are none. */
-static inline void solve_lose(const compiled_host *host, truth where)
+static inline void solve_lose(const compiled_host *host, mask where)
 {
     if (!SOME(where)) return;
     *host->lost = PICK(where, MANY((double)NAN), *host->lost);
     host->solving->lossy = true;
 }
-static inline void solve_stop(work *w, truth where) { solve_lose(w->host, where); }
+static inline void solve_stop(work *w, mask where) { solve_lose(w->host, where); }
 static inline void solve_spoil(work *w, real *y)
 {
     const real lost = *w->host->lost;
@@ -54,9 +54,9 @@ static inline void solve_spoil(work *w, real *y)
 
 #define SOLVE_LAST(j, reach) ((j) + (reach) < SOLVE_N - 1 ? (j) + (reach) : SOLVE_N - 1)
 #if SOLVE_DIAGONAL
-static inline truth solve_lu(real *restrict m, real *restrict pivot)
+static inline mask solve_lu(real *restrict m, real *restrict pivot)
 {
-    truth regular = ALWAYS;
+    mask regular = ALWAYS;
     (void)pivot;
     for (int k = 0; k < SOLVE_N; k++) regular = regular & (m[k] != 0);
     return regular;
@@ -71,7 +71,7 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
 static inline void solve_swap(real *restrict m, real best, int j)
 {
     for (int i = 1; i <= SOLVE_LAST(j, SOLVE_LOWER) - j; i++) {
-        const truth here = best == i;
+        const mask here = best == i;
         for (int c = j; c <= SOLVE_LAST(j, SOLVE_LOWER + SOLVE_UPPER); c++) {
             real *at = m + c * SOLVE_N + j;
             const real keep = at[0];
@@ -82,16 +82,16 @@ static inline void solve_swap(real *restrict m, real best, int j)
 }
 
 /* Where it is regular. */
-static inline truth solve_lu(real *restrict m, real *restrict pivot)
+static inline mask solve_lu(real *restrict m, real *restrict pivot)
 {
-    truth regular = ALWAYS;
+    mask regular = ALWAYS;
     WRITTEN_OUT for (int j = 0; j < SOLVE_N; j++)
     {
         real *column = m + j * SOLVE_N + j, largest = ABS(column[0]), best = MANY(0.0);
         const int below = SOLVE_LAST(j, SOLVE_LOWER) - j;
         WRITTEN_OUT for (int i = 1; i <= below; i++)
         {
-            const truth more = ABS(column[i]) > largest;
+            const mask more = ABS(column[i]) > largest;
             largest = PICK(more, ABS(column[i]), largest);
             best = PICK(more, (double)i, best);
         }
@@ -103,7 +103,7 @@ static inline truth solve_lu(real *restrict m, real *restrict pivot)
         for (int c = j + 1; c <= SOLVE_LAST(j, SOLVE_LOWER + SOLVE_UPPER); c++) {
             real *at = m + c * SOLVE_N + j;
             const real factor = -at[0];
-            const truth skipped = factor == 0;
+            const mask skipped = factor == 0;
             WRITTEN_OUT for (int i = 1; i <= below; i++) at[i] = PICK(skipped, at[i], FMA(factor, column[i], at[i]));
         }
     }
@@ -118,7 +118,7 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
         const int below = SOLVE_LAST(j, SOLVE_LOWER) - j;
         if (SOME(best != 0))
             for (int i = 1; i <= below; i++) {
-                const truth here = best == i;
+                const mask here = best == i;
                 const real keep = b[j];
                 b[j] = PICK(here, b[j + i], keep);
                 b[j + i] = PICK(here, keep, b[j + i]);
@@ -137,13 +137,13 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
 
 /* Factors for the lanes `where`, which lose those that are singular: NaN in their matrix makes NaN of what they
  * solve. */
-static inline void solve_renew(const compiled_host *host, solving *z, truth *where, const clock *ax, const clock *av,
+static inline void solve_renew(const compiled_host *host, solving *z, mask *where, const clock *ax, const clock *av,
                                clock t, real *x, real *v)
 {
     real m[SOLVE_MATRIX], pivot[SOLVE_N];
     solve_derive(host, t, x, v, z);
     solve_fill(z, ax, av, m);
-    const truth regular = solve_lu(m, pivot), singular = *where & NOT(regular);
+    const mask regular = solve_lu(m, pivot), singular = *where & NOT(regular);
     solve_lose(host, singular);
     if (SOME(singular))
         for (int k = 0; k < SOLVE_MATRIX; k++) m[k] = PICK(singular, MANY((double)NAN), m[k]);
@@ -162,15 +162,14 @@ __attribute__((noinline, cold, unused)) static void solve_once(const compiled_ho
                                                                const clock *av, clock t)
 {
     real none[FACT_nv];
-    truth all = ALWAYS;
+    mask all = ALWAYS;
     for (int k = 0; k < FACT_nv; k++) none[k] = MANY(0.0);
     solve_renew(host, host->solving, &all, ax, av, t, none, none);
     *host->lost = PICK(solve_turns(host->solving), *host->lost, MANY((double)INFINITY));
     host->solving->lossy = SOME(*host->lost != 0);
 }
 
-static inline int solve_factor(work *w, truth *where, int s, const clock *ax, const clock *av, clock t, real *x,
-                               real *v)
+static inline int solve_factor(work *w, mask *where, int s, const clock *ax, const clock *av, clock t, real *x, real *v)
 {
     const compiled_host *host = w->host;
     (void)s;

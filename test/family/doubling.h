@@ -1,8 +1,5 @@
 /* STEP DOUBLING over the explicit midpoint rule: a step of h beside two of h/2; their distance, over 2² - 1, is the
- * error of the two.
- *
- * A family that exists for a test of the house alone: test/family.sh adds it, and sees that it runs everywhere.
- */
+ * error of the two. A family that test/family.sh adds, to see that it runs on every machine. */
 static int doubling_midpoint(work *w, coef from, coef to, const real *x, const real *v, real *X, real *V)
 {
     real *restrict xs = w->xs, *restrict vs = w->vs, *restrict K = w->ks;
@@ -33,7 +30,7 @@ static int doubling_step(work *w)
     return STEP_OK;
 }
 
-static void doubling_accept(work *w, mask good)
+static void doubling_accept(work *w, clock_mask good)
 {
     EACH(k) w->x[k] = CHOOSE_WHERE(good, w->xs[2 * w->stride + k], w->x[k]);
     EACHV(k) w->v[k] = CHOOSE_WHERE(good, w->vs[2 * w->stride + k], w->v[k]);
@@ -51,8 +48,7 @@ static inline void doubling_place(work *w, placing *p)
 static void doubling_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
     (void)argument, (void)unit;
-    w->stages = 1;
-    w->order = 2;
+    w->stages = 1, w->order = 2;
     if (c) c[0] = w->row->tableau.c[0]; /* the tolerance of a step */
 }
 #endif
