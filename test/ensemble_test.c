@@ -307,9 +307,9 @@ static void as_a_run(const task *t, const outcome *o, size_t i)
 static bool goes_alone(const task *t)
 {
     const motus_method *m;
-    motus_analysis a;
+    motus_analysis a = motus_default_analysis();
     assert_int_equal(motus_method_find(t->method, &m, NULL), MOTUS_OK);
-    motus_analysis_of(t->s, &a);
+    assert_int_equal(motus_analysis_of(t->s, &a), MOTUS_OK);
     const bool solves = !strcmp(m->family, "implicit") || (a.velocity_dependent && strncmp(m->name, "verlet", 6) == 0);
     return t->c->how == ALONE || !strcmp(m->family, "exact") || (t->ends && !strcmp(m->name, "boris")) ||
            (solves && t->c->how == SOLVES_ALONE);
