@@ -284,7 +284,7 @@ motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *c
     places p = {.results = results, .stopped = stopped};
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     motus_status status = find_values(e, values, &p, err);
-    if (status == MOTUS_OK && !results) status = fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
+    if (status == MOTUS_OK && !results) return fail(err, MOTUS_ARGUMENT, "motus_ensemble_run needs room for results");
     for (size_t r = 0; status == MOTUS_OK && r < e->record_count; r++)
         if (!results[r]) status = fail(err, MOTUS_ARGUMENT, "the room for record %zu is NULL", r);
     if (status != MOTUS_OK || !count) return status;

@@ -9,6 +9,7 @@
     case NAME: name##_plan(w, argument, unit, c); break;
 static inline void family_plan(work *w, const double argument[2], coef *unit, coef *c) { FAMILY_SWITCH(CASE_PLAN) }
 
+/* Families may share a function. NOLINTBEGIN(bugprone-branch-clone) */
 #define CASE_PLACE(NAME, name, shared) \
     case NAME: name##_place(w, p); break;
 static inline void family_place(work *w, placing *p) { FAMILY_SWITCH(CASE_PLACE) }
@@ -69,3 +70,4 @@ static inline trace_room family_room(const work *w)
     case NAME: name##_trace(w, i); break;
 static inline void family_trace(work *w, int i) { FAMILY_SWITCH(CASE_TRACE) }
 #endif
+/* NOLINTEND(bugprone-branch-clone) */

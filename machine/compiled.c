@@ -163,8 +163,8 @@ static bool bind_numbers(compiled *c, const emit *e, void (*bind)(const double *
 static const stepper_body *body_of(compiled *c, const chosen *chosen, int how)
 {
     for (int i = 0; i < c->count; i++)
-        if (c->objects[i].row == chosen->row &&
-            !memcmp(c->objects[i].argument, chosen->argument, sizeof chosen->argument))
+        if (c->objects[i].row == chosen->row && c->objects[i].argument[0] == chosen->argument[0] &&
+            c->objects[i].argument[1] == chosen->argument[1])
             return &c->objects[i].body;
     snprintf(c->note, sizeof c->note, "out of memory");
     if (c->count == OBJECTS_MAX) {

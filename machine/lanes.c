@@ -25,7 +25,7 @@ enum { OBSERVED_MAX = 32, RECORDS_WRITTEN_MAX = 12, BLOCK_BYTES = 4 << 20 };
 static int best_groups(const lanes_def *d, const work *plan)
 {
     const graph *g = d->model->graph;
-    const bool implicit = plan->row->family == IMPLICIT;
+    const bool implicit = d->chosen->row->family == IMPLICIT;
     if (plan->solves && !implicit && !plan->linear) return 1; /* a step of several iterations is long */
     size_t operations = 4 * d->model->nv;
     /* values of time alone come from the table, except with own clocks */
@@ -39,7 +39,8 @@ static int best_groups(const lanes_def *d, const work *plan)
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     size_t groups = STEPS_WRITTEN_MAX / (step + 1);
     if (implicit && !plan->direct) { /* a turn for each unknown, which is judged as well */
-        const size_t most = UNKNOWNS_WRITTEN_MAX / ((size_t)plan->solves * d->model->nv);
+        const size_t unknowns = (size_t)plan->solves * d->model->nv,
+                     most = UNKNOWNS_WRITTEN_MAX / (unknowns + !unknowns);
         groups = groups < most ? groups : most;
         groups = groups < TURNS_WRITTEN_MAX ? groups : TURNS_WRITTEN_MAX;
     }

@@ -309,7 +309,10 @@ static void run_adaptive(apart *s)
     const apart_block *b = &s->blocks[RUNNING];
     const int64_t every = s->l->def.every;
     for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
-        if (occupied(b, i)) *clock_of(b, i, LANES_STOP) = (double)((steps_of(b, i) / every + 1) * every);
+        if (occupied(b, i)) {
+            const int64_t next = steps_of(b, i) / every + 1;
+            *clock_of(b, i, LANES_STOP) = (double)(next * every);
+        }
     s->l->run(&b->block.job, CHUNK, 0);
     for (size_t i = 0; i < s->lanes; i++)
         if (occupied(b, i) && b->block.job.lost[i] != 0) b->block.stopped[i] = lanes_block_time(&b->block, i);

@@ -226,7 +226,7 @@ static inline bool work_reuse(work *w)
 
 /* The numbers that a plan needs memory for: unit, c and live; then `scaled` and `matrix`, which belong to a step
  * size. */
-static inline size_t work_constants(const work *w) { return (size_t)(w->linears + w->squares); }
+static inline size_t work_constants(const work *w) { return (size_t)w->linears + (size_t)w->squares; }
 static inline size_t work_scaled_size(const work *w)
 {
     return work_constants(w) + 2 * (size_t)w->solves * (size_t)w->solves;

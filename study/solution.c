@@ -107,7 +107,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
                            double **before)
 {
     double work = 0, cost = 0;
-    study_distance d = {NAN, NAN, NAN}, last = d;
+    study_distance d = {NAN, NAN, NAN};
     bool have = false; /* *before is a complete, finite table */
     for (int level = 0; level < SOLUTION_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
         int64_t per = (int64_t)1 << level;
@@ -125,7 +125,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         work += cost;
         if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
-            last = d;
+            const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
             if (last.scaled < SOLUTION_SMALL && !(fall > SOLUTION_FALL)) {
