@@ -38,9 +38,9 @@ static int best_groups(const lanes_def *d, const work *plan)
                                                                 : 4;
     const size_t step = (size_t)(plan->stages - plan->fsal) * operations;
     size_t groups = STEPS_WRITTEN_MAX / (step + 1);
-    if (implicit && !plan->direct) { /* a turn for each unknown, which is judged as well */
-        const size_t unknowns = (size_t)plan->solves * d->model->nv,
-                     most = UNKNOWNS_WRITTEN_MAX / (unknowns + !unknowns);
+    const size_t unknowns = (size_t)plan->solves * d->model->nv;
+    if (implicit && !plan->direct && unknowns > 0) { /* an iteration also judges every unknown */
+        const size_t most = UNKNOWNS_WRITTEN_MAX / unknowns;
         groups = groups < most ? groups : most;
         groups = groups < TURNS_WRITTEN_MAX ? groups : TURNS_WRITTEN_MAX;
     }
