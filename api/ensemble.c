@@ -154,7 +154,7 @@ static motus_status choose_single(motus_ensemble *e, const char *wanted, motus_e
 {
     motus_system *s = e->system;
     choose_portable(e);
-    if (!s->model && s->callback.block && e->until == SIZE_MAX) e->block = ensemble_block_size(s, &e->chosen);
+    if (!s->model && s->callback.block) e->block = e->until == SIZE_MAX ? ensemble_block_size(s, &e->chosen) : 1;
     if (!s->model || (wanted && !strcmp(wanted, "interpreter"))) return MOTUS_OK;
     const char *why;
     motus_status status =
@@ -274,8 +274,11 @@ motus_status motus_ensemble_check(motus_ensemble *e, size_t count, const double 
 {
     places p = {0};
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    const motus_status status = find_values(e, values, &p, err);
-    return status ? status : check_ends(e, &p, count, err);
+    motus_status status = find_values(e, values, &p, err);
+    modes m = modes_enter();
+    if (status == MOTUS_OK) status = check_ends(e, &p, count, err);
+    modes_leave(m);
+    return status;
 }
 
 motus_status motus_ensemble_run(motus_ensemble *e, size_t count, const double *const *values, double *const *results,

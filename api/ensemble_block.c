@@ -109,10 +109,10 @@ static motus_status advance(void *ctx, stepper_limit limit, stepper_stop *why, m
 static motus_status run(trajectory_block *b, motus_error *err)
 {
     const motus_ensemble *e = b->w->e;
-    const timing *t = &e->timing;
-    b->w->timing = *t;
+    timing *t = &b->w->timing; /* where ends vary, a block has one trajectory */
     const machine m = {.name = b->w->machine.name, .problem = &b->problem};
     motus_status status = start(b, err);
+    if (status == MOTUS_OK) status = ensemble_timing(e, b->places, b->first, t, err);
     if (status == MOTUS_OK)
         status = stepper_create(&m, &e->chosen, t->t0, t->h, b->x, b->v, &e->allocator, &b->w->stepper, err);
     const course course = {.ctx = b,

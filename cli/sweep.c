@@ -82,8 +82,8 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.records = s->records.items;
     def.record_count = s->records.count;
     def.method = o->method;
-    def.step = s->step;
-    def.until = s->until;
+    def.step = o->step; /* else the model's, which a number that varies may not decide */
+    def.until = o->until;
     def.every = s->every;
     def.machine = o->machine;
     def.threads = (int)o->threads;

@@ -263,13 +263,13 @@ static bool refill(apart *s)
 /* ---- steps ---- */
 
 /* How many steps all lanes can take before one reaches its end or an observation. Where all lanes are observed at the
- * same steps, the object makes the observations, after every *every steps, counted from step *n. */
-static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *n, int64_t *every)
+ * same steps, the object makes the observations, after every *every steps. */
+static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *every)
 {
     const int64_t period = s->l->def.every;
     int64_t steps = CHUNK, due = CHUNK, phase = -1;
     bool alike = true;
-    *every = *n = 0;
+    *every = 0;
     for (size_t i = 0; i < s->lanes; i++) {
         if (!occupied(b, i)) continue;
         const int64_t taken = steps_of(b, i), left = b->trajectories[i].whole - taken;
@@ -279,7 +279,6 @@ static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *n, i
         if (period - here < due) due = period - here;
         alike = alike && (phase < 0 || here == phase);
         phase = here;
-        *n = taken;
     }
     if (!s->l->on_the_way || due > steps) return steps;
     const int64_t inner = (steps - 1) / period * period; /* the last observation may be at the end */
@@ -291,16 +290,20 @@ static int64_t steps_to_take(const apart *s, const apart_block *b, int64_t *n, i
 static void run_fixed(apart *s)
 {
     const apart_block *b = &s->blocks[RUNNING];
-    int64_t n, every;
-    const int64_t steps = steps_to_take(s, b, &n, &every);
-    for (size_t i = 0; every && i < s->lanes; i++) b->block.job.where[i] = occupied(b, i);
+    int64_t every;
+    const int64_t steps = steps_to_take(s, b, &every);
+    for (size_t i = 0; i < s->lanes; i++)
+        b->block.job.where[i] = occupied(b, i) && b->trajectories[i].observed == steps_of(b, i);
     lanes_block_save(&b->block);
     s->l->run(&b->block.job, steps, every);
     for (size_t i = 0; every && i < s->lanes; i++) {
         b->trajectories[i].observations += steps / every;
         b->trajectories[i].observed = steps_of(b, i);
     }
-    if (lanes_block_diverged(&b->block)) lanes_block_trace(&b->block, false, steps, n, every);
+    if (!lanes_block_diverged(&b->block)) return;
+    /* The object's observation after the last of its steps is examined here, with the next steps. */
+    const int64_t examined = every ? every : CHUNK + 1;
+    lanes_block_trace(&b->block, false, steps, 0, s->l->on_the_way ? examined : 0);
 }
 
 /* Computes candidates until some lane is at its end or at an observation, or fails. */

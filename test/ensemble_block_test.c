@@ -192,6 +192,46 @@ static void trajectories_have_their_own_numbers(void **state)
     }
 }
 
+/* Where ends differ as well, a block has one trajectory, and still its own index. */
+static void trajectories_have_their_own_ends(void **state)
+{
+    (void)state;
+    enum { SOME = 24 };
+    static const char *const vary[] = {"until", "x[1](0.5)"}, *const methods[] = {"rk4", "verlet", "gauss4"};
+    double stiffness[SOME], until[SOME], x[SOME];
+    const double *list[] = {until, x};
+    const motus_record records[] = {{MOTUS_REDUCE_FINAL, 1}, {MOTUS_REDUCE_MEAN, 6}};
+    for (int i = 0; i < SOME; i++) {
+        stiffness[i] = 1 + 0.1 * i;
+        until[i] = 0.5 + 0.037 * (i * 7 % SOME - 5);
+        x[i] = 0.3 - 0.01 * i;
+    }
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+        world w = {.stiffness = stiffness, .fail_at = 20, .answer = 1};
+        motus_system *s = given_callback(&w, IN_BLOCKS | ALONE);
+        motus_ensemble_def def = define(records, 2, methods[k], NAN, 3);
+        def.vary = vary;
+        def.vary_count = 2;
+        motus_ensemble *e = given_ensemble(s, &def, methods[k]);
+        outcome o = go(e, SOME, 2, list, methods[k]);
+        for (int i = 0; i < SOME; i++) {
+            world mine = {.stiffness = stiffness + i, .fail_at = -1};
+            motus_system *one = given_callback(&mine, ALONE);
+            motus_ensemble *f = given_ensemble(one, &def, methods[k]);
+            const double *from[] = {&until[i], &x[i]};
+            outcome p = go(f, 1, 2, from, methods[k]);
+            assert_true(isnan(o.stopped[i]) == (i != 20));
+            assert_true(i == 20 || (same_number(o.at[0][i], p.at[0][0]) && same_number(o.at[1][i], p.at[1][0])));
+            forget(&p);
+            motus_ensemble_destroy(f);
+            motus_system_destroy(one);
+        }
+        forget(&o);
+        motus_ensemble_destroy(e);
+        motus_system_destroy(s);
+    }
+}
+
 static void failures_end_their_own_trajectory(void **state)
 {
     (void)state;
@@ -387,6 +427,7 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_trajectories),
                                        cmocka_unit_test(trajectories_have_their_own_numbers),
+                                       cmocka_unit_test(trajectories_have_their_own_ends),
                                        cmocka_unit_test(failures_end_their_own_trajectory),
                                        cmocka_unit_test(threads_of_models),
                                        cmocka_unit_test(observed),

@@ -124,6 +124,38 @@ static void some_diverge(void **state)
     }
 }
 
+/* Trajectories with ends of their own stop when they would stop one at a time, whatever steps their lanes take
+ * together. */
+static void some_diverge_before_their_ends(void **state)
+{
+    (void)state;
+    enum { MANY = 200 };
+    static const char *const vary[] = {"k", "until"}, *const methods[] = {"verlet", "velocity-verlet", "rk4"};
+    static double k[MANY], until[MANY];
+    const double *values[] = {k, until};
+    motus_system *s = given_text("k = 1\nx'' = k x^3\nx(0) = 1\nx'(0) = 0\n");
+    for (int i = 0; i < MANY; i++) {
+        k[i] = i % 3 ? -0.1 * (i * 37 % 80) : 1 + 0.1 * i;
+        until[i] = 0.0501 * (i * 29 % 80 - 20);
+    }
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+        for (int64_t every = 1; every <= 3; every += 2) {
+            outcome o[2];
+            for (int lanes = 0; lanes < 2; lanes++) {
+                motus_ensemble_def def = define(vary, 2, methods[m], 0.01, NAN, lanes ? "compiled" : "interpreter");
+                def.every = every;
+                def.lanes = lanes ? 16 : 0;
+                motus_ensemble *e = given_ensemble(s, &def, methods[m]);
+                o[lanes] = go(e, MANY, def.record_count, values, methods[m]);
+                motus_ensemble_destroy(e);
+            }
+            same_outcome(&o[0], &o[1], methods[m]);
+            forget(&o[0]);
+            forget(&o[1]);
+        }
+    motus_system_destroy(s);
+}
+
 static void a_domain_is_left(void **state)
 {
     (void)state;
@@ -545,6 +577,7 @@ int main(void)
 {
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(some_diverge),
+                                       cmocka_unit_test(some_diverge_before_their_ends),
                                        cmocka_unit_test(a_domain_is_left),
                                        cmocka_unit_test(no_solution),
                                        cmocka_unit_test(stopped_trajectories_cost_nothing),

@@ -114,6 +114,12 @@ sweep "$root/models/three-body-figure-eight.motus" --vary "r[1].x(0)=0.97" --unt
 sweep "$root/models/projectile.motus" --vary g.y=-9.81,-1.62 --record "r,max(r'.y)" -q >"$out" 2>"$err"
 that "a name stands for all its numbers; a component varies" is "$(names)" "index,g.y,r.x,r.y,max(r'.y),stopped"
 
+# A number that decides the step or the end cannot vary, unless this is given.
+printf '%s\n' "T = 3" "h = 0.1" "x'' = -x" "x(0) = 1" "x'(0) = 0" "step h" "until T" >decides.motus
+refuses "what decides the end" 2 "decides the end" "$motus" sweep decides.motus --vary T=1,2
+refuses "what decides the step" 2 "decides the step" "$motus" sweep decides.motus --vary h=0.1,0.2
+gives "... but not of a sweep with its own" 0 "$motus" sweep decides.motus --vary T=1,2 --vary h=0.1,0.2 --until 2 --step 0.1
+
 # Ends that differ: before the start, at it, within a step of it, between steps.
 for machine in compiled interpreter; do
     sweep osc.motus --vary until=-1,0,0.004,0.5,1.237,30 --record "x,x'" --machine $machine -q >"ends-$machine.csv"
