@@ -30,7 +30,8 @@ static motus_status unknown(const motus_system *s, const char *name, motus_error
             hint(err, "an initial value is varied: %s(%s)", name, decimal(s->start, at));
             return MOTUS_NAME;
         }
-    hint(err, "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0)");
+    hint(err,
+         "a parameter is varied by its name, F; an initial value as x(0), x'(0), r.x(0), x[3](0); the end as until");
     return MOTUS_NAME;
 }
 

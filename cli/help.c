@@ -35,9 +35,9 @@ static const page pages[] = {
      "  motus converge models/damped-cubic.motus --methods verlet,rk4 --plot orders.svg\n"
      "  motus converge models/charged-particle.motus --json\n"},
     {VERB_SWEEP, "motus sweep MODEL --vary P=RANGE ... [options]",
-     "Integrates a model many times, on all processors, with different parameters or initial values, and writes a row\n"
-     "for each trajectory. Two --vary combine every value of one with every value of the other. --resume continues a\n"
-     "sweep that was interrupted, even by kill -9.",
+     "Integrates a model many times, on all processors, with different parameters, initial values or ends, and writes\n"
+     "a row for each trajectory. Two --vary combine every value of one with every value of the other. --resume\n"
+     "continues a sweep that was interrupted, even by kill -9.",
      "  motus sweep models/driven-oscillator.motus --vary F=0:0.2:11\n"
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:181\" --record \"max(theta),final\" --until 10 -o "
      "swings.csv\n"

@@ -67,7 +67,7 @@ static const option table[] = {
     {"--no-open", NULL, NULL, FLAG, AT(no_open), VERB_LAB, "write the page and start no browser"},
     {"--clear", NULL, NULL, FLAG, AT(clear), VERB_CACHE, "remove every entry"},
     {"--vary", NULL, "P=RANGE", NAMED, AT(vary), VERB_SWEEP,
-     "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column; repeatable"},
+     "F=0:1:11, F=log:0.1:10:5, F=1,2,5, F=@values.csv:column, until=1,2; repeatable"},
     {"--random", NULL, "P=DIST", NAMED, AT(random), VERB_SWEEP,
      "\"x(0)=-1:1\" (uniform), m=normal:MEAN:DEVIATION; repeatable"},
     {"--count", NULL, "N", COUNT, AT(count), VERB_SWEEP, "draw N times (for each value of --vary, if there is one)"},

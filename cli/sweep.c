@@ -214,7 +214,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     text_seconds(wall, all);
     fprintf(out, "%s: %s, step %s, ", s->model.title, s->method, step);
     if (motus_ensemble_steps(e) > 0) fprintf(out, "%lld steps ", (long long)motus_ensemble_steps(e));
-    fprintf(out, "to t = %s, %s%s, %d lane%s, %d thread%s\n", isnan(s->until) ? "until, its own each" : until,
+    fprintf(out, "to t = %s, %s%s, %d lane%s, %d thread%s\n", isnan(s->until) ? "its own end" : until,
             motus_ensemble_machine(e), s->options->fast ? " (fast)" : "", motus_ensemble_lanes(e),
             motus_ensemble_lanes(e) == 1 ? "" : "s", motus_ensemble_threads(e),
             motus_ensemble_threads(e) == 1 ? "" : "s");
