@@ -292,7 +292,7 @@ static void run_fixed(apart *s)
     const apart_block *b = &s->blocks[RUNNING];
     int64_t every;
     const int64_t steps = steps_to_take(s, b, &every);
-    for (size_t i = 0; i < s->lanes; i++)
+    for (size_t i = 0; s->l->on_the_way && i < s->lanes; i++)
         b->block.job.where[i] = occupied(b, i) && b->trajectories[i].observed == steps_of(b, i);
     lanes_block_save(&b->block);
     s->l->run(&b->block.job, steps, every);

@@ -96,12 +96,6 @@ static void literal_trace(work *w, int i)
         return;
     }
     EACHV(k) to->v[k] = (w->x[k] - w->old[k]) * w->per_h;
-    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
-                          .stage = 1,
-                          .time = time_now(w),
-                          .coefficient = 1,
-                          .x = w->x,
-                          .v = to->v,
-                          .before_x = FIRST(w) ? NULL : to->x});
+    verlet_tell(w, to);
 }
 #endif

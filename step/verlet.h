@@ -86,6 +86,18 @@ static void verlet_plan(work *w, const double argument[2], coef *unit, coef *c)
 #ifdef TRACING
 static trace_room verlet_room(const work *w) { return (void)w, (trace_room){.events = 1, .x = 2, .v = 2}; }
 
+/* The step as an event: to->v has its velocity, to->x the positions of one step earlier. */
+static void verlet_tell(work *w, const tracer *to)
+{
+    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
+                          .stage = 1,
+                          .time = time_now(w),
+                          .coefficient = 1,
+                          .x = w->x,
+                          .v = to->v,
+                          .before_x = FIRST(w) ? NULL : to->x});
+}
+
 /* Stage -1: before the step, which overwrites the positions of one step earlier. */
 static void verlet_trace(work *w, int i)
 {
@@ -95,12 +107,6 @@ static void verlet_trace(work *w, int i)
         return;
     }
     EACHV(k) to->v[k] = w->v[k] * w->per_h;
-    tell(w, (trace_event){.kind = FIRST(w) ? MOTUS_EVENT_TAYLOR : MOTUS_EVENT_STEP,
-                          .stage = 1,
-                          .time = time_now(w),
-                          .coefficient = 1,
-                          .x = w->x,
-                          .v = to->v,
-                          .before_x = FIRST(w) ? NULL : to->x});
+    verlet_tell(w, to);
 }
 #endif
