@@ -1,5 +1,5 @@
 /* The legs of a run: motus_run_set_state begins one at another state, motus_run_statistics counts over all of them. */
-#include "api/run.h"
+#include "api/locate.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,12 +11,13 @@ motus_status motus_run_statistics(const motus_run *r, motus_statistics *out)
     ours.legs = r->legs;
     ours.method = r->chosen.name;
     ours.machine = r->machine.name;
-    ours.steps = r->before + stepper_steps(r->stepper);
+    ours.steps = r->before + motus_run_steps(r);
     ours.refused = stepper_refused(r->stepper);
     ours.evaluations = stepper_evaluations(r->stepper);
     ours.iterations = stepper_iterations(r->stepper);
     ours.first_step = r->first_step;
     ours.last_step = ours.steps > 0 ? fabs(stepper_last_step(r->stepper)) : NAN;
+    locate_statistics(r, &ours);
     motus_struct_write(MOTUS_DEF_STATISTICS, &ours, out);
     return MOTUS_OK;
 }
@@ -37,13 +38,15 @@ static motus_status compose(motus_run *r, double t, const double *x, const doubl
 static motus_status set_state(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     timing leg;
-    const int64_t steps = stepper_steps(r->stepper);
+    const int64_t steps = motus_run_steps(r);
     motus_status status = run_timing(r->system, &r->chosen, fabs(r->timing.h), r->timing.until, t, &leg, err);
     if (status == MOTUS_OK) status = compose(r, t, x, v, err);
     if (status == MOTUS_OK) status = stepper_start(r->stepper, leg.t0, leg.h, r->mid_x, r->mid_v, err);
     if (status != MOTUS_OK) return status;
     r->before += steps;
     run_leg(r, &leg);
+    status = r->locate ? locate_begin(r, err) : MOTUS_OK;
+    if (status != MOTUS_OK) return status;
     return run_moved(r, err);
 }
 

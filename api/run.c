@@ -1,5 +1,5 @@
 /* Runs. See run.h. */
-#include "api/run.h"
+#include "api/locate.h"
 
 #include "api/choice.h"
 
@@ -46,7 +46,7 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
     out->whole = way.whole;
     out->last = way.last;
     out->total = way.whole + (way.last != 0);
-    if (out->last != 0 && row_uniform(chosen)) {
+    if (out->whole > 0 && out->last != 0 && row_uniform(chosen)) {
         fail(err, MOTUS_METHOD, "%s takes equal steps only, and the last one would be %g", chosen->name,
              fabs(out->last));
         hint(err, "choose a step that divides %g, or method verlet", fabs(out->until - out->t0));
@@ -113,16 +113,30 @@ static int tell(void *ctx, double now)
                                        : 1);
 }
 
+static motus_status advance_located(motus_run *r, int64_t n, stepper_stop *why, motus_error *err)
+{
+    enum { LOOK = 64 }; /* steps between two looks at the clock */
+    motus_status status = MOTUS_OK;
+    *why = r->arrived ? STOP_UNTIL : STOP_STEPS;
+    for (int64_t i = 0; i < n && status == MOTUS_OK && *why == STOP_STEPS; i++) {
+        if (i % LOOK == 0 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
+        status = locate_step(r, why, err);
+    }
+    if (status != MOTUS_OK) *why = STOP_FAILED;
+    return status;
+}
+
 /* Up to n steps more, without calling the observer; n = 0 finds out whether the run is at its end. */
 static motus_status advance(motus_run *r, int64_t n, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
     r->synchronised = r->synchronised && n == 0;
     const stepper_limit limit = {n, r->timing.until};
-    const motus_status status =
-        n > 0 ? pace_advance(&r->pace, r->stepper, limit, &why, err) : stepper_advance(r->stepper, limit, &why, err);
+    const motus_status status = n > 0 && r->locate ? advance_located(r, n, &why, err)
+                                : n > 0            ? pace_advance(&r->pace, r->stepper, limit, &why, err)
+                                                   : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL;
-    if (isnan(r->first_step) && stepper_steps(r->stepper) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
+    if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     return status == MOTUS_CANCELLED ? fail(err, status, "cancelled at t = %g", stepper_time(r->stepper)) : status;
 }
 
@@ -140,6 +154,11 @@ motus_status run_refuse_move(motus_error *err)
     fail(err, MOTUS_ARGUMENT, "an observer cannot step, restore or set its run");
     hint(err, "return a value other than 0, and change the run after the call that stepped it");
     return MOTUS_ARGUMENT;
+}
+
+motus_status run_refuse_located(const char *what, motus_error *err)
+{
+    return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be %s", what);
 }
 
 static motus_status go_on(motus_run *r, int64_t n, motus_error *err)
@@ -173,6 +192,7 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     if (p->refresh && r->timing.t0 != s->start) p->refresh(p->ctx, r->timing.t0, r->x, r->v);
     motus_status status =
         stepper_create(&r->machine, &r->chosen, r->timing.t0, r->timing.h, r->x, r->v, &r->allocator, &r->stepper, err);
+    if (status == MOTUS_OK && r->locate) status = locate_begin(r, err);
     return status == MOTUS_OK ? go_on(r, 0, err) : status;
 }
 
@@ -212,6 +232,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = choose_machine(r, def.machine, err);
+    if (status == MOTUS_OK && def.switches == MOTUS_SWITCHES_LOCATE) status = locate_prepare(r, err);
     if (status == MOTUS_OK) status = begin(r, &def, err);
     modes_leave(m);
     if (status != MOTUS_OK) {
@@ -228,6 +249,7 @@ void motus_run_destroy(motus_run *r)
     motus_allocator a = r->allocator;
     motus_system_hold(r->system, false);
     stepper_destroy(r->stepper);
+    locate_destroy(r);
     give(&a, r->saved);
     give(&a, r->trace);
     give(&a, r);
@@ -240,11 +262,15 @@ double motus_run_time(const motus_run *r) { return r ? stepper_time(r->stepper) 
 double motus_run_time_of(const motus_run *r, int64_t step)
 {
     if (!r || step < 0 || (row_adaptive(&r->chosen) && step < INT64_MAX)) return NAN;
-    return step >= r->timing.total ? r->timing.until : stepper_time_of(r->stepper, step);
+    return step >= r->timing.total ? r->timing.until
+                                   : stepper_time_of(r->stepper, step - (r->locate ? locate_steps(r) : 0));
 }
 
 double motus_run_step_size(const motus_run *r) { return r ? fabs(r->timing.h) : NAN; }
-int64_t motus_run_steps(const motus_run *r) { return r ? stepper_steps(r->stepper) : 0; }
+int64_t motus_run_steps(const motus_run *r)
+{
+    return r ? stepper_steps(r->stepper) + (r->locate ? locate_steps(r) : 0) : 0;
+}
 int64_t motus_run_steps_total(const motus_run *r) { return r ? r->timing.total : 0; }
 double motus_run_last_step(const motus_run *r) { return r ? fabs(r->timing.last) : 0; }
 int64_t motus_run_evaluations(const motus_run *r) { return r ? stepper_evaluations(r->stepper) : 0; }
@@ -257,6 +283,7 @@ const char *motus_run_machine(const motus_run *r) { return r ? r->machine.name :
 motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 {
     if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
+    if (r->locate && !locate_bind(r)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;
@@ -344,6 +371,7 @@ motus_status motus_run_sample(motus_run *r, const double *times, size_t n, const
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
     if (!r || (n && !times) || (count && (!columns || !out)))
         return fail(err, MOTUS_ARGUMENT, "motus_run_sample needs a run, times, columns and a place for the values");
+    if (r->locate) return run_refuse_located("sampled between steps", err);
     modes m = modes_enter();
     motus_status status = sample(r, times, n, columns, count, out, err);
     modes_leave(m);

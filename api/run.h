@@ -40,7 +40,9 @@ struct motus_run {
     double told; /* when `progress` was last called */
     char *saved;
     size_t saved_room;
-    struct trace *trace; /* of the last step that was traced; NULL */
+    bool locating;         /* the definition asks that steps end at switches */
+    struct locate *locate; /* NULL: they do not */
+    struct trace *trace;   /* of the last step that was traced; NULL */
 };
 
 /* Fills in a timing. NaN: the model's. */
@@ -53,5 +55,7 @@ motus_status run_moved(motus_run *, motus_error *);
 void run_leg(motus_run *, const timing *);
 /* MOTUS_ARGUMENT, for what an observer may not do with its run. */
 motus_status run_refuse_move(motus_error *);
+/* MOTUS_UNAVAILABLE, for what a run that locates switches cannot do: "saved". */
+motus_status run_refuse_located(const char *what, motus_error *);
 
 #endif

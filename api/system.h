@@ -27,8 +27,11 @@ struct motus_system {
     motus_callback_def callback;
     calling calling;
     problem problem;
-    machine machine;    /* the interpreter, or the callback */
-    compiled *compiled; /* NULL until a run asks for it */
+    machine machine;       /* the interpreter, or the callback */
+    compiled *compiled;    /* NULL until a run asks for it */
+    struct held *switches; /* NULL until a run asks for it, and where the model has none */
+    bool switches_known;
+    const char *switches_refused; /* why they cannot be located; NULL */
     double start;
     double *x0, *v0;
     model_state *states;

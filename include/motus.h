@@ -417,6 +417,16 @@ MOTUS_API motus_status motus_stability(const char *method, size_t count, const d
 
 typedef struct motus_run motus_run;
 
+/* What a run does where the force changes its formula: where the argument of an abs, sign, min, max, floor, mod, cbrt
+ * or of a comparison passes the value that decides. */
+typedef enum motus_switches {
+    MOTUS_SWITCHES_STEP, /* nothing: it steps across, and loses the order of its method there */
+    /* It takes the step that leads across in pieces, each with one smooth formula, and finds by trial steps, to the
+     * rounding of the time, where a piece ends. The times after steps are those of other runs. The interpreter computes
+     * such a run where the model has switches. It cannot be traced, sampled, saved or restored. */
+    MOTUS_SWITCHES_LOCATE
+} motus_switches;
+
 typedef struct motus_run_def {
     uint32_t size;       /* by motus_default_run() */
     const char *method;  /* NULL: the model's, or "verlet" */
@@ -440,6 +450,7 @@ typedef struct motus_run_def {
     /* The most threads that the compiled machine may use for one large system, 1 … MOTUS_THREADS_MAX; 0: one. A small
      * system uses one thread in any case. The bits are the same. */
     int threads;
+    motus_switches switches;
 } motus_run_def;
 #define MOTUS_THREADS_MAX 1024
 
@@ -483,6 +494,11 @@ typedef struct motus_statistics {
     int64_t evaluations;          /* of the acceleration by taken and refused steps; observing counts none */
     int64_t iterations;           /* of Newton's method, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
+    /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
+     * lowest derivative of the acceleration along the motion that jumped at one of them: 0 the acceleration itself; -1:
+     * none. The time of the first such jump; NaN: there was none. */
+    int64_t switches, jump;
+    double jump_time;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */

@@ -36,8 +36,9 @@
 #define PHASE_GOOD 8.0
 #define STIFF_MOST 2000.0
 #define PEAK_MOST 200.0
-#define SURVEY 64        /* intervals of the survey: a rough solution of the full motion */
-#define SURVEY_PROBES 8  /* states of the survey at which the fastest rate is computed */
+#define INCOMMENSURATE 0.95225424859373685603 /* 1 - (3 - √5)/16: badly approximated by fractions */
+#define SURVEY 64                             /* intervals of the survey: a rough solution of the full motion */
+#define SURVEY_PROBES 8                       /* states of the survey at which the fastest rate is computed */
 #define SURVEY_TRUST 0.1 /* of the motion's size: of a survey with a larger error only the start is used */
 #define REFERENCE_MAX (SOLUTION_TEXT_MAX + 320)
 #define REFERENCE_SHARE 0.1 /* of the progress */
@@ -62,7 +63,10 @@ typedef struct converge {
     motus_study_def def;
     solution reference;
     study_grid grid;
-    double uncut;  /* the model's own end, where the motion was cut; NaN otherwise */
+    double uncut; /* the end that was asked for */
+    bool cut;     /* the motion was cut far before it */
+    int allowed;  /* the highest order that the smoothness of the force allows; 0: any */
+    char why[MOTUS_TEXT_MAX / 2];
     double *table; /* INTERVALS × numbers */
     const char **methods;
     size_t count;
@@ -124,13 +128,10 @@ static double round_down(double duration)
     return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
 
-/* Chooses the end of the motion from its speed along a survey and from the fastest rate of the linearised motion. */
-static motus_status choose_end(converge *c, double *until)
+/* Bounds the length of the motion by its speed along a survey and by the fastest rate of the linearised motion. */
+static motus_status bound_length(converge *c, double *until)
 {
     study *s = &c->s;
-    *until = s->until;
-    c->uncut = NAN;
-    if (!isnan(c->def.until)) return MOTUS_OK; /* the user chose the end */
     study_grid g = even_grid(s, s->until, SURVEY);
     solution survey;
     motus_status status = solution_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
@@ -153,9 +154,22 @@ static motus_status choose_end(converge *c, double *until)
     if (peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
     if (stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
     if (longest == duration) return MOTUS_OK;
-    c->uncut = s->until;
+    c->cut = true;
     *until = s->from + direction * round_down(longest);
     return MOTUS_OK;
+}
+
+/* A force often jumps at a simple fraction of the run, such as half of it, and steps that end there by chance would
+ * show an order that no other step has. So the motion ends a little earlier, at a fraction of its length that is none
+ * of these, and so do all steps. */
+static motus_status choose_end(converge *c, double *until)
+{
+    study *s = &c->s;
+    *until = c->uncut = s->until;
+    motus_status status = MOTUS_OK;
+    if (isnan(c->def.until)) status = bound_length(c, until); /* else the user chose the end */
+    *until = s->from + INCOMMENSURATE * (*until - s->from);
+    return status;
 }
 
 /* One method ----------------------------------------------------------------------------------------------------- */
@@ -224,21 +238,27 @@ static motus_status measure_all(converge *c, const motus_method *card, const cha
     return MOTUS_OK;
 }
 
-static void certify(motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
+static void certify(const converge *c, motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
 {
     row->observed = fit->observed;
     row->standard_error = fit->standard_error;
     row->exact_here = fit->verdict == FIT_EXACT;
-    row->passed =
-        row->exact_here || (fit->verdict == FIT_SLOPE && fit_passes(fit->observed, fit->standard_error, row->declared));
+    const bool allowed = !c->allowed || row->declared <= c->allowed;
+    row->passed = row->exact_here || (allowed && fit->verdict == FIT_SLOPE &&
+                                      fit_passes(fit->observed, fit->standard_error, row->declared));
     switch (fit->verdict) {
     case FIT_EXACT: snprintf(text, size, "exact here, declared %d", row->declared); break;
     case FIT_SLOPE:
-        snprintf(text, size, "observed %.2f, declared %d", fit->observed, row->declared);
+        if (allowed)
+            snprintf(text, size, "observed %.2f, declared %d", fit->observed, row->declared);
+        else
+            snprintf(text, size, "observed %.2f, declared %d: %s, which allows order %d", fit->observed, row->declared,
+                     c->why, c->allowed);
         if (!row->passed) row->status = MOTUS_ORDER;
         break;
     case FIT_ROUGH:
-        snprintf(text, size, "no slope: the errors follow no power of the step, declared %d", row->declared);
+        snprintf(text, size, "no slope: the errors follow no power of the step, declared %d%s%s", row->declared,
+                 allowed ? "" : ": ", allowed ? "" : c->why);
         break;
     case FIT_FEW:
         snprintf(text, size, "no slope: %zu of the %d steps needed lie between instability and round-off, declared %d",
@@ -285,7 +305,7 @@ static motus_status make_row(converge *c, size_t k)
         snprintf(text, MOTUS_TEXT_MAX, "%s", e.message);
         return MOTUS_OK;
     }
-    certify(row, &fit, text, MOTUS_TEXT_MAX);
+    certify(c, row, &fit, text, MOTUS_TEXT_MAX);
     return MOTUS_OK;
 }
 
@@ -295,10 +315,11 @@ static void describe(converge *c)
 {
     result *r = c->out;
     int n = snprintf(r->reference, sizeof r->reference, "%s", c->reference.text);
-    if (!isnan(c->uncut) && n > 0 && (size_t)n < sizeof r->reference)
-        snprintf(r->reference + n, sizeof r->reference - (size_t)n,
-                 "; until %.6g, not %.6g: over a longer motion low orders would need too many steps to converge",
-                 c->grid.until, c->uncut);
+    if (n > 0 && (size_t)n < sizeof r->reference)
+        snprintf(r->reference + n, sizeof r->reference - (size_t)n, "; until %.6g, not %.6g: %s", c->grid.until,
+                 c->uncut,
+                 c->cut ? "over a longer motion low orders would need too many steps to converge"
+                        : "so no step is a simple fraction of the run, at which a force may jump");
     r->seen.reference_error = c->reference.scaled;
 }
 
@@ -313,12 +334,12 @@ static motus_status converge_all(converge *c)
     study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
     if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
     if (!c->reference.known) {
-        fail(s->err, MOTUS_DIVERGED,
-             "there is no reference solution to measure errors against: every method of high order failed before %.6g",
-             until);
+        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %.6g to measure errors against; %s", until,
+             c->reference.text);
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }
+    c->allowed = solution_allows(&c->reference, c->why, sizeof c->why);
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
         double share = (1 - REFERENCE_SHARE) / (double)c->count;

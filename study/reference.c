@@ -47,6 +47,7 @@ static motus_status go(motus_reference *r, double from, double t, motus_error *e
     double way = fabs(t - from), step = way;
     if (!r->solution.exact) step = way / fmax(1, ceil(way / r->solution.step * (1 - ROUNDING_OF_TIME)));
     motus_run *run = NULL;
+    s->locate = r->solution.located;
     motus_status status = study_run(s, r->solution.method, step, from, t, r->y, &run, err);
     if (status == MOTUS_OK) status = motus_run_finish(run, err);
     if (status == MOTUS_OK) status = study_state(s, run, r->y, err);
@@ -118,8 +119,8 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     if ((status = solution_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->solution)) != MOTUS_OK)
         return status;
     if (!r->solution.known) {
-        fail(err, MOTUS_DIVERGED, "there is no reference solution: every method of high order failed before %.6g",
-             s->until);
+        fail(err, MOTUS_DIVERGED, "there is no reference solution until %.6g: %s", s->until,
+             solution_lacks(&r->solution));
         hint(err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }

@@ -265,10 +265,15 @@ static void reference(const remarks_view *v, sheet *out)
 {
     char list[LINE_MAX_BYTES / 2];
     if (!v->reference->known) {
-        say(out, "Errors are not shown, since there is no reference solution: no exact motion is known, and every "
-                 "method of high order failed before the end.");
+        say(out, "Errors are not shown, since no exact motion is known and there is no reference solution: %s.",
+            solution_lacks(v->reference));
         return;
     }
+    char why[LINE_MAX_BYTES / 2];
+    const int order = solution_allows(v->reference, why, sizeof why);
+    if (order)
+        say(out, "The force is not smooth along the motion: %s. No method of fixed step has more than order %d here.",
+            why, order);
     size_t n = v->reference->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
     if (n)
         say(out, "The reference has an error of %.2g itself: the error%s shown for %s may be the reference's.",

@@ -1,11 +1,13 @@
 /* The reference solution: the exact motion where it is known, else a run of the most accurate method of high order,
- * its step halved until the change is round-off.
+ * its step halved until the change is round-off; and the error of it, by that change and by a second method.
  *
  * Two runs of order p at steps h and h/2 differ by d; the error of the finer one is then about d/(r-1), where r is
  * the factor by which d fell at the last halving (2^p in theory, less where the force is not smooth enough for the
- * order). When d no longer falls, it is round-off, and d itself is the estimate. Where a force is discontinuous, two
- * halvings may agree by accident; so the chosen method runs once more with steps of two thirds, and that difference
- * is a lower bound of the estimate. Invariant: a solution that is `known` has finite rows and a measured error.
+ * order). When d no longer falls, it is round-off, and d itself is the estimate. Halvings alone can agree by accident,
+ * because all their steps have times in common; so another method judges the result at other times. Where the force
+ * is not smooth, steps end at its switches, so that every step has a smooth force; where that cannot be done, the
+ * estimate is never called round-off. Invariant: a solution that is `known` has finite rows and an error that two
+ * methods agree on.
  */
 #include "solution.h"
 #include <float.h>
@@ -13,12 +15,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#define NONE "none: " /* begins the text where nothing is known */
 #define SOLUTION_CANDIDATES 3
 #define SOLUTION_ORDERS_BELOW 2 /* candidates are at most this far below the highest admitted order */
 #define SOLUTION_LEVELS 24      /* halvings of an interval */
 /* a difference that stops falling is round-off if it is below this, else the motion is not yet resolved */
 #define SOLUTION_SMALL 1e-6
 #define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
+#define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
+#define SOLUTION_UNEVEN 4 /* by how much an estimate is widened where steps cross jumps of the force */
 /* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
  * each step of the methods under study, if that is more. */
 #define SOLUTION_WORK 3e7
@@ -28,6 +33,8 @@ typedef struct candidate {
     const motus_method *card;
     double step;
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
+    int64_t jump;        /* as in motus_statistics, of the finest run */
+    double jump_time;
 } candidate;
 
 study_grid solution_grid(const study *s, double step)
@@ -37,14 +44,16 @@ study_grid solution_grid(const study *s, double step)
     return study_grid_of(s, step, s->total, s->last_step, &per);
 }
 
-static size_t candidates(study *s, candidate *out)
+/* explicit_only: without the methods that solve equations, which fail where a force jumps. */
+static size_t candidates(study *s, bool explicit_only, candidate *out)
 {
     size_t count = 0;
     int highest = 0;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name)) continue;
+            if (strcmp(m->family, "exact") == 0 || (explicit_only && m->evaluations == 0)) continue;
+            if (!study_admits(s, m->name)) continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
                 continue;
@@ -58,7 +67,7 @@ static size_t candidates(study *s, candidate *out)
             if (at >= SOLUTION_CANDIDATES) continue;
             count = count < SOLUTION_CANDIDATES ? count + 1 : count;
             memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
-            out[at] = (candidate){.card = m, .scaled = NAN};
+            out[at] = (candidate){.card = m, .scaled = NAN, .jump = -1, .jump_time = NAN};
         }
     return count;
 }
@@ -125,6 +134,8 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         work += cost;
         if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
+            c->jump = spent.jump;
+            c->jump_time = spent.jump_time;
             const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
@@ -173,23 +184,77 @@ static void own_rounding(const study *s, const study_grid *g, solution *r)
     }
 }
 
-/* A run with steps of two thirds (a third, if an interval has one step): it shares no time within an interval with
- * the run that it checks. */
-static motus_status check(study *s, const study_grid *g, const candidate *c, solution *r, double *room)
+/* Judging by another method ---------------------------------------------------------------------------------------- */
+
+/* The method that judges `best`: of another family if one has nearly its order, else another row, else itself. */
+static const motus_method *judge_of(study *s, const motus_method *best, bool explicit_only)
 {
-    study_cost spent;
-    motus_error ignored = motus_default_error();
-    int64_t per = (int64_t)llround(g->interval / c->step);
-    motus_status status = study_walk(s, c->card->name, g, per % 2 ? 3 * per : per / 2 * 3, room, &spent, &ignored);
-    if (study_fatal(status)) {
-        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-        return status;
+    const motus_method *judge = best;
+    int rank = 0;
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        if (m == best || strcmp(m->family, "exact") == 0 || m->order < best->order - SOLUTION_ORDERS_BELOW) continue;
+        if (explicit_only && m->evaluations == 0) continue;
+        const int other = strcmp(m->family, best->family) != 0 ? 2 : 1;
+        if (rank > other || (rank == other && judge->order >= m->order) || !study_admits(s, m->name)) continue;
+        judge = m;
+        rank = other;
     }
-    study_distance d = apart(s, room, r->rows + s->numbers, g->points);
-    if (status == MOTUS_OK && isfinite(d.scaled)) {
-        r->error = fmax(r->error, fmax(d.x, d.v));
-        r->scaled = fmax(r->scaled, d.scaled);
+    return judge;
+}
+
+/* The difference from a run of another method is a lower bound of the error: where both methods are far more accurate
+ * than the difference of two halvings says, nothing changes. The other method's steps have no time in common with the
+ * first one's within an interval, so that what falls between the steps of one falls into the steps of the other. It
+ * takes more steps as long as that brings it nearer. False in *judged: no run of it reached the end. */
+static motus_status judge(study *s, const study_grid *g, double budget, const candidate *c, solution *r, double *room,
+                          bool *judged)
+{
+    const motus_method *other = judge_of(s, c->card, r->explicit_only);
+    study_distance last = {NAN, NAN, NAN};
+    double work = 0;
+    *judged = false;
+    for (int64_t per = (int64_t)(1.5 * llround(g->interval / c->step)) | 1; per > 0; per = 2 * per + 1) {
+        study_cost spent;
+        motus_error ignored = motus_default_error();
+        motus_status status = study_walk(s, other->name, g, per, room, &spent, &ignored);
+        if (study_fatal(status)) {
+            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+            return status;
+        }
+        const double steps = (double)g->intervals * (double)per,
+                     cost = fmax(study_work(s, other, (double)spent.steps, (double)spent.evaluations),
+                                 study_work(s, other, steps, -1));
+        work += cost;
+        study_distance d = {NAN, NAN, NAN};
+        if (status == MOTUS_OK) d = apart(s, room, r->rows + s->numbers, g->points);
+        const bool nearer = isfinite(d.scaled) && !(d.scaled > last.scaled / SOLUTION_FALL);
+        if (isfinite(d.scaled) && !(d.scaled >= last.scaled)) {
+            last = d;
+            *judged = true;
+        }
+        const bool agree = last.scaled <= fmax(2 * r->scaled, 2 * s->noise);
+        if (agree || (*judged && !nearer) || work + 2 * cost > budget) break;
     }
+    if (!*judged) return MOTUS_OK;
+    r->error = fmax(r->error, fmax(last.x, last.v));
+    r->scaled = fmax(r->scaled, last.scaled);
+    return MOTUS_OK;
+}
+
+/* Where the force jumps and no step ends there, the error of a run depends on where its steps happen to lie, and falls
+ * unevenly: factors from experience. */
+static void widen(solution *r)
+{
+    r->error *= SOLUTION_UNEVEN;
+    r->scaled *= SOLUTION_UNEVEN;
+}
+
+static motus_status unknown(solution *r, const char *why)
+{
+    r->known = false;
+    r->error = r->scaled = NAN;
+    snprintf(r->text, sizeof r->text, NONE "%s", why);
     return MOTUS_OK;
 }
 
@@ -197,13 +262,13 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
                                    double *kept, double *now, double *before)
 {
     candidate list[SOLUTION_CANDIDATES + 1];
-    size_t count = candidates(s, list);
+    size_t count = candidates(s, r->explicit_only, list);
     const candidate *best = NULL;
     double *best_table = NULL;
     double budget = count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
-    double base = s->base, span = s->span;
+    double base = s->base, span = s->span / (double)(count + 1);
     for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
-        study_part(s, base + span * (double)k / (double)count, span / (double)count);
+        study_part(s, base + span * (double)k, span);
         motus_status status = refine(s, g, budget / (double)count, enough, &list[k], &now, &before);
         if (status != MOTUS_OK) return status;
         if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
@@ -214,23 +279,80 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
             best_table = kept;
         }
     }
-    study_part(s, base, span);
+    study_part(s, base + span * (double)count, span);
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
-    if (!best) {
-        snprintf(r->text, sizeof r->text, "none: every method of high order failed before the end");
-        return MOTUS_OK;
-    }
+    if (!best) return unknown(r, "every method of high order failed before the end");
     r->known = true;
     r->order = best->card->order;
     r->step = best->step;
+    r->jump = best->jump;
+    r->jump_time = best->jump_time;
     snprintf(r->method, sizeof r->method, "%s", best->card->name);
-    snprintf(r->text, sizeof r->text, "%s at step %.6g", best->card->name, best->step);
+    snprintf(r->text, sizeof r->text, "%s at step %.6g%s", best->card->name, best->step,
+             best->jump >= 0 ? ", with steps that end where the force is not smooth" : "");
     memcpy(r->rows + s->numbers, best_table, g->points * s->numbers * sizeof(double));
     study_scale(s, r->rows + s->numbers, g->points);
     r->error = fmax(best->x, best->v);
     r->scaled = best->scaled;
     own_rounding(s, g, r);
-    return check(s, g, best, r, now);
+    bool judged;
+    motus_status status = judge(s, g, budget, best, r, now, &judged);
+    study_part(s, base, span * (double)(count + 1));
+    if (status != MOTUS_OK) return status;
+    if (!judged) return unknown(r, "no second method of high order reached the end, to judge the first by");
+    r->uneven = r->uneven && !(s->locate && s->locatable);
+    if (r->uneven) widen(r);
+    if (!(r->scaled < SOLUTION_LOST)) return unknown(r, "methods of high order end far from each other");
+    return MOTUS_OK;
+}
+
+/* With steps that end at switches, where the force has any; without, if the motion slides along one. */
+static motus_status find_located(study *s, const study_grid *g, int64_t steps, double enough, solution *r, double *room)
+{
+    const size_t table = g->points * s->numbers;
+    motus_analysis analysis = motus_default_analysis();
+    study_note(s, motus_analysis_of(s->system, &analysis));
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
+    const double base = s->base, span = s->span;
+    motus_status status = MOTUS_OK;
+    r->located = s->locate = !analysis.smooth;
+    r->jump = -1;
+    r->jump_time = NAN;
+    for (bool again = true; again && status == MOTUS_OK;) {
+        study_part(s, base, span);
+        r->uneven = !analysis.smooth;
+        status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
+        again = status == MOTUS_OK && !r->known && !analysis.smooth && (s->locate || !r->explicit_only);
+        r->explicit_only = !s->locate;
+        if (again) r->located = s->locate = false;
+    }
+    s->locate = false;
+    return status;
+}
+
+/* Where an exact motion is known, a run is still needed to find where the force is not smooth along it. */
+static motus_status find_jump(study *s, const study_grid *g, solution *r)
+{
+    motus_analysis analysis = motus_default_analysis();
+    candidate list[SOLUTION_CANDIDATES + 1];
+    study_note(s, motus_analysis_of(s->system, &analysis));
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
+    r->jump = -1;
+    r->jump_time = NAN;
+    if (analysis.smooth || !candidates(s, false, list)) return study_broken(s);
+    double *room = take(s->allocator, g->points * s->numbers, sizeof(double));
+    if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
+    study_cost cost;
+    motus_error ignored = motus_default_error();
+    s->locate = true;
+    motus_status status = study_walk(s, list[0].card->name, g, 1, room, &cost, &ignored);
+    s->locate = false;
+    give(s->allocator, room);
+    if (study_fatal(status)) return status;
+    r->uneven = status != MOTUS_OK || !s->locatable;
+    r->jump = cost.jump;
+    r->jump_time = cost.jump_time;
+    return MOTUS_OK;
 }
 
 motus_status solution_find(study *s, const study_grid *g, int64_t steps, double enough, solution *r)
@@ -256,26 +378,47 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
             r->error = r->scaled = 0;
             snprintf(r->method, sizeof r->method, "%s", exact);
             snprintf(r->text, sizeof r->text, "exact");
-            return MOTUS_OK;
+            return find_jump(s, g, r);
         }
     }
     size_t table = g->points * s->numbers;
     double *room = take(s->allocator, 3 * table, sizeof(double));
     if (!room)
         return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", 3 * g->points, s->numbers);
-    motus_status status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
+    motus_status status = find_located(s, g, steps, enough, r, room);
     give(s->allocator, room);
     return status;
 }
 
+int solution_allows(const solution *r, char *why, size_t size)
+{
+    why[0] = 0;
+    if (r->uneven) {
+        snprintf(why, size, "the force is not smooth, and where it jumps could not be found");
+        return 1;
+    }
+    if (r->jump < 0) return 0;
+    if (r->jump == 0)
+        snprintf(why, size, "the force jumps at t = %.6g", r->jump_time);
+    else if (r->jump == 1)
+        snprintf(why, size, "the slope of the force jumps at t = %.6g", r->jump_time);
+    else
+        snprintf(why, size, "derivative %d of the force jumps at t = %.6g", (int)r->jump, r->jump_time);
+    return (int)r->jump + 1;
+}
+
+const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }
+
 motus_status solution_on(study *s, const solution *r, const study_grid *g, double *rows)
 {
+    s->locate = r->located;
     int64_t per = 1;
     while (!r->exact && per < (int64_t)1 << SOLUTION_LEVELS && g->interval / (double)per > r->step * (1 + 1e-9))
         per *= 2;
     study_cost cost;
     motus_error ignored = motus_default_error();
     motus_status status = study_walk(s, r->method, g, per, rows, &cost, &ignored);
+    s->locate = false;
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
     if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
     return status;

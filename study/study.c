@@ -206,6 +206,7 @@ motus_status study_run(study *s, const char *method, double step, double start, 
     def.method = method;
     def.step = step;
     def.until = until;
+    def.switches = s->locate ? MOTUS_SWITCHES_LOCATE : MOTUS_SWITCHES_STEP;
     if (y) {
         def.start = start;
         def.x = y;
@@ -240,7 +241,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
 {
     motus_run *run = NULL;
     size_t done = 0;
-    *cost = (study_cost){0, 0, 0};
+    *cost = (study_cost){.jump = -1, .jump_time = NAN};
     motus_status status = tick(s, 0);
     if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     for (; status == MOTUS_OK && done < g->points; done++) {
@@ -255,6 +256,11 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     if (run) {
         cost->steps = motus_run_steps(run);
         cost->evaluations = motus_run_evaluations(run);
+        motus_statistics did = motus_default_statistics();
+        motus_run_statistics(run, &did);
+        cost->jump = did.jump;
+        cost->jump_time = did.jump_time;
+        s->locatable = did.switches >= 0;
     }
     motus_run_destroy(run);
     return s->cancelled ? MOTUS_CANCELLED : status;

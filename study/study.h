@@ -38,6 +38,8 @@ typedef struct study {
     void *context;
     double base, span;      /* where the present part of the study begins, and its length, as fractions of it */
     double reached, called; /* the fraction and the clock at the last call of progress */
+    bool locate;            /* runs end their steps where the force changes its formula */
+    bool locatable;         /* the last run could do so */
     bool cancelled;
     bool out_of_memory; /* in a call that could only answer "unknown" */
 } study;
@@ -53,6 +55,8 @@ typedef struct study_grid {
 typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
+    int64_t jump; /* as in motus_statistics */
+    double jump_time;
 } study_cost;
 
 /* The definition in this version's layout, checked. */

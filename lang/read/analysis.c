@@ -16,7 +16,7 @@ static node seed_velocity(graph *g, node leaf, void *shift)
     return graph_seed_direction(g, leaf, shift);
 }
 
-static void read_traits(model *m)
+void analysis_traits(model *m)
 {
     graph *g = m->graph;
     traits *t = &m->traits;
@@ -222,7 +222,7 @@ motus_status analysis_exact(model *m, motus_error *err)
 
 void analysis_all(model *m)
 {
-    read_traits(m);
+    analysis_traits(m);
     if (m->exact_given) {
         m->traits.has_exact = verify_exact(m);
     } else if (m->traits.constant && m->nx == m->nv && m->boundary_count == 0) {

@@ -10,4 +10,7 @@ motus_status read_model(arena *, const motus_text_def *, model **out, motus_erro
 /* Checks the exact line again after numbers have changed; takes no memory. */
 motus_status analysis_exact(model *, motus_error *);
 
+/* Finds the traits of the model's equations that follow from their form, but for has_exact. */
+void analysis_traits(model *);
+
 #endif

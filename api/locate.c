@@ -1,0 +1,454 @@
+/* Steps that end where the force changes its formula. See locate.h.
+ *
+ * A step is first taken with the sides as they are. If every argument is on its side at the end and no argument can
+ * have left it and come back, that is the step. Otherwise the pieces follow: the first root is bracketed by steps of
+ * other lengths from the same state, until its time is known to rounding; the piece ends just beyond it, so that the
+ * argument is on the new side; and the next piece leads on to the end of the step. So every state is that of a step of
+ * the method with a smooth force, and the order of the method remains. Invariant: `x`, `v` at `t` is a state of the
+ * trajectory, and `side` are the sides after it.
+ *
+ * Which derivative of the force jumps is found at each root: on both sides of it the force is evaluated with the old
+ * sides and with the new ones, and their difference grows with a power of the distance.
+ */
+#include "api/locate.h"
+
+#include "machine/held.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PIECES_MAX =
+        20000, /* in one step: more are friction that sticks, or a motion that comes to rest by ever shorter bounces */
+    STILL_MAX = 64, /* sides changed one after the other while time hardly moves */
+    HALVINGS_MAX = 200
+};
+#define NEAR 0x1p-32 /* of a step: a piece shorter than this hardly moves */
+
+typedef struct place {
+    double t;
+    double *x, *v, *a, *u;
+} place;
+
+struct locate {
+    held *held;
+    problem problem;
+    size_t count;
+    double *side, *old_side, *rate[2];
+    double *slack; /* of an argument that was left just before its root: how far it may still be on the other side */
+    double *size;
+    place from, to, beyond; /* a piece's start, its end, and a trial between */
+    place start;            /* of the step */
+    double *start_side;
+    bool known;    /* `from` is the stepper's state */
+    bool away;     /* the stepper was used for trials, and is not on the run's leg */
+    int64_t steps; /* of the run's leg, before the stepper's present one */
+    int64_t located;
+    int jump; /* the lowest derivative that jumped; -1: none */
+    double jump_time;
+};
+
+static size_t place_numbers(const problem *p, size_t count) { return p->nx + 2 * p->nv + count; }
+
+static double *place_memory(place *s, const problem *p, size_t count, double *at)
+{
+    s->x = at;
+    s->v = s->x + p->nx;
+    s->a = s->v + p->nv;
+    s->u = s->a + p->nv;
+    return at + place_numbers(p, count);
+}
+
+static void place_copy(place *to, const place *from, const problem *p, size_t count)
+{
+    to->t = from->t;
+    memcpy(to->x, from->x, place_numbers(p, count) * sizeof(double));
+}
+
+static void place_swap(place *p, place *q)
+{
+    const place kept = *p;
+    *p = *q;
+    *q = kept;
+}
+
+motus_status locate_prepare(motus_run *r, motus_error *err)
+{
+    motus_system *s = r->system;
+    r->locating = true;
+    if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
+    if (!s->switches_known) {
+        motus_status status = held_create(s->model, &s->switches, &s->switches_refused, err);
+        if (status != MOTUS_OK) return status;
+        s->switches_known = true;
+    }
+    held *h = s->switches;
+    if (!h) return MOTUS_OK;
+    const problem *p = held_problem(h);
+    const size_t count = held_count(h), numbers = 7 * count + 4 * place_numbers(p, count);
+    locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
+    if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
+    *l = (locate){.held = h, .problem = *p, .count = count, .jump = -1, .jump_time = NAN};
+    l->problem.traits.gyroscopic = s->problem.traits.gyroscopic;
+    double *at = (double *)(l + 1);
+    l->side = at, l->old_side = l->side + count;
+    l->rate[0] = l->old_side + count, l->rate[1] = l->rate[0] + count;
+    l->slack = l->rate[1] + count, l->size = l->slack + count;
+    l->start_side = l->size + count;
+    at = place_memory(&l->start, p, count, l->start_side + count);
+    at = place_memory(&l->from, p, count, at);
+    at = place_memory(&l->to, p, count, at);
+    place_memory(&l->beyond, p, count, at);
+    for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
+    r->locate = l;
+    r->note = "switches are located by the interpreter";
+    r->machine = (machine){.name = "interpreter", .problem = &l->problem};
+    if (!held_bind(h, l->side, true)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    return MOTUS_OK;
+}
+
+void locate_destroy(motus_run *r)
+{
+    give(&r->allocator, r->locate);
+    r->locate = NULL;
+}
+
+void locate_statistics(const motus_run *r, motus_statistics *out)
+{
+    const locate *l = r->locate;
+    const motus_system *s = r->system;
+    const bool none = s->switches_known && !s->switches && !s->switches_refused;
+    out->switches = l ? l->located : r->locating && none ? 0 : -1;
+    out->jump = l ? l->jump : -1;
+    out->jump_time = l ? l->jump_time : NAN;
+}
+
+/* States --------------------------------------------------------------------------------------------------------- */
+
+/* The stepper's state, and the arguments of all switches there. */
+static motus_status observe(motus_run *r, place *at, motus_error *err)
+{
+    locate *l = r->locate;
+    const motus_status status = stepper_sync(r->stepper, at->x, at->v, at->a, err);
+    if (status != MOTUS_OK) return status;
+    at->t = stepper_time(r->stepper);
+    held_values(l->held, at->t, at->x, at->v, at->u);
+    return MOTUS_OK;
+}
+
+/* A step of size h from `from` to `to`. */
+static motus_status step_from(motus_run *r, const place *from, double h, place *to, motus_error *err)
+{
+    r->locate->away = true;
+    motus_status status = stepper_start(r->stepper, from->t, h, from->x, from->v, err);
+    if (status == MOTUS_OK) status = stepper_advance(r->stepper, (stepper_limit){1, NAN}, NULL, err);
+    return status == MOTUS_OK ? observe(r, to, err) : status;
+}
+
+static double gap(const locate *l, size_t k, const place *at)
+{
+    return switches_gap(held_operation(l->held, k), l->side[k], at->u[k]) + l->slack[k];
+}
+
+/* The least gap of all, each in units of `size`; below 0: an argument has left its side. */
+static double least_gap(const locate *l, const place *at, const double *size)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < l->count; k++) {
+        const double g = gap(l, k, at) / (size ? size[k] : 1);
+        if (g < least) least = g;
+    }
+    return least;
+}
+
+/* Brackets --------------------------------------------------------------------------------------------------------- */
+
+/* The fraction of the step at which a gap that is positive at both ends is least, by the cubic through its values and
+ * slopes; NaN: it does not come near 0 there. */
+static double dip(double g0, double s0, double g1, double s1)
+{
+    if (!(s0 < 0 && s1 > 0)) return NAN;
+    /* g(z) = g0 + s0 z + b z² + c z³ */
+    const double c = 2 * (g0 - g1) + s0 + s1, b = 3 * (g1 - g0) - 2 * s0 - s1;
+    const double root = b * b - 3 * c * s0;
+    if (!(root >= 0)) return NAN;
+    const double z = -s0 / (b + sqrt(root));
+    if (!(z > 0 && z < 1)) return NAN;
+    return g0 + z * (s0 + z * (b + z * c)) < 0.25 * fmin(g0, g1) ? z : NAN;
+}
+
+/* The end of the first part of the step in which an argument leaves its side and comes back: a fraction of the step at
+ * which it is beyond, with `beyond` there; 1: there is none. */
+static motus_status find_dip(motus_run *r, double h, double *fraction, motus_error *err)
+{
+    locate *l = r->locate;
+    *fraction = 1;
+    held_rates(l->held, l->from.t, l->from.x, l->from.v, l->from.a, l->rate[0]);
+    held_rates(l->held, l->to.t, l->to.x, l->to.v, l->to.a, l->rate[1]);
+    for (size_t k = 0; k < l->count; k++) {
+        const operation op = held_operation(l->held, k);
+        const double s0 = h * switches_gap_rate(op, l->side[k], l->from.u[k], l->rate[0][k]),
+                     s1 = h * switches_gap_rate(op, l->side[k], l->to.u[k], l->rate[1][k]);
+        const double z = dip(gap(l, k, &l->from), s0, gap(l, k, &l->to), s1);
+        if (!(z < *fraction) || l->from.t + z * h == l->from.t) continue;
+        motus_status status = step_from(r, &l->from, z * h, &l->beyond, err);
+        if (status == MOTUS_MEMORY || status == MOTUS_CANCELLED) return status;
+        if (status == MOTUS_OK && gap(l, k, &l->beyond) < 0) *fraction = z;
+    }
+    return MOTUS_OK;
+}
+
+/* Shortens the step of size *h from `from` until it ends just beyond the first root, at `to`. failed: the step itself
+ * failed, and `to` is not known. Illinois' method on the least gap, with a bisection now and then. At the end *failed
+ * means that the first steps beyond the root fail; `to` is then the last state before it. */
+static motus_status bracket(motus_run *r, double *h, bool *failed, motus_error *err)
+{
+    locate *l = r->locate;
+    const place *from = &l->from;
+    const double whole = *h;
+    for (size_t k = 0; k < l->count; k++) {
+        l->size[k] = fmax(fabs(gap(l, k, from)), *failed ? 0 : fabs(gap(l, k, &l->to)));
+        if (!(l->size[k] > 0)) l->size[k] = 1;
+    }
+    double low = 0, high = 1, at_low = fmax(least_gap(l, from, l->size), 0);
+    double at_high = *failed ? NAN : least_gap(l, &l->to, l->size);
+    int moved = 0; /* which end moved last: an end that stays twice has its value halved */
+    for (int turn = 0; turn < HALVINGS_MAX && high - low > 0x1p-51 * high && high > 0x1p-50; turn++) {
+        if (fabs((high - low) * whole) <= 0x1p-54 * fabs(from->t)) break;
+        double z = high - at_high * (high - low) / (at_high - at_low);
+        if (*failed || turn % 4 == 3 || !(z > low && z < high)) z = 0.5 * (low + high);
+        if (from->t + z * whole == from->t) {
+            low = z;
+            continue;
+        }
+        const motus_status status = step_from(r, from, z * whole, &l->beyond, err);
+        if (status == MOTUS_MEMORY) return status;
+        const double g = status == MOTUS_OK ? least_gap(l, &l->beyond, l->size) : NAN;
+        if (g >= 0) {
+            low = z;
+            at_low = g;
+            if (moved < 0) at_high /= 2;
+            moved = -1;
+            continue;
+        }
+        high = z;
+        *failed = status != MOTUS_OK;
+        at_high = g;
+        if (moved > 0) at_low /= 2;
+        moved = 1;
+        if (!*failed) place_swap(&l->to, &l->beyond);
+    }
+    *h = (*failed ? low : high) * whole;
+    if (!*failed) return MOTUS_OK;
+    if (from->t + *h != from->t) return step_from(r, from, *h, &l->to, err);
+    place_copy(&l->to, from, &l->problem, l->count);
+    return MOTUS_OK;
+}
+
+/* Which derivative jumps ------------------------------------------------------------------------------------------- */
+
+/* The difference of the accelerations on the old sides and on the new ones, at a distance `way` in time from `from`;
+ * their size is noted in *size where it is larger. */
+static double difference(const locate *l, double way, double *size)
+{
+    const problem *p = &l->problem;
+    const place *at = &l->from;
+    double *x = l->beyond.x, *v = l->beyond.v, *a = l->beyond.a, *b = l->to.a, most = 0;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (k < p->nx) x[k] = at->x[k] + way * (at->v[k] + way / 2 * at->a[k]);
+        v[k] = at->v[k] + way * at->a[k];
+        a[k] = b[k] = 0;
+    }
+    if (!held_bind(l->held, l->old_side, false) || p->accel(p->ctx, at->t + way, x, v, a)) return NAN;
+    if (!held_bind(l->held, l->side, false) || p->accel(p->ctx, at->t + way, x, v, b)) return NAN;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (!isfinite(a[k]) || !isfinite(b[k])) return NAN;
+        most = fmax(most, fabs(a[k] - b[k]));
+        *size = fmax(*size, fmax(fabs(a[k]), fabs(b[k])));
+    }
+    return most;
+}
+
+static double either_side(const locate *l, double way, double *size)
+{
+    const double after = difference(l, way, size), before = difference(l, -way, size);
+    return isnan(after) || isnan(before) ? NAN : fmax(after, before);
+}
+
+/* Records the lowest derivative that jumps at `from`, near a step of size h. The difference grows as way^jump; where
+ * one formula is not defined beyond the root, the force itself alone can be compared. The slope of cbrt is infinite. */
+static void note_jump(locate *l, double h, operation changed)
+{
+    enum { JUMP_MOST = 6 };
+    double size = 0;
+    const double far = either_side(l, h / 8, &size), near = either_side(l, h / 32, &size),
+                 here = difference(l, 0, &size), noise = 64 * 0x1p-52 * size;
+    int jump = -1;
+    if (!(here <= 1e-7 * size))
+        jump = 0;
+    else if (changed == OP_CBRT || isnan(far) || isnan(near))
+        jump = 1;
+    else if (far > noise)
+        jump = near > noise ? (int)fmin(fmax(1, floor(log2(far / near) / 2 + 0.5)), JUMP_MOST) : JUMP_MOST;
+    if (jump < 0 || (l->jump >= 0 && jump >= l->jump)) return;
+    l->jump = jump;
+    l->jump_time = l->from.t;
+}
+
+/* Pieces ----------------------------------------------------------------------------------------------------------- */
+
+static motus_status slides(const locate *l, size_t k, motus_error *err)
+{
+    char name[128];
+    held_name(l->held, k, name, sizeof name);
+    fail(err, MOTUS_SOLVE,
+         "from t = %.9g on the motion slides along %s = 0: the force drives it there from both sides, as dry friction "
+         "that sticks",
+         l->from.t, name);
+    hint(err, "locate no switches in this model");
+    return MOTUS_SOLVE;
+}
+
+/* Changes the sides of all arguments that have left theirs at `to`; where none has (failed), of the one that is
+ * nearest to it. Returns one of them, or `count`. */
+static size_t change_sides(locate *l, bool failed)
+{
+    size_t changed = l->count, nearest = l->count;
+    memcpy(l->old_side, l->side, l->count * sizeof *l->side);
+    for (size_t k = 0; k < l->count; k++)
+        if (gap(l, k, &l->to) <= 1e-9 * l->size[k] &&
+            (nearest == l->count || gap(l, k, &l->to) / l->size[k] < gap(l, nearest, &l->to) / l->size[nearest]))
+            nearest = k;
+    for (size_t k = 0; k < l->count; k++) {
+        const operation op = held_operation(l->held, k);
+        const double u = l->to.u[k];
+        if (gap(l, k, &l->to) < 0 || (failed && k == nearest)) {
+            l->side[k] = switches_beyond(op, l->side[k], u);
+            changed = k;
+        }
+        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], u));
+    }
+    return changed;
+}
+
+/* From `from` to the time `end`, which is ahead; the state there is then `from`. */
+static motus_status pieces(motus_run *r, double end, motus_error *err)
+{
+    locate *l = r->locate;
+    for (int count = 0, still = 0; count < PIECES_MAX; count++) {
+        double h = end - l->from.t, part = 1;
+        if (l->from.t + h == l->from.t) return MOTUS_OK;
+        motus_status status = step_from(r, &l->from, h, &l->to, err);
+        if (status == MOTUS_MEMORY) return status;
+        bool failed = status != MOTUS_OK;
+        if (!failed && !(least_gap(l, &l->to, NULL) < 0)) {
+            status = find_dip(r, h, &part, err);
+            if (status != MOTUS_OK) return status;
+            if (part == 1) {
+                place_swap(&l->from, &l->to);
+                l->from.t = end;
+                return MOTUS_OK;
+            }
+            h *= part;
+            place_swap(&l->to, &l->beyond);
+        }
+        const bool lost = failed;
+        status = bracket(r, &h, &failed, err);
+        if (status != MOTUS_OK) return status;
+        const size_t changed = change_sides(l, failed);
+        if (changed == l->count) {
+            if (lost) return step_from(r, &l->from, end - l->from.t, &l->to, err); /* the failure is another one */
+            return fail(err, MOTUS_SOLVE, "a switch near t = %.17g was not found", l->from.t);
+        }
+        l->located++;
+        still = fabs(h) <= NEAR * fabs(r->timing.h) ? still + 1 : 0;
+        place_swap(&l->from, &l->to);
+        if (still > STILL_MAX) return slides(l, changed, err);
+        note_jump(l, r->timing.h, held_operation(l->held, changed));
+        if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+        if (l->problem.accel(l->problem.ctx, l->from.t, l->from.x, l->from.v, l->from.a))
+            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", l->from.t);
+        held_values(l->held, l->from.t, l->from.x, l->from.v, l->from.u);
+    }
+    return fail(err, MOTUS_SOLVE, "more than %d switches lie in one step at t = %.9g; take a shorter step", PIECES_MAX,
+                l->from.t);
+}
+
+/* Steps ------------------------------------------------------------------------------------------------------------ */
+
+motus_status locate_begin(motus_run *r, motus_error *err)
+{
+    locate *l = r->locate;
+    place *at = &l->from;
+    double *u = l->to.u, *later = l->beyond.u, *x = l->beyond.x, *v = l->beyond.v;
+    motus_status status = MOTUS_OK;
+    l->steps = 0;
+    l->known = false;
+    for (size_t k = 0; k < l->count; k++) l->slack[k] = 0;
+    /* The sides decide the acceleration, which decides where an argument moves that is 0 now. The stepper begins anew,
+     * since it keeps an acceleration that was observed. */
+    for (int pass = 0; pass < 3 && status == MOTUS_OK; pass++) {
+        if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+        if (pass > 0) status = stepper_start(r->stepper, at->t, r->timing.h, at->x, at->v, err);
+        if (pass == 2 || status != MOTUS_OK) break;
+        status = observe(r, at, err);
+        if (status != MOTUS_OK) break;
+        const double way = r->timing.h * 0x1p-20;
+        for (size_t k = 0; k < l->problem.nv; k++) {
+            if (k < l->problem.nx) x[k] = at->x[k] + way * (at->v[k] + way / 2 * at->a[k]);
+            v[k] = at->v[k] + way * at->a[k];
+        }
+        held_arguments(l->held, at->t, at->x, at->v, u);
+        held_arguments(l->held, at->t + way, x, v, later);
+        for (size_t k = 0; k < l->count; k++)
+            l->side[k] = switches_side(held_operation(l->held, k), u[k], later[k] - u[k]);
+    }
+    return status;
+}
+
+bool locate_bind(motus_run *r) { return held_bind(r->locate->held, r->locate->side, false); }
+
+int64_t locate_steps(const motus_run *r) { return r->locate->steps; }
+
+/* The stepper goes on from `at`, which is `steps` steps of the run's leg after its start. */
+static motus_status resume(motus_run *r, const place *at, int64_t steps, motus_error *err)
+{
+    r->locate->steps = steps;
+    return stepper_start(r->stepper, at->t, r->timing.h, at->x, at->v, err);
+}
+
+motus_status locate_step(motus_run *r, stepper_stop *why, motus_error *err)
+{
+    locate *l = r->locate;
+    const stepper_limit limit = {1, r->timing.until};
+    const int64_t steps = l->steps + stepper_steps(r->stepper);
+    double end = stepper_time_of(r->stepper, stepper_steps(r->stepper) + 1);
+    if (steps + 1 >= r->timing.total) end = r->timing.until;
+    if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    l->away = false;
+    motus_status status = l->known ? MOTUS_OK : observe(r, &l->from, err);
+    if (status != MOTUS_OK) return status;
+    status = stepper_advance(r->stepper, limit, why, err);
+    if (status == MOTUS_MEMORY) return status;
+    if (status == MOTUS_OK) status = observe(r, &l->to, err);
+    double part = 1;
+    const bool tried = status != MOTUS_OK || least_gap(l, &l->to, NULL) < 0;
+    place_copy(&l->start, &l->from, &l->problem, l->count);
+    memcpy(l->start_side, l->side, l->count * sizeof *l->side);
+    if (!tried && (status = find_dip(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
+    if (!tried && part == 1) {
+        place_swap(&l->from, &l->to);
+        l->known = true;
+        for (size_t k = 0; k < l->count; k++) l->slack[k] = 0;
+        if (l->away && (status = resume(r, &l->from, steps + 1, err)) == MOTUS_OK)
+            status = stepper_advance(r->stepper, (stepper_limit){0, r->timing.until}, why, err);
+        return status;
+    }
+    status = pieces(r, end, err);
+    l->known = false;
+    if (status == MOTUS_OK) status = resume(r, &l->from, steps + 1, err);
+    if (status == MOTUS_OK) return stepper_advance(r->stepper, (stepper_limit){0, r->timing.until}, why, err);
+    memcpy(l->side, l->start_side, l->count * sizeof *l->side);
+    if (held_bind(l->held, l->side, false)) resume(r, &l->start, steps, NULL);
+    return status;
+}

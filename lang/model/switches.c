@@ -1,0 +1,326 @@
+/* Finds the switches of a model, and writes its equations with a side in place of each. See switches.h. */
+#include "lang/model/switches.h"
+
+#include "lang/base/operation.h"
+#include "lang/graph/graph_walk.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOVING = DEP_TIME | DEP_STATE, CELLS_TRIED = 1 << 20 };
+
+/* The loops around an expression: levels 0 … count-1. */
+typedef struct nest {
+    range at[MAX_LEVELS];
+    int count;
+} nest;
+
+typedef struct kind {
+    node n; /* the operation in the model's graph */
+    nest around;
+    node side;
+} kind;
+
+typedef struct builder {
+    model *m;
+    switches *s;
+    kind *kinds;
+    uint32_t room;
+} builder;
+
+static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph->too_large; }
+
+/* The values of the loops' indices ----------------------------------------------------------------------------- */
+
+static int64_t value_of(const model *m, const subscript *s, const int64_t *index)
+{
+    return (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
+}
+
+typedef struct spread {
+    int64_t index[MAX_LEVELS], first[MAX_LEVELS], last[MAX_LEVELS];
+    int64_t tried;
+} spread;
+
+/* The smallest and the largest value of every index; inner bounds may depend on outer indices. */
+static bool spread_over(const model *m, const nest *n, int level, spread *out)
+{
+    if (level == n->count) return ++out->tried <= CELLS_TRIED;
+    const int64_t first = value_of(m, &n->at[level].first, out->index),
+                  last = value_of(m, &n->at[level].last, out->index);
+    if (first > last) return true;
+    if (first < out->first[level]) out->first[level] = first;
+    if (last > out->last[level]) out->last[level] = last;
+    for (int64_t k = first; k <= last; k++) {
+        out->index[level] = k;
+        if (!spread_over(m, n, level + 1, out)) return false;
+    }
+    return true;
+}
+
+/* The arrays of a new kind of switch: its sides in the pool, and its values. */
+static bool place(builder *b, const nest *around, unsigned deps, reference *side, reference *value)
+{
+    switches *s = b->s;
+    spread over;
+    over.tried = 0;
+    for (int k = 0; k < MAX_LEVELS; k++) over.first[k] = INT64_MAX, over.last[k] = INT64_MIN;
+    if (around->count > MAX_DIMS || !spread_over(b->m, around, 0, &over)) {
+        s->refused = "there are too many of them in loops within loops";
+        return false;
+    }
+    int dims = 0;
+    int64_t first[MAX_DIMS], last[MAX_DIMS];
+    double cells = 1;
+    *side = *value = (reference){0};
+    for (int level = 0; level < around->count; level++) {
+        if (!(deps & 1u << level)) continue;
+        const bool empty = over.first[level] > over.last[level];
+        first[dims] = empty ? 1 : over.first[level];
+        last[dims] = empty ? 1 : over.last[level];
+        cells *= (double)(last[dims] - first[dims] + 1);
+        side->at[dims++] = (subscript){(int8_t)level, -1, -1, 0};
+    }
+    if ((double)s->count + cells > SWITCHES_MAX) {
+        s->refused = "there are too many of them";
+        return false;
+    }
+    uint16_t at;
+    if (!model_take_arrays(b->m, 2, &at)) return false;
+    side->dims = (uint8_t)dims;
+    *value = *side;
+    side->array = at;
+    value->array = (uint16_t)(at + 1);
+    graph_shape(&b->m->arrays[at], SPACE_POOL, s->slot + s->count, dims, first, last);
+    s->count += graph_shape(&b->m->arrays[at + 1], SPACE_OUT, s->count, dims, first, last);
+    return true;
+}
+
+/* Operations --------------------------------------------------------------------------------------------------- */
+
+static bool is_switch(const graph *g, const graph_node *n)
+{
+    unsigned deps = 0;
+    node operand[3];
+    for (int k = graph_operands(n, operand); k-- > 0;) deps |= g->nodes[operand[k]].deps;
+    switch ((operation)n->op) {
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_MIN:
+    case OP_MAX:
+    case OP_FLOOR:
+    case OP_MOD:
+    case OP_CBRT:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE: return (deps & MOVING) != 0;
+    default: return false;
+    }
+}
+
+static node argument_of(graph *g, operation op, node a, node b)
+{
+    switch (op) {
+    case OP_MIN:
+    case OP_MAX:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE: return graph_op(g, OP_SUB, a, b, 0);
+    case OP_MOD: return graph_op(g, OP_DIV, a, b, 0);
+    default: return a;
+    }
+}
+
+static node with_side(graph *g, operation op, node a, node b, node side)
+{
+    switch (op) {
+    case OP_ABS: return graph_op(g, OP_MUL, side, a, 0);
+    case OP_MIN:
+    case OP_MAX: return graph_op(g, OP_SELECT, side, a, b);
+    case OP_MOD: return graph_op(g, OP_SUB, a, graph_op(g, OP_MUL, b, side, 0), 0);
+    case OP_CBRT: return graph_op(g, OP_CBRT, a, 0, 0);
+    default: return side;
+    }
+}
+
+/* Derivatives along the motion: x moves by v, v by a, t by 1. */
+static node seed_motion(graph *g, node leaf, void *shift)
+{
+    return graph_at(g, leaf)->op == OP_TIME ? graph_const(g, 1) : graph_seed_direction(g, leaf, shift);
+}
+
+static bool same_nest(const nest *p, const nest *q, unsigned deps)
+{
+    for (int k = 0; k < MAX_LEVELS; k++)
+        if (deps & 1u << k && (k >= p->count || k >= q->count || memcmp(&p->at[k], &q->at[k], sizeof p->at[k]) != 0))
+            return false;
+    return true;
+}
+
+/* The number of the kind of switch, found or added; UINT32_MAX: refused, or no memory. */
+static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
+{
+    graph *g = b->m->graph;
+    switches *s = b->s;
+    const graph_node original = g->nodes[n];
+    const unsigned levels = original.deps & DEP_LEVELS;
+    for (uint32_t k = 0; k < s->kinds; k++)
+        if (b->kinds[k].n == n && same_nest(&b->kinds[k].around, around, levels)) return k;
+    reference side, value;
+    if (!place(b, around, levels, &side, &value)) return UINT32_MAX;
+    if (s->kinds == b->room) {
+        const uint32_t room = b->room ? 2 * b->room : 16;
+        arena *m = b->m->arena;
+        b->kinds = arena_grow(m, b->kinds, b->room * sizeof *b->kinds, room * sizeof *b->kinds);
+        s->argument = arena_grow(m, s->argument, b->room * sizeof *s->argument, room * sizeof *s->argument);
+        s->held = arena_grow(m, s->held, b->room * sizeof *s->held, room * sizeof *s->held);
+        s->rate = arena_grow(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
+        s->first = arena_grow(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
+        if (broken(b)) return UINT32_MAX;
+        b->room = room;
+    }
+    output o = {.to = value, .loops = 0};
+    while (levels >> o.loops) o.loops++;
+    for (int k = 0; k < o.loops; k++) o.loop[k] = around->at[k];
+    const uint32_t k = (uint32_t)s->kinds++;
+    graph_shift shift = {b->m->block_size, b->m->block_size};
+    b->kinds[k] = (kind){n, *around, graph_load(g, &side)};
+    s->first[k] = b->m->arrays[value.array].base;
+    s->argument[k] = s->held[k] = s->rate[k] = o;
+    s->argument[k].value = argument_of(g, original.op, original.a, original.b);
+    s->held[k].value = argument_of(g, original.op, a, c);
+    s->rate[k].value = graph_derivative(g, s->held[k].value, seed_motion, &shift);
+    return k;
+}
+
+/* Equations ---------------------------------------------------------------------------------------------------- */
+
+/* The node with sides in place of switches. */
+static node rewrite(builder *b, node root, const nest *around)
+{
+    graph *g = b->m->graph;
+    graph_walk w;
+    if (b->s->refused || !(graph_deps(g, root) & MOVING) || !graph_order(g, &root, 1, MOVING, false, &w)) return root;
+    node *map = take(&g->arena->allocator, w.count, sizeof *map);
+    if (!map) g->arena->failed = true;
+    for (uint32_t k = 0; k < w.count && !broken(b) && !b->s->refused; k++) {
+        const graph_node n = g->nodes[w.nodes[k]];
+        node operand[3], to[3] = {0, 0, 0};
+        const int arity = graph_operands(&n, operand);
+        map[k] = w.nodes[k];
+        if (n.op == OP_SUM) {
+            nest inner = *around;
+            while (inner.count < n.level) inner.at[inner.count++] = (range){{-1, -1, -1, 0}, {-1, -1, -1, 0}};
+            inner.at[n.level] = g->ranges[n.c];
+            inner.count = n.level + 1;
+            const node body = rewrite(b, n.a, &inner), condition = n.b ? rewrite(b, n.b, &inner) : 0;
+            if (body != n.a || condition != n.b) map[k] = graph_sum(g, n.level, &inner.at[n.level], condition, body);
+        } else if (arity) {
+            bool changed = false;
+            for (int j = 0; j < arity; j++) {
+                to[j] = graph_reached(g, &w, operand[j]) ? map[g->place[operand[j]]] : operand[j];
+                changed |= to[j] != operand[j];
+            }
+            if (is_switch(g, &n)) {
+                const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
+                if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
+            } else if (changed) {
+                map[k] = graph_op(g, n.op, to[0], to[1], to[2]);
+            }
+        }
+        graph_order_again(g, &w); /* other walks overwrite `place`, and it moves when the graph grows */
+    }
+    const node result = map && w.count ? map[w.count - 1] : root;
+    give(&g->arena->allocator, map);
+    give(&g->arena->allocator, w.nodes);
+    return result;
+}
+
+static output *rewrite_all(builder *b, const output *from, size_t count)
+{
+    output *to = arena_room(b->m->arena, (count + 1) * sizeof *to);
+    for (size_t i = 0; to && i < count && !broken(b); i++) {
+        nest around = {.count = from[i].loops};
+        for (int k = 0; k < from[i].loops; k++) around.at[k] = from[i].loop[k];
+        to[i] = from[i];
+        to[i].value = rewrite(b, from[i].value, &around);
+    }
+    return to;
+}
+
+bool switches_find(model *m, switches *s)
+{
+    *s = (switches){.slot = m->pool_count};
+    builder b = {.m = m, .s = s};
+    s->accel = rewrite_all(&b, m->accel, m->accel_count);
+    s->boundary = rewrite_all(&b, m->boundary, m->boundary_count);
+    s->op = arena_room(m->arena, s->count + 1);
+    if (broken(&b) || !s->op) return false;
+    for (size_t k = 0; k < s->kinds; k++) {
+        const size_t end = k + 1 < s->kinds ? s->first[k + 1] : s->count;
+        memset(s->op + s->first[k], m->graph->nodes[b.kinds[k].n].op, end - s->first[k]);
+    }
+    return true;
+}
+
+/* Sides -------------------------------------------------------------------------------------------------------- */
+
+static bool counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
+
+/* 1 where the argument is positive on this side, -1 where it is negative. */
+static double direction(operation op, double side)
+{
+    switch (op) {
+    case OP_MIN:
+    case OP_LT:
+    case OP_LE: return side != 0 ? -1 : 1;
+    case OP_MAX:
+    case OP_GT:
+    case OP_GE: return side != 0 ? 1 : -1;
+    default: return side;
+    }
+}
+
+double switches_side(operation op, double u, double rate)
+{
+    if (counts(op)) return floor(u) == u && rate < 0 ? u - 1 : floor(u);
+    const double s = u > 0 ? 1 : u < 0 ? -1 : rate > 0 ? 1 : rate < 0 ? -1 : 0;
+    switch (op) {
+    case OP_LT: return s < 0;
+    case OP_MIN:
+    case OP_LE: return s <= 0;
+    case OP_GT: return s > 0;
+    case OP_MAX:
+    case OP_GE: return s >= 0;
+    default: return s;
+    }
+}
+
+double switches_gap(operation op, double side, double u)
+{
+    if (counts(op)) return fmin(u - side, side + 1 - u);
+    const double way = direction(op, side);
+    return way != 0 ? way * u : -fabs(u);
+}
+
+double switches_gap_rate(operation op, double side, double u, double rate)
+{
+    if (counts(op)) return u - side < side + 1 - u ? rate : -rate;
+    return direction(op, side) * rate;
+}
+
+double switches_beyond(operation op, double side, double u)
+{
+    if (counts(op)) return u - side < side + 1 - u ? side - 1 : side + 1;
+    switch (op) {
+    case OP_MIN:
+    case OP_MAX:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE: return 1 - side;
+    default: return side != 0 ? -side : u > 0 ? 1 : -1;
+    }
+}

@@ -1,0 +1,41 @@
+/* The switches of a model: where the force follows one smooth formula on one side and another beyond it.
+ *
+ * A switch is an operation abs, sign, min, max, floor, mod, cbrt or a comparison, whose argument depends on the time or
+ * the state. Its side is a number p that stands in its place: |u| becomes p u, with p = 1 or -1. While the sides are
+ * held, the force is smooth, also beyond the place where a switch would change its side; so a step can lead across
+ * that place, and a root of the argument tells where it is. In a family there is a switch for each cell.
+ */
+#ifndef LANG_MODEL_SWITCHES_H
+#define LANG_MODEL_SWITCHES_H
+
+#include "lang/model/model.h"
+
+enum { SWITCHES_MAX = 1 << 16 }; /* of one model, cells counted */
+
+typedef struct switches {
+    size_t count;        /* switches, cells counted */
+    const char *refused; /* why they cannot be held: a part of a sentence; NULL: they can */
+    uint8_t *op;         /* count: the operation of each */
+    size_t slot;         /* the sides are numbers slot … slot + count - 1 of the pool, behind the model's own */
+    output *accel;       /* the model's outputs, with sides in place of the switches */
+    output *boundary;    /* likewise */
+    size_t kinds;        /* switches, families counted once */
+    output *argument;    /* kinds: what the switch compares with 0, or takes the integer part of, to SPACE_OUT */
+    output *held, *rate; /* the same with sides in it, and its rate of change along the motion (reads SPACE_A) */
+    size_t *first;       /* kinds: the number of the first cell's switch */
+} switches;
+
+/* Finds the switches of accelerations and boundary lines. False: no memory. */
+bool switches_find(model *, switches *);
+
+/* The side that belongs to the value u of the argument; where u is 0, or at the lower end of a floor, to the side
+ * towards which it moves. */
+double switches_side(operation, double u, double rate);
+/* How far the argument is from leaving its side; below 0: it has left it. */
+double switches_gap(operation, double side, double u);
+/* The rate of the gap, from that of the argument. */
+double switches_gap_rate(operation, double side, double u, double rate);
+/* The side beyond the end which u has reached. */
+double switches_beyond(operation, double side, double u);
+
+#endif

@@ -1,0 +1,107 @@
+/* See held.h. */
+#include "machine/held.h"
+
+#include "lang/read/read.h"
+#include "lang/tape/tape.h"
+
+#include <math.h>
+#include <string.h>
+
+struct held {
+    const model *model;
+    struct model view; /* the model with the equations of held switches, and with numbers of its own */
+    interpreter *interpreter;
+    problem problem;
+    switches switches;
+    tape *argument, *held, *rate;
+    double *sides; /* that are bound: the last numbers of view.pool */
+    bool bound;
+};
+
+static tape *tape_of(model *m, const output *outputs, size_t count)
+{
+    program *p = program_create(m->graph, outputs, count);
+    return p && !m->arena->failed ? tape_create(m->arena, p) : NULL;
+}
+
+static bool make_view(held *h, model *m)
+{
+    model *view = &h->view;
+    const switches *s = &h->switches;
+    *view = *m;
+    view->accel = s->accel;
+    view->boundary = s->boundary;
+    view->exact_count = 0;
+    analysis_traits(view);
+    view->traits.velocity = m->traits.velocity; /* methods are admitted for the model itself */
+    view->traits.time = m->traits.time;
+    view->traits.has_exact = false;
+    view->pool_count = s->slot + s->count;
+    view->pool = arena_room(m->arena, view->pool_count * sizeof *view->pool);
+    view->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *view->x0);
+    view->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *view->v0);
+    if (!view->pool || !view->x0 || !view->v0) return false;
+    memset(view->x0, 0, (m->nx + 1) * sizeof *view->x0);
+    memset(view->v0, 0, (m->nv + 1) * sizeof *view->v0);
+    memcpy(view->pool, m->pool, s->slot * sizeof *view->pool);
+    h->sides = view->pool + s->slot;
+    for (size_t k = 0; k < s->count; k++) h->sides[k] = 1;
+    return true;
+}
+
+motus_status held_create(model *m, held **out, const char **refused, motus_error *err)
+{
+    *out = NULL;
+    *refused = NULL;
+    held *h = arena_take(m->arena, sizeof *h);
+    if (!h || !switches_find(m, &h->switches)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    const switches *s = &h->switches;
+    *refused = s->refused;
+    if (s->refused || s->count == 0) return MOTUS_OK;
+    h->model = m;
+    if (!make_view(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    motus_status status = interpreter_create(&h->view, &h->interpreter, &h->problem, err);
+    if (status != MOTUS_OK) return status;
+    h->argument = tape_of(m, s->argument, s->kinds);
+    h->held = tape_of(m, s->held, s->kinds);
+    h->rate = tape_of(m, s->rate, s->kinds);
+    if (!h->argument || !h->held || !h->rate) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    *out = h;
+    return MOTUS_OK;
+}
+
+const problem *held_problem(const held *h) { return &h->problem; }
+size_t held_count(const held *h) { return h->switches.count; }
+operation held_operation(const held *h, size_t k) { return (operation)h->switches.op[k]; }
+
+void held_name(const held *h, size_t k, char *out, size_t size)
+{
+    size_t kind = 0;
+    while (kind + 1 < h->switches.kinds && h->switches.first[kind + 1] <= k) kind++;
+    model_print(h->model, h->switches.argument[kind].value, out, size);
+}
+
+bool held_bind(held *h, const double *sides, bool fresh)
+{
+    const size_t bytes = h->switches.count * sizeof *sides;
+    if (h->bound && !fresh && memcmp(h->sides, sides, bytes) == 0) return true;
+    memcpy(h->sides, sides, bytes);
+    if (fresh || !h->bound) memcpy(h->view.pool, h->model->pool, h->switches.slot * sizeof *sides);
+    const binding b = {h->view.arrays, h->view.ints, h->view.pool};
+    h->bound = interpreter_rebind(h->interpreter) && tape_bind(h->argument, &b) && tape_bind(h->held, &b) &&
+               tape_bind(h->rate, &b);
+    return h->bound;
+}
+
+/* Cells outside the loops are written by none. */
+static void run(const held *h, tape *t, double time, double *x, double *v, double *a, double *out)
+{
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
+    for (size_t k = 0; k < h->switches.count; k++) out[k] = NAN;
+    if (h->problem.refresh) h->problem.refresh(h->problem.ctx, time, x, v);
+    tape_run(t, time, base);
+}
+
+void held_arguments(held *h, double t, double *x, double *v, double *out) { run(h, h->argument, t, x, v, NULL, out); }
+void held_values(held *h, double t, double *x, double *v, double *out) { run(h, h->held, t, x, v, NULL, out); }
+void held_rates(held *h, double t, double *x, double *v, double *a, double *out) { run(h, h->rate, t, x, v, a, out); }

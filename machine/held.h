@@ -1,0 +1,30 @@
+/* The interpreter with the switches of a model held on given sides: lang/model/switches.h.
+ *
+ * Its problem is smooth. Runs of one system share it; each binds its own sides before it computes.
+ */
+#ifndef MACHINE_HELD_H
+#define MACHINE_HELD_H
+
+#include "lang/model/switches.h"
+#include "machine/machine.h"
+
+typedef struct held held;
+
+/* In the model's arena. *out is NULL where there is nothing to hold, because the model has no switches, or because they
+ * cannot be held; *refused then says why, a part of a sentence, or is NULL. */
+motus_status held_create(model *, held **out, const char **refused, motus_error *);
+const problem *held_problem(const held *);
+size_t held_count(const held *); /* switches */
+operation held_operation(const held *, size_t k);
+/* Text of the argument of switch k, in the language. */
+void held_name(const held *, size_t k, char *out, size_t size);
+
+/* Computes with these sides from now on. `fresh`: the model's numbers may have changed. False: no memory. */
+bool held_bind(held *, const double *sides, bool fresh);
+/* The arguments of all switches as the equations have them; as they are on the sides bound; and the rates of these
+ * along the motion. NaN: not defined there. */
+void held_arguments(held *, double t, double *x, double *v, double *out);
+void held_values(held *, double t, double *x, double *v, double *out);
+void held_rates(held *, double t, double *x, double *v, double *a, double *out);
+
+#endif
