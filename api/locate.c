@@ -14,6 +14,7 @@
 
 #include "machine/held.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -39,6 +40,9 @@ struct locate {
     double *size;
     place from, to, beyond; /* a piece's start, its end, and a trial between */
     place start;            /* of the step */
+    place twice;            /* the end of two half pieces */
+    interval *box;          /* nx, then nv */
+    bool resolves;          /* pieces must resolve the force */
     double *start_side;
     bool known;    /* `from` is the stepper's state */
     bool away;     /* the stepper was used for trials, and is not on the run's leg */
@@ -46,6 +50,7 @@ struct locate {
     int64_t located;
     int jump; /* the lowest derivative that jumped; -1: none */
     double jump_time;
+    double rounding; /* of times at which the force changes fast: what it may have changed a velocity by, added up */
 };
 
 static size_t place_numbers(const problem *p, size_t count) { return p->nx + 2 * p->nv + count; }
@@ -72,9 +77,12 @@ static void place_swap(place *p, place *q)
     *q = kept;
 }
 
-motus_status locate_prepare(motus_run *r, motus_error *err)
+motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *err)
 {
     motus_system *s = r->system;
+    if (switches == MOTUS_SWITCHES_STEP) return MOTUS_OK;
+    if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
+        return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
     r->locating = true;
     if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
     if (!s->switches_known) {
@@ -83,9 +91,10 @@ motus_status locate_prepare(motus_run *r, motus_error *err)
         s->switches_known = true;
     }
     held *h = s->switches;
-    if (!h) return MOTUS_OK;
+    const bool resolves = h && switches == MOTUS_SWITCHES_RESOLVE && held_resolves(h);
+    if (!h || (!held_count(h) && !resolves)) return MOTUS_OK;
     const problem *p = held_problem(h);
-    const size_t count = held_count(h), numbers = 7 * count + 4 * place_numbers(p, count);
+    const size_t count = held_count(h), numbers = 7 * count + 5 * place_numbers(p, count) + 2 * (p->nx + p->nv);
     locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
     if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
     *l = (locate){.held = h, .problem = *p, .count = count, .jump = -1, .jump_time = NAN};
@@ -98,7 +107,10 @@ motus_status locate_prepare(motus_run *r, motus_error *err)
     at = place_memory(&l->start, p, count, l->start_side + count);
     at = place_memory(&l->from, p, count, at);
     at = place_memory(&l->to, p, count, at);
-    place_memory(&l->beyond, p, count, at);
+    at = place_memory(&l->beyond, p, count, at);
+    at = place_memory(&l->twice, p, count, at);
+    l->box = (interval *)(void *)at;
+    l->resolves = resolves;
     for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
     r->locate = l;
     r->note = "switches are located by the interpreter";
@@ -117,10 +129,11 @@ void locate_statistics(const motus_run *r, motus_statistics *out)
 {
     const locate *l = r->locate;
     const motus_system *s = r->system;
-    const bool none = s->switches_known && !s->switches && !s->switches_refused;
+    const bool none = s->switches_known && !s->switches_refused && !(s->switches && held_count(s->switches));
     out->switches = l ? l->located : r->locating && none ? 0 : -1;
     out->jump = l ? l->jump : -1;
     out->jump_time = l ? l->jump_time : NAN;
+    out->jump_rounding = l ? l->rounding : 0;
 }
 
 /* States --------------------------------------------------------------------------------------------------------- */
@@ -284,6 +297,7 @@ static void note_jump(locate *l, double h, operation changed)
     const double far = either_side(l, h / 8, &size), near = either_side(l, h / 32, &size),
                  here = difference(l, 0, &size), noise = 64 * 0x1p-52 * size;
     int jump = -1;
+    if (here <= DBL_MAX) l->rounding += here * 0x1p-52 * fabs(l->from.t);
     if (!(here <= 1e-7 * size))
         jump = 0;
     else if (changed == OP_CBRT || isnan(far) || isnan(near))
@@ -331,35 +345,129 @@ static size_t change_sides(locate *l, bool failed)
     return changed;
 }
 
+/* Whether the step from `from` to `to` resolves the force: over all states between, with a margin for their curve. */
+static bool fits(const locate *l, const place *from, const place *to)
+{
+    const problem *p = &l->problem;
+    if (!l->resolves) return true;
+    const double h = to->t - from->t;
+    interval *x = l->box, *v = x + p->nx;
+    for (size_t k = 0; k < p->nx; k++) {
+        const double bend = fabs(h * (to->v[k] - from->v[k])) / 8;
+        x[k] = (interval){fmin(from->x[k], to->x[k]) - bend, fmax(from->x[k], to->x[k]) + bend};
+    }
+    for (size_t k = 0; k < p->nv; k++) {
+        const double bend = fabs(h * (to->a[k] - from->a[k])) / 8;
+        v[k] = (interval){fmin(from->v[k], to->v[k]) - bend, fmax(from->v[k], to->v[k]) + bend};
+    }
+    return held_fits(l->held, (interval){fmin(from->t, to->t), fmax(from->t, to->t)}, x, v);
+}
+
+static double largest(const double *y, size_t count)
+{
+    double most = 0;
+    for (size_t k = 0; k < count; k++) most = fmax(most, fabs(y[k]));
+    return most;
+}
+
+/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *same: both give the same, to
+ * nearly the rounding of numbers of the largest size. */
+static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
+{
+    locate *l = r->locate;
+    const problem *p = &l->problem;
+    *same = false;
+    motus_status status = step_from(r, &l->from, h / 2, &l->beyond, err);
+    if (status == MOTUS_OK) status = step_from(r, &l->beyond, l->to.t - l->beyond.t, &l->twice, err);
+    if (status != MOTUS_OK) return status == MOTUS_MEMORY ? status : MOTUS_OK;
+    const double a = fmax(largest(l->from.a, p->nv), fmax(largest(l->beyond.a, p->nv), largest(l->to.a, p->nv))),
+                 v = fmax(largest(l->from.v, p->nv), largest(l->to.v, p->nv)),
+                 late = 0x1p-52 * fabs(l->to.t); /* rounding of the time, at which a force changes fast */
+    const double of_x = 1e-13 * (largest(l->to.x, p->nx) + fabs(h) * v) + late * v,
+                 of_v = 1e-13 * (v + fabs(h) * a) + late * a;
+    *same = true;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (k < p->nx && !(fabs(l->to.x[k] - l->twice.x[k]) <= of_x)) *same = false;
+        if (!(fabs(l->to.v[k] - l->twice.v[k]) <= of_v)) *same = false;
+    }
+    return MOTUS_OK;
+}
+
+/* By how much the acceleration changes over a piece. */
+static double change(const locate *l)
+{
+    double most = 0;
+    for (size_t k = 0; k < l->problem.nv; k++) most = fmax(most, fabs(l->to.a[k] - l->from.a[k]));
+    return most;
+}
+
+/* The piece that begins at `from`, of size *h at most, which becomes shorter where the force is not resolved; it leads
+ * to `to`. *failed: it cannot be computed. */
+static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *err)
+{
+    locate *l = r->locate;
+    const double least = fmax(0x1p-24 * fabs(r->timing.h), 0x1p-48 * fabs(l->from.t));
+    for (;;) {
+        motus_status status = step_from(r, &l->from, *h, &l->to, err);
+        if (status == MOTUS_MEMORY) return status;
+        *failed = status != MOTUS_OK;
+        if (!l->resolves) return MOTUS_OK;
+        const bool resolved = !*failed && fits(l, &l->from, &l->to);
+        if (fabs(*h) < 2 * least && (resolved || *failed)) return MOTUS_OK;
+        if (fabs(*h) < 2 * least) {
+            fail(err, MOTUS_SOLVE, "the force changes too fast to be resolved at t = %.9g; it may be singular there",
+                 l->from.t);
+            return MOTUS_SOLVE;
+        }
+        bool good = false;
+        if (resolved) status = halve(r, *h, &good, err);
+        if (resolved && status != MOTUS_OK) return status;
+        if (good) {
+            place_swap(&l->to, &l->twice);
+            l->rounding += change(l) * 0x1p-52 * fabs(l->to.t);
+            return MOTUS_OK;
+        }
+        *h /= 2;
+    }
+}
+
 /* From `from` to the time `end`, which is ahead; the state there is then `from`. */
 static motus_status pieces(motus_run *r, double end, motus_error *err)
 {
     locate *l = r->locate;
+    double next = INFINITY;
     for (int count = 0, still = 0; count < PIECES_MAX; count++) {
-        double h = end - l->from.t, part = 1;
-        if (l->from.t + h == l->from.t) return MOTUS_OK;
-        motus_status status = step_from(r, &l->from, h, &l->to, err);
-        if (status == MOTUS_MEMORY) return status;
-        bool failed = status != MOTUS_OK;
+        const double left = end - l->from.t;
+        double h = fabs(next) < fabs(left) ? copysign(next, left) : left, part = 1;
+        if (l->from.t + left == l->from.t) return MOTUS_OK;
+        bool failed;
+        motus_status status = piece(r, &h, &failed, err);
+        if (status != MOTUS_OK) return status;
         if (!failed && !(least_gap(l, &l->to, NULL) < 0)) {
             status = find_dip(r, h, &part, err);
             if (status != MOTUS_OK) return status;
             if (part == 1) {
                 place_swap(&l->from, &l->to);
-                l->from.t = end;
-                return MOTUS_OK;
+                if (h == left) {
+                    l->from.t = end;
+                    return MOTUS_OK;
+                }
+                next = l->resolves ? 2 * h : INFINITY;
+                continue;
             }
             h *= part;
             place_swap(&l->to, &l->beyond);
         }
+        const double tried = h;
         const bool lost = failed;
         status = bracket(r, &h, &failed, err);
         if (status != MOTUS_OK) return status;
         const size_t changed = change_sides(l, failed);
         if (changed == l->count) {
-            if (lost) return step_from(r, &l->from, end - l->from.t, &l->to, err); /* the failure is another one */
+            if (lost) return step_from(r, &l->from, tried, &l->to, err); /* the failure is another one */
             return fail(err, MOTUS_SOLVE, "a switch near t = %.17g was not found", l->from.t);
         }
+        if (l->resolves) next = tried;
         l->located++;
         still = fabs(h) <= NEAR * fabs(r->timing.h) ? still + 1 : 0;
         place_swap(&l->from, &l->to);
@@ -370,7 +478,8 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
             return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", l->from.t);
         held_values(l->held, l->from.t, l->from.x, l->from.v, l->from.u);
     }
-    return fail(err, MOTUS_SOLVE, "more than %d switches lie in one step at t = %.9g; take a shorter step", PIECES_MAX,
+    return fail(err, MOTUS_SOLVE,
+                "one step has more than %d pieces, since the force changes so often or so fast at t = %.9g", PIECES_MAX,
                 l->from.t);
 }
 
@@ -432,7 +541,7 @@ motus_status locate_step(motus_run *r, stepper_stop *why, motus_error *err)
     if (status == MOTUS_MEMORY) return status;
     if (status == MOTUS_OK) status = observe(r, &l->to, err);
     double part = 1;
-    const bool tried = status != MOTUS_OK || least_gap(l, &l->to, NULL) < 0;
+    const bool tried = status != MOTUS_OK || least_gap(l, &l->to, NULL) < 0 || l->resolves;
     place_copy(&l->start, &l->from, &l->problem, l->count);
     memcpy(l->start_side, l->side, l->count * sizeof *l->side);
     if (!tried && (status = find_dip(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;

@@ -8,9 +8,9 @@
 
 typedef struct locate locate;
 
-/* What the run needs for it, as r->locate, where the model has switches; the run then uses the machine of held sides.
- * Call it after the method and before the stepper is made. */
-motus_status locate_prepare(motus_run *, motus_error *);
+/* What the run needs for it, as r->locate, where the model has something to locate or to resolve; the run then uses the
+ * machine of held sides. Call it after the method was chosen and before the stepper is made. */
+motus_status locate_prepare(motus_run *, motus_switches, motus_error *);
 /* Finds the sides at the start of the run, or of a new leg, whose state the stepper has. */
 motus_status locate_begin(motus_run *, motus_error *);
 /* Takes one step, or the shorter last one. Fails as stepper_advance does, and with MOTUS_SOLVE where the motion slides

@@ -232,7 +232,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def.threads);
     r->chosen.threads = def.threads;
     if (status == MOTUS_OK) status = choose_machine(r, def.machine, err);
-    if (status == MOTUS_OK && def.switches == MOTUS_SWITCHES_LOCATE) status = locate_prepare(r, err);
+    if (status == MOTUS_OK) status = locate_prepare(r, def.switches, err);
     if (status == MOTUS_OK) status = begin(r, &def, err);
     modes_leave(m);
     if (status != MOTUS_OK) {

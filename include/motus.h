@@ -424,7 +424,12 @@ typedef enum motus_switches {
     /* It takes the step that leads across in pieces, each with one smooth formula, and finds by trial steps, to the
      * rounding of the time, where a piece ends. The times after steps are those of other runs. The interpreter computes
      * such a run where the model has switches. It cannot be traced, sampled, saved or restored. */
-    MOTUS_SWITCHES_LOCATE
+    MOTUS_SWITCHES_LOCATE,
+    /* As MOTUS_SWITCHES_LOCATE; and where the force has an operation that may change from one regime to another and back
+     * within a step, as exp(-z²) does at its peak, steps are taken in pieces over which it cannot, and which are halved
+     * until two halves give the same as one. MOTUS_SOLVE: that is not reached, since the force changes too fast.
+     * Reference solutions are runs of this kind. */
+    MOTUS_SWITCHES_RESOLVE
 } motus_switches;
 
 typedef struct motus_run_def {
@@ -496,9 +501,11 @@ typedef struct motus_statistics {
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
      * lowest derivative of the acceleration along the motion that jumped at one of them: 0 the acceleration itself; -1:
-     * none. The time of the first such jump; NaN: there was none. */
+     * none. The time of the first such jump; NaN: there was none. By how much velocities may
+     * be off because times are rounded: the sum of the jumps, and of fast changes that were resolved, times the
+     * rounding of their times. */
     int64_t switches, jump;
-    double jump_time;
+    double jump_time, jump_rounding;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */

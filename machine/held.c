@@ -14,7 +14,8 @@ struct held {
     problem problem;
     switches switches;
     tape *argument, *held, *rate;
-    double *sides; /* that are bound: the last numbers of view.pool */
+    resolver *resolver; /* NULL: nothing to resolve */
+    double *sides;      /* that are bound: the last numbers of view.pool */
     bool bound;
 };
 
@@ -57,11 +58,18 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     if (!h || !switches_find(m, &h->switches)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     const switches *s = &h->switches;
     *refused = s->refused;
-    if (s->refused || s->count == 0) return MOTUS_OK;
+    if (s->refused) return MOTUS_OK;
+    if (!resolve_create(m, s->accel, m->accel_count, &h->resolver))
+        return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    if (s->count == 0 && !h->resolver) return MOTUS_OK;
     h->model = m;
     if (!make_view(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = interpreter_create(&h->view, &h->interpreter, &h->problem, err);
     if (status != MOTUS_OK) return status;
+    if (s->count == 0) {
+        *out = h;
+        return MOTUS_OK;
+    }
     h->argument = tape_of(m, s->argument, s->kinds);
     h->held = tape_of(m, s->held, s->kinds);
     h->rate = tape_of(m, s->rate, s->kinds);
@@ -88,8 +96,10 @@ bool held_bind(held *h, const double *sides, bool fresh)
     memcpy(h->sides, sides, bytes);
     if (fresh || !h->bound) memcpy(h->view.pool, h->model->pool, h->switches.slot * sizeof *sides);
     const binding b = {h->view.arrays, h->view.ints, h->view.pool};
-    h->bound = interpreter_rebind(h->interpreter) && tape_bind(h->argument, &b) && tape_bind(h->held, &b) &&
-               tape_bind(h->rate, &b);
+    tape *const tapes[] = {h->argument, h->held, h->rate};
+    h->bound = interpreter_rebind(h->interpreter);
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
+        if (tapes[k]) h->bound = h->bound && tape_bind(tapes[k], &b);
     return h->bound;
 }
 
@@ -99,9 +109,16 @@ static void run(const held *h, tape *t, double time, double *x, double *v, doubl
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
     for (size_t k = 0; k < h->switches.count; k++) out[k] = NAN;
     if (h->problem.refresh) h->problem.refresh(h->problem.ctx, time, x, v);
-    tape_run(t, time, base);
+    if (t) tape_run(t, time, base);
 }
 
 void held_arguments(held *h, double t, double *x, double *v, double *out) { run(h, h->argument, t, x, v, NULL, out); }
 void held_values(held *h, double t, double *x, double *v, double *out) { run(h, h->held, t, x, v, NULL, out); }
 void held_rates(held *h, double t, double *x, double *v, double *a, double *out) { run(h, h->rate, t, x, v, a, out); }
+
+bool held_resolves(const held *h) { return h->resolver != NULL; }
+
+bool held_fits(held *h, interval t, const interval *x, const interval *v)
+{
+    return !h->resolver || resolve_fits(h->resolver, t, x, v, h->view.pool);
+}

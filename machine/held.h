@@ -5,13 +5,14 @@
 #ifndef MACHINE_HELD_H
 #define MACHINE_HELD_H
 
+#include "lang/model/resolve.h"
 #include "lang/model/switches.h"
 #include "machine/machine.h"
 
 typedef struct held held;
 
-/* In the model's arena. *out is NULL where there is nothing to hold, because the model has no switches, or because they
- * cannot be held; *refused then says why, a part of a sentence, or is NULL. */
+/* In the model's arena. *out is NULL where there is nothing to hold and nothing that a step could fail to resolve, or
+ * where the switches cannot be held; *refused then says why, a part of a sentence, or is NULL. */
 motus_status held_create(model *, held **out, const char **refused, motus_error *);
 const problem *held_problem(const held *);
 size_t held_count(const held *); /* switches */
@@ -26,5 +27,8 @@ bool held_bind(held *, const double *sides, bool fresh);
 void held_arguments(held *, double t, double *x, double *v, double *out);
 void held_values(held *, double t, double *x, double *v, double *out);
 void held_rates(held *, double t, double *x, double *v, double *a, double *out);
+/* Whether a step over these times and states resolves the force: lang/model/resolve.h. */
+bool held_resolves(const held *); /* there is something to resolve */
+bool held_fits(held *, interval t, const interval *x, const interval *v);
 
 #endif

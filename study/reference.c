@@ -47,7 +47,7 @@ static motus_status go(motus_reference *r, double from, double t, motus_error *e
     double way = fabs(t - from), step = way;
     if (!r->solution.exact) step = way / fmax(1, ceil(way / r->solution.step * (1 - ROUNDING_OF_TIME)));
     motus_run *run = NULL;
-    s->locate = r->solution.located;
+    s->locate = true;
     motus_status status = study_run(s, r->solution.method, step, from, t, r->y, &run, err);
     if (status == MOTUS_OK) status = motus_run_finish(run, err);
     if (status == MOTUS_OK) status = study_state(s, run, r->y, err);

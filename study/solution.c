@@ -34,7 +34,7 @@ typedef struct candidate {
     double step;
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
-    double jump_time;
+    double jump_time, jump_rounding;
 } candidate;
 
 study_grid solution_grid(const study *s, double step)
@@ -44,16 +44,14 @@ study_grid solution_grid(const study *s, double step)
     return study_grid_of(s, step, s->total, s->last_step, &per);
 }
 
-/* explicit_only: without the methods that solve equations, which fail where a force jumps. */
-static size_t candidates(study *s, bool explicit_only, candidate *out)
+static size_t candidates(study *s, candidate *out)
 {
     size_t count = 0;
     int highest = 0;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < motus_method_count(); k++) {
             const motus_method *m = motus_method_at(k);
-            if (strcmp(m->family, "exact") == 0 || (explicit_only && m->evaluations == 0)) continue;
-            if (!study_admits(s, m->name)) continue;
+            if (strcmp(m->family, "exact") == 0 || !study_admits(s, m->name)) continue;
             if (pass == 0) {
                 highest = m->order > highest ? m->order : highest;
                 continue;
@@ -136,6 +134,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             study_scale(s, *now, g->points);
             c->jump = spent.jump;
             c->jump_time = spent.jump_time;
+            c->jump_rounding = spent.jump_rounding;
             const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
@@ -172,8 +171,8 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
 
 /* The rounding that halving the step does not show: values are rounded when they are stored, and the method's
  * coefficients are rounded too, so their sums are off by an ulp or so at every step size; that error grows with the
- * distance which a number moves. */
-static void own_rounding(const study *s, const study_grid *g, solution *r)
+ * distance which a number moves. The times of switches are rounded alike in all runs. */
+static void own_rounding(const study *s, const study_grid *g, const candidate *c, solution *r)
 {
     for (size_t k = 0; k < s->numbers; k++) {
         double way = 0;
@@ -181,20 +180,22 @@ static void own_rounding(const study *s, const study_grid *g, solution *r)
             way += fabs(r->rows[p * s->numbers + k] - r->rows[(p - 1) * s->numbers + k]);
         r->error = fmax(r->error, DBL_EPSILON * (way + s->magnitude));
         r->scaled = fmax(r->scaled, fmax(DBL_EPSILON * way / s->scale[k], s->noise));
+        if (k < s->nx) continue;
+        r->error = fmax(r->error, c->jump_rounding);
+        r->scaled = fmax(r->scaled, c->jump_rounding / s->scale[k]);
     }
 }
 
 /* Judging by another method ---------------------------------------------------------------------------------------- */
 
 /* The method that judges `best`: of another family if one has nearly its order, else another row, else itself. */
-static const motus_method *judge_of(study *s, const motus_method *best, bool explicit_only)
+static const motus_method *judge_of(study *s, const motus_method *best)
 {
     const motus_method *judge = best;
     int rank = 0;
     for (size_t k = 0; k < motus_method_count(); k++) {
         const motus_method *m = motus_method_at(k);
         if (m == best || strcmp(m->family, "exact") == 0 || m->order < best->order - SOLUTION_ORDERS_BELOW) continue;
-        if (explicit_only && m->evaluations == 0) continue;
         const int other = strcmp(m->family, best->family) != 0 ? 2 : 1;
         if (rank > other || (rank == other && judge->order >= m->order) || !study_admits(s, m->name)) continue;
         judge = m;
@@ -210,7 +211,7 @@ static const motus_method *judge_of(study *s, const motus_method *best, bool exp
 static motus_status judge(study *s, const study_grid *g, double budget, const candidate *c, solution *r, double *room,
                           bool *judged)
 {
-    const motus_method *other = judge_of(s, c->card, r->explicit_only);
+    const motus_method *other = judge_of(s, c->card);
     study_distance last = {NAN, NAN, NAN};
     double work = 0;
     *judged = false;
@@ -262,7 +263,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
                                    double *kept, double *now, double *before)
 {
     candidate list[SOLUTION_CANDIDATES + 1];
-    size_t count = candidates(s, r->explicit_only, list);
+    size_t count = candidates(s, list);
     const candidate *best = NULL;
     double *best_table = NULL;
     double budget = count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
@@ -294,7 +295,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     study_scale(s, r->rows + s->numbers, g->points);
     r->error = fmax(best->x, best->v);
     r->scaled = best->scaled;
-    own_rounding(s, g, r);
+    own_rounding(s, g, best, r);
     bool judged;
     motus_status status = judge(s, g, budget, best, r, now, &judged);
     study_part(s, base, span * (double)(count + 1));
@@ -306,26 +307,18 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     return MOTUS_OK;
 }
 
-/* With steps that end at switches, where the force has any; without, if the motion slides along one. */
+/* With steps that end at switches, and that resolve the force. */
 static motus_status find_located(study *s, const study_grid *g, int64_t steps, double enough, solution *r, double *room)
 {
     const size_t table = g->points * s->numbers;
     motus_analysis analysis = motus_default_analysis();
     study_note(s, motus_analysis_of(s->system, &analysis));
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
-    const double base = s->base, span = s->span;
-    motus_status status = MOTUS_OK;
-    r->located = s->locate = !analysis.smooth;
+    r->uneven = !analysis.smooth;
     r->jump = -1;
     r->jump_time = NAN;
-    for (bool again = true; again && status == MOTUS_OK;) {
-        study_part(s, base, span);
-        r->uneven = !analysis.smooth;
-        status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
-        again = status == MOTUS_OK && !r->known && !analysis.smooth && (s->locate || !r->explicit_only);
-        r->explicit_only = !s->locate;
-        if (again) r->located = s->locate = false;
-    }
+    s->locate = true;
+    const motus_status status = find_reference(s, g, steps, enough, r, room, room + table, room + 2 * table);
     s->locate = false;
     return status;
 }
@@ -339,7 +332,7 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     r->jump = -1;
     r->jump_time = NAN;
-    if (analysis.smooth || !candidates(s, false, list)) return study_broken(s);
+    if (analysis.smooth || !candidates(s, list)) return study_broken(s);
     double *room = take(s->allocator, g->points * s->numbers, sizeof(double));
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
     study_cost cost;
@@ -411,7 +404,7 @@ const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }
 
 motus_status solution_on(study *s, const solution *r, const study_grid *g, double *rows)
 {
-    s->locate = r->located;
+    s->locate = true;
     int64_t per = 1;
     while (!r->exact && per < (int64_t)1 << SOLUTION_LEVELS && g->interval / (double)per > r->step * (1 + 1e-9))
         per *= 2;

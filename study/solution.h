@@ -8,11 +8,10 @@
 
 typedef struct solution {
     bool known, exact;
-    bool located;       /* its runs end their steps where the force changes its formula */
-    bool explicit_only; /* methods that solve equations failed */
-    bool uneven;        /* the force is not smooth, and they do not */
-    int64_t jump;       /* the lowest derivative of the force that jumps along the motion, as in motus_statistics; */
-    double jump_time;   /*   at this time first */
+    bool located;     /* its runs end their steps where the force changes its formula */
+    bool uneven;      /* the force is not smooth, and steps cannot end where it changes its formula */
+    int64_t jump;     /* the lowest derivative of the force that jumps along the motion, as in motus_statistics; */
+    double jump_time; /*   at this time first */
     char method[MOTUS_NAME_MAX]; /* the method of its run; "" if nothing is known */
     int order;
     double step;                  /* of the reference run; 0 for the exact motion */

@@ -206,7 +206,7 @@ motus_status study_run(study *s, const char *method, double step, double start, 
     def.method = method;
     def.step = step;
     def.until = until;
-    def.switches = s->locate ? MOTUS_SWITCHES_LOCATE : MOTUS_SWITCHES_STEP;
+    def.switches = s->locate ? MOTUS_SWITCHES_RESOLVE : MOTUS_SWITCHES_STEP;
     if (y) {
         def.start = start;
         def.x = y;
@@ -260,6 +260,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
         motus_run_statistics(run, &did);
         cost->jump = did.jump;
         cost->jump_time = did.jump_time;
+        cost->jump_rounding = did.jump_rounding;
         s->locatable = did.switches >= 0;
     }
     motus_run_destroy(run);

@@ -8,17 +8,7 @@
 #define TEST_LAWS_H
 
 #include "core/methods.h"
-
-/* A type of 113 bits where the compiler has one; the rows and the texts of step/ are compiled with it. */
-#include <float.h>
-#if LDBL_MANT_DIG == 113
-typedef long double quad;
-#define Q(x) x##L
-#else
-__extension__ typedef __float128 quad;
-#define Q(x) __extension__ x##q
-#endif
-#define QUAD_EPSILON Q(0x1p-112)
+#include "test/quad.h"
 
 /* A method is its place in the catalogue. The quad_… functions use its row in 33 digits. A file that needs the
  * members of the row includes core/rows.h and uses methods_table[m], where coefficients are double; so `row` has

@@ -1,0 +1,25 @@
+/* Whether a step resolves the force: no operation of it changes from one regime to another, and back, within the step.
+ *
+ * Between two times at which a force is evaluated, exp(-z²) may have passed its peak unseen. Interval arithmetic over
+ * all times and states of a step bounds the argument of every such operation; where the bounds are wider than the scale
+ * on which the operation changes, the step is not resolved. The bounds hold for a straight way with a margin for its
+ * curvature; they are not rounded outward, so this is a precaution and no proof.
+ */
+#ifndef LANG_MODEL_RESOLVE_H
+#define LANG_MODEL_RESOLVE_H
+
+#include "lang/model/model.h"
+
+typedef struct interval {
+    double low, high;
+} interval;
+
+typedef struct resolver resolver;
+
+/* For these outputs, which may read x and v alone. *out is NULL where no operation can hide anything, or where there
+ * are families. Lives in the model's arena. False: no memory. */
+bool resolve_create(model *, const output *, size_t count, resolver **out);
+/* Over all t, x and v in the intervals, with the numbers of the pool. */
+bool resolve_fits(resolver *, interval t, const interval *x, const interval *v, const double *pool);
+
+#endif
