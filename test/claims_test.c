@@ -2,7 +2,8 @@
  * late short kicks, with singularities. The truth is a run of 113 bits by another method: extrapolated midpoint steps
  * (Gragg) that end at every switch, which this file finds by itself from the tree of the force.
  *
- * A claim that is below a tenth of the true error fails the test. CLAIMS=n tries n models, CLAIM=k prints model k alone.
+ * A claim that is below a tenth of the true error fails the test. CLAIMS=n tries n models, CLAIM=k prints model k
+ * alone.
  */
 #include "test/given.h"
 
@@ -49,7 +50,7 @@ static quad sine(quad x)
 
 /* Forces -------------------------------------------------------------------------------------------------------- */
 
-enum { NODES = 64, SWITCHES = 12, VARIABLES = 2, COLUMNS = 9 };
+enum { NODES = 256, SWITCHES = 16, VARIABLES = 2, COLUMNS = 9 };
 typedef enum op { NUMBER, TIME, PLACE, SPEED, ADD, MUL, DIV, SIN, EXP, ABS, SIGN, MAX, GREATER, IF, MOD } op;
 typedef struct node {
     op op;
@@ -68,6 +69,7 @@ typedef struct model {
 
 static int add(model *m, op op, int a, int b, int c, double value)
 {
+    assert_true(m->count < NODES && m->switches <= SWITCHES);
     m->nodes[m->count] = (node){op, a, b, c, value};
     return m->count++;
 }
