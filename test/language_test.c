@@ -168,10 +168,21 @@ static void rule_2_juxtaposition(void **unused)
     EXAMPLES({"2 x", 4}, {"2 sin(0) x", 0}, {"x |x'|", 6}, {"2|x|", 4}, {"(a)(b)x", 30}, {"a (b)", 15}, {"x' y", 24},
              {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12});
     REFUSALS({"x 2", MOTUS_SYNTAX, 1, "2 x"}, {"2 3^2", MOTUS_SYNTAX, 1, "2*3"}, {"(r 2).x", MOTUS_SYNTAX, 2, "2 r"},
-             {"2 3", MOTUS_SYNTAX, 1, "2*3"}, {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
+             {"2 3", MOTUS_SYNTAX, 1, "write 2*3, or 2.3 for"}, {"0.5 1.2 x", MOTUS_SYNTAX, 1, "write 0.5*1.2"},
+             {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
              {"sin(x) 2", MOTUS_SYNTAX, 1, "2 sin(x)"}, {"|x| 2", MOTUS_SYNTAX, 1, "2 |x|"},
              {"a b 2", MOTUS_SYNTAX, 3, "2 b"}, {"a - -b", MOTUS_SYNTAX, 5, "bracket"},
              {"1 < x < 3", MOTUS_SYNTAX, 7, "and"}, {"x**2", MOTUS_SYNTAX, 2, "^"});
+}
+
+/* There is no decimal number 0.5.1.2 to be offered. */
+static void rule_2_two_decimal_numbers(void **unused)
+{
+    (void)unused;
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    assert_int_equal(read_text("z'' = 0.5 1.2 z'\nz(0) = 1\nz'(0) = 0\n", NULL, 0, &s, &err), MOTUS_SYNTAX);
+    assert_string_equal(err.hint, "write 0.5*1.2");
 }
 
 static void rule_3_division(void **unused)
@@ -180,11 +191,29 @@ static void rule_3_division(void **unused)
     EXAMPLES({"a x^2/2", 10}, {"(1/2) x", 1}, {"1/(2 x)", 0.25}, {"1/2*x", 1}, {"1/x + y", 8.5}, {"1/2 - x", -1.5},
              {"a b/b", 5}, {"12/x/b", 2}, {"1/x^2", 0.25}, {"1/sin(x)", 1 / sin(2)}, {"a/(x) + 0", 2.5}, {"1/|x|", 0.5},
              {"1/2*x y", 8});
-    REFUSALS({"1/2 x", MOTUS_SYNTAX, 3, "write (1/2) x or 1/(2 x)"},
-             {"a/b (x)", MOTUS_SYNTAX, 3, "(a/b) (x) or a/(b (x))"}, {"a/b(x)", MOTUS_SYNTAX, 3, "b*(x)"},
-             {"a/2 |x|", MOTUS_SYNTAX, 3, "(a/2) |x|"}, {"a/x sin(y)", MOTUS_SYNTAX, 3, "(a/x) sin(y)"},
-             {"1/x 2", MOTUS_SYNTAX, 3, "2 x"}, {"a*b/2 x", MOTUS_SYNTAX, 5, "(a*b/2) x"},
-             {"1/2(x)", MOTUS_SYNTAX, 3, "(1/2) (x)"});
+}
+
+/* A factor behind a blank multiplies the quotient, from the left: a is 5, b 3, x 2, x' 3, y 8, e 2, u[2] 20, m[1] 3. */
+static void rule_3_a_factor_after_a_quotient(void **unused)
+{
+    (void)unused;
+    EXAMPLES({"1/2 x", 1}, {"-1/2 x", -1}, {"3/2 x^2", 6}, {"a/2 (y - x)", 15}, {"a/2 |-y|", 20}, {"12/b sin(0)", 0},
+             {"a/2 pi", 2.5 * 3.14159265358979323846}, {"1/2 x'^2", 4.5}, {"1/2 a |r'|^2", 2.5 * 77}, {"a/2 y*b", 60},
+             {"a/2*b y", 60}, {"a/2 x/5", 1}, {"1/2 a x b", 15}, {"6/b y/x e", 16}, {"1/-2 x", -1}, {"a/x^2 y", 10},
+             {"1/2 u[2]", 10}, {"1/2 m[1]", 1.5}, {"1/2 r.y", 1}, {"(1/2 r).z", 1.5}, {"a/(x) (y)", 20},
+             {"a/|x| (y)", 20}, {"6/2 x(0)", 6}, {"1/sqrt(4) x", 1}, {"(1/2\n x)", 1}, {"1 / 2 x", 1},
+             {"1/2 x - 1/2 y", -3}, {"2^(1/2 x)", 2}, {"|1/2 x - 3|", 2}, {"max(1/2 y, 1)", 4},
+             {"1/2 sum(i = 1..3: i)", 3}, {"1/2 dot(r, r) x", 14});
+    REFUSALS({"1/2x", MOTUS_SYNTAX, 3, "1/2 x, with a blank, for (1/2) x; or 1/(2 x)"},
+             {"a/2b", MOTUS_SYNTAX, 3, "a/(2 b)"}, {"1/2(x)", MOTUS_SYNTAX, 3, "1/2 (x), with a blank"},
+             {"a/b(x)", MOTUS_SYNTAX, 3, "b (x), with a blank, to multiply the quotient; (b (x))"},
+             {"a/(b)x", MOTUS_SYNTAX, 3, "or a/((b) x)"}, {"a/(b)(x)", MOTUS_SYNTAX, 3, "a/(b) (x)"},
+             {"a/2|x|", MOTUS_SYNTAX, 3, "a/2 |x|"}, {"a/|b||x|", MOTUS_SYNTAX, 3, "a/|b| |x|"},
+             {"a/2sin(x)", MOTUS_SYNTAX, 3, "a/2 sin(x)"}, {"a/2pi", MOTUS_SYNTAX, 3, "a/(2 pi)"},
+             {"a/b^2(x)", MOTUS_SYNTAX, 3, "a/b^2 (x)"}, {"a/x'y", MOTUS_SYNTAX, 3, "a/x' y"},
+             {"a/2 x/3y", MOTUS_SYNTAX, 7, "a/2 x/3 y"}, {"a*b/2x", MOTUS_SYNTAX, 5, "(a*b/2) x"},
+             {"1/x 2", MOTUS_SYNTAX, 3, "1/x*2 or 1/(x*2)"}, {"1/2 3", MOTUS_SYNTAX, 3, "1/2*3 or 1/(2*3)"},
+             {"a/b [1, 2]", MOTUS_SYNTAX, 5, ""}, {"a/x (0)", MOTUS_SYNTAX, 3, "x*(0)"});
 }
 
 static void rule_4_brackets_behind_names(void **unused)
@@ -626,7 +655,9 @@ int main(void)
         cmocka_unit_test(rule_1_names_and_numbers),
         cmocka_unit_test(rule_2_precedence),
         cmocka_unit_test(rule_2_juxtaposition),
+        cmocka_unit_test(rule_2_two_decimal_numbers),
         cmocka_unit_test(rule_3_division),
+        cmocka_unit_test(rule_3_a_factor_after_a_quotient),
         cmocka_unit_test(rule_4_brackets_behind_names),
         cmocka_unit_test(rule_4_refused),
         cmocka_unit_test(rule_5_functions),

@@ -56,7 +56,7 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
         return wrong(l);
     }
     if (t->blank_product) {
-        const tree *name = a->kind == TREE_MULTIPLY ? a->item[1] : a;
+        const tree *name = a->kind == TREE_MULTIPLY || a->kind == TREE_DIVIDE ? a->item[1] : a;
         symbol s = symbols_find(l->model, name->name);
         if (s.state && !lower_find_index(l, name->name) &&
             !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS))) {

@@ -319,7 +319,10 @@ value lower_initial(lowering *l, const tree *t)
                    !strcmp(name->name, "pi")) {
             source_complain(&l->model->source, MOTUS_SYNTAX, at, "%s is not a function", name->name);
             quote(l, bracket->at, b);
-            if (bracket->bracketed)
+            if (t->divisor)
+                HINT(l, "write %s (%s), with a blank, to multiply the quotient; (%s (%s)) to divide by the product",
+                     name->name, b, name->name, b);
+            else if (bracket->bracketed)
                 HINT(l, "write %s*%s or %s %s", name->name, b, name->name, b);
             else
                 HINT(l, "write %s*(%s) or %s (%s)", name->name, b, name->name, b);

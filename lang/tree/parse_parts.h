@@ -1,4 +1,5 @@
-/* The parser's state and helpers, shared by parse.c (expressions) and parse_statement.c (statements). */
+/* The parser's state and helpers, shared by parse.c (operators), parse_factor.c (what they join) and parse_statement.c
+ * (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -139,11 +140,13 @@ static inline bool expect(parser *p, char c, const char *where)
     return false;
 }
 
-/* parse.c */
+/* parse_factor.c */
 tree *parse_inside(parser *p);
 bool parse_loop(parser *p, loop *l);
 void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l);
-tree *parse_or(parser *p);
 void parse_index(parser *p, tree *t);
+tree *parse_factor(parser *p);
+/* parse.c */
+tree *parse_or(parser *p);
 
 #endif

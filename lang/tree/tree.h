@@ -42,6 +42,7 @@ typedef struct tree {
     int primes, operation;
     bool bracketed;     /* stood in ( ) of its own */
     bool blank_product; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
+    bool divisor;       /* START: something is divided by it, a/f(x) */
     uint32_t count, index_count;
     struct tree **item;
     loop *loops;
