@@ -143,7 +143,8 @@ static void rule_1_names_and_numbers(void **unused)
     EXAMPLES({"xy", 100}, {"x y", 16}, {"beta gamma e", 80}, {"2e3", 2000}, {"2e", 4}, {"2 e", 4}, {"2.5", 2.5},
              {"0.5e-1", 0.5e-1}, {"1E2", 100}, {"3x", 6}, {"2e1x", 40}, {"2pi", 2 * 3.14159265358979323846},
              {"1e+2", 100}, {"0.1", 0.1}, {"179769313486231570e291", 1.7976931348623157e308}, {"4.9e-324", 4.9e-324},
-             {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7});
+             {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7}, {"2π", 2 * 3.14159265358979323846}, {"π x - pi x", 0},
+             {"cos(π)", -1});
     REFUSALS({"1.", MOTUS_SYNTAX, 1, "1.0"}, {".5", MOTUS_SYNTAX, 1, "0.5"}, {"x.5", MOTUS_SYNTAX, 2, "0.5"},
              {"1.5.2", MOTUS_SYNTAX, 1, "one decimal"}, {"yx", MOTUS_NAME, 1, "write y x"},
              {"wx", MOTUS_NAME, 1, "not defined"});
@@ -166,7 +167,8 @@ static void rule_2_juxtaposition(void **unused)
 {
     (void)unused;
     EXAMPLES({"2 x", 4}, {"2 sin(0) x", 0}, {"x |x'|", 6}, {"2|x|", 4}, {"(a)(b)x", 30}, {"a (b)", 15}, {"x' y", 24},
-             {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12});
+             {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12}, {"2·x", 4}, {"a × b", 15}, {"a⋅x ∗ 2·3", 60},
+             {"1/2·x", 1}, {"x·-b − a", -11});
     REFUSALS({"x 2", MOTUS_SYNTAX, 1, "2 x"}, {"2 3^2", MOTUS_SYNTAX, 1, "2*3"}, {"(r 2).x", MOTUS_SYNTAX, 2, "2 r"},
              {"2 3", MOTUS_SYNTAX, 1, "write 2*3, or 2.3 for"}, {"0.5 1.2 x", MOTUS_SYNTAX, 1, "write 0.5*1.2"},
              {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
@@ -229,13 +231,14 @@ static void rule_4_refused(void **unused)
 {
     (void)unused;
     REFUSALS({"beta(x)", MOTUS_SYNTAX, 1, "write beta*(x) or beta (x)"}, {"f(t)", MOTUS_NAME, 1, "f"},
-             {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"x (0)", MOTUS_SYNTAX, 1, "x(0)"},
-             {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"}, {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"},
-             {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"}, {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"},
-             {"x(t)", MOTUS_SHAPE, 1, "x*("}, {"x(1)", MOTUS_SHAPE, 1, "start is 0"},
-             {"x''(0)", MOTUS_SHAPE, 1, "equation"}, {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"},
-             {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"}, {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"},
-             {"m(1)", MOTUS_SYNTAX, 1, "not a function"}, {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
+             {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"π(2)", MOTUS_SYNTAX, 1, "pi*(2)"},
+             {"x (0)", MOTUS_SYNTAX, 1, "x(0)"}, {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"},
+             {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"}, {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"},
+             {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"}, {"x(t)", MOTUS_SHAPE, 1, "x*("},
+             {"x(1)", MOTUS_SHAPE, 1, "start is 0"}, {"x''(0)", MOTUS_SHAPE, 1, "equation"},
+             {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"}, {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"},
+             {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"}, {"m(1)", MOTUS_SYNTAX, 1, "not a function"},
+             {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
 }
 
 static void rule_5_functions(void **unused)

@@ -223,12 +223,6 @@ bool lower_target(lowering *l, const statement *s, output *out)
         }
         if (which < 0) {
             int64_t first, last;
-            if (t->kind == TREE_NAME && !symbols_find(l->model, t->name).definition &&
-                !symbols_find(l->model, t->name).state) {
-                source_complain(&l->model->source, MOTUS_NAME, t->at, "the index %s has no range", t->name);
-                HINT(l, "add: for %s = 1..N", t->name);
-                return false;
-            }
             for (uint32_t k = 0; k < s->loop_count; k++)
                 if (t->kind != TREE_NUMBER && t->count > 0 && t->item[0]->kind == TREE_NAME && t->item[0]->name &&
                     !strcmp(t->item[0]->name, s->loops[k].name)) {

@@ -293,14 +293,6 @@ value lower_name(lowering *l, const tree *t)
     symbol s = symbols_find(l->model, t->name);
     if (s.state) return lower_state(l, t, s.state);
     if (s.definition) return lower_definition(l, t, s.definition);
-    source_complain(&l->model->source, MOTUS_NAME, t->at, "%s is not defined", t->name);
-    const char *names[2 * MAX_LEVELS];
-    for (int i = 0; i < l->name_count; i++) names[i] = l->names[i].name;
-    size_t n = strlen(t->name);
-    if (n == 2 && t->name[0] == 'd') HINT(l, "derivatives are written with primes: %s'", t->name + 1);
-    if (!strcmp(t->name, "e")) HINT(l, "for the exponential write exp(…)");
-    if (!strcmp(t->name, "ln")) HINT(l, "the natural logarithm is log(…)");
-    symbols_suggest(l->model, t->name, names, (uint32_t)l->name_count);
     return wrong(l);
 }
 
@@ -309,35 +301,7 @@ value lower_initial(lowering *l, const tree *t)
 {
     const tree *name = t->item[0], *bracket = t->item[1];
     symbol s = symbols_find(l->model, name->name);
-    char a[80], b[80];
-    if (!s.state) {
-        span at = {t->at.text, t->at.from, t->at.to};
-        if (!strcmp(name->name, "ln")) {
-            source_complain(&l->model->source, MOTUS_NAME, at, "ln is not a function");
-            HINT(l, "the natural logarithm is log(…)");
-        } else if (s.definition || lower_find_index(l, name->name) || !strcmp(name->name, "t") ||
-                   !strcmp(name->name, "pi")) {
-            source_complain(&l->model->source, MOTUS_SYNTAX, at, "%s is not a function", name->name);
-            quote(l, bracket->at, b);
-            if (t->divisor)
-                HINT(l, "write %s (%s), with a blank, to multiply the quotient; (%s (%s)) to divide by the product",
-                     name->name, b, name->name, b);
-            else if (bracket->bracketed)
-                HINT(l, "write %s*%s or %s %s", name->name, b, name->name, b);
-            else
-                HINT(l, "write %s*(%s) or %s (%s)", name->name, b, name->name, b);
-        } else {
-            source_complain(&l->model->source, MOTUS_NAME, at, "%s is neither a function nor defined", name->name);
-            if (bracket->kind == TREE_NAME && !strcmp(bracket->name, "t"))
-                HINT(l, "define it by %s = …, which may use t, and write %s alone", name->name, name->name);
-            static const char *const functions[] = {"sin",   "cos",  "tan",   "asin", "acos",  "atan", "atan2",
-                                                    "sinh",  "cosh", "tanh",  "exp",  "log",   "sqrt", "cbrt",
-                                                    "hypot", "abs",  "min",   "max",  "floor", "mod",  "sign",
-                                                    "erf",   "dot",  "cross", "if",   "sum"};
-            symbols_suggest(l->model, name->name, functions, sizeof functions / sizeof *functions);
-        }
-        return wrong(l);
-    }
+    char a[80];
     if (name->primes >= s.state->order) {
         COMPLAIN(l, t->at, "%s at the start follows from its equation; it is not an initial value",
                  quote(l, name->at, a));

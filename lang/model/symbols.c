@@ -88,3 +88,11 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
     else
         source_hint(&m->source, "define it: %s = …", name);
 }
+
+void symbols_suggest_call(model *m, const char *name)
+{
+    static const char *const known_functions[] = {
+        "sin",  "cos",   "tan", "asin", "acos", "atan",  "atan2", "sinh", "cosh", "tanh", "exp",   "log", "sqrt",
+        "cbrt", "hypot", "abs", "min",  "max",  "floor", "mod",   "sign", "erf",  "dot",  "cross", "if",  "sum"};
+    symbols_suggest(m, name, known_functions, sizeof known_functions / sizeof *known_functions);
+}

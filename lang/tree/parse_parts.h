@@ -45,8 +45,10 @@ static inline bool spelled(const parser *p, const token *t, const char *word)
 
 static inline bool word(const parser *p, const char *text) { return spelled(p, &p->token, text); }
 
+/* π is pi. */
 static inline const char *copy_name(parser *p, span at)
 {
+    if (at.to - at.from == 2 && !memcmp(p->source->texts[at.text].bytes + at.from, "π", 2)) return "pi";
     return arena_text(p->arena, p->source->texts[at.text].bytes + at.from, at.to - at.from);
 }
 

@@ -2,6 +2,8 @@
  * expressions. */
 #include "lang/tree/parse_parts.h"
 
+#include "base/utf8.h"
+
 /* for = "for" loop { "," loop } */
 static void parse_for(parser *p, statement *s)
 {
@@ -63,6 +65,17 @@ static void parse_value(parser *p, statement *s)
     end_of_statement(p, source_line(p->source, s->at));
 }
 
+/* Whether a terminal can show it: no control characters, nothing that is not UTF-8. */
+static bool plain_text(const char *bytes, uint32_t length)
+{
+    uint32_t c = 0;
+    for (size_t i = 0, n; i < length; i += n) {
+        n = utf8_read(bytes + i, length - i, &c);
+        if (n == 0 || c < 0x20 || (c >= 0x7F && c < 0xA0)) return false;
+    }
+    return true;
+}
+
 /* "method" text: up to the end of the line; names have dashes, and arguments in brackets */
 static void parse_method(parser *p, statement *s)
 {
@@ -74,7 +87,7 @@ static void parse_method(parser *p, statement *s)
     while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
         end--;
     s->at = (span){p->lexer.text, from, end};
-    if (from == end || text->bytes[from] == '=') {
+    if (from == end || text->bytes[from] == '=' || !plain_text(text->bytes + from, end - from)) {
         COMPLAIN(p, s->at, "the name of a method expected");
         HINT(p, "write: method verlet");
         return;
