@@ -238,7 +238,8 @@ static void rule_4_refused(void **unused)
              {"x(1)", MOTUS_SHAPE, 1, "start is 0"}, {"x''(0)", MOTUS_SHAPE, 1, "equation"},
              {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"}, {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"},
              {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"}, {"m(1)", MOTUS_SYNTAX, 1, "not a function"},
-             {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
+             {"f(x, y)", MOTUS_NAME, 1, "f(…) = …"}, {"a(x, y)", MOTUS_SYNTAX, 1, "not a function"},
+             {"x(0, 1)", MOTUS_SHAPE, 1, "not a function"});
 }
 
 static void rule_5_functions(void **unused)
@@ -555,6 +556,204 @@ static void rule_15_parameters_do_not_rewrite(void **unused)
     motus_system_destroy(s);
 }
 
+/* ---- functions of one's own, and derivatives ---- */
+
+typedef struct defined {
+    const char *lines, *expression;
+    double value;
+} defined;
+
+/* In the world of `given`: x = 2, x' = 3, r = (1, 2, 3), r' = (4, 5, 6), y = 8, a = 5, b = 3, u[1…4] = 10 … 40; t = 0
+ */
+static void in_given(const defined *e, size_t count)
+{
+    int faults = 0;
+    for (size_t i = 0; i < count; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, "%s%s\nwanted = %s\nlook = (wanted) + 0 t\n", given, e[i].lines, e[i].expression);
+        const double got = at_start(text, NULL, 0, "look");
+        if (!(fabs(got - e[i].value) <= 4e-16 * fabs(e[i].value))) {
+            print_error("%s ; %s is %.17g, not %.17g\n", e[i].lines, e[i].expression, got, e[i].value);
+            faults++;
+        }
+    }
+    assert_int_equal(faults, 0);
+}
+
+static void rule_16_functions(void **unused)
+{
+    (void)unused;
+    const defined e[] = {
+        {"V(q) = q^2/2 + q^4", "V(x)", 18},
+        {"V(q) = q^2/2 + q^4", "2 V(x + 1) V(0) + V(-1)", 1.5},
+        {"F(p, q, n) = p q^n - q", "F(x, 3, a)", 2 * 243 - 3},
+        {"F(p, q, n) = p q^n - q", "F(3, x, a)", 3 * 32 - 2},
+        {"V(q) = W(q, a)\nW(p, q) = p + q", "V(x)", 7},      /* in any order, one by another */
+        {"V(x) = x + y\nW(a) = V(a + 1)", "W(10)", 19},      /* an argument hides a state and a parameter */
+        {"V(t) = cos(t) + t", "V(0) + t", 1},                /* … and the time */
+        {"V(q) = a q x'", "V(x)", 30},                       /* parameters, states and t in the body */
+        {"V(q) = p + q\np = 2 x", "V(1)", 5},                /* a quantity in the body */
+        {"V(i) = u[i+1] - u[i]", "sum(i = 1..3: V(i))", 30}, /* an argument as an index */
+        {"V(i) = u[i]", "V(mod(4, N) + 1) + V(N)", 50},
+        {"S(f, n) = sum(j = 1..n: j f)", "S(x, 3)", 12},                      /* as a bound of a sum */
+        {"S(f) = sum(j = 1..2: j f)", "S(sum(k = 1..3: k S(x)))", 3 * 6 * 6}, /* sums within sums */
+        {"S(f) = sum(j = 1..2: j f)", "sum(k = 1..2: S(k u[k]))", 3 * 10 + 3 * 40},
+        {"M(q) = |q|^2 + q.x + q[3]", "M(r) + M((3, 0, 4))", 14 + 4 + 25 + 7},
+        {"D(p, q) = dot(p, q) p", "D(r, r').y", 64},
+        {"H(c, p) = if(c and x > 1, p, 0)", "H(y > 7, 3) + H(y > 9, 4)", 3}, /* a condition */
+        {"V(q) = x(0) q", "V(3)", 6},
+        {"c = V(3)\nV(q) = q^2 b", "c + 0", 27}, /* in a parameter */
+        {"V(q) = A[q, 2]", "V(1) + V(2)", 34},
+    };
+    in_given(e, sizeof e / sizeof *e);
+}
+
+/* The text with these lines, or the reason why it is refused. */
+static void refused(const char *lines, motus_status status, int line, int column, const char *named)
+{
+    char text[1024];
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    snprintf(text, sizeof text,
+             "%s\nx'' = -x\nx(0) = 1\nx'(0) = 0\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 0)\nk = 2\nm = [k, 2]\n", lines);
+    assert_int_equal(read_text(text, NULL, 0, &s, &err), status);
+    if (err.line != line || err.column != column || (!strstr(err.message, named) && !strstr(err.hint, named)))
+        fail_msg("%s\n  %d:%d %s (%s)\n  and not %d:%d %s", lines, err.line, err.column, err.message, err.hint, line,
+                 column, named);
+    assert_null(s);
+}
+
+static void rule_16_refused(void **unused)
+{
+    (void)unused;
+    refused("V(q) = V(q - 1)", MOTUS_NAME, 1, 8, "V calls itself: V → V");
+    refused("V(q) = 2 W(q)\nW(q) = U(q)\nU(p) = V(p)", MOTUS_NAME, 3, 8, "V → W → U → V");
+    refused("V(q) = c q\nc = V(2)", MOTUS_NAME, 1, 8, "c → V → c");
+    refused("V(q) = sum(i = 1..V(2): q)", MOTUS_NAME, 1, 19, "V calls itself");
+    refused("V(q) = q\nf = V(x, 1)", MOTUS_SYNTAX, 2, 5, "V takes 1 argument, not 2");
+    refused("V(p, q) = q\nf = V(x)", MOTUS_SYNTAX, 2, 5, "it is defined as V(p, q)");
+    refused("V(q) = q\nf = V + x", MOTUS_SYNTAX, 2, 5, "in a bracket glued to it");
+    refused("V(q) = q\nf = V'(x)", MOTUS_SYNTAX, 2, 5, "diff(V(q), q)");
+    refused("V(q, q) = q", MOTUS_NAME, 1, 6, "stands twice");
+    refused("V(q) = p q", MOTUS_NAME, 1, 8, "p is not defined");
+    refused("V(q) = q\nV = 3", MOTUS_NAME, 2, 1, "defined twice; the first time in line 1");
+    refused("V(q) = q\nV(p) = 3", MOTUS_NAME, 2, 1, "defined twice");
+    refused("x(q, p) = q", MOTUS_SYNTAX, 1, 1, "x has an equation of motion");
+    refused("sin(q) = q", MOTUS_SYNTAX, 1, 1, "word of the language");
+    refused("diff = 2", MOTUS_SYNTAX, 1, 1, "word of the language");
+    refused("V(q) = q'\nf = V(x)", MOTUS_SHAPE, 1, 8, "takes no primes");
+    refused("V(q) = q^2\nf = V(r)", MOTUS_SHAPE, 1, 8, "a vector has no powers");
+    refused("V(q) = q.z\nf = V(r)", MOTUS_SHAPE, 1, 10, "1 to 2");
+    refused("V(q) = x q\np = V(2)\nstep p", MOTUS_SHAPE, 3, 6, "p depends on a state or on time");
+    refused("V(q) = q for i = 1..2", MOTUS_SHAPE, 1, 14, "no family");
+    refused("V(q) = sum(q = 1..2: q)\nf = V(x)", MOTUS_SHAPE, 1, 12, "argument");
+    refused("V(a, b, c, d, e, f, g, h, i) = a", MOTUS_LIMIT, 1, 1, "at most 8 arguments");
+    refused("f = W(x)", MOTUS_NAME, 1, 5, "define it: W(…) = …");
+}
+
+/* A function is set as a parameter is. */
+static void rule_16_set(void **unused)
+{
+    (void)unused;
+    const char *text = "V(q) = q^2\nx'' = -V(x)\nx(0) = 3\nx'(0) = 0\nlook = V(x)\n", *other = "V(q) = q^3",
+               *none = "W(q) = q";
+    assert_true(at_start(text, NULL, 0, "look") == 9);
+    assert_true(at_start(text, &other, 1, "look") == 27);
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    assert_int_equal(read_text(text, &none, 1, &s, &err), MOTUS_NAME);
+    assert_non_null(strstr(err.message, "the model has no function W"));
+}
+
+static void rule_17_derivatives(void **unused)
+{
+    (void)unused;
+    const defined e[] = {
+        {"V(q) = q^2/2 + q^4", "diff(V(x), x)", 34},
+        {"V(q) = q^2/2 + q^4", "diff(V(2 x), x)", 2 * (4 + 4 * 64)},
+        {"", "diff(x^2 x'^3, x')", 4 * 27},
+        {"", "diff(x^2 x'^3, x)", 4 * 27},
+        {"", "diff(sin(3 t) x, t)", 6},
+        {"", "diff(x'', x') + diff(x''^2, x'')", -4},
+        {"", "diff(a x^2, a)", 4},
+        {"p = a^2\nq = 2 p + a", "diff(q x, a)", 2 * (4 * 5 + 1)}, /* through what was computed from it */
+        {"", "diff(m[2]^2 m[1], m[2])", 2 * 4 * 3},
+        {"", "diff(g.y^2, g.y)", -20},
+        {"", "diff(|r|^2, r).z", 6},
+        {"", "diff(|r|^2, r.y) + diff(|r|^2, r[1])", 6},
+        {"", "diff(r, r.y).y + diff(r, r.y).x", 1},
+        {"", "diff(x r', x).z", 6},
+        {"", "diff(dot(r, r'), r').y", 2},
+        {"", "diff(s^3, s)", 3 * 49},
+        {"F(q) = diff(q^3, q)", "F(x) + F(10)", 12 + 300},
+        {"F(q) = diff(q^3 x, q)", "F(x)", 24}, /* x beside q is held fixed, though q is x */
+        {"F(q, p) = diff(q^2 p, q)", "F(x, x)", 8},
+        {"F(q) = diff(diff(q^4, q), q)", "F(x)", 48},
+        {"V(q) = q^4\nF(q) = -diff(V(q), q)\nK(q) = diff(F(q), q)", "K(x + 1)", -12 * 9},
+        {"F(q) = diff(|q|^2, q)", "F(2 r).y + F(r').x", 8 + 8},
+        {"F(q) = diff(sum(j = 1..3: j q^2 u[j]), q)", "F(x)", 4 * 140},
+        {"F(q) = diff(q^2, q)", "F(sum(j = 1..3: j x))", 24},
+        {"F(q) = sum(i = 1..2: diff(q^2 i, q))", "F(sum(j = 1..3: j x))", 72},
+        {"c = F(3)\nF(q) = diff(q^2, q)", "c + 0", 6},
+        {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[2])", 2 * 20 - 10 - 30},
+        {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[0])", -11},
+        {"U = sum(i = 1..N: u[mod(i, N)+1] u[i])", "diff(U, u[1])", 60},
+        {"G[i] = diff(sum(j = 1..4: u[j]^3), u[i]) for i = 1..4", "G[3]", 3 * 900},
+        {"U = sum(i = 1..N, j = i+1..N: (u[i] - u[j])^2)", "diff(U, u[1])", 2 * (-10 - 20 - 30)},
+        {"", "diff(exp(x) (x - 2) y, x)", exp(2) * 8},
+        {"", "diff(if(x > 1, x^2, x), x)", 4},
+        {"", "diff(sqrt(x^2 + 5), x)", 2. / 3},
+        {"", "diff(-a/x, x) - diff(a/x^3, x)", 5. / 4 + 15. / 16},
+        {"", "diff(abs(-x) + x^a, x)", 1 + 80},
+        {"", "diff(y, x) + diff(t, x)", 0},
+    };
+    in_given(e, sizeof e / sizeof *e);
+    refused("f = diff(x^2, 2 x)", MOTUS_SHAPE, 1, 15, "2 x is none");
+    refused("f = diff(x^2, pi)", MOTUS_SHAPE, 1, 15, "pi is none");
+    refused("f = diff(E, E)\nE = x^2", MOTUS_SHAPE, 1, 13, "E is a quantity");
+    refused("f = diff(2 r, r)", MOTUS_SHAPE, 1, 5, "matrix");
+    refused("f = diff(x > 0, x)", MOTUS_SHAPE, 1, 10, "condition");
+    refused("f = diff(m[1] x, k)", MOTUS_SHAPE, 1, 5, "a list or an initial value in this expression depends on k");
+    refused("f = diff(x)", MOTUS_SYNTAX, 1, 5, "diff takes 2 arguments");
+    refused("V(i) = diff(m[i] x, i)\nf = V(1)", MOTUS_SHAPE, 1, 15, "an index cannot depend");
+}
+
+/* The equation that a potential gives, as one writes it; it is known to be a gradient, and smooth where the potential
+ * is. */
+static void rule_17_forces(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *potential, *equation;
+        int smooth;
+    } cases[] = {{"k q^2/2 + q^4", "x'' = -(k x + 4 x^3)/m", 1},
+                 {"-k/|q|", "x'' = -k sign(x)/(abs(x)^2 m)", 0},
+                 {"-k/q + k^2/q^2", "x'' = -(k/x^2 - 2 k^2/x^3)/m", 1},
+                 {"4 (1/q^12 - 1/q^6)", "x'' = -4 (6/x^7 - 12/x^13)/m", 1},
+                 {"-g/L cos(q)", "x'' = -g sin(x)/(L m)", 1},
+                 {"hypot(q, 2)", "x'' = -x/(hypot(x, 2) m)", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "g = 10\nL = 2\nk = 2\nm = 3\nV(q) = %s\nx'' = -diff(V(x), x)/m\nx(0) = 1\nx'(0) = 0\n",
+                 cases[i].potential);
+        motus_system *s = given_text(text);
+        motus_analysis a = motus_default_analysis();
+        motus_analysis_of(s, &a);
+        if (strcmp(motus_equation_text(s, 0), cases[i].equation))
+            fail_msg("V(q) = %s: %s", cases[i].potential, motus_equation_text(s, 0));
+        assert_true(a.gradient);
+        assert_int_equal(!!a.smooth, cases[i].smooth);
+        motus_system_destroy(s);
+    }
+    motus_system *s = given_text("V(q) = -1/|q|\nr'' = -diff(V(r), r)\nr(0) = (1, 0)\nr'(0) = (0, 1)\n");
+    motus_analysis a = motus_default_analysis();
+    motus_analysis_of(s, &a);
+    assert_string_equal(motus_equation_text(s, 1), "r''.y = -r.y/sqrt(r.x^2 + r.y^2)^3");
+    assert_true(a.gradient && a.smooth);
+    motus_system_destroy(s);
+}
+
 static void analysis_reads_the_equations(void **unused)
 {
     (void)unused;
@@ -678,6 +877,11 @@ int main(void)
         cmocka_unit_test(rule_14_no_leak_in_derivatives),
         cmocka_unit_test(rule_15_normal_form),
         cmocka_unit_test(rule_15_parameters_do_not_rewrite),
+        cmocka_unit_test(rule_16_functions),
+        cmocka_unit_test(rule_16_refused),
+        cmocka_unit_test(rule_16_set),
+        cmocka_unit_test(rule_17_derivatives),
+        cmocka_unit_test(rule_17_forces),
         cmocka_unit_test(analysis_reads_the_equations),
         cmocka_unit_test(settings_are_read),
         cmocka_unit_test(carets_stand_under_the_fault),

@@ -1,4 +1,4 @@
-/* The symbol table: the state or definition of a name, and hints for an unknown name. */
+/* The symbol table: the state, definition or function of a name, and hints for an unknown name. */
 #ifndef LANG_MODEL_SYMBOLS_H
 #define LANG_MODEL_SYMBOLS_H
 
@@ -8,6 +8,7 @@
 typedef struct symbol {
     model_state *state;
     model_definition *definition;
+    model_function *function;
 } symbol;
 
 symbol symbols_find(const model *, const char *name);

@@ -10,13 +10,13 @@
 
 #include <string.h>
 
-/* A name that is known in a part of the statement only: an index. */
+/* A name that is known in a part of the statement only: an index or an argument. */
 typedef struct scope {
     const char *name;
     const struct scope *up;
 } scope;
 
-enum { LOCAL_MAX = 2 * MAX_LEVELS };
+enum { LOCAL_MAX = MODEL_ARGUMENTS_MAX + MAX_LEVELS };
 
 typedef struct finding {
     model *model;
@@ -36,6 +36,17 @@ static bool known(const finding *f, const scope *s, const char *name)
 {
     symbol found = symbols_find(f->model, name);
     return found.state || found.definition || in_scope(s, name) || !strcmp(name, "t") || !strcmp(name, "pi");
+}
+
+/* x(0) of a state, V(a, b) of a function with as many arguments */
+static bool applies(const finding *f, const tree *t, const scope *s)
+{
+    const tree *name = t->item[0];
+    symbol found = symbols_find(f->model, name->name);
+    if (in_scope(s, name->name)) return false;
+    if (found.state) return t->count == 2;
+    return found.function && t->count == found.function->statement->applied->count && !name->primes &&
+           !name->index_count;
 }
 
 static void note(finding *f, const tree *t, const scope *s)
@@ -68,9 +79,13 @@ static void find(finding *f, const tree *t, const scope *s)
             return;
         }
         if (t->kind == TREE_NAME && !known(f, s, t->name)) note(f, t, s);
-        if (t->kind == TREE_START && !symbols_find(f->model, t->item[0]->name).state) note(f, t, s);
+        if (t->kind == TREE_APPLY && !applies(f, t, s)) note(f, t, s);
         if (t->count == 0) return;
         for (uint32_t i = 1; i < t->count; i++) find(f, t->item[i], s);
+        if (t->kind == TREE_APPLY) {
+            for (uint32_t i = 0; i < t->item[0]->index_count; i++) find(f, t->item[0]->item[i], s);
+            return;
+        }
     }
 }
 
@@ -106,9 +121,23 @@ static const char *written_here(const char *name)
     return NULL;
 }
 
+/* "V(q)", as it is defined */
+static const char *as_defined(const finding *f, const model_function *of, char out[80])
+{
+    return source_excerpt(&f->model->source, of->statement->applied->at, out, 80);
+}
+
 static bool complain_name(finding *f, const tree *t)
 {
     source *s = &f->model->source;
+    const model_function *function = symbols_find(f->model, t->name).function;
+    char text[80];
+    if (function) {
+        source_complain(s, MOTUS_SYNTAX, t->at, "%s is a function and needs its arguments, in a bracket glued to it",
+                        t->name);
+        source_hint(s, "it is defined as %s", as_defined(f, function, text));
+        return false;
+    }
     source_complain(s, MOTUS_NAME, t->at, "%s is not defined", t->name);
     if (strlen(t->name) == 2 && t->name[0] == 'd')
         source_hint(s, "derivatives are written with primes: %s'", t->name + 1);
@@ -133,23 +162,52 @@ static void hint_product(source *s, const tree *t, const char *name)
         source_hint(s, "write %s*(%s) or %s (%s)", name, b, name, b);
 }
 
+/* V(a, b) with the wrong number of arguments, V'(q), V[i](q); x(0, 1) of a state */
+static bool complain_arguments(finding *f, const tree *t, symbol found)
+{
+    source *s = &f->model->source;
+    const tree *name = t->item[0];
+    char text[80];
+    if (found.state) {
+        source_complain(s, MOTUS_SHAPE, t->at, "%s is a state, not a function", name->name);
+        source_hint(s, "write %s for its value now, %s(0) for its initial value", name->name, name->name);
+        return false;
+    }
+    const uint32_t wanted = found.function->statement->applied->count - 1;
+    if (name->primes) {
+        source_complain(s, MOTUS_SYNTAX, t->at, "a function takes no primes");
+        source_hint(s, "its derivative is diff(%s(q), q)", name->name);
+    } else if (name->index_count) {
+        source_complain(s, MOTUS_SHAPE, t->at, "%s is a function and takes no index", name->name);
+        source_hint(s, "it is defined as %s", as_defined(f, found.function, text));
+    } else {
+        source_complain(s, MOTUS_SYNTAX, t->at, "%s takes %u argument%s, not %u", name->name, wanted,
+                        wanted == 1 ? "" : "s", t->count - 1);
+        source_hint(s, "it is defined as %s", as_defined(f, found.function, text));
+    }
+    return false;
+}
+
 static bool complain_call(finding *f, const tree *t)
 {
     source *s = &f->model->source;
-    const tree *bracket = t->item[1];
     const char *name = t->item[0]->name, *here = written_here(name);
-    bool defined = symbols_find(f->model, name).definition || !strcmp(name, "t") || !strcmp(name, "pi");
-    for (uint32_t i = 0; i < f->local_count; i++) defined |= !strcmp(f->local[i], name);
-    if (defined) {
+    const symbol found = symbols_find(f->model, name);
+    bool local = false, defined = found.definition || !strcmp(name, "t") || !strcmp(name, "pi");
+    for (uint32_t i = 0; i < f->local_count; i++) local |= !strcmp(f->local[i], name);
+    if (!local && (found.state || found.function)) return complain_arguments(f, t, found);
+    if ((defined || local) && t->count == 2) {
         source_complain(s, MOTUS_SYNTAX, t->at, "%s is not a function", name);
         hint_product(s, t, name);
+        return false;
+    }
+    if (defined || local) {
+        source_complain(s, MOTUS_SYNTAX, t->at, "%s is not a function", name);
         return false;
     }
     source_complain(s, MOTUS_NAME, t->at,
                     here ? "%s is not a function of the language" : "%s is neither a function nor defined", name);
     if (here) source_hint(s, "write %s", here);
-    if (bracket->kind == TREE_NAME && !strcmp(bracket->name, "t"))
-        source_hint(s, "define it by %s = …, which may use t, and write %s alone", name, name);
     symbols_suggest_call(f->model, name);
     return false;
 }
@@ -176,16 +234,21 @@ static bool check_left(model *m, const statement *s)
 static bool check_statement(model *m, const statement *s)
 {
     finding f = {.model = m};
-    scope local[MAX_DIMS];
+    scope local[MAX_DIMS + MODEL_ARGUMENTS_MAX];
+    const scope *all = NULL;
     if (!check_left(m, s)) return false;
     for (uint32_t k = 0; k < s->loop_count; k++) {
         find(&f, s->loops[k].first, NULL);
         find(&f, s->loops[k].last, NULL);
-        local[k] = (scope){s->loops[k].name, k ? &local[k - 1] : NULL};
+        local[k] = (scope){s->loops[k].name, all};
+        all = &local[k];
     }
-    const scope *all = s->loop_count ? &local[s->loop_count - 1] : NULL;
+    for (uint32_t i = 1; s->kind == STATEMENT_FUNCTION && i < s->applied->count; i++) {
+        local[i] = (scope){s->applied->item[i]->name, all};
+        all = &local[i];
+    }
     for (uint32_t d = 0; d < s->index_count; d++) find(&f, s->index[d], all);
-    if (s->start_at) find(&f, s->start_at, NULL);
+    if (s->kind == STATEMENT_START) find(&f, s->applied->item[1], NULL);
     if (s->value) find(&f, s->value, all);
     if (!f.first) return true;
     return f.first->kind == TREE_NAME ? complain_name(&f, f.first) : complain_call(&f, f.first);

@@ -115,7 +115,8 @@ static int arity(int operation)
     case OP_HYPOT:
     case OP_MOD:
     case CALL_DOT:
-    case CALL_CROSS: return 2;
+    case CALL_CROSS:
+    case CALL_DIFF: return 2;
     case CALL_IF: return 3;
     case OP_MIN:
     case OP_MAX: return -2; /* two or more */
@@ -163,6 +164,7 @@ static tree *parse_call(parser *p, span name)
         COMPLAIN(p, t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
                  wanted < 0 ? -wanted : wanted, wanted == 1 ? "" : "s", t->count);
         if (operation == CALL_IF) HINT(p, "write if(condition, value if true, value if false)");
+        if (operation == CALL_DIFF) HINT(p, "write diff(V(x), x): what is differentiated, then by what");
     }
     return t;
 }
@@ -224,7 +226,22 @@ static tree *parse_components(parser *p, tree *t)
     return t;
 }
 
-/* name = NAME [ index ] [ primes ] [ "(" inside ")" glued ] components [4, 6] */
+/* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
+tree *parse_applied(parser *p, tree *name)
+{
+    tree *t = grow(p, TREE_APPLY, name->at);
+    add_item(p, t, name);
+    do {
+        advance(p);
+        add_item(p, t, parse_inside(p));
+        if (failed(p)) return t;
+    } while (is(p, ','));
+    t->at.to = p->token.at.to;
+    expect(p, ')', "at the end of the bracket");
+    return t;
+}
+
+/* name = NAME [ index ] [ primes ] [ applied ] components [4, 6] */
 static tree *parse_name(parser *p)
 {
     tree *t = grow(p, TREE_NAME, p->token.at);
@@ -246,20 +263,7 @@ static tree *parse_name(parser *p)
         return t;
     }
     if (is(p, '(') && !p->token.blank) {
-        tree *start = grow(p, TREE_START, t->at);
-        add_item(p, start, t);
-        advance(p);
-        add_item(p, start, parse_inside(p));
-        if (failed(p)) return start;
-        if (is(p, ',')) {
-            COMPLAIN(p, t->at, "%s is not a function", t->name);
-            HINT(p, "the functions are sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt cbrt hypot abs min "
-                    "max floor mod sign erf dot cross if sum");
-            return start;
-        }
-        start->at.to = p->token.at.to;
-        expect(p, ')', "at the end of the bracket");
-        t = start;
+        t = parse_applied(p, t);
         if (p->token.kind == TOKEN_PRIMES && !p->token.blank && !failed(p)) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
             HINT(p, "write x'(0)");

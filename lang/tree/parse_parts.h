@@ -147,6 +147,7 @@ tree *parse_inside(parser *p);
 bool parse_loop(parser *p, loop *l);
 void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l);
 void parse_index(parser *p, tree *t);
+tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);
 /* parse.c */
 tree *parse_or(parser *p);

@@ -186,13 +186,17 @@ static void parse_left(parser *p, statement *s)
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
             return;
         }
-        advance(p);
-        s->start_at = parse_inside(p);
-        if (!expect(p, ')', "after the start")) return;
+        tree *left = grow(p, TREE_NAME, s->name_at);
+        left->name = s->name;
+        left->primes = s->primes;
+        left->item = s->index;
+        left->count = left->index_count = s->index_count;
+        s->applied = parse_applied(p, left);
+        if (failed(p)) return;
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
-            if (s->start_at->kind == TREE_NAME)
+            if (s->applied->item[1]->kind == TREE_NAME)
                 HINT(p, "write %s%s = …; the argument (t) is left out", s->name, p->token.primes == 1 ? "'" : "''");
             else
                 HINT(p, "write %s'(0) = …", s->name);
