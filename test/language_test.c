@@ -649,6 +649,18 @@ static void rule_16_refused(void **unused)
     refused("V(q) = sum(q = 1..2: q)\nf = V(x)", MOTUS_SHAPE, 1, 12, "argument");
     refused("V(a, b, c, d, e, f, g, h, i) = a", MOTUS_LIMIT, 1, 1, "at most 8 arguments");
     refused("f = W(x)", MOTUS_NAME, 1, 5, "define it: W(…) = …");
+    /* The second call has the nodes of the first, but other indices. */
+    refused("V(i) = m[i]\nf = x sum(i = 1..2: V(i)) + sum(i = 1..3: V(i))", MOTUS_NAME, 1, 10, "m[3] is used here");
+}
+
+/* Forty functions each of which calls the one before twice: the same call is expanded once. */
+static void rule_16_doubling(void **unused)
+{
+    (void)unused;
+    char text[4096] = "x'' = -x\nx(0) = 1\nx'(0) = 0\nlook = f40(x)\nf0(q) = q\n";
+    for (int i = 1; i <= 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "f%d(q) = f%d(q) + f%d(q)\n", i, i - 1, i - 1);
+    assert_true(at_start(text, NULL, 0, "look") == 0x1p40);
 }
 
 /* A function is set as a parameter is. */
@@ -879,6 +891,7 @@ int main(void)
         cmocka_unit_test(rule_15_parameters_do_not_rewrite),
         cmocka_unit_test(rule_16_functions),
         cmocka_unit_test(rule_16_refused),
+        cmocka_unit_test(rule_16_doubling),
         cmocka_unit_test(rule_16_set),
         cmocka_unit_test(rule_17_derivatives),
         cmocka_unit_test(rule_17_forces),

@@ -353,7 +353,7 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_NUMBER: return scalar(l, graph_const(g, t->number));
     case TREE_NAME: return lower_name(l, t);
     case TREE_APPLY: {
-        const model_function *function = symbols_find(l->model, t->item[0]->name).function;
+        model_function *function = symbols_find(l->model, t->item[0]->name).function;
         return function ? lower_function(l, t, function) : lower_initial(l, t);
     }
     case TREE_CALL: return lower_call(l, t);

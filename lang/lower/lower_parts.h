@@ -76,7 +76,7 @@ node lower_subscript_number(lowering *, const subscript *);
 /* lower_function.c: functions of one's own, expanded where they are called */
 argument *lower_find_argument(const lowering *, const char *name);
 value lower_argument(lowering *, argument *);
-value lower_function(lowering *, const tree *call, const model_function *);
+value lower_function(lowering *, const tree *call, model_function *);
 
 /* lower_diff.c */
 value lower_diff(lowering *, const tree *call);

@@ -93,8 +93,9 @@ typedef struct model_definition {
 typedef struct model_function {
     const char *name;
     const statement *statement;
-    uint8_t progress; /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
-    bool moves;       /* its body uses a state or t, besides its arguments */
+    uint8_t progress;       /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
+    bool moves;             /* its body uses a state or t, besides its arguments */
+    struct expansion *last; /* lower_function.c: the last call; NULL: none */
 } model_function;
 
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
