@@ -295,6 +295,13 @@ static void rule_8_lines(void **unused)
              {"2 *\n3", 6}, {"12 /\n3", 4}, {"2^\n3", 8}, {"m[\n2\n]", 4}, {"if(1 <\n 2 and\n 3 > 2, 1, 0)", 1},
              {"sum(\ni = 1..3,\n i != 2:\n i)", 4}, {"if(not\n1 > 2, 1, 0)", 1}, {"-\n3", -3});
     assert_true(at_start("x'' =\n -x\nx(0) = 3\r\n\tx'(0) = 0# no blank\n\n\n#end", NULL, 0, "x") == 3);
+    motus_system *s = given_text("x'' = -k x; k = 2;; x(0) = 3; x'(0) = 0 # one; two\n;method rk4; step 0.5; until 2;");
+    motus_settings m = motus_default_settings();
+    motus_settings_of(s, &m);
+    assert_string_equal(m.method, "rk4");
+    assert_true(m.step == 0.5 && m.until == 2);
+    assert_string_equal(motus_equation_text(s, 0), "x'' = -k x");
+    motus_system_destroy(s);
 }
 
 static void rule_9_shapes(void **unused)
@@ -315,7 +322,8 @@ static void rule_9_shapes(void **unused)
              {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"},
              {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"},
              {"min(r, r)", MOTUS_SHAPE, 5, "vector"}, {"r < r'", MOTUS_SHAPE, 1, "comparison"},
-             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"});
+             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"}, {"sqrt(x > 0)", MOTUS_SHAPE, 6, "condition"},
+             {"1/(x > 0)", MOTUS_SHAPE, 3, "condition"}, {"-(x > 0)", MOTUS_SHAPE, 2, "condition"});
 }
 
 static void rule_10_parameters_and_quantities(void **unused)
@@ -479,6 +487,9 @@ static void rule_12_masks_select(void **unused)
 static void rule_14_conditions(void **unused)
 {
     (void)unused;
+    EXAMPLES({"(x > 0) a", 5}, {"a (x < 0) y", 0}, {"(x > 0)*(y > 0) a", 5}, {"(x > 0) (y < 0) + 1", 1},
+             {"(x > 1 and y > 1) r.z", 3}, {"((x > 0) r).y", 2}, {"(r (x < 0)).y", 0}, {"(x > 0) a/2", 2.5},
+             {"-(x > 0) a", -5}, {"diff((x > 0) x^2, x)", 4});
     EXAMPLES({"if(x > 0, 1, 0)", 1}, {"if(x < 0, 1/0, 4)", 4}, {"if(x > 0, 4, sqrt(-x))", 4}, {"if(x >= 2, 1, 0)", 1},
              {"if(x <= 1, 1, 0)", 0}, {"if(x == 2, 1, 0)", 1}, {"if(x != 2, 1, 0)", 0}, {"if(x ≠ 2, 1, 0)", 0},
              {"if(x ≤ 2, 1, 0)", 1}, {"if(x ≥ 3, 1, 0)", 0}, {"x''", -2}, {"x'' + x", 0}, {"s' + u[1]''", 2 + 21});
@@ -650,7 +661,7 @@ static void rule_16_refused(void **unused)
     refused("V(a, b, c, d, e, f, g, h, i) = a", MOTUS_LIMIT, 1, 1, "at most 8 arguments");
     refused("f = W(x)", MOTUS_NAME, 1, 5, "define it: W(…) = …");
     /* The second call has the nodes of the first, but other indices. */
-    refused("V(i) = m[i]\nf = x sum(i = 1..2: V(i)) + sum(i = 1..3: V(i))", MOTUS_NAME, 1, 10, "m[3] is used here");
+    refused("V(i) = m[i]\nf = x sum(i = 1..2: V(i)) + sum(i = 2..3: V(i))", MOTUS_NAME, 1, 10, "m[3] is used here");
 }
 
 /* Forty functions each of which calls the one before twice: the same call is expanded once. */
@@ -705,6 +716,7 @@ static void rule_17_derivatives(void **unused)
         {"F(q) = diff(|q|^2, q)", "F(2 r).y + F(r').x", 8 + 8},
         {"F(q) = diff(sum(j = 1..3: j q^2 u[j]), q)", "F(x)", 4 * 140},
         {"F(q) = diff(q^2, q)", "F(sum(j = 1..3: j x))", 24},
+        {"F(q) = diff(sum(i = 1..2: i q^2), q)", "F(sum(j = 1..3: j x))", 72},
         {"F(q) = sum(i = 1..2: diff(q^2 i, q))", "F(sum(j = 1..3: j x))", 72},
         {"c = F(3)\nF(q) = diff(q^2, q)", "c + 0", 6},
         {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[2])", 2 * 20 - 10 - 30},
@@ -758,6 +770,11 @@ static void rule_17_forces(void **unused)
         assert_int_equal(!!a.smooth, cases[i].smooth);
         motus_system_destroy(s);
     }
+    /* The argument's sum has an index of its own within the function's. */
+    motus_system *nested =
+        given_text("F(q) = diff(sum(i = 1..2: i q^2), q)\nx'' = -F(sum(j = 1..3: j x))\nx(0) = 1\nx'(0) = 0\n");
+    assert_string_equal(motus_equation_text(nested, 0), "x'' = -sum(i = 1..2: 2 i sum(j = 1..3: j x))");
+    motus_system_destroy(nested);
     motus_system *s = given_text("V(q) = -1/|q|\nr'' = -diff(V(r), r)\nr(0) = (1, 0)\nr'(0) = (0, 1)\n");
     motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);

@@ -49,7 +49,7 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
-    if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
+    va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
     if (va.count && vb.count) {
         COMPLAIN(l, t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, a->at, x), quote(l, b->at, y), x, y);

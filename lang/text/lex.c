@@ -180,8 +180,8 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
         source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
         source_hint(s, "write sum(i = 1..N: …)");
     } else if (c == ';') {
-        source_complain(s, MOTUS_SYNTAX, at, "; does not separate statements");
-        source_hint(s, "one statement a line");
+        source_complain(s, MOTUS_SYNTAX, at, "; ends a statement, and here a bracket is open");
+        source_hint(s, "close the bracket; a comma stands between components, arguments and conditions");
     } else if (c == '{' || c == '}') {
         source_complain(s, MOTUS_SYNTAX, at, "there are no braces in the language");
         source_hint(s, "group with ( )");
@@ -232,6 +232,11 @@ token lex_next(lexer *l)
         } else if (c == '\n') {
             l->at++;
             if (l->depth == 0) return make(l, TOKEN_NEWLINE, l->at - 1, true);
+        } else if (c == ';' && l->depth == 0) {
+            l->at++;
+            token t = make(l, TOKEN_NEWLINE, l->at - 1, true);
+            t.character = ';';
+            return t;
         } else if (l->at + 1 < n && (unsigned char)c == 0xC2 && (unsigned char)b[l->at + 1] == 0xA0) {
             l->at += 2; /* a no-break space, as word processors leave it */
         } else {

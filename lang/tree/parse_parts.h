@@ -34,7 +34,7 @@ static inline bool is(const parser *p, char c) { return p->token.kind == TOKEN_C
 
 static inline void skip_lines(parser *p)
 {
-    while (p->token.kind == TOKEN_NEWLINE) advance(p);
+    while (p->token.kind == TOKEN_NEWLINE && p->token.character != ';') advance(p);
 }
 
 static inline bool spelled(const parser *p, const token *t, const char *word)

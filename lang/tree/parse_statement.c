@@ -1,4 +1,4 @@
-/* Statements: tokens to trees, one statement a line. Each function is headed by its grammar rule; parse.c has the
+/* Statements: tokens to trees; a statement ends with its line, or at a semicolon. Each function is headed by its grammar rule; parse.c has the
  * expressions. */
 #include "lang/tree/parse_parts.h"
 
@@ -39,11 +39,11 @@ static void end_of_statement(parser *p, int line)
         COMPLAIN(p, p->token.at, "a second = in one statement");
         if (line != source_line(p->source, p->token.at))
             HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
-        HINT(p, "one statement a line; to compare write ==");
+        HINT(p, "one statement a line, or ; between them; to compare write ==");
         return;
     }
     COMPLAIN(p, p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
-    if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line");
+    if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them");
 }
 
 static void parse_value(parser *p, statement *s)
@@ -76,12 +76,12 @@ static bool plain_text(const char *bytes, uint32_t length)
     return true;
 }
 
-/* "method" text: up to the end of the line; names have dashes, and arguments in brackets */
+/* "method" text: up to the end of the line or a semicolon; names have dashes, and arguments in brackets */
 static void parse_method(parser *p, statement *s)
 {
     const struct source_text *text = &p->source->texts[p->lexer.text];
     uint32_t from = p->last.at.to, to = from;
-    while (to < text->length && text->bytes[to] != '\n' && text->bytes[to] != '#') to++;
+    while (to < text->length && !strchr("\n#;", text->bytes[to])) to++;
     uint32_t end = to;
     while (from < end && (text->bytes[from] == ' ' || text->bytes[from] == '\t')) from++;
     while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
@@ -295,7 +295,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
     lex_start(&p.lexer, s, text);
     advance(&p);
     for (;;) {
-        skip_lines(&p);
+        while (p.token.kind == TOKEN_NEWLINE) advance(&p);
         if (failed(&p) || p.token.kind == TOKEN_END) return !failed(&p);
         if (all->count == SOURCE_STATEMENTS_MAX) {
             source_complain(s, MOTUS_LIMIT, p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);
