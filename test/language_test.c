@@ -723,6 +723,13 @@ static void rule_17_derivatives(void **unused)
         {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[0])", -11},
         {"U = sum(i = 1..N: u[mod(i, N)+1] u[i])", "diff(U, u[1])", 60},
         {"G[i] = diff(sum(j = 1..4: u[j]^3), u[i]) for i = 1..4", "G[3]", 3 * 900},
+        {"U = sum(i = 1..N-1: (u[i+1] - u[i])^2/2)\nG[i] = diff(U, u[i]) for i = 1..N", "G[4] + 100 G[1]", 10 - 1000},
+        {"U = sum(j = 2..N, j != 3: u[j] u[j-1])\nG[i] = diff(U, u[i]) for i = 1..N", "G[2] + G[3] + G[4]",
+         10 + 40 + 30},
+        {"U = sum(j = 0..N+1, j != 3: u[j]^2)\nG[i] = diff(U, u[i]) for i = 1..N", "G[2] + 1000 G[3]", 40},
+        {"U = sum(j = 1..N, k = 1..N, j != k: u[j] u[k])/2\nG[i] = diff(U, u[i]) for i = 1..N", "G[2]", 80},
+        {"U = sum(j = 0..N: j u[j+1]^2)\nG[i] = diff(U, u[i + 1]) for i = 0..N-1", "G[3]", 3 * 80},
+        {"U = sum(j = 1..N: u[j]^2 u[2])\nG[i] = diff(U, u[i]) for i = 1..N", "G[2]", 3 * 400 + 100 + 900 + 1600},
         {"U = sum(i = 1..N, j = i+1..N: (u[i] - u[j])^2)", "diff(U, u[1])", 2 * (-10 - 20 - 30)},
         {"", "diff(exp(x) (x - 2) y, x)", exp(2) * 8},
         {"", "diff(if(x > 1, x^2, x), x)", 4},
@@ -740,6 +747,17 @@ static void rule_17_derivatives(void **unused)
     refused("f = diff(m[1] x, k)", MOTUS_SHAPE, 1, 5, "a list or an initial value in this expression depends on k");
     refused("f = diff(x)", MOTUS_SYNTAX, 1, 5, "diff takes 2 arguments");
     refused("V(i) = diff(m[i] x, i)\nf = V(1)", MOTUS_SHAPE, 1, 15, "an index cannot depend");
+}
+
+/* More cells than sums are shortened for, each within the sum: none is counted twice, or left out. */
+static void rule_17_many_cells(void **unused)
+{
+    (void)unused;
+    char text[8192] = "N = 80\nw[i]'' = -w[i] for i = 1..N\nw[i](0) = i for i = 1..N\nw[i]'(0) = 0 for i = 1..N\n"
+                      "G[i] = diff(U, w[i]) for i = 1..N\nlook = G[7] + 1000 G[80]\nU = sum(j = 1..N: w[j]^2/2";
+    for (int i = 1; i <= 80; i++) snprintf(text + strlen(text), sizeof text - strlen(text), " + w[%d]", i);
+    strcat(text, ")\n");
+    assert_true(at_start(text, NULL, 0, "look") == 87 + 1000 * 160);
 }
 
 /* The equation that a potential gives, as one writes it; it is known to be a gradient, and smooth where the potential
@@ -770,6 +788,12 @@ static void rule_17_forces(void **unused)
         assert_int_equal(!!a.smooth, cases[i].smooth);
         motus_system_destroy(s);
     }
+    /* The force on one cell of a chain has two terms, though the energy is a sum: of the cell and its neighbours. */
+    motus_system *chain =
+        given_text("N = 4\nV(d) = d^2/2\nU = sum(i = 0..N: V(x[i+1] - x[i]))\nx[i]'' = -diff(U, x[i]) for "
+                   "i = 1..N\nx[0] = 0\nx[N+1] = 0\nx[i](0) = i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n");
+    assert_string_equal(motus_equation_text(chain, 0), "x[i]'' = -(x[i] - x[i-1] + (x[i] - x[i+1]))");
+    motus_system_destroy(chain);
     /* The argument's sum has an index of its own within the function's. */
     motus_system *nested =
         given_text("F(q) = diff(sum(i = 1..2: i q^2), q)\nx'' = -F(sum(j = 1..3: j x))\nx(0) = 1\nx'(0) = 0\n");
@@ -911,6 +935,7 @@ int main(void)
         cmocka_unit_test(rule_16_doubling),
         cmocka_unit_test(rule_16_set),
         cmocka_unit_test(rule_17_derivatives),
+        cmocka_unit_test(rule_17_many_cells),
         cmocka_unit_test(rule_17_forces),
         cmocka_unit_test(analysis_reads_the_equations),
         cmocka_unit_test(settings_are_read),

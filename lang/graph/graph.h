@@ -126,9 +126,10 @@ typedef struct graph_shift {
 } graph_shift;
 node graph_seed_direction(graph *, node leaf, void *graph_shift_ctx);
 node graph_seed_time(graph *, node leaf, void *unused); /* d/dt where only t moves */
-/* The node with other nodes in place of its loads: `with` gives the one for a load at a level (inside a sum that opens
- * level l it is l + 1), or the load itself. Only loads that depend on something in `deps` are asked for. */
-typedef node (*graph_substitute)(graph *, node load, int level, void *ctx);
+/* The node with other nodes in place of some of its loads, indices and sums: `with` gives the one for each at a level
+ * (inside a sum that opens level l it is l + 1), or itself. Only those that depend on something in `deps` are asked
+ * for. */
+typedef node (*graph_substitute)(graph *, node, int level, void *ctx);
 node graph_replace(graph *, node, unsigned deps, int level, graph_substitute with, void *ctx);
 /* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every
  * nest of sums around it. sums[k] is the range of level first_level + k, k < inside. */

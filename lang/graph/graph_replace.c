@@ -1,6 +1,6 @@
-/* Other nodes in place of the loads of a node.
+/* Other nodes in place of loads, indices and sums within a node.
  *
- * Invariant: what holds none of these loads stays the node that it is. Only nested sums recurse, at most MAX_LEVELS
+ * Invariant: what holds none of these stays the node that it is. Only nested sums recurse, at most MAX_LEVELS
  * deep.
  */
 #include "lang/graph/graph_walk.h"
@@ -30,12 +30,12 @@ static node replaced(graph *g, node root, int level, const replacing *how)
     if (!graph_order(g, &root, 1, how->deps, false, &w)) return 0;
     node *as = take(&g->arena->allocator, w.count, sizeof *as);
     if (!as) g->arena->failed = true;
-    /* Loads and sums first: they walk the graph themselves, which overwrites `place`. */
+    /* These first: what is asked may walk the graph itself, which overwrites `place`. */
     for (uint32_t k = 0; as && k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
-        as[k] = n.op == OP_LOAD  ? how->with(g, w.nodes[k], level, how->ctx)
-                : n.op == OP_SUM ? replaced_sum(g, n, how)
-                                 : w.nodes[k];
+        const bool asked = n.op == OP_LOAD || n.op == OP_INDEX || n.op == OP_SUM;
+        as[k] = asked ? how->with(g, w.nodes[k], level, how->ctx) : w.nodes[k];
+        if (n.op == OP_SUM && as[k] == w.nodes[k]) as[k] = replaced_sum(g, n, how);
     }
     graph_order_again(g, &w);
     for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {

@@ -1,52 +1,17 @@
 /* diff(expression, variable) [17]: the partial derivative, as nodes of the graph.
  *
  * The variable is a leaf of the graph: a state, a velocity, t, a parameter, one component of them. Of a family it is
- * one cell: the derivative of x[j] by x[i] is 1 where j is i, else 0. An argument of a function may be any expression,
+ * one cell (lower_cells.c). An argument of a function may be any expression,
  * so the function is differentiated by a leaf of its own, which the argument then replaces.
  */
-#include "lang/lower/lower_parts.h"
+#include "lang/lower/lower_diff.h"
 
 #include "lang/model/symbols.h"
 #include "lang/model/vary.h"
 
 #include <string.h>
 
-typedef struct differential {
-    lowering *l;
-    const tree *call;
-    node variable;
-    node *of_slot;     /* of a parameter's slot: 1 + its derivative, 0 not known yet; NULL: not needed yet */
-    uint8_t *affected; /* by place of the pool: whether it follows from the variable; NULL: not needed yet */
-} differential;
-
 /* ---- seeds ---- */
-
-static bool equal_subscripts(const subscript *a, const subscript *b)
-{
-    return a->level == b->level && a->slot == b->slot && a->modulus == b->modulus && a->literal == b->literal;
-}
-
-static bool never_equal(const subscript *a, const subscript *b)
-{
-    return a->level == b->level && a->slot == b->slot && a->modulus < 0 && b->modulus < 0 && a->literal != b->literal;
-}
-
-/* Of one cell of an array by another: whether all indices are the same. */
-static node same_cell(lowering *l, const reference *a, const reference *b)
-{
-    graph *g = l->model->graph;
-    node same = 0;
-    bool any = false;
-    for (int d = 0; d < a->dims; d++) {
-        if (equal_subscripts(&a->at[d], &b->at[d])) continue;
-        if (never_equal(&a->at[d], &b->at[d])) return 0;
-        const node i = lower_subscript_number(l, &a->at[d]), j = lower_subscript_number(l, &b->at[d]);
-        const node here = binary(l, OP_EQ, i, j);
-        same = any ? binary(l, OP_AND, same, here) : here;
-        any = true;
-    }
-    return any ? graph_op(g, OP_SELECT, same, graph_const(g, 1), graph_const(g, 0)) : graph_const(g, 1);
-}
 
 static const array *array_of(const graph *g, node load)
 {
@@ -99,12 +64,12 @@ static node of_numbers(differential *d, const array *numbers)
 static node seed(graph *g, node leaf, void *differential_ctx)
 {
     differential *d = differential_ctx;
-    if (leaf == d->variable) return graph_const(g, 1);
     const graph_node *n = graph_at(g, leaf), *v = graph_at(g, d->variable);
     if (n->op == OP_LOAD && v->op == OP_LOAD && g->references[n->a].array == g->references[v->a].array) {
-        const reference a = g->references[n->a], b = g->references[v->a];
-        return same_cell(d->l, &a, &b);
+        const reference of = g->references[n->a];
+        return of.dims ? lower_cell(d, &of) : graph_const(g, 1);
     }
+    if (leaf == d->variable) return graph_const(g, 1);
     if (!in_pool(g, d->variable) || !in_pool(g, leaf)) return 0;
     return n->op == OP_PARAM ? of_parameter(d, n->a) : of_numbers(d, array_of(g, leaf));
 }
@@ -128,29 +93,10 @@ static value derivative(lowering *l, const tree *call, value of, value by)
         differential d = {.l = l, .call = call, .variable = by.item[by.count ? k : 0]};
         lower_tidy(l, true);
         v.item[k] = graph_derivative(g, of.item[of.count ? k : 0], seed, &d);
+        if (d.cell_count && !failed(l)) v.item[k] = lower_cells(&d, v.item[k]);
         lower_tidy(l, false);
     }
     return failed(l) ? wrong(l) : v;
-}
-
-/* Leaves that nothing else has, one for each component. */
-static value own_leaves(lowering *l, int components)
-{
-    model *m = l->model;
-    if (!m->leaf_array) {
-        uint16_t at;
-        if (!model_take_arrays(m, 1, &at)) return wrong(l);
-        m->arrays[at] = (array){.space = SPACE_DX, .dims = 1};
-        m->leaf_array = at;
-    }
-    value v = vector(l, components);
-    for (int k = 0; k < (v.count ? v.count : 1); k++) {
-        const reference r = {.array = m->leaf_array,
-                             .dims = 1,
-                             .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = m->leaf_count++}}};
-        v.item[k] = graph_load(m->graph, &r);
-    }
-    return v;
 }
 
 typedef struct replacement {
@@ -180,7 +126,8 @@ static value by_argument(lowering *l, const tree *call, argument *a)
     if (failed(l) || !want_number(l, now, call->item[1])) return wrong(l);
     argument arguments[MODEL_ARGUMENTS_MAX];
     memcpy(arguments, l->arguments, l->argument_count * sizeof *arguments);
-    replacement r = {.l = l, .argument = a, .leaves = own_leaves(l, now.count)};
+    replacement r = {.l = l, .argument = a, .leaves = vector(l, now.count)};
+    for (int k = 0; k < (now.count ? now.count : 1); k++) r.leaves.item[k] = lower_own_leaf(l);
     arguments[a - l->arguments] = (argument){.name = a->name, .known = {r.leaves}};
     lowering inner = *l;
     inner.arguments = arguments;

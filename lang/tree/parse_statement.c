@@ -1,5 +1,5 @@
-/* Statements: tokens to trees; a statement ends with its line, or at a semicolon. Each function is headed by its grammar
- * rule; parse.c has the expressions. */
+/* Statements: tokens to trees; a statement ends with its line, or at a semicolon. Each function is headed by its
+ * grammar rule; parse.c has the expressions. */
 #include "lang/tree/parse_parts.h"
 
 #include "base/utf8.h"
