@@ -11,6 +11,7 @@ static motus_statement_kind kind_of(const model *m, const statement *s)
     switch (s->kind) {
     case STATEMENT_EQUATION: return s->primes == 2 ? MOTUS_STATEMENT_MOTION : MOTUS_STATEMENT_FIRST_ORDER;
     case STATEMENT_START: return MOTUS_STATEMENT_START;
+    case STATEMENT_FUNCTION: return MOTUS_STATEMENT_FUNCTION;
     case STATEMENT_EXACT: return MOTUS_STATEMENT_EXACT;
     case STATEMENT_INVARIANT: return MOTUS_STATEMENT_INVARIANT;
     case STATEMENT_DEFINITION:

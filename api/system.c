@@ -49,6 +49,8 @@ static bool keep_text(motus_system *s, motus_text_def *def)
     return !s->arena.failed;
 }
 
+static motus_status known_method(const char *name, motus_error *err) { return row_choose(name, NULL, NULL, err); }
+
 motus_status motus_system_from_text(const motus_text_def *given, motus_system **out, motus_error *err)
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
@@ -61,7 +63,7 @@ motus_status motus_system_from_text(const motus_text_def *given, motus_system **
     motus_system *s = begin(&def.allocator);
     if (!s) return fail(err, MOTUS_MEMORY, "no memory for the system");
     modes m = modes_enter();
-    status = keep_text(s, &def) ? read_model(&s->arena, &def, &s->model, err)
+    status = keep_text(s, &def) ? read_model(&s->arena, &def, known_method, &s->model, err)
                                 : fail(err, MOTUS_MEMORY, "no memory for the model");
     if (status == MOTUS_OK) status = interpreter_create(s->model, &s->interpreter, &s->problem, err);
     if (status == MOTUS_OK) {

@@ -47,12 +47,6 @@ const failure = (message: string): Problem => problem('page', message);
 /** "newmark(1/4, 1/2)" is of the family newmark. */
 export const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
 
-/** Where a text names its method: line and column, counted from 1. */
-function placeOfMethod(text: string): { line: number; column: number } {
-  const lines = text.split('\n'), line = lines.findIndex(l => /^\s*method\s/.test(l));
-  return { line: line + 1, column: line < 0 ? 0 : (/^\s*method\s+/.exec(lines[line] ?? '')?.[0].length ?? 0) + 1 };
-}
-
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
 export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
   const refused: string[] = [];
@@ -164,11 +158,6 @@ export function createStore(client: Client, initial: State): LiveStore {
     const model = await read(of);
     if (!model) { tell('description'); return; }
     const own = model.settings.method;
-    if (own && !model.methods.some(m => m.name === family(own))) {
-      trouble = { ...well, model: { ...problem('method', `there is no method called “${own}”`, 'those there are stand under “All methods”'), ...placeOfMethod(of.text) } };
-      tell('description');
-      return;
-    }
     // Where a newer text waits, it is that one's method which counts.
     if (state === of) {
       if (ownMethod !== null && own && own !== ownMethod) {

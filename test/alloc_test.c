@@ -74,6 +74,8 @@ static const char *const texts[] = {
     rich,
     wide,
     "r'' = -r/|r|^3 + 0.1 cross(r', (0, 0, 1))\nr(0) = (1, 0, 0.1)\nr'(0) = (0, 1, 0)\nstep 0.05\nuntil 0.205\n",
+    "V(q, d) = q^2/2 + d q^4/4\nF(q) = -diff(V(q, k), q)\nk = 2\ny'' = F(y + sum(i = 1..2: i y)) - diff(k^2 y, k)\n"
+    "y(0) = 1\ny'(0) = 0\nstep 0.05\nuntil 0.205\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\nstep 0.05\nuntil 0.205\n",
     "r'' = -2 r + (sin(t), 0)\nr(0) = (1, 2)\nr'(0) = (0, 0)\nspin = r.x r'.y - r.y r'.x\nstep 0.05\nuntil 0.205\n",
 };

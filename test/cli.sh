@@ -504,6 +504,16 @@ that "check: damped cubic depends on the velocity, linearly" holds '.velocity_de
 that "check: every method, with a reason where it is refused" holds \
     "(.methods | length == $("$motus" methods --json | jq '.methods | length')) and all(.methods[]; .admitted or (.reason | length > 10))"
 that "check: some are refused, some not" holds '([.methods[].admitted] | any) and ([.methods[].admitted] | all | not)'
+cat >"$place/printed.motus" <<'M'
+g = 9.81
+L = 1
+theta'' = -g/L sin(theta)
+theta(0) = 1
+theta'(0) = 0
+M
+gives "check: the pendulum as textbooks print it" 0 "$motus" check "$place/printed.motus"
+that "... says what was understood" says "theta'' = -(g/L) sin(theta)"
+gives "... and it runs" 0 "$motus" run "$place/printed.motus" --step 0.01 --until 1
 gives "check for people" 0 "$motus" check models/damped-cubic.motus
 that "... says that the velocity is solved in closed form" says "closed form"
 for model in models/*.motus; do

@@ -143,7 +143,8 @@ static void rule_1_names_and_numbers(void **unused)
     EXAMPLES({"xy", 100}, {"x y", 16}, {"beta gamma e", 80}, {"2e3", 2000}, {"2e", 4}, {"2 e", 4}, {"2.5", 2.5},
              {"0.5e-1", 0.5e-1}, {"1E2", 100}, {"3x", 6}, {"2e1x", 40}, {"2pi", 2 * 3.14159265358979323846},
              {"1e+2", 100}, {"0.1", 0.1}, {"179769313486231570e291", 1.7976931348623157e308}, {"4.9e-324", 4.9e-324},
-             {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7});
+             {"1e-999", 0}, {"sum(i = 1..3: i)", 6}, {"007", 7}, {"2π", 2 * 3.14159265358979323846}, {"π x - pi x", 0},
+             {"cos(π)", -1});
     REFUSALS({"1.", MOTUS_SYNTAX, 1, "1.0"}, {".5", MOTUS_SYNTAX, 1, "0.5"}, {"x.5", MOTUS_SYNTAX, 2, "0.5"},
              {"1.5.2", MOTUS_SYNTAX, 1, "one decimal"}, {"yx", MOTUS_NAME, 1, "write y x"},
              {"wx", MOTUS_NAME, 1, "not defined"});
@@ -166,12 +167,24 @@ static void rule_2_juxtaposition(void **unused)
 {
     (void)unused;
     EXAMPLES({"2 x", 4}, {"2 sin(0) x", 0}, {"x |x'|", 6}, {"2|x|", 4}, {"(a)(b)x", 30}, {"a (b)", 15}, {"x' y", 24},
-             {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12});
+             {"dot(r, r) x", 28}, {"2 sum(i = 1..2: i) x", 12}, {"2·x", 4}, {"a × b", 15}, {"a⋅x ∗ 2·3", 60},
+             {"1/2·x", 1}, {"x·-b − a", -11});
     REFUSALS({"x 2", MOTUS_SYNTAX, 1, "2 x"}, {"2 3^2", MOTUS_SYNTAX, 1, "2*3"}, {"(r 2).x", MOTUS_SYNTAX, 2, "2 r"},
-             {"2 3", MOTUS_SYNTAX, 1, "2*3"}, {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
+             {"2 3", MOTUS_SYNTAX, 1, "write 2*3, or 2.3 for"}, {"0.5 1.2 x", MOTUS_SYNTAX, 1, "write 0.5*1.2"},
+             {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
              {"sin(x) 2", MOTUS_SYNTAX, 1, "2 sin(x)"}, {"|x| 2", MOTUS_SYNTAX, 1, "2 |x|"},
              {"a b 2", MOTUS_SYNTAX, 3, "2 b"}, {"a - -b", MOTUS_SYNTAX, 5, "bracket"},
              {"1 < x < 3", MOTUS_SYNTAX, 7, "and"}, {"x**2", MOTUS_SYNTAX, 2, "^"});
+}
+
+/* There is no decimal number 0.5.1.2 to be offered. */
+static void rule_2_two_decimal_numbers(void **unused)
+{
+    (void)unused;
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    assert_int_equal(read_text("z'' = 0.5 1.2 z'\nz(0) = 1\nz'(0) = 0\n", NULL, 0, &s, &err), MOTUS_SYNTAX);
+    assert_string_equal(err.hint, "write 0.5*1.2");
 }
 
 static void rule_3_division(void **unused)
@@ -180,11 +193,29 @@ static void rule_3_division(void **unused)
     EXAMPLES({"a x^2/2", 10}, {"(1/2) x", 1}, {"1/(2 x)", 0.25}, {"1/2*x", 1}, {"1/x + y", 8.5}, {"1/2 - x", -1.5},
              {"a b/b", 5}, {"12/x/b", 2}, {"1/x^2", 0.25}, {"1/sin(x)", 1 / sin(2)}, {"a/(x) + 0", 2.5}, {"1/|x|", 0.5},
              {"1/2*x y", 8});
-    REFUSALS({"1/2 x", MOTUS_SYNTAX, 3, "write (1/2) x or 1/(2 x)"},
-             {"a/b (x)", MOTUS_SYNTAX, 3, "(a/b) (x) or a/(b (x))"}, {"a/b(x)", MOTUS_SYNTAX, 3, "b*(x)"},
-             {"a/2 |x|", MOTUS_SYNTAX, 3, "(a/2) |x|"}, {"a/x sin(y)", MOTUS_SYNTAX, 3, "(a/x) sin(y)"},
-             {"1/x 2", MOTUS_SYNTAX, 3, "2 x"}, {"a*b/2 x", MOTUS_SYNTAX, 5, "(a*b/2) x"},
-             {"1/2(x)", MOTUS_SYNTAX, 3, "(1/2) (x)"});
+}
+
+/* A factor behind a blank multiplies the quotient, from the left: a is 5, b 3, x 2, x' 3, y 8, e 2, u[2] 20, m[1] 3. */
+static void rule_3_a_factor_after_a_quotient(void **unused)
+{
+    (void)unused;
+    EXAMPLES({"1/2 x", 1}, {"-1/2 x", -1}, {"3/2 x^2", 6}, {"a/2 (y - x)", 15}, {"a/2 |-y|", 20}, {"12/b sin(0)", 0},
+             {"a/2 pi", 2.5 * 3.14159265358979323846}, {"1/2 x'^2", 4.5}, {"1/2 a |r'|^2", 2.5 * 77}, {"a/2 y*b", 60},
+             {"a/2*b y", 60}, {"a/2 x/5", 1}, {"1/2 a x b", 15}, {"6/b y/x e", 16}, {"1/-2 x", -1}, {"a/x^2 y", 10},
+             {"1/2 u[2]", 10}, {"1/2 m[1]", 1.5}, {"1/2 r.y", 1}, {"(1/2 r).z", 1.5}, {"a/(x) (y)", 20},
+             {"a/|x| (y)", 20}, {"6/2 x(0)", 6}, {"1/sqrt(4) x", 1}, {"(1/2\n x)", 1}, {"1 / 2 x", 1},
+             {"1/2 x - 1/2 y", -3}, {"2^(1/2 x)", 2}, {"|1/2 x - 3|", 2}, {"max(1/2 y, 1)", 4},
+             {"1/2 sum(i = 1..3: i)", 3}, {"1/2 dot(r, r) x", 14});
+    REFUSALS({"1/2x", MOTUS_SYNTAX, 3, "1/2 x, with a blank, for (1/2) x; or 1/(2 x)"},
+             {"a/2b", MOTUS_SYNTAX, 3, "a/(2 b)"}, {"1/2(x)", MOTUS_SYNTAX, 3, "1/2 (x), with a blank"},
+             {"a/b(x)", MOTUS_SYNTAX, 3, "b (x), with a blank, to multiply the quotient; (b (x))"},
+             {"a/(b)x", MOTUS_SYNTAX, 3, "or a/((b) x)"}, {"a/(b)(x)", MOTUS_SYNTAX, 3, "a/(b) (x)"},
+             {"a/2|x|", MOTUS_SYNTAX, 3, "a/2 |x|"}, {"a/|b||x|", MOTUS_SYNTAX, 3, "a/|b| |x|"},
+             {"a/2sin(x)", MOTUS_SYNTAX, 3, "a/2 sin(x)"}, {"a/2pi", MOTUS_SYNTAX, 3, "a/(2 pi)"},
+             {"a/b^2(x)", MOTUS_SYNTAX, 3, "a/b^2 (x)"}, {"a/x'y", MOTUS_SYNTAX, 3, "a/x' y"},
+             {"a/2 x/3y", MOTUS_SYNTAX, 7, "a/2 x/3 y"}, {"a*b/2x", MOTUS_SYNTAX, 5, "(a*b/2) x"},
+             {"1/x 2", MOTUS_SYNTAX, 3, "1/x*2 or 1/(x*2)"}, {"1/2 3", MOTUS_SYNTAX, 3, "1/2*3 or 1/(2*3)"},
+             {"a/b [1, 2]", MOTUS_SYNTAX, 5, ""}, {"a/x (0)", MOTUS_SYNTAX, 3, "x*(0)"});
 }
 
 static void rule_4_brackets_behind_names(void **unused)
@@ -200,13 +231,15 @@ static void rule_4_refused(void **unused)
 {
     (void)unused;
     REFUSALS({"beta(x)", MOTUS_SYNTAX, 1, "write beta*(x) or beta (x)"}, {"f(t)", MOTUS_NAME, 1, "f"},
-             {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"x (0)", MOTUS_SYNTAX, 1, "x(0)"},
-             {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"}, {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"},
-             {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"}, {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"},
-             {"x(t)", MOTUS_SHAPE, 1, "x*("}, {"x(1)", MOTUS_SHAPE, 1, "start is 0"},
-             {"x''(0)", MOTUS_SHAPE, 1, "equation"}, {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"},
-             {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"}, {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"},
-             {"m(1)", MOTUS_SYNTAX, 1, "not a function"}, {"f(x, y)", MOTUS_SYNTAX, 1, "not a function"});
+             {"t(2)", MOTUS_SYNTAX, 1, "t*(2)"}, {"π(2)", MOTUS_SYNTAX, 1, "pi*(2)"},
+             {"x (0)", MOTUS_SYNTAX, 1, "x(0)"}, {"x (a)", MOTUS_SYNTAX, 1, "x*(a)"},
+             {"x (y)", MOTUS_SYNTAX, 1, "x*(y)"}, {"x' (0)", MOTUS_SYNTAX, 1, "x'(0)"},
+             {"u[1] (0)", MOTUS_SYNTAX, 1, "u[1](0)"}, {"x(t)", MOTUS_SHAPE, 1, "x*("},
+             {"x(1)", MOTUS_SHAPE, 1, "start is 0"}, {"x''(0)", MOTUS_SHAPE, 1, "equation"},
+             {"sinn(x)", MOTUS_NAME, 1, "sin"}, {"u(0)", MOTUS_SHAPE, 1, "u"}, {"xy(2)", MOTUS_SYNTAX, 1, "xy*(2)"},
+             {"2 a(x)", MOTUS_SYNTAX, 3, "a*(x)"}, {"m(1)", MOTUS_SYNTAX, 1, "not a function"},
+             {"f(x, y)", MOTUS_NAME, 1, "f(…) = …"}, {"a(x, y)", MOTUS_SYNTAX, 1, "not a function"},
+             {"x(0, 1)", MOTUS_SHAPE, 1, "not a function"});
 }
 
 static void rule_5_functions(void **unused)
@@ -262,6 +295,13 @@ static void rule_8_lines(void **unused)
              {"2 *\n3", 6}, {"12 /\n3", 4}, {"2^\n3", 8}, {"m[\n2\n]", 4}, {"if(1 <\n 2 and\n 3 > 2, 1, 0)", 1},
              {"sum(\ni = 1..3,\n i != 2:\n i)", 4}, {"if(not\n1 > 2, 1, 0)", 1}, {"-\n3", -3});
     assert_true(at_start("x'' =\n -x\nx(0) = 3\r\n\tx'(0) = 0# no blank\n\n\n#end", NULL, 0, "x") == 3);
+    motus_system *s = given_text("x'' = -k x; k = 2;; x(0) = 3; x'(0) = 0 # one; two\n;method rk4; step 0.5; until 2;");
+    motus_settings m = motus_default_settings();
+    motus_settings_of(s, &m);
+    assert_string_equal(m.method, "rk4");
+    assert_true(m.step == 0.5 && m.until == 2);
+    assert_string_equal(motus_equation_text(s, 0), "x'' = -k x");
+    motus_system_destroy(s);
 }
 
 static void rule_9_shapes(void **unused)
@@ -282,7 +322,8 @@ static void rule_9_shapes(void **unused)
              {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"},
              {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"},
              {"min(r, r)", MOTUS_SHAPE, 5, "vector"}, {"r < r'", MOTUS_SHAPE, 1, "comparison"},
-             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"});
+             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"}, {"sqrt(x > 0)", MOTUS_SHAPE, 6, "condition"},
+             {"1/(x > 0)", MOTUS_SHAPE, 3, "condition"}, {"-(x > 0)", MOTUS_SHAPE, 2, "condition"});
 }
 
 static void rule_10_parameters_and_quantities(void **unused)
@@ -446,6 +487,9 @@ static void rule_12_masks_select(void **unused)
 static void rule_14_conditions(void **unused)
 {
     (void)unused;
+    EXAMPLES({"(x > 0) a", 5}, {"a (x < 0) y", 0}, {"(x > 0)*(y > 0) a", 5}, {"(x > 0) (y < 0) + 1", 1},
+             {"(x > 1 and y > 1) r.z", 3}, {"((x > 0) r).y", 2}, {"(r (x < 0)).y", 0}, {"(x > 0) a/2", 2.5},
+             {"-(x > 0) a", -5}, {"diff((x > 0) x^2, x)", 4});
     EXAMPLES({"if(x > 0, 1, 0)", 1}, {"if(x < 0, 1/0, 4)", 4}, {"if(x > 0, 4, sqrt(-x))", 4}, {"if(x >= 2, 1, 0)", 1},
              {"if(x <= 1, 1, 0)", 0}, {"if(x == 2, 1, 0)", 1}, {"if(x != 2, 1, 0)", 0}, {"if(x ≠ 2, 1, 0)", 0},
              {"if(x ≤ 2, 1, 0)", 1}, {"if(x ≥ 3, 1, 0)", 0}, {"x''", -2}, {"x'' + x", 0}, {"s' + u[1]''", 2 + 21});
@@ -520,6 +564,246 @@ static void rule_15_parameters_do_not_rewrite(void **unused)
     motus_analysis a = motus_default_analysis();
     motus_analysis_of(s, &a);
     assert_false(a.constant);
+    motus_system_destroy(s);
+}
+
+/* ---- functions of one's own, and derivatives ---- */
+
+typedef struct defined {
+    const char *lines, *expression;
+    double value;
+} defined;
+
+/* In the world of `given`: x = 2, x' = 3, r = (1, 2, 3), r' = (4, 5, 6), y = 8, a = 5, b = 3, u[1…4] = 10 … 40; t = 0
+ */
+static void in_given(const defined *e, size_t count)
+{
+    int faults = 0;
+    for (size_t i = 0; i < count; i++) {
+        char text[4096];
+        snprintf(text, sizeof text, "%s%s\nwanted = %s\nlook = (wanted) + 0 t\n", given, e[i].lines, e[i].expression);
+        const double got = at_start(text, NULL, 0, "look");
+        if (!(fabs(got - e[i].value) <= 4e-16 * fabs(e[i].value))) {
+            print_error("%s ; %s is %.17g, not %.17g\n", e[i].lines, e[i].expression, got, e[i].value);
+            faults++;
+        }
+    }
+    assert_int_equal(faults, 0);
+}
+
+static void rule_16_functions(void **unused)
+{
+    (void)unused;
+    const defined e[] = {
+        {"V(q) = q^2/2 + q^4", "V(x)", 18},
+        {"V(q) = q^2/2 + q^4", "2 V(x + 1) V(0) + V(-1)", 1.5},
+        {"F(p, q, n) = p q^n - q", "F(x, 3, a)", 2 * 243 - 3},
+        {"F(p, q, n) = p q^n - q", "F(3, x, a)", 3 * 32 - 2},
+        {"V(q) = W(q, a)\nW(p, q) = p + q", "V(x)", 7},      /* in any order, one by another */
+        {"V(x) = x + y\nW(a) = V(a + 1)", "W(10)", 19},      /* an argument hides a state and a parameter */
+        {"V(t) = cos(t) + t", "V(0) + t", 1},                /* … and the time */
+        {"V(q) = a q x'", "V(x)", 30},                       /* parameters, states and t in the body */
+        {"V(q) = p + q\np = 2 x", "V(1)", 5},                /* a quantity in the body */
+        {"V(i) = u[i+1] - u[i]", "sum(i = 1..3: V(i))", 30}, /* an argument as an index */
+        {"V(i) = u[i]", "V(mod(4, N) + 1) + V(N)", 50},
+        {"S(f, n) = sum(j = 1..n: j f)", "S(x, 3)", 12},                      /* as a bound of a sum */
+        {"S(f) = sum(j = 1..2: j f)", "S(sum(k = 1..3: k S(x)))", 3 * 6 * 6}, /* sums within sums */
+        {"S(f) = sum(j = 1..2: j f)", "sum(k = 1..2: S(k u[k]))", 3 * 10 + 3 * 40},
+        {"M(q) = |q|^2 + q.x + q[3]", "M(r) + M((3, 0, 4))", 14 + 4 + 25 + 7},
+        {"D(p, q) = dot(p, q) p", "D(r, r').y", 64},
+        {"H(c, p) = if(c and x > 1, p, 0)", "H(y > 7, 3) + H(y > 9, 4)", 3}, /* a condition */
+        {"V(q) = x(0) q", "V(3)", 6},
+        {"c = V(3)\nV(q) = q^2 b", "c + 0", 27}, /* in a parameter */
+        {"V(q) = A[q, 2]", "V(1) + V(2)", 34},
+    };
+    in_given(e, sizeof e / sizeof *e);
+}
+
+/* The text with these lines, or the reason why it is refused. */
+static void refused(const char *lines, motus_status status, int line, int column, const char *named)
+{
+    char text[1024];
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    snprintf(text, sizeof text,
+             "%s\nx'' = -x\nx(0) = 1\nx'(0) = 0\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 0)\nk = 2\nm = [k, 2]\n", lines);
+    assert_int_equal(read_text(text, NULL, 0, &s, &err), status);
+    if (err.line != line || err.column != column || (!strstr(err.message, named) && !strstr(err.hint, named)))
+        fail_msg("%s\n  %d:%d %s (%s)\n  and not %d:%d %s", lines, err.line, err.column, err.message, err.hint, line,
+                 column, named);
+    assert_null(s);
+}
+
+static void rule_16_refused(void **unused)
+{
+    (void)unused;
+    refused("V(q) = V(q - 1)", MOTUS_NAME, 1, 8, "V calls itself: V → V");
+    refused("V(q) = 2 W(q)\nW(q) = U(q)\nU(p) = V(p)", MOTUS_NAME, 3, 8, "V → W → U → V");
+    refused("V(q) = c q\nc = V(2)", MOTUS_NAME, 1, 8, "c → V → c");
+    refused("V(q) = sum(i = 1..V(2): q)", MOTUS_NAME, 1, 19, "V calls itself");
+    refused("V(q) = q\nf = V(x, 1)", MOTUS_SYNTAX, 2, 5, "V takes 1 argument, not 2");
+    refused("V(p, q) = q\nf = V(x)", MOTUS_SYNTAX, 2, 5, "it is defined as V(p, q)");
+    refused("V(q) = q\nf = V + x", MOTUS_SYNTAX, 2, 5, "in a bracket glued to it");
+    refused("V(q) = q\nf = V'(x)", MOTUS_SYNTAX, 2, 5, "diff(V(q), q)");
+    refused("V(q, q) = q", MOTUS_NAME, 1, 6, "stands twice");
+    refused("V(q) = p q", MOTUS_NAME, 1, 8, "p is not defined");
+    refused("V(q) = q\nV = 3", MOTUS_NAME, 2, 1, "defined twice; the first time in line 1");
+    refused("V(q) = q\nV(p) = 3", MOTUS_NAME, 2, 1, "defined twice");
+    refused("x(q, p) = q", MOTUS_SYNTAX, 1, 1, "x has an equation of motion");
+    refused("sin(q) = q", MOTUS_SYNTAX, 1, 1, "word of the language");
+    refused("diff = 2", MOTUS_SYNTAX, 1, 1, "word of the language");
+    refused("V(q) = q'\nf = V(x)", MOTUS_SHAPE, 1, 8, "takes no primes");
+    refused("V(q) = q^2\nf = V(r)", MOTUS_SHAPE, 1, 8, "a vector has no powers");
+    refused("V(q) = q.z\nf = V(r)", MOTUS_SHAPE, 1, 10, "1 to 2");
+    refused("V(q) = x q\np = V(2)\nstep p", MOTUS_SHAPE, 3, 6, "p depends on a state or on time");
+    refused("V(q) = q for i = 1..2", MOTUS_SHAPE, 1, 14, "no family");
+    refused("V(q) = sum(q = 1..2: q)\nf = V(x)", MOTUS_SHAPE, 1, 12, "argument");
+    refused("V(a, b, c, d, e, f, g, h, i) = a", MOTUS_LIMIT, 1, 1, "at most 8 arguments");
+    refused("f = W(x)", MOTUS_NAME, 1, 5, "define it: W(…) = …");
+    /* The second call has the nodes of the first, but other indices. */
+    refused("V(i) = m[i]\nf = x sum(i = 1..2: V(i)) + sum(i = 2..3: V(i))", MOTUS_NAME, 1, 10, "m[3] is used here");
+}
+
+/* Forty functions each of which calls the one before twice: the same call is expanded once. */
+static void rule_16_doubling(void **unused)
+{
+    (void)unused;
+    char text[4096] = "x'' = -x\nx(0) = 1\nx'(0) = 0\nlook = f40(x)\nf0(q) = q\n";
+    for (int i = 1; i <= 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "f%d(q) = f%d(q) + f%d(q)\n", i, i - 1, i - 1);
+    assert_true(at_start(text, NULL, 0, "look") == 0x1p40);
+}
+
+/* A function is set as a parameter is. */
+static void rule_16_set(void **unused)
+{
+    (void)unused;
+    const char *text = "V(q) = q^2\nx'' = -V(x)\nx(0) = 3\nx'(0) = 0\nlook = V(x)\n", *other = "V(q) = q^3",
+               *none = "W(q) = q";
+    assert_true(at_start(text, NULL, 0, "look") == 9);
+    assert_true(at_start(text, &other, 1, "look") == 27);
+    motus_system *s = NULL;
+    motus_error err = motus_default_error();
+    assert_int_equal(read_text(text, &none, 1, &s, &err), MOTUS_NAME);
+    assert_non_null(strstr(err.message, "the model has no function W"));
+}
+
+static void rule_17_derivatives(void **unused)
+{
+    (void)unused;
+    const defined e[] = {
+        {"V(q) = q^2/2 + q^4", "diff(V(x), x)", 34},
+        {"V(q) = q^2/2 + q^4", "diff(V(2 x), x)", 2 * (4 + 4 * 64)},
+        {"", "diff(x^2 x'^3, x')", 4 * 27},
+        {"", "diff(x^2 x'^3, x)", 4 * 27},
+        {"", "diff(sin(3 t) x, t)", 6},
+        {"", "diff(x'', x') + diff(x''^2, x'')", -4},
+        {"", "diff(a x^2, a)", 4},
+        {"p = a^2\nq = 2 p + a", "diff(q x, a)", 2 * (4 * 5 + 1)}, /* through what was computed from it */
+        {"", "diff(m[2]^2 m[1], m[2])", 2 * 4 * 3},
+        {"", "diff(g.y^2, g.y)", -20},
+        {"", "diff(|r|^2, r).z", 6},
+        {"", "diff(|r|^2, r.y) + diff(|r|^2, r[1])", 6},
+        {"", "diff(r, r.y).y + diff(r, r.y).x", 1},
+        {"", "diff(x r', x).z", 6},
+        {"", "diff(dot(r, r'), r').y", 2},
+        {"", "diff(s^3, s)", 3 * 49},
+        {"F(q) = diff(q^3, q)", "F(x) + F(10)", 12 + 300},
+        {"F(q) = diff(q^3 x, q)", "F(x)", 24}, /* x beside q is held fixed, though q is x */
+        {"F(q, p) = diff(q^2 p, q)", "F(x, x)", 8},
+        {"F(q) = diff(diff(q^4, q), q)", "F(x)", 48},
+        {"V(q) = q^4\nF(q) = -diff(V(q), q)\nK(q) = diff(F(q), q)", "K(x + 1)", -12 * 9},
+        {"F(q) = diff(|q|^2, q)", "F(2 r).y + F(r').x", 8 + 8},
+        {"F(q) = diff(sum(j = 1..3: j q^2 u[j]), q)", "F(x)", 4 * 140},
+        {"F(q) = diff(q^2, q)", "F(sum(j = 1..3: j x))", 24},
+        {"F(q) = diff(sum(i = 1..2: i q^2), q)", "F(sum(j = 1..3: j x))", 72},
+        {"F(q) = sum(i = 1..2: diff(q^2 i, q))", "F(sum(j = 1..3: j x))", 72},
+        {"c = F(3)\nF(q) = diff(q^2, q)", "c + 0", 6},
+        {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[2])", 2 * 20 - 10 - 30},
+        {"U = sum(i = 0..N: (u[i+1] - u[i])^2/2)", "diff(U, u[0])", -11},
+        {"U = sum(i = 1..N: u[mod(i, N)+1] u[i])", "diff(U, u[1])", 60},
+        {"G[i] = diff(sum(j = 1..4: u[j]^3), u[i]) for i = 1..4", "G[3]", 3 * 900},
+        {"U = sum(i = 1..N-1: (u[i+1] - u[i])^2/2)\nG[i] = diff(U, u[i]) for i = 1..N", "G[4] + 100 G[1]", 10 - 1000},
+        {"U = sum(j = 2..N, j != 3: u[j] u[j-1])\nG[i] = diff(U, u[i]) for i = 1..N", "G[2] + G[3] + G[4]",
+         10 + 40 + 30},
+        {"U = sum(j = 0..N+1, j != 3: u[j]^2)\nG[i] = diff(U, u[i]) for i = 1..N", "G[2] + 1000 G[3]", 40},
+        {"U = sum(j = 1..N, k = 1..N, j != k: u[j] u[k])/2\nG[i] = diff(U, u[i]) for i = 1..N", "G[2]", 80},
+        {"U = sum(j = 0..N: j u[j+1]^2)\nG[i] = diff(U, u[i + 1]) for i = 0..N-1", "G[3]", 3 * 80},
+        {"U = sum(j = 1..N: u[j]^2 u[2])\nG[i] = diff(U, u[i]) for i = 1..N", "G[2]", 3 * 400 + 100 + 900 + 1600},
+        {"U = sum(i = 1..N, j = i+1..N: (u[i] - u[j])^2)", "diff(U, u[1])", 2 * (-10 - 20 - 30)},
+        {"", "diff(exp(x) (x - 2) y, x)", exp(2) * 8},
+        {"", "diff(if(x > 1, x^2, x), x)", 4},
+        {"", "diff(sqrt(x^2 + 5), x)", 2. / 3},
+        {"", "diff(-a/x, x) - diff(a/x^3, x)", 5. / 4 + 15. / 16},
+        {"", "diff(abs(-x) + x^a, x)", 1 + 80},
+        {"", "diff(y, x) + diff(t, x)", 0},
+    };
+    in_given(e, sizeof e / sizeof *e);
+    refused("f = diff(x^2, 2 x)", MOTUS_SHAPE, 1, 15, "2 x is none");
+    refused("f = diff(x^2, pi)", MOTUS_SHAPE, 1, 15, "pi is none");
+    refused("f = diff(E, E)\nE = x^2", MOTUS_SHAPE, 1, 13, "E is a quantity");
+    refused("f = diff(2 r, r)", MOTUS_SHAPE, 1, 5, "matrix");
+    refused("f = diff(x > 0, x)", MOTUS_SHAPE, 1, 10, "condition");
+    refused("f = diff(m[1] x, k)", MOTUS_SHAPE, 1, 5, "a list or an initial value in this expression depends on k");
+    refused("f = diff(x)", MOTUS_SYNTAX, 1, 5, "diff takes 2 arguments");
+    refused("V(i) = diff(m[i] x, i)\nf = V(1)", MOTUS_SHAPE, 1, 15, "an index cannot depend");
+}
+
+/* More cells than sums are shortened for, each within the sum: none is counted twice, or left out. */
+static void rule_17_many_cells(void **unused)
+{
+    (void)unused;
+    char text[8192] = "N = 80\nw[i]'' = -w[i] for i = 1..N\nw[i](0) = i for i = 1..N\nw[i]'(0) = 0 for i = 1..N\n"
+                      "G[i] = diff(U, w[i]) for i = 1..N\nlook = G[7] + 1000 G[80]\nU = sum(j = 1..N: w[j]^2/2";
+    for (int i = 1; i <= 80; i++) snprintf(text + strlen(text), sizeof text - strlen(text), " + w[%d]", i);
+    strcat(text, ")\n");
+    assert_true(at_start(text, NULL, 0, "look") == 87 + 1000 * 160);
+}
+
+/* The equation that a potential gives, as one writes it; it is known to be a gradient, and smooth where the potential
+ * is. */
+static void rule_17_forces(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *potential, *equation;
+        int smooth;
+    } cases[] = {{"k q^2/2 + q^4", "x'' = -(k x + 4 x^3)/m", 1},
+                 {"-k/|q|", "x'' = -k sign(x)/(abs(x)^2 m)", 0},
+                 {"-k/q + k^2/q^2", "x'' = -(k/x^2 - 2 k^2/x^3)/m", 1},
+                 {"4 (1/q^12 - 1/q^6)", "x'' = -4 (6/x^7 - 12/x^13)/m", 1},
+                 {"-g/L cos(q)", "x'' = -g sin(x)/(L m)", 1},
+                 {"hypot(q, 2)", "x'' = -x/(hypot(x, 2) m)", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "g = 10\nL = 2\nk = 2\nm = 3\nV(q) = %s\nx'' = -diff(V(x), x)/m\nx(0) = 1\nx'(0) = 0\n",
+                 cases[i].potential);
+        motus_system *s = given_text(text);
+        motus_analysis a = motus_default_analysis();
+        motus_analysis_of(s, &a);
+        if (strcmp(motus_equation_text(s, 0), cases[i].equation))
+            fail_msg("V(q) = %s: %s", cases[i].potential, motus_equation_text(s, 0));
+        assert_true(a.gradient);
+        assert_int_equal(!!a.smooth, cases[i].smooth);
+        motus_system_destroy(s);
+    }
+    /* The force on one cell of a chain has two terms, though the energy is a sum: of the cell and its neighbours. */
+    motus_system *chain =
+        given_text("N = 4\nV(d) = d^2/2\nU = sum(i = 0..N: V(x[i+1] - x[i]))\nx[i]'' = -diff(U, x[i]) for "
+                   "i = 1..N\nx[0] = 0\nx[N+1] = 0\nx[i](0) = i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\n");
+    assert_string_equal(motus_equation_text(chain, 0), "x[i]'' = -(x[i] - x[i-1] + (x[i] - x[i+1]))");
+    motus_system_destroy(chain);
+    /* The argument's sum has an index of its own within the function's. */
+    motus_system *nested =
+        given_text("F(q) = diff(sum(i = 1..2: i q^2), q)\nx'' = -F(sum(j = 1..3: j x))\nx(0) = 1\nx'(0) = 0\n");
+    assert_string_equal(motus_equation_text(nested, 0), "x'' = -sum(i = 1..2: 2 i sum(j = 1..3: j x))");
+    motus_system_destroy(nested);
+    motus_system *s = given_text("V(q) = -1/|q|\nr'' = -diff(V(r), r)\nr(0) = (1, 0)\nr'(0) = (0, 1)\n");
+    motus_analysis a = motus_default_analysis();
+    motus_analysis_of(s, &a);
+    assert_string_equal(motus_equation_text(s, 1), "r''.y = -r.y/sqrt(r.x^2 + r.y^2)^3");
+    assert_true(a.gradient && a.smooth);
     motus_system_destroy(s);
 }
 
@@ -626,7 +910,9 @@ int main(void)
         cmocka_unit_test(rule_1_names_and_numbers),
         cmocka_unit_test(rule_2_precedence),
         cmocka_unit_test(rule_2_juxtaposition),
+        cmocka_unit_test(rule_2_two_decimal_numbers),
         cmocka_unit_test(rule_3_division),
+        cmocka_unit_test(rule_3_a_factor_after_a_quotient),
         cmocka_unit_test(rule_4_brackets_behind_names),
         cmocka_unit_test(rule_4_refused),
         cmocka_unit_test(rule_5_functions),
@@ -644,6 +930,13 @@ int main(void)
         cmocka_unit_test(rule_14_no_leak_in_derivatives),
         cmocka_unit_test(rule_15_normal_form),
         cmocka_unit_test(rule_15_parameters_do_not_rewrite),
+        cmocka_unit_test(rule_16_functions),
+        cmocka_unit_test(rule_16_refused),
+        cmocka_unit_test(rule_16_doubling),
+        cmocka_unit_test(rule_16_set),
+        cmocka_unit_test(rule_17_derivatives),
+        cmocka_unit_test(rule_17_many_cells),
+        cmocka_unit_test(rule_17_forces),
         cmocka_unit_test(analysis_reads_the_equations),
         cmocka_unit_test(settings_are_read),
         cmocka_unit_test(carets_stand_under_the_fault),

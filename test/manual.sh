@@ -80,7 +80,7 @@ block README.md 1 c >"$place/readme.c"
 judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -lm -ldl -pthread -o "$place/readme" 2>&1)"
 judge "the README's C program gives x(100)" "$(out=$("$place/readme" 2>&1); grep -q '^x(100) = 0\.04778239807187' <<<"$out" || echo "$out")"
 # The manual prints the error as the program does.
-printf "k = 2\nm = 1\nx'' = -1/2 x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
+printf "k = 2\nm = 1\nx'' = -1/2x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
 (cd "$place" && mv wrong.motus spring.motus && NO_COLOR=1 "$motus" check spring.motus 2>&1) | sed 's/[ ]*$//' | grep -v '^$' >"$place/said"
 sed -n '/^spring\.motus:3:/,/^```/p' doc/manual.md | sed '$d' >"$place/told"
 judge "the error that the manual shows is the program's" "$(diff "$place/told" "$place/said")"

@@ -10,7 +10,7 @@ enum { ROOM = 1 << 20 };
  * names of all kinds. */
 static const char world[] =
     "a = 1\nb = 2\nc = 3\nn = 2\nm = [1, 2, 3]\nspeed = 4\nomega0 = 1\nx_max = 1\nGamma = 1\nmu = 1\nm1_max = 1\nθ1 = "
-    "1\nk₁₂ = 1\nvₓ = 1\n_low = 1\nend_ = 1\nalpha_beta = 1\n"
+    "1\nV(q) = q\nW(p, q) = p q\nk₁₂ = 1\nvₓ = 1\n_low = 1\nend_ = 1\nalpha_beta = 1\n"
     "x'' = -x\nx(0) = 1\nx'(0) = 0\ny'' = -y\ny(0) = 1\ny'(0) = 0\nr'' = -r\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\ns'' "
     "= -s\ns(0) = (1, 0, 0)\ns'(0) = (0, 1, 0)\n"
     "q[i]'' = -q[i] for i = 1..3\nq[i](0) = 1 for i = 1..3\nq[i]'(0) = 0 for i = 1..3\n"
@@ -129,6 +129,11 @@ static void expressions(void **state)
         {"a/b/c", "mfrac{mfrac{a|b}|c}"},
         {"a/(b/c)", "mfrac{a|mfrac{b|c}}"},
         {"a b/c", "mfrac{{a~b}|c}"},
+        {"-a/b sin(c)", "−mfrac{a|b}~ sin@{(c)}"},
+        {"1/2 a |r|^2", "mfrac{1|2}~a~msup{{|r|}|2}"},
+        {"a/b (c - 1)", "mfrac{a|b}~{(c−1)}"},
+        {"1/2 a/b c", "mfrac{{mfrac{1|2}~a}|b}~c"},
+        {"a^(1/2 b)", "msup{a|{{(1/2)}~b}}"},
         {"sqrt(a + b)", "msqrt{a+b}"},
         {"sqrt(a)^3", "msup{msqrt{a}|3}"},
         {"cbrt(a + 1)", "mroot{{a+1}|3}"},
@@ -153,6 +158,15 @@ static void expressions(void **state)
         {"min(a, b)^2", "msup{{(min@{(a,b)})}|2}"},
         {"hypot(a, b)", "hypot@{(a,b)}"},
         {"tanh(a)^3 b", "msup{tanh|3}@{(a)}~b"},
+        /* functions of one's own, derivatives */
+        {"V(a)^2 b", "msup{{V@{(a)}}|2}~b"},
+        {"W(a, x)", "{W@{(a,x)}}"},
+        {"V(a/b)", "{V@{(mfrac{a|b})}}"},
+        {"diff(V(a), a)", "mfrac{{∂{V@{(a)}}}|{∂a}}"},
+        {"diff(x, x')", "mfrac{{∂x}|{∂msup{x|′}}}"},
+        {"diff(a^2 b, a) c", "mfrac{∂|{∂a}}{(msup{a|2}~b)}~c"},
+        {"a^diff(V(b), b)", "msup{a|{{∂{V@{(b)}}}/{∂b}}}"},
+        {"diff(V(a), a)^2", "msup{{(mfrac{{∂{V@{(a)}}}|{∂a}})}|2}"},
         /* vectors and lists */
         {"(a, -b, 0)", "{(a,−b,0)}"},
         {"[1, a]", "{[1,a]}"},
@@ -205,6 +219,7 @@ static void statements(void **state)
         {"g[i, k]'' = 0 for i = 1..2, k = n..3\ng[i, k](0) = 0 for i = 1..2, k = n..3\ng[i, k]'(0) = 0 for i = 1..1, k "
          "= n..3\ng[2, k]'(0) = 1 for k = n..3",
          "{msubsup{g|{2,k}|′}@{(0)}}=1 {for_k=n,…,3}"},
+        {"F(p, q) = p + q", "{F@{(p,q)}}=p+q"},
         {"step pi/1000", "step_mfrac{π|1000}"},
         {"every 10 steps", "every_10_steps"},
         {"every 0.1", "every_0.1"},
@@ -235,13 +250,14 @@ static void kinds(void **state)
                     {MOTUS_STATEMENT_FIRST_ORDER, 14, "fed", "msup{fed|′}=x"},
                     {MOTUS_STATEMENT_START, 15, "fed", "{fed@{(0)}}=0"},
                     {MOTUS_STATEMENT_SETTING, 16, "until", "until_1"},
-                    {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"}};
+                    {MOTUS_STATEMENT_SETTING, 17, "method", "method_verlet"},
+                    {MOTUS_STATEMENT_FUNCTION, 18, "F", "{F@{(t)}}=t"}};
     static char out[ROOM];
     motus_statement one = motus_default_statement();
     motus_system *s = given_text(
         "# a comment\nk = 1\n\nx'' = -k x\nx(0) = 1\nx'(0) = 0\ninvariant energy = x'^2/2 + x^2/2\nv =\n x'\n"
         "u[i]'' = u[i+1] - u[i] for i = 1..1\nu[2] = sin(t)\nu[i](0) = 0 for i = 1..1\nu[i]'(0) = 0 for i = 1..1\n"
-        "fed' = x\nfed(0) = 0\nuntil 1\nmethod verlet\n");
+        "fed' = x\nfed(0) = 0\nuntil 1\nmethod verlet\nF(t) = t\n");
     assert_int_equal(motus_statement_count(s), sizeof expected / sizeof *expected);
     for (size_t k = 0; k < motus_statement_count(s); k++) {
         assert_int_equal(motus_statement_at(s, k, &one), MOTUS_OK);

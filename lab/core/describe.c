@@ -68,8 +68,7 @@ static void describe_parameters(json *j, const motus_system *s)
     json_close(j, ']');
 }
 
-/* What a model calls its method, by the method's own name; what there is not, and what has arguments, as it is
- * written. */
+/* What a model calls its method, by the method's own name; what has arguments, as it is written. */
 static const char *method_of(const motus_settings *settings)
 {
     const motus_method *found;
@@ -86,7 +85,7 @@ static void describe_statements(json *j, motus_system *s)
         [MOTUS_STATEMENT_PARAMETER] = "parameter", [MOTUS_STATEMENT_QUANTITY] = "quantity",
         [MOTUS_STATEMENT_START] = "start",         [MOTUS_STATEMENT_BOUNDARY] = "boundary",
         [MOTUS_STATEMENT_EXACT] = "exact",         [MOTUS_STATEMENT_INVARIANT] = "invariant",
-        [MOTUS_STATEMENT_SETTING] = "setting",
+        [MOTUS_STATEMENT_SETTING] = "setting",     [MOTUS_STATEMENT_FUNCTION] = "function",
     };
     json_open(j, "statements", '[');
     for (size_t k = 0; k < motus_statement_count(s); k++) {

@@ -20,7 +20,7 @@ export function math(source: string): Element | null {
 }
 
 /** Which statements are the equation itself; the rest waits behind a fold. */
-const leading = new Set(['motion', 'first-order', 'exact']);
+const leading = new Set(['motion', 'first-order', 'exact', 'function']);
 
 export function typesetView(store: LiveStore): HTMLElement {
   const equations = el('div', { class: 'equations' }), others = el('div', { class: 'equations' });

@@ -4,7 +4,7 @@
  * nodes are identical; node 0 is the constant +0. After a failure (memory, GRAPH_NODES_MAX) constructors return node
  * 0 and the caller sees arena->failed or too_large.
  */
-#include "lang/graph/graph.h"
+#include "lang/graph/graph_walk.h"
 
 #include <string.h>
 
@@ -263,6 +263,7 @@ node graph_op(graph *g, operation op, node a, node b, node c)
     a = operand[0], b = operand[1], c = operand[2];
     if (constant) return graph_const(g, operation_value(op, g->nodes[a].value, g->nodes[b].value, g->nodes[c].value));
     node out;
+    if (g->tidy && !g->arena->failed && !g->too_large && graph_tidied(g, op, a, b, &out)) return out;
     if (g->simplify && !g->arena->failed && !g->too_large && simplified(g, op, a, b, c, &out)) return out;
     return share(g, (graph_node){.op = (uint8_t)op, .deps = (uint16_t)deps, .a = a, .b = b, .c = c}, NULL, NULL);
 }

@@ -85,6 +85,7 @@ typedef struct graph {
     uint32_t table_size; /* hash-consing */
     uint32_t *place;     /* scratch of graph_order */
     bool simplify;       /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
+    bool tidy;           /* like terms and powers are joined: on while the user's derivatives are built */
     bool too_large;      /* more than GRAPH_NODES_MAX: constructors return node 0 */
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };
@@ -113,7 +114,7 @@ unsigned graph_deps(const graph *, node);
 int graph_degree(graph *, node, unsigned deps);
 /* The first node, if any, that is not smooth (ABS MIN MAX FLOOR MOD SIGN SELECT, a comparison); else 0. */
 node graph_kink(graph *, node);
-/* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD) as a node; all else follows by the rules of
+/* Derivative: `seed` gives the derivative of a leaf (TIME, LOAD, PARAM) as a node; all else follows by the rules of
  * calculus. */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);
 node graph_derivative(graph *, node, graph_seed, void *ctx);
@@ -125,6 +126,11 @@ typedef struct graph_shift {
 } graph_shift;
 node graph_seed_direction(graph *, node leaf, void *graph_shift_ctx);
 node graph_seed_time(graph *, node leaf, void *unused); /* d/dt where only t moves */
+/* The node with other nodes in place of some of its loads, indices and sums: `with` gives the one for each at a level
+ * (inside a sum that opens level l it is l + 1), or itself. Only those that depend on something in `deps` are asked
+ * for. */
+typedef node (*graph_substitute)(graph *, node, int level, void *ctx);
+node graph_replace(graph *, node, unsigned deps, int level, graph_substitute with, void *ctx);
 /* Leaves LOAD of the given space that the node can reach: calls visit for each distinct reference, once for every
  * nest of sums around it. sums[k] is the range of level first_level + k, k < inside. */
 void graph_loads(graph *, node, space,

@@ -63,7 +63,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     /* Leaves first: a seed may walk the graph itself, which overwrites `place`; the rules need it. */
     for (uint32_t k = 0; d && k < w.count; k++) {
         uint8_t op = g->nodes[w.nodes[k]].op;
-        if (op == OP_TIME || op == OP_LOAD) d[k] = seed(g, w.nodes[k], ctx);
+        if (op == OP_TIME || op == OP_LOAD || op == OP_PARAM) d[k] = seed(g, w.nodes[k], ctx);
     }
     bool before = g->simplify;
     g->simplify = true;
@@ -79,7 +79,8 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
         if (n.op == OP_SUM)
             d[k] = dn[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, dn[0]) : 0;
         else if (dn[0] || dn[1] || dn[2])
-            d[k] = by_rule(g, &n, &(chain){n.a, n.b, n.c, dn[0], dn[1], dn[2], w.nodes[k]});
+            if (!g->tidy || !graph_tidy_slope(g, &n, w.nodes[k], dn[0], dn[1], &d[k]))
+                d[k] = by_rule(g, &n, &(chain){n.a, n.b, n.c, dn[0], dn[1], dn[2], w.nodes[k]});
         if (g->place != place) graph_order_again(g, &w);
     }
     g->simplify = before;

@@ -1,4 +1,4 @@
-/* A node as text in the language, with as few brackets as the grammar allows.
+/* A node as text in the language, with as few brackets as the grammar allows, but for a quotient before a factor.
  *
  * Invariant: the text reads back as a node of the same value, bit for bit, except that shared nodes are written at
  * every use (and so may be fused otherwise). Signs may move, x + (-2 y) is written x - 2 y, and chains of
@@ -272,7 +272,7 @@ static void raise(printer *p, power w)
     then(p, w.base, T_FACTOR);
 }
 
-/* A quotient on the left gets brackets: the parser refuses a quotient that a factor follows without a sign. */
+/* A quotient on the left gets brackets, which the grammar does not need: they show what is divided by what. */
 static void product(printer *p, node a, node b, bool without_minus)
 {
     power whole = power_of(p->g, a, b, 0);

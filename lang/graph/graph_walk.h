@@ -22,4 +22,10 @@ static inline bool graph_reached(const graph *g, const graph_walk *w, node n)
     return g->place[n] < w->count && w->nodes[g->place[n]] == n;
 }
 
+/* graph_tidy.c: the node that this operation is by like terms and powers; false: it stays what it is. */
+bool graph_tidied(graph *, operation, node a, node b, node *out);
+/* The derivative of a root, whose kink at 0 has no slope here, as it is where a force is a gradient; false: the row of
+ * operations.def says it. */
+bool graph_tidy_slope(graph *, const graph_node *, node self, node da, node db, node *out);
+
 #endif

@@ -49,17 +49,17 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
-    if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
+    va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
     if (va.count && vb.count) {
         COMPLAIN(l, t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, a->at, x), quote(l, b->at, y), x, y);
         return wrong(l);
     }
     if (t->blank_product) {
-        const tree *name = a->kind == TREE_MULTIPLY ? a->item[1] : a;
+        const tree *name = a->kind == TREE_MULTIPLY || a->kind == TREE_DIVIDE ? a->item[1] : a;
         symbol s = symbols_find(l->model, name->name);
-        if (s.state && !lower_find_index(l, name->name) &&
-            !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS))) {
+        if (s.state && !lower_find_index(l, name->name) && !lower_find_argument(l, name->name) &&
+            !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS | DEP_D))) {
             quote(l, name->at, x);
             quote(l, b->at, y);
             source_complain(&l->model->source, MOTUS_SYNTAX, (span){t->at.text, name->at.from, b->at.to},
@@ -162,6 +162,7 @@ static value lower_call(lowering *l, const tree *t)
     value v[3] = {{0}};
     uint32_t n = t->count;
     char shape[40], x[80];
+    if (t->operation == CALL_DIFF) return lower_diff(l, t);
     for (uint32_t i = 0; i < n && i < 3; i++) {
         v[i] = lower_expression(l, t->item[i]);
         if (failed(l)) return wrong(l);
@@ -302,12 +303,14 @@ static value lower_right(lowering *l, const tree *t, value left)
     }
     value right = lower_expression(l, b);
     if (failed(l)) return wrong(l);
-    switch (t->kind) {
-    case TREE_ADD:
-    case TREE_SUBTRACT: return lower_sum_of_two(l, t, a, left, b, right);
-    case TREE_MULTIPLY: return lower_product(l, t, a, left, b, right);
-    default: return lower_quotient(l, t, a, left, b, right);
-    }
+    if (t->kind == TREE_ADD || t->kind == TREE_SUBTRACT) return lower_sum_of_two(l, t, a, left, b, right);
+    const bool derived = left.derived || right.derived;
+    if (derived) lower_tidy(l, true);
+    value v =
+        t->kind == TREE_MULTIPLY ? lower_product(l, t, a, left, b, right) : lower_quotient(l, t, a, left, b, right);
+    v.derived = derived;
+    lower_tidy(l, false);
+    return v;
 }
 
 static bool operator_kind(tree_kind kind)
@@ -340,7 +343,7 @@ static value lower_any(lowering *l, const tree *t)
     }
     if (++l->model->lowered > MODEL_LOWERED_MAX) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at,
-                        "the quantities use one another too often: more than %u steps to read the model",
+                        "quantities and functions use one another too often: more than %u steps to read the model",
                         MODEL_LOWERED_MAX);
         return wrong(l);
     }
@@ -349,13 +352,19 @@ static value lower_any(lowering *l, const tree *t)
     switch (t->kind) {
     case TREE_NUMBER: return scalar(l, graph_const(g, t->number));
     case TREE_NAME: return lower_name(l, t);
-    case TREE_START: return lower_initial(l, t);
+    case TREE_APPLY: {
+        model_function *function = symbols_find(l->model, t->item[0]->name).function;
+        return function ? lower_function(l, t, function) : lower_initial(l, t);
+    }
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:
         v = lower_expression(l, t->item[0]);
         if (!want_number(l, v, t->item[0])) return wrong(l);
         value r = vector(l, v.count);
+        r.derived = v.derived;
+        lower_tidy(l, v.derived);
         for (int k = 0; k < (r.count ? r.count : 1); k++) r.item[k] = graph_op(g, OP_NEG, v.item[k], 0, 0);
+        lower_tidy(l, false);
         return r;
     case TREE_POWER: return lower_power(l, t);
     case TREE_COMPARE: {

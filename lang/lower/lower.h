@@ -12,8 +12,8 @@
 
 typedef struct value {
     node *item;
-    int count; /* 0: a scalar, item[0] */
-    bool boolean;
+    int count;             /* 0: a scalar, item[0] */
+    bool boolean, derived; /* derived: made by diff, see lower_tidy */
 } value;
 
 /* A name of an index that may be used here: as a subscript, as a number, and its range. */
@@ -25,6 +25,15 @@ typedef struct index_name {
     int64_t first, last;
 } index_name;
 
+/* An argument of a function that is being expanded. Its expression is lowered where it is used, because sums inside the
+ * function open levels of their own. */
+typedef struct argument {
+    const char *name;
+    const tree *tree;            /* NULL: it is `known` at every level */
+    struct lowering *caller;     /* whose names the expression may use */
+    value known[MAX_LEVELS + 1]; /* its nodes by the level of their use; item NULL: not lowered yet */
+} argument;
+
 typedef enum lower_place { PLACE_CONSTANT, PLACE_EXACT, PLACE_EQUATION, PLACE_BOUNDARY, PLACE_QUANTITY } lower_place;
 
 typedef struct lowering {
@@ -33,6 +42,8 @@ typedef struct lowering {
     const char *what; /* "a parameter", "an initial value", "a boundary line": for messages */
     index_name names[2 * MAX_LEVELS];
     int name_count, levels;
+    argument *arguments; /* of the function whose body is lowered; its names hide all others */
+    uint32_t argument_count;
     int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* the range of each level */
     double terms; /* the number of evaluations of the expression in one evaluation of the model */
     int chain;

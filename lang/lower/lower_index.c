@@ -93,6 +93,12 @@ static void take_constant(lowering *l, const tree *t, int sign, affine *a)
 static void take_apart(lowering *l, const tree *t, int sign, affine *a)
 {
     while (!failed(l)) {
+        const argument *hides = t->kind == TREE_NAME ? lower_find_argument(l, t->name) : NULL;
+        if (hides && hides->tree && !t->index_count && !t->primes) { /* an index may be handed over */
+            l = hides->caller;
+            t = hides->tree;
+            continue;
+        }
         if (t->kind == TREE_ADD || t->kind == TREE_SUBTRACT) {
             take_apart(l, t->item[1], t->kind == TREE_ADD ? sign : -sign, a);
             t = t->item[0];
@@ -168,6 +174,20 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     return !failed(l);
 }
 
+node lower_subscript_number(lowering *l, const subscript *s)
+{
+    graph *g = l->model->graph;
+    const node constant = s->slot >= 0 ? l->model->int_nodes[s->slot] : 0;
+    node number = s->level >= 0 ? graph_index(g, s->level) : graph_const(g, 0);
+    if (s->literal)
+        number = s->level >= 0 || constant ? binary(l, OP_ADD, number, graph_const(g, s->literal))
+                                           : graph_const(g, s->literal);
+    if (constant) number = s->level >= 0 || s->literal ? binary(l, OP_ADD, number, constant) : constant;
+    if (s->modulus < 0) return number;
+    node one = graph_const(g, 1);
+    return binary(l, OP_ADD, binary(l, OP_MOD, number, l->model->int_nodes[s->modulus]), one);
+}
+
 bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, int64_t last)
 {
     if (lower_find_index(l, loop->name)) {
@@ -175,8 +195,13 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
         HINT(l, "take another letter for the inner one");
         return false;
     }
+    if (lower_find_argument(l, loop->name)) {
+        COMPLAIN(l, loop->at, "%s is an argument of the function and cannot be an index", loop->name);
+        HINT(l, "take another letter for the index");
+        return false;
+    }
     symbol s = symbols_find(l->model, loop->name);
-    if (s.state || s.definition) {
+    if (s.state || s.definition || s.function) {
         source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index",
                         loop->name);
         HINT(l, "take another letter for the index");
@@ -223,12 +248,6 @@ bool lower_target(lowering *l, const statement *s, output *out)
         }
         if (which < 0) {
             int64_t first, last;
-            if (t->kind == TREE_NAME && !symbols_find(l->model, t->name).definition &&
-                !symbols_find(l->model, t->name).state) {
-                source_complain(&l->model->source, MOTUS_NAME, t->at, "the index %s has no range", t->name);
-                HINT(l, "add: for %s = 1..N", t->name);
-                return false;
-            }
             for (uint32_t k = 0; k < s->loop_count; k++)
                 if (t->kind != TREE_NUMBER && t->count > 0 && t->item[0]->kind == TREE_NAME && t->item[0]->name &&
                     !strcmp(t->item[0]->name, s->loops[k].name)) {

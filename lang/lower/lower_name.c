@@ -176,6 +176,7 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
     }
     lowering inner = *l;
     inner.name_count = 0;
+    inner.argument_count = 0;
     inner.chain++;
     if (inner.chain > MAX_LEVELS * 4) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at, "families of quantities use one another too deeply");
@@ -192,18 +193,8 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
                             (long long)d->last[k]);
             return wrong(l);
         }
-        graph *g = l->model->graph;
         n->constant = n->at.slot >= 0 ? l->model->int_nodes[n->at.slot] : 0;
-        n->number = n->at.level >= 0 ? graph_index(g, n->at.level) : graph_const(g, 0);
-        if (n->at.literal)
-            n->number = n->at.level >= 0 || n->constant ? binary(l, OP_ADD, n->number, graph_const(g, n->at.literal))
-                                                        : graph_const(g, n->at.literal);
-        if (n->constant)
-            n->number = n->at.level >= 0 || n->at.literal ? binary(l, OP_ADD, n->number, n->constant) : n->constant;
-        if (n->at.modulus >= 0) {
-            node one = graph_const(g, 1);
-            n->number = binary(l, OP_ADD, binary(l, OP_MOD, n->number, l->model->int_nodes[n->at.modulus]), one);
-        }
+        n->number = lower_subscript_number(l, &n->at);
         const tree *name = s->index[k];
         if (name->kind == TREE_NAME) {
             n->name = name->name;
@@ -243,6 +234,7 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
     if (d->kind != DEFINED_PARAMETER) {
         lowering inner = *l;
         inner.name_count = 0;
+        inner.argument_count = 0;
         inner.chain++;
         if (!d->known)
             d->known = arena_take(l->model->arena, (PLACE_QUANTITY + 1) * (MAX_LEVELS + 1) * sizeof *d->known);
@@ -274,8 +266,26 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
     return t->index_count == 1 ? lower_component(l, v, t->item[0], t) : v;
 }
 
+static value lower_use(lowering *l, const tree *t, argument *a)
+{
+    if (t->primes) {
+        COMPLAIN(l, t->at, "%s is an argument and takes no primes", t->name);
+        HINT(l, "hand the velocity over as an argument of its own");
+        return wrong(l);
+    }
+    if (t->index_count > 1) {
+        COMPLAIN(l, t->at, "%s is an argument and takes no such index", t->name);
+        return wrong(l);
+    }
+    value v = lower_argument(l, a);
+    return t->index_count == 1 && !failed(l) ? lower_component(l, v, t->item[0], t) : v;
+}
+
+/* Every name is defined: names.c has seen to that. */
 value lower_name(lowering *l, const tree *t)
 {
+    argument *hides = lower_find_argument(l, t->name);
+    if (hides) return lower_use(l, t, hides);
     const index_name *index = lower_find_index(l, t->name);
     if (index) {
         if (t->primes || t->index_count) COMPLAIN(l, t->at, "%s is an index: it takes no primes and no index", t->name);
@@ -293,14 +303,6 @@ value lower_name(lowering *l, const tree *t)
     symbol s = symbols_find(l->model, t->name);
     if (s.state) return lower_state(l, t, s.state);
     if (s.definition) return lower_definition(l, t, s.definition);
-    source_complain(&l->model->source, MOTUS_NAME, t->at, "%s is not defined", t->name);
-    const char *names[2 * MAX_LEVELS];
-    for (int i = 0; i < l->name_count; i++) names[i] = l->names[i].name;
-    size_t n = strlen(t->name);
-    if (n == 2 && t->name[0] == 'd') HINT(l, "derivatives are written with primes: %s'", t->name + 1);
-    if (!strcmp(t->name, "e")) HINT(l, "for the exponential write exp(…)");
-    if (!strcmp(t->name, "ln")) HINT(l, "the natural logarithm is log(…)");
-    symbols_suggest(l->model, t->name, names, (uint32_t)l->name_count);
     return wrong(l);
 }
 
@@ -309,32 +311,7 @@ value lower_initial(lowering *l, const tree *t)
 {
     const tree *name = t->item[0], *bracket = t->item[1];
     symbol s = symbols_find(l->model, name->name);
-    char a[80], b[80];
-    if (!s.state) {
-        span at = {t->at.text, t->at.from, t->at.to};
-        if (!strcmp(name->name, "ln")) {
-            source_complain(&l->model->source, MOTUS_NAME, at, "ln is not a function");
-            HINT(l, "the natural logarithm is log(…)");
-        } else if (s.definition || lower_find_index(l, name->name) || !strcmp(name->name, "t") ||
-                   !strcmp(name->name, "pi")) {
-            source_complain(&l->model->source, MOTUS_SYNTAX, at, "%s is not a function", name->name);
-            quote(l, bracket->at, b);
-            if (bracket->bracketed)
-                HINT(l, "write %s*%s or %s %s", name->name, b, name->name, b);
-            else
-                HINT(l, "write %s*(%s) or %s (%s)", name->name, b, name->name, b);
-        } else {
-            source_complain(&l->model->source, MOTUS_NAME, at, "%s is neither a function nor defined", name->name);
-            if (bracket->kind == TREE_NAME && !strcmp(bracket->name, "t"))
-                HINT(l, "define it by %s = …, which may use t, and write %s alone", name->name, name->name);
-            static const char *const functions[] = {"sin",   "cos",  "tan",   "asin", "acos",  "atan", "atan2",
-                                                    "sinh",  "cosh", "tanh",  "exp",  "log",   "sqrt", "cbrt",
-                                                    "hypot", "abs",  "min",   "max",  "floor", "mod",  "sign",
-                                                    "erf",   "dot",  "cross", "if",   "sum"};
-            symbols_suggest(l->model, name->name, functions, sizeof functions / sizeof *functions);
-        }
-        return wrong(l);
-    }
+    char a[80];
     if (name->primes >= s.state->order) {
         COMPLAIN(l, t->at, "%s at the start follows from its equation; it is not an initial value",
                  quote(l, name->at, a));

@@ -44,6 +44,9 @@ static inline value vector(lowering *l, int count)
 
 static inline value wrong(lowering *l) { return scalar(l, 0); }
 
+/* What is made of a derivative may be simplified as the derivative is. */
+static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify = l->model->graph->tidy = on; }
+
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
 
 static inline const char *shape_name(value v, char out[40])
@@ -66,6 +69,17 @@ static inline bool want_number(lowering *l, value v, const tree *t)
 const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
 bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
+
+/* The value of a subscript as a node. */
+node lower_subscript_number(lowering *, const subscript *);
+
+/* lower_function.c: functions of one's own, expanded where they are called */
+argument *lower_find_argument(const lowering *, const char *name);
+value lower_argument(lowering *, argument *);
+value lower_function(lowering *, const tree *call, model_function *);
+
+/* lower_diff.c */
+value lower_diff(lowering *, const tree *call);
 
 /* lower_name.c: names, and initial values x(0) */
 value lower_name(lowering *, const tree *);

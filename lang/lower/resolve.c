@@ -180,7 +180,7 @@ bool resolve_start_time(model *m)
         bool from = s->kind == STATEMENT_FROM;
         if (!from && s->kind != STATEMENT_START) continue;
         double at;
-        const tree *t = from ? s->value : s->start_at;
+        const tree *t = from ? s->value : s->applied->item[1];
         m->start_known = true; /* an initial value in this expression is then compared with NaN */
         if (!any) m->start = NAN;
         if (!resolve_constant(m, t, "the start", &at)) return false;

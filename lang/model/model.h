@@ -16,7 +16,8 @@ enum {
     MODEL_NUMBERS_MAX = 50000000, /* state, all components and boundary cells */
     MODEL_LIST_MAX = 50000000,    /* numbers in parameters' lists and families */
     MODEL_COMPONENTS_MAX = 4096,  /* length of a vector */
-    MODEL_CHAIN_MAX = 400,        /* definitions each of which uses the next */
+    MODEL_CHAIN_MAX = 400,        /* definitions or functions each of which uses the next */
+    MODEL_ARGUMENTS_MAX = 8,      /* of a function */
     MODEL_DEPTH_MAX = 2000        /* brackets and definitions within one another, together: it bounds the C stack */
 };
 #define MODEL_LOWERED_MAX 50000000u  /* trees lowered, those of a quantity at each of its uses */
@@ -88,6 +89,15 @@ typedef struct model_definition {
     size_t numbers;
 } model_definition;
 
+/* A function of one's own: its statement, which every call lowers with its arguments. */
+typedef struct model_function {
+    const char *name;
+    const statement *statement;
+    uint8_t progress;       /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
+    bool moves;             /* its body uses a state or t, besides its arguments */
+    struct expansion *last; /* lower_function.c: the last call; NULL: none */
+} model_function;
+
 typedef enum block { BLOCK_X, BLOCK_V, BLOCK_A, BLOCK_DX, BLOCK_DV } block;
 
 typedef struct model {
@@ -108,6 +118,8 @@ typedef struct model {
     uint8_t *overridden;       /* vary.h: by place of the pool, 1: set by motus_system_set; NULL: none is */
     struct exact_check *check; /* analysis.c: of the exact line; NULL: there is none */
     double constant_terms;     /* of sums in constants so far */
+    uint16_t leaf_array;       /* lower_diff.c: the array of the leaves of its own, 0 none */
+    int32_t leaf_count;        /* how many there are */
     int depth;                 /* present depth of expressions within expressions */
     int start_depth;           /* present depth of initial values that use one another */
     uint64_t lowered;          /* trees lowered so far, which bounds the cost of quantities of quantities */
@@ -115,6 +127,8 @@ typedef struct model {
     uint32_t state_count;
     model_definition *definitions;
     uint32_t definition_count;
+    model_function *functions;
+    uint32_t function_count;
     uint32_t *symbols;
     uint32_t symbol_size;          /* hash table: name → state or definition */
     uint16_t block[5], block_size; /* array numbers of the X, V, A, DX, DV blocks */

@@ -14,12 +14,17 @@ static uint32_t hash(const char *name)
     return h;
 }
 
+enum { DEFINITION, STATE, FUNCTION, KINDS };
+
 static const char *name_of(const model *m, uint32_t entry)
 {
-    return entry & 1 ? m->states[entry / 2].name : m->definitions[entry / 2].name;
+    const uint32_t k = entry / KINDS;
+    return entry % KINDS == STATE        ? m->states[k].name
+           : entry % KINDS == DEFINITION ? m->definitions[k].name
+                                         : m->functions[k].name;
 }
 
-/* The entry's place in the table; entries are 2 k + is_state + 1, 0 is empty. */
+/* The entry's place in the table; entries are 3 k + kind + 1, 0 is empty. */
 static uint32_t *place(const model *m, const char *name)
 {
     uint32_t i = hash(name) & (m->symbol_size - 1);
@@ -32,13 +37,18 @@ symbol symbols_find(const model *m, const char *name)
     uint32_t entry = *place(m, name);
     if (!entry) return (symbol){0};
     entry--;
-    return entry & 1 ? (symbol){.state = &m->states[entry / 2]} : (symbol){.definition = &m->definitions[entry / 2]};
+    const uint32_t k = entry / KINDS;
+    return entry % KINDS == STATE        ? (symbol){.state = &m->states[k]}
+           : entry % KINDS == DEFINITION ? (symbol){.definition = &m->definitions[k]}
+                                         : (symbol){.function = &m->functions[k]};
 }
 
 void symbols_enter(model *m, const char *name, symbol s)
 {
-    size_t k = s.state ? (size_t)(s.state - m->states) : (size_t)(s.definition - m->definitions);
-    *place(m, name) = (uint32_t)(2 * k) + (s.state != NULL) + 1;
+    size_t k = s.state        ? (size_t)(s.state - m->states)
+               : s.definition ? (size_t)(s.definition - m->definitions)
+                              : (size_t)(s.function - m->functions);
+    *place(m, name) = (uint32_t)(KINDS * k) + (s.state ? STATE : s.definition ? DEFINITION : FUNCTION) + 1;
 }
 
 static bool known(const model *m, const char *name, const char *const *more, uint32_t more_count)
@@ -46,7 +56,7 @@ static bool known(const model *m, const char *name, const char *const *more, uin
     for (uint32_t i = 0; i < more_count; i++)
         if (!strcmp(name, more[i])) return true;
     symbol s = symbols_find(m, name);
-    return s.state || s.definition || !strcmp(name, "t") || !strcmp(name, "pi");
+    return s.state || s.definition || s.function || !strcmp(name, "t") || !strcmp(name, "pi");
 }
 
 /* mg where m and g are names: the product needs a blank [1]. */
@@ -64,16 +74,18 @@ static bool product_of_two(model *m, const char *name, const char *const *more, 
     return false;
 }
 
-void symbols_suggest(model *m, const char *name, const char *const *more, uint32_t more_count)
+static void suggest(model *m, const char *name, const char *const *more, uint32_t more_count, const char *bracket)
 {
     const char *best = NULL;
     int least = 7;
-    for (uint32_t i = 0; i < more_count + m->state_count + m->definition_count; i++) {
-        const char *other = i < more_count                    ? more[i]
-                            : i - more_count < m->state_count ? m->states[i - more_count].name
-                                                              : m->definitions[i - more_count - m->state_count].name;
-        if (near_nearer(name, other, &least)) best = other;
-    }
+    for (uint32_t i = 0; i < more_count; i++)
+        if (near_nearer(name, more[i], &least)) best = more[i];
+    for (uint32_t i = 0; i < m->state_count; i++)
+        if (near_nearer(name, m->states[i].name, &least)) best = m->states[i].name;
+    for (uint32_t i = 0; i < m->definition_count; i++)
+        if (near_nearer(name, m->definitions[i].name, &least)) best = m->definitions[i].name;
+    for (uint32_t i = 0; i < m->function_count; i++)
+        if (near_nearer(name, m->functions[i].name, &least)) best = m->functions[i].name;
     char codes[64];
     if (best && near_look_alike(name, best, codes, sizeof codes))
         source_hint(&m->source, "it looks like %s, which is defined, but is another character (%s)", best, codes);
@@ -86,5 +98,18 @@ void symbols_suggest(model *m, const char *name, const char *const *more, uint32
     else if (words_function(name) >= 0)
         source_hint(&m->source, "write %s(…)", name);
     else
-        source_hint(&m->source, "define it: %s = …", name);
+        source_hint(&m->source, "define it: %s%s = …", name, bracket);
+}
+
+void symbols_suggest(model *m, const char *name, const char *const *more, uint32_t more_count)
+{
+    suggest(m, name, more, more_count, "");
+}
+
+void symbols_suggest_call(model *m, const char *name)
+{
+    static const char *const known_functions[] = {
+        "sin",   "cos", "tan", "asin", "acos",  "atan", "atan2", "sinh", "cosh", "tanh",  "exp", "log", "sqrt", "cbrt",
+        "hypot", "abs", "min", "max",  "floor", "mod",  "sign",  "erf",  "dot",  "cross", "if",  "sum", "diff"};
+    suggest(m, name, known_functions, sizeof known_functions / sizeof *known_functions, "(…)");
 }

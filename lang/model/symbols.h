@@ -1,4 +1,4 @@
-/* The symbol table: the state or definition of a name, and hints for an unknown name. */
+/* The symbol table: the state, definition or function of a name, and hints for an unknown name. */
 #ifndef LANG_MODEL_SYMBOLS_H
 #define LANG_MODEL_SYMBOLS_H
 
@@ -8,6 +8,7 @@
 typedef struct symbol {
     model_state *state;
     model_definition *definition;
+    model_function *function;
 } symbol;
 
 symbol symbols_find(const model *, const char *name);
@@ -15,5 +16,7 @@ symbol symbols_find(const model *, const char *name);
 void symbols_enter(model *, const char *name, symbol);
 /* Adds the hint to the complaint that a name is not defined; more: other names that may stand there. */
 void symbols_suggest(model *, const char *name, const char *const *more, uint32_t more_count);
+/* The same for a name with a bracket behind it. */
+void symbols_suggest_call(model *, const char *name);
 
 #endif

@@ -107,6 +107,18 @@ bool vary_decides(const model *m, size_t first, size_t count, const motus_alloca
     return true;
 }
 
+uint8_t *vary_follows(model *m, const array *of)
+{
+    vary v = {.model = m, .affected = arena_take(m->arena, m->pool_count + 1)};
+    uint8_t *changed = arena_room(m->arena, m->graph->count + 1);
+    if (m->arena->failed || !changed) return NULL;
+    size_t count = 1;
+    for (int d = 0; d < of->dims; d++) count *= (size_t)(of->last[d] - of->first[d] + 1);
+    memset(v.affected + of->base, 1, count);
+    follow(&v, changed);
+    return v.affected;
+}
+
 static motus_status refuse(const model *m, const uint8_t *changed, bool own_step, bool own_until, motus_error *err)
 {
     for (uint32_t k = 0; k < m->log.frozen_count; k++) {

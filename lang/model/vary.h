@@ -24,6 +24,9 @@ motus_status vary_create(model *, const size_t *places, size_t count, bool own_s
 /* What a change of `count` places from `first` on decides besides numbers: *what is "a size or an index", "step",
  * "until" … (the first that was read), or NULL for nothing. The model is not changed. False: no memory. */
 bool vary_decides(const model *, size_t first, size_t count, const motus_allocator *, const char **what);
+/* A byte for each place of the pool: whether its number follows from those of the array. In the model's arena; NULL: no
+ * memory. */
+uint8_t *vary_follows(model *, const array *);
 /* Marks numbers [first, first + count) of the pool as set (yes), so that no line computes them, or as computed by the
  * model's lines again: all numbers of a parameter or of a state's x(0) or x'(0), boundary cells included. It applies to
  * varies made before, too. False: no memory. */

@@ -1,15 +1,42 @@
-/* Divides definitions into parameters and quantities, which depend on a state or on time; then checks that lines about
- * states have one. */
+/* Divides definitions into parameters and quantities, which depend on a state or on time, and finds circles of
+ * definitions and of functions; then checks that lines about states have one. */
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
 #include "lang/model/symbols.h"
 
+#include <stdio.h>
 #include <string.h>
 
-static bool moves(model *m, const tree *t, int chain, bool *yes);
+/* Whose right side is read, and who needed it. */
+typedef struct reader {
+    const char *name;
+    const tree *applied; /* of a function: its arguments, which hide other names */
+    const struct reader *up;
+    int chain;
+} reader;
 
-static bool definition_moves(model *m, model_definition *d, span at, int chain, bool *yes)
+static bool moves(model *m, const tree *t, const reader *by, bool *yes);
+
+/* a → b → a */
+static void name_circle(char *out, size_t size, const reader *by, const char *name)
+{
+    const reader *steps[8];
+    size_t count = 0, n = (size_t)snprintf(out, size, "%s", name);
+    for (; by && strcmp(by->name, name); by = by->up)
+        if (count < sizeof steps / sizeof *steps) steps[count++] = by;
+    while (count > 0 && n < size) n += (size_t)snprintf(out + n, size - n, " → %s", steps[--count]->name);
+    if (n < size) snprintf(out + n, size - n, " → %s", name);
+}
+
+static bool within_chain(model *m, span at, const reader *by)
+{
+    if (!by || by->chain < MODEL_CHAIN_MAX) return true;
+    source_complain(&m->source, MOTUS_LIMIT, at, "definitions use one another more than %d deep", MODEL_CHAIN_MAX);
+    return false;
+}
+
+static bool definition_moves(model *m, model_definition *d, span at, const reader *by, bool *yes)
 {
     if (d->kind == DEFINED_QUANTITY || d->kind == DEFINED_INVARIANT) {
         *yes = true;
@@ -17,17 +44,16 @@ static bool definition_moves(model *m, model_definition *d, span at, int chain, 
     }
     if (d->kind == DEFINED_PARAMETER) return true;
     if (d->progress == 1) {
+        char circle[8 * MOTUS_NAME_MAX];
+        name_circle(circle, sizeof circle, by, d->name);
         source_complain(&m->source, MOTUS_NAME, at, "%s is defined by itself, in a circle", d->name);
-        source_hint(&m->source, "follow the names on the right side until %s comes back, and cut there", d->name);
+        source_hint(&m->source, "cut the circle %s", circle);
         return false;
     }
-    if (chain > MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, at, "definitions use one another more than %d deep", MODEL_CHAIN_MAX);
-        return false;
-    }
+    if (!within_chain(m, at, by)) return false;
     d->progress = 1;
     bool own = false;
-    if (!moves(m, d->statement->value, chain + 1, &own)) return false;
+    if (!moves(m, d->statement->value, &(reader){d->name, NULL, by, by ? by->chain + 1 : 1}, &own)) return false;
     d->progress = 0;
     if (d->kind == DEFINED_UNKNOWN)
         d->kind = own ? DEFINED_QUANTITY : DEFINED_PARAMETER;
@@ -37,25 +63,59 @@ static bool definition_moves(model *m, model_definition *d, span at, int chain, 
     return true;
 }
 
+static bool function_moves(model *m, model_function *f, span at, const reader *by, bool *yes)
+{
+    if (f->progress == 1) {
+        char circle[8 * MOTUS_NAME_MAX];
+        name_circle(circle, sizeof circle, by, f->name);
+        source_complain(&m->source, MOTUS_NAME, at, "%s calls itself: %s", f->name, circle);
+        source_hint(&m->source, "every call is replaced by what the function says, so none may come back to itself");
+        return false;
+    }
+    if (f->progress == 0) {
+        const statement *s = f->statement;
+        if (!within_chain(m, at, by)) return false;
+        f->progress = 1;
+        if (!moves(m, s->value, &(reader){f->name, s->applied, by, by ? by->chain + 1 : 1}, &f->moves)) return false;
+        f->progress = 2;
+    }
+    *yes |= f->moves;
+    return true;
+}
+
+static bool is_argument(const reader *by, const char *name)
+{
+    for (uint32_t i = 1; by && by->applied && i < by->applied->count; i++)
+        if (!strcmp(by->applied->item[i]->name, name)) return true;
+    return false;
+}
+
+static bool name_moves(model *m, const tree *t, const reader *by, bool *yes)
+{
+    if (is_argument(by, t->name)) return true;
+    symbol s = symbols_find(m, t->name);
+    if (!strcmp(t->name, "t") || s.state) *yes = true;
+    return !s.definition || definition_moves(m, s.definition, t->at, by, yes);
+}
+
 /* Chains of operators lean left and may be long, so a loop follows the left side. */
-static bool moves_inside(model *m, const tree *t, int chain, bool *yes)
+static bool moves_inside(model *m, const tree *t, const reader *by, bool *yes)
 {
     for (;;) {
-        if (t->kind == TREE_NAME) {
-            symbol s = symbols_find(m, t->name);
-            if (!strcmp(t->name, "t") || s.state)
-                *yes = true;
-            else if (s.definition && !definition_moves(m, s.definition, t->at, chain, yes))
-                return false;
-        }
-        if (t->kind == TREE_START || t->count == 0) return true;
+        if (t->kind == TREE_NAME && !name_moves(m, t, by, yes)) return false;
+        for (uint32_t k = 0; k < t->loop_count; k++)
+            if (!moves(m, t->loops[k].first, by, yes) || !moves(m, t->loops[k].last, by, yes)) return false;
+        model_function *f = t->kind == TREE_APPLY ? symbols_find(m, t->item[0]->name).function : NULL;
+        if (f && !function_moves(m, f, t->at, by, yes)) return false;
+        if (t->count == 0 || (t->kind == TREE_APPLY && !f)) return true; /* an initial value is constant */
         for (uint32_t i = 1; i < t->count; i++)
-            if (!moves(m, t->item[i], chain, yes)) return false;
+            if (!moves(m, t->item[i], by, yes)) return false;
+        if (f) return true;
         t = t->item[0];
     }
 }
 
-static bool moves(model *m, const tree *t, int chain, bool *yes)
+static bool moves(model *m, const tree *t, const reader *by, bool *yes)
 {
     if (m->depth == MODEL_DEPTH_MAX) {
         source_complain(&m->source, MOTUS_LIMIT, t->at,
@@ -64,7 +124,7 @@ static bool moves(model *m, const tree *t, int chain, bool *yes)
         return false;
     }
     m->depth++;
-    bool ok = moves_inside(m, t, chain, yes);
+    bool ok = moves_inside(m, t, by, yes);
     m->depth--;
     return ok;
 }
@@ -73,13 +133,15 @@ static bool classify_definitions(model *m)
 {
     bool yes = false;
     for (uint32_t i = 0; i < m->definition_count; i++)
-        if (!definition_moves(m, &m->definitions[i], m->definitions[i].statement->name_at, 0, &yes)) return false;
+        if (!definition_moves(m, &m->definitions[i], m->definitions[i].statement->name_at, NULL, &yes)) return false;
+    for (uint32_t i = 0; i < m->function_count; i++)
+        if (!function_moves(m, &m->functions[i], m->functions[i].statement->name_at, NULL, &yes)) return false;
     for (uint32_t i = 0; i < m->definition_count; i++) {
         model_definition *d = &m->definitions[i];
         d->progress = 0;
         yes = false;
         if (!d->statement->replaced) continue;
-        if (!moves(m, d->statement->replaced, 0, &yes)) return false;
+        if (!moves(m, d->statement->replaced, NULL, &yes)) return false;
         if (yes) {
             source_complain(&m->source, MOTUS_ARGUMENT, d->statement->name_at,
                             "%s is a quantity and follows from the motion", d->name);
@@ -108,11 +170,6 @@ static bool check_orphans(model *m)
                            : (symbol){0};
         const char *what = s->kind == STATEMENT_EXACT ? "an exact motion" : "an initial value";
         if ((s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT) && !named.state) {
-            if (s->kind == STATEMENT_START && s->start_at->kind == TREE_NAME && !strcmp(s->start_at->name, "t")) {
-                source_complain(&m->source, MOTUS_SYNTAX, s->at, "a name is defined without its (t)");
-                source_hint(&m->source, "write %s = …; it may use t", s->name);
-                return false;
-            }
             source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has %s, but no equation of motion", s->name, what);
             if (s->kind == STATEMENT_START && named.definition)
                 source_hint(&m->source, "%s is a %s", s->name,

@@ -1,5 +1,5 @@
-/* Collects the statements of the text, puts those of --set in their places, and enters states and definitions in the
- * symbol table. */
+/* Collects the statements of the text, puts those of --set in their places, and enters states, definitions and
+ * functions in the symbol table. */
 #include "lang/read/read_steps.h"
 
 #include "base/near.h"
@@ -58,6 +58,68 @@ static bool add_definition(model *m, const statement *s)
                             .kind = s->kind == STATEMENT_INVARIANT ? DEFINED_INVARIANT : DEFINED_UNKNOWN};
     symbols_enter(m, s->name, (symbol){.definition = d});
     return true;
+}
+
+/* V(q), F(t): a bracket of plain names, where V is no state. */
+static bool names_arguments(const tree *applied)
+{
+    const tree *name = applied->item[0];
+    if (name->primes || name->index_count) return false;
+    for (uint32_t i = 1; i < applied->count; i++) {
+        const tree *t = applied->item[i];
+        if (t->kind != TREE_NAME || t->primes || t->index_count || t->bracketed) return false;
+        if (words_reserved(t->name) && strcmp(t->name, "t")) return false;
+    }
+    return true;
+}
+
+static bool check_arguments(model *m, const statement *s)
+{
+    const tree *applied = s->applied;
+    if (applied->count - 1 > MODEL_ARGUMENTS_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, applied->at, "a function has at most %d arguments",
+                        MODEL_ARGUMENTS_MAX);
+        return false;
+    }
+    for (uint32_t i = 1; i < applied->count; i++)
+        for (uint32_t k = 1; k < i; k++)
+            if (!strcmp(applied->item[i]->name, applied->item[k]->name)) {
+                source_complain(&m->source, MOTUS_NAME, applied->item[i]->at, "the argument %s stands twice",
+                                applied->item[i]->name);
+                return false;
+            }
+    if (s->loop_count == 0) return true;
+    source_complain(&m->source, MOTUS_SHAPE, s->loops[0].at, "a function is no family");
+    source_hint(&m->source, "an index may be an argument: %s(i, …)", s->name);
+    return false;
+}
+
+/* What looks like an initial value of something that is no state is the definition of a function. */
+static bool add_function(model *m, statement *s)
+{
+    symbol known = symbols_find(m, s->name);
+    if (known.state && s->applied->count > 2) {
+        source_complain(&m->source, MOTUS_SYNTAX, s->applied->at,
+                        "%s has an equation of motion: its bracket holds the start", s->name);
+        source_hint(&m->source, "write %s(0) = …, or give the function another name", s->name);
+        return false;
+    }
+    if (known.state || !names_arguments(s->applied)) return true;
+    if (known.definition || known.function) {
+        const statement *other = known.definition ? known.definition->statement : known.function->statement;
+        const bool before = other->at.text == s->at.text && other->at.from > s->at.from;
+        twice(m, before ? other : s, before ? s->name_at : other->name_at);
+        return false;
+    }
+    if (s->at.text > 0 && !s->replaced) {
+        source_complain(&m->source, MOTUS_NAME, s->name_at, "the model has no function %s", s->name);
+        return false;
+    }
+    s->kind = STATEMENT_FUNCTION;
+    model_function *f = &m->functions[m->function_count++];
+    *f = (model_function){.name = s->name, .statement = s};
+    symbols_enter(m, s->name, (symbol){.function = f});
+    return check_arguments(m, s);
 }
 
 /* --set name=expression: a statement in a text of its own, which replaces the model's. */
@@ -146,7 +208,10 @@ bool collect_all(model *m, const motus_text_def *def)
     m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
     m->states = arena_room(m->arena, (n + 1) * sizeof *m->states);
     m->definitions = arena_room(m->arena, (n + 1) * sizeof *m->definitions);
-    if (!m->symbols || !m->states || !m->definitions) return false;
+    uint32_t brackets = 0;
+    for (uint32_t i = 0; i < n; i++) brackets += m->statements.item[i].kind == STATEMENT_START;
+    m->functions = arena_room(m->arena, (brackets + 1) * sizeof *m->functions);
+    if (!m->symbols || !m->states || !m->definitions || !m->functions) return false;
     memset(m->symbols, 0, m->symbol_size * sizeof *m->symbols);
     for (uint32_t i = 0; i < n; i++)
         if (m->statements.item[i].kind == STATEMENT_EQUATION && !add_state(m, &m->statements.item[i])) return false;
@@ -154,6 +219,8 @@ bool collect_all(model *m, const motus_text_def *def)
         const statement *s = &m->statements.item[i];
         if ((s->kind == STATEMENT_DEFINITION || s->kind == STATEMENT_INVARIANT) && !add_definition(m, s)) return false;
     }
+    for (uint32_t i = 0; i < n; i++)
+        if (m->statements.item[i].kind == STATEMENT_START && !add_function(m, &m->statements.item[i])) return false;
     for (uint32_t i = 0; i < n; i++) {
         statement *s = &m->statements.item[i];
         bool about = s->kind == STATEMENT_EQUATION || s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT ||

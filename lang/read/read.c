@@ -24,9 +24,10 @@ static bool constants(model *m)
     return true;
 }
 
-static motus_status build(model *m, const motus_text_def *def)
+static motus_status build(model *m, const motus_text_def *def, read_method method)
 {
-    if (collect_all(m, def) && classify_all(m) && constants(m) && settings_all(m) && layout_all(m) && equations_all(m))
+    if (collect_all(m, def) && classify_all(m) && names_all(m) && constants(m) && settings_all(m, method) &&
+        layout_all(m) && equations_all(m))
         analysis_all(m);
     if (m->source.failed) return m->source.status;
     if (m->arena->failed) return MOTUS_MEMORY;
@@ -36,7 +37,7 @@ static motus_status build(model *m, const motus_text_def *def)
     return MOTUS_OK;
 }
 
-motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_error *err)
+motus_status read_model(arena *a, const motus_text_def *def, read_method method, model **out, motus_error *err)
 {
     *out = NULL;
     if (!def->text) return fail(err, MOTUS_ARGUMENT, "the definition has no text");
@@ -58,7 +59,7 @@ motus_status read_model(arena *a, const motus_text_def *def, model **out, motus_
             return fail(err, MOTUS_LIMIT, "a setting has %zu bytes; at most %d are read", n, SOURCE_BYTES_MAX);
         m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "--set"};
     }
-    motus_status status = build(m, def);
+    motus_status status = build(m, def, method);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
     m->source.error = NULL; /* it is the caller's and does not outlive this call */
     *out = m;

@@ -5,7 +5,21 @@
 
 #include <math.h>
 
-bool settings_all(model *m)
+/* A method that there is not is refused here, where its line is known. */
+static bool set_method(model *m, const statement *s, read_method known)
+{
+    motus_error why = {.size = sizeof why};
+    const motus_status status = known(s->text, &why);
+    if (status == MOTUS_OK) {
+        m->method = s->text;
+        return true;
+    }
+    source_complain(&m->source, status, s->at, "%s", why.message);
+    if (why.hint[0]) source_hint(&m->source, "%s", why.hint);
+    return false;
+}
+
+bool settings_all(model *m, read_method known)
 {
     bool seen[STATEMENT_EVERY + 1] = {false};
     m->step = m->until = m->every_time = NAN;
@@ -18,7 +32,7 @@ bool settings_all(model *m)
         }
         seen[s->kind] = true;
         if (s->kind == STATEMENT_METHOD) {
-            m->method = s->text;
+            if (!set_method(m, s, known)) return false;
             continue;
         }
         double v;

@@ -170,9 +170,6 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     } else if (c == 0xB2 || c == 0xB3 || c == 0xB9 || (c >= 0x2070 && c <= 0x207F)) {
         source_complain(s, MOTUS_SYNTAX, at, "raised characters are not read as powers");
         source_hint(s, "write ^2, ^3 …");
-    } else if (c == 0xD7 || c == 0xB7 || c == 0x22C5 || c == 0x2217) {
-        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
-        source_hint(s, "multiply with * or a blank; dot(a, b) and cross(a, b) for vectors");
     } else if (c == 0xF7) {
         source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
         source_hint(s, "divide with /");
@@ -183,8 +180,8 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
         source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
         source_hint(s, "write sum(i = 1..N: …)");
     } else if (c == ';') {
-        source_complain(s, MOTUS_SYNTAX, at, "; does not separate statements");
-        source_hint(s, "one statement a line");
+        source_complain(s, MOTUS_SYNTAX, at, "; ends a statement, and here a bracket is open");
+        source_hint(s, "close the bracket; a comma stands between components, arguments and conditions");
     } else if (c == '{' || c == '}') {
         source_complain(s, MOTUS_SYNTAX, at, "there are no braces in the language");
         source_hint(s, "group with ( )");
@@ -235,6 +232,11 @@ token lex_next(lexer *l)
         } else if (c == '\n') {
             l->at++;
             if (l->depth == 0) return make(l, TOKEN_NEWLINE, l->at - 1, true);
+        } else if (c == ';' && l->depth == 0) {
+            l->at++;
+            token t = make(l, TOKEN_NEWLINE, l->at - 1, true);
+            t.character = ';';
+            return t;
         } else if (l->at + 1 < n && (unsigned char)c == 0xC2 && (unsigned char)b[l->at + 1] == 0xA0) {
             l->at += 2; /* a no-break space, as word processors leave it */
         } else {
@@ -261,8 +263,9 @@ token lex_next(lexer *l)
         l->at += size;
         return make(l, relation, from, blank);
     }
-    if (c == 0x2212) /* the typographic minus */
+    if (c == 0x2212) /* the signs of print: −, and · × between factors */
         c = '-';
+    if (c == 0xB7 || c == 0xD7 || c == 0x22C5 || c == 0x2217) c = '*';
     if (c == '.' && digit(b, n, from + 1) &&
         (blank || from == 0 || !(b[from - 1] == ')' || b[from - 1] == ']' || b[from - 1] == '\''))) {
         span at = {l->text, from, from + 2};

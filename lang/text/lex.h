@@ -6,7 +6,7 @@
 
 typedef enum token_kind {
     TOKEN_END,
-    TOKEN_NEWLINE,
+    TOKEN_NEWLINE, /* of a semicolon `character` is ';': a statement does not go on behind it */
     TOKEN_NUMBER,
     TOKEN_NAME,
     TOKEN_PRIMES,

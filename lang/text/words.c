@@ -10,11 +10,12 @@
 static const struct {
     const char *name;
     int operation;
-} functions[] = {{"sin", OP_SIN},   {"cos", OP_COS},     {"tan", OP_TAN},   {"asin", OP_ASIN},     {"acos", OP_ACOS},
-                 {"atan", OP_ATAN}, {"atan2", OP_ATAN2}, {"sinh", OP_SINH}, {"cosh", OP_COSH},     {"tanh", OP_TANH},
-                 {"exp", OP_EXP},   {"log", OP_LOG},     {"sqrt", OP_SQRT}, {"cbrt", OP_CBRT},     {"hypot", OP_HYPOT},
-                 {"abs", OP_ABS},   {"min", OP_MIN},     {"max", OP_MAX},   {"floor", OP_FLOOR},   {"mod", OP_MOD},
-                 {"sign", OP_SIGN}, {"erf", OP_ERF},     {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}};
+} functions[] = {{"sin", OP_SIN},    {"cos", OP_COS},     {"tan", OP_TAN},   {"asin", OP_ASIN},     {"acos", OP_ACOS},
+                 {"atan", OP_ATAN},  {"atan2", OP_ATAN2}, {"sinh", OP_SINH}, {"cosh", OP_COSH},     {"tanh", OP_TANH},
+                 {"exp", OP_EXP},    {"log", OP_LOG},     {"sqrt", OP_SQRT}, {"cbrt", OP_CBRT},     {"hypot", OP_HYPOT},
+                 {"abs", OP_ABS},    {"min", OP_MIN},     {"max", OP_MAX},   {"floor", OP_FLOOR},   {"mod", OP_MOD},
+                 {"sign", OP_SIGN},  {"erf", OP_ERF},     {"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF},
+                 {"diff", CALL_DIFF}};
 
 static const char *const statements_words[] = {"method", "step",  "tolerance", "from", "until",
                                                "every",  "exact", "invariant", "when"};

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 /* Functions that the graph has no operation for; their numbers are larger than those of all operations. */
-enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF };
+enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF, CALL_DIFF };
 
 int words_function(const char *name); /* operation, CALL_… or -1 */
 bool words_reserved(const char *name);

@@ -1,4 +1,5 @@
-/* The parser's state and helpers, shared by parse.c (expressions) and parse_statement.c (statements). */
+/* The parser's state and helpers, shared by parse.c (operators), parse_factor.c (what they join) and parse_statement.c
+ * (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -33,7 +34,7 @@ static inline bool is(const parser *p, char c) { return p->token.kind == TOKEN_C
 
 static inline void skip_lines(parser *p)
 {
-    while (p->token.kind == TOKEN_NEWLINE) advance(p);
+    while (p->token.kind == TOKEN_NEWLINE && p->token.character != ';') advance(p);
 }
 
 static inline bool spelled(const parser *p, const token *t, const char *word)
@@ -44,8 +45,10 @@ static inline bool spelled(const parser *p, const token *t, const char *word)
 
 static inline bool word(const parser *p, const char *text) { return spelled(p, &p->token, text); }
 
+/* π is pi. */
 static inline const char *copy_name(parser *p, span at)
 {
+    if (at.to - at.from == 2 && !memcmp(p->source->texts[at.text].bytes + at.from, "π", 2)) return "pi";
     return arena_text(p->arena, p->source->texts[at.text].bytes + at.from, at.to - at.from);
 }
 
@@ -139,11 +142,14 @@ static inline bool expect(parser *p, char c, const char *where)
     return false;
 }
 
-/* parse.c */
+/* parse_factor.c */
 tree *parse_inside(parser *p);
 bool parse_loop(parser *p, loop *l);
 void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l);
-tree *parse_or(parser *p);
 void parse_index(parser *p, tree *t);
+tree *parse_applied(parser *p, tree *name);
+tree *parse_factor(parser *p);
+/* parse.c */
+tree *parse_or(parser *p);
 
 #endif

@@ -1,6 +1,8 @@
-/* Statements: tokens to trees, one statement a line. Each function is headed by its grammar rule; parse.c has the
- * expressions. */
+/* Statements: tokens to trees; a statement ends with its line, or at a semicolon. Each function is headed by its
+ * grammar rule; parse.c has the expressions. */
 #include "lang/tree/parse_parts.h"
+
+#include "base/utf8.h"
 
 /* for = "for" loop { "," loop } */
 static void parse_for(parser *p, statement *s)
@@ -37,11 +39,11 @@ static void end_of_statement(parser *p, int line)
         COMPLAIN(p, p->token.at, "a second = in one statement");
         if (line != source_line(p->source, p->token.at))
             HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
-        HINT(p, "one statement a line; to compare write ==");
+        HINT(p, "one statement a line, or ; between them; to compare write ==");
         return;
     }
     COMPLAIN(p, p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
-    if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line");
+    if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them");
 }
 
 static void parse_value(parser *p, statement *s)
@@ -63,18 +65,29 @@ static void parse_value(parser *p, statement *s)
     end_of_statement(p, source_line(p->source, s->at));
 }
 
-/* "method" text: up to the end of the line; names have dashes, and arguments in brackets */
+/* Whether a terminal can show it: no control characters, nothing that is not UTF-8. */
+static bool plain_text(const char *bytes, uint32_t length)
+{
+    uint32_t c = 0;
+    for (size_t i = 0, n; i < length; i += n) {
+        n = utf8_read(bytes + i, length - i, &c);
+        if (n == 0 || c < 0x20 || (c >= 0x7F && c < 0xA0)) return false;
+    }
+    return true;
+}
+
+/* "method" text: up to the end of the line or a semicolon; names have dashes, and arguments in brackets */
 static void parse_method(parser *p, statement *s)
 {
     const struct source_text *text = &p->source->texts[p->lexer.text];
     uint32_t from = p->last.at.to, to = from;
-    while (to < text->length && text->bytes[to] != '\n' && text->bytes[to] != '#') to++;
+    while (to < text->length && !strchr("\n#;", text->bytes[to])) to++;
     uint32_t end = to;
     while (from < end && (text->bytes[from] == ' ' || text->bytes[from] == '\t')) from++;
     while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
         end--;
     s->at = (span){p->lexer.text, from, end};
-    if (from == end || text->bytes[from] == '=') {
+    if (from == end || text->bytes[from] == '=' || !plain_text(text->bytes + from, end - from)) {
         COMPLAIN(p, s->at, "the name of a method expected");
         HINT(p, "write: method verlet");
         return;
@@ -173,13 +186,17 @@ static void parse_left(parser *p, statement *s)
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
             return;
         }
-        advance(p);
-        s->start_at = parse_inside(p);
-        if (!expect(p, ')', "after the start")) return;
+        tree *left = grow(p, TREE_NAME, s->name_at);
+        left->name = s->name;
+        left->primes = s->primes;
+        left->item = s->index;
+        left->count = left->index_count = s->index_count;
+        s->applied = parse_applied(p, left);
+        if (failed(p)) return;
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
-            if (s->start_at->kind == TREE_NAME)
+            if (s->applied->item[1]->kind == TREE_NAME)
                 HINT(p, "write %s%s = …; the argument (t) is left out", s->name, p->token.primes == 1 ? "'" : "''");
             else
                 HINT(p, "write %s'(0) = …", s->name);
@@ -278,7 +295,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
     lex_start(&p.lexer, s, text);
     advance(&p);
     for (;;) {
-        skip_lines(&p);
+        while (p.token.kind == TOKEN_NEWLINE) advance(&p);
         if (failed(&p) || p.token.kind == TOKEN_END) return !failed(&p);
         if (all->count == SOURCE_STATEMENTS_MAX) {
             source_complain(s, MOTUS_LIMIT, p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);

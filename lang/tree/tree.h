@@ -8,8 +8,8 @@
 typedef enum tree_kind {
     TREE_NUMBER, /* number */
     TREE_NAME,   /* name, item[0 … index_count) its indices, primes */
-    /* x(0), r'(0), x[i](0): a TREE_NAME glued to a bracket: item[0] the name, item[1] the bracket */
-    TREE_START,
+    /* x(0), r'(0), x[i](0), V(a, b): a TREE_NAME glued to a bracket: item[0] the name, then what the bracket holds */
+    TREE_APPLY,
     TREE_CALL, /* operation, or one of the calls below; items are the arguments */
     TREE_NEGATE,
     TREE_ADD,
@@ -42,6 +42,7 @@ typedef struct tree {
     int primes, operation;
     bool bracketed;     /* stood in ( ) of its own */
     bool blank_product; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
+    bool divisor;       /* APPLY: something is divided by it, a/f(x) */
     uint32_t count, index_count;
     struct tree **item;
     loop *loops;
@@ -52,6 +53,7 @@ typedef enum statement_kind {
     STATEMENT_DEFINITION, /* name[indices] = value: parameter, quantity, boundary line */
     STATEMENT_EQUATION,   /* name[indices]' or '' = value */
     STATEMENT_START,      /* name[indices]'(at) = value */
+    STATEMENT_FUNCTION,   /* name(argument, …) = value; the parser leaves it to the names whether it is a START */
     STATEMENT_EXACT,
     STATEMENT_INVARIANT,
     STATEMENT_METHOD, /* text */
@@ -68,7 +70,7 @@ typedef struct statement {
     tree **index;
     uint32_t index_count;
     int primes;
-    tree *start_at;   /* START: the c of x(c) */
+    tree *applied;    /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
     tree *value;      /* the right side, or the setting's expression */
     bool steps;       /* every n steps */
     const char *text; /* METHOD */

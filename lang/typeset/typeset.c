@@ -58,7 +58,8 @@ char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
 {
     typesetter p = {.model = m, .allocator = a};
     const statement *s = &m->statements.item[k];
-    /* The left side is an expression as well: a name, or its value at a time, which of an exact motion is t. */
+    /* The left side is an expression as well: a name, its value at a time, which of an exact motion is t, or a
+     * function of its arguments. */
     tree name = {.kind = TREE_NAME,
                  .name = s->name,
                  .primes = s->primes,
@@ -66,13 +67,12 @@ char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
                  .count = s->index_count,
                  .index_count = s->index_count};
     tree time = {.kind = TREE_NAME, .name = "t"};
-    tree start = {
-        .kind = TREE_START, .item = (tree *[]){&name, s->kind == STATEMENT_EXACT ? &time : s->start_at}, .count = 2};
+    tree exact = {.kind = TREE_APPLY, .item = (tree *[]){&name, &time}, .count = 2};
     typeset_put(&p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
     if (s->kind >= STATEMENT_METHOD) {
         setting(&p, s);
     } else {
-        typeset_then(&p, s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT ? &start : &name, 0);
+        typeset_then(&p, s->kind == STATEMENT_EXACT ? &exact : s->applied ? s->applied : &name, 0);
         typeset_tag(&p, "<mo>=</mo>");
         typeset_then(&p, s->value, 0);
         ranges(&p, s);

@@ -5,10 +5,13 @@
 static bool tall(const tree *t, int *budget)
 {
     for (;; t = t->item[0]) {
-        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || --*budget < 0) return true;
-        if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_START || t->kind == TREE_COMPONENT) return false;
+        if (t->kind == TREE_DIVIDE || t->kind == TREE_SUM || typeset_calls(t, CALL_IF) || typeset_calls(t, CALL_DIFF) ||
+            --*budget < 0)
+            return true;
+        if (t->count == 0 || t->kind == TREE_NAME || t->kind == TREE_COMPONENT) return false;
         for (uint32_t i = 1; i < t->count && t->kind != TREE_POWER; i++)
             if (tall(t->item[i], budget)) return true;
+        if (t->kind == TREE_APPLY) return false;
     }
 }
 
@@ -44,6 +47,10 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
 }
 
 void typeset_items(typesetter *p, fence f, const tree *t, place at) { fenced(p, f, t->item, t->count, NULL, at); }
+void typeset_arguments(typesetter *p, const tree *t, place at)
+{
+    fenced(p, FENCE_ROUND, t->item + 1, t->count - 1, NULL, at);
+}
 void typeset_itself(typesetter *p, fence f, const tree *t, place at) { fenced(p, f, NULL, 1, t, at); }
 
 /* if(c, a, if(d, b, e)) is one brace of three rows. */

@@ -106,11 +106,12 @@ void typeset_tree(typesetter *, const tree *, place);
 /* typeset_fence.c: in brackets that are as high as they must be: a tree's items, with commas, or itself */
 typedef enum fence { FENCE_ROUND, FENCE_SQUARE, FENCE_BARS, FENCE_FLOOR } fence;
 void typeset_items(typesetter *, fence, const tree *, place);
+void typeset_arguments(typesetter *, const tree *applied, place);
 void typeset_itself(typesetter *, fence, const tree *, place);
 void typeset_cases(typesetter *, const tree *, place);
-/* typeset_script.c: what is written as a name with signs about it: x, x_i, x_max″, r_y, x(0) */
+/* typeset_script.c: what is written as a name with signs about it: x, x_i, x_max″, r_y, x(0), V(a, b) */
 typedef struct head {
-    const tree *name, *component, *start;
+    const tree *name, *component, *applied;
 } head;
 bool typeset_head(const tree *, head *);
 void typeset_scripted(typesetter *, const head *, const tree *power, place);

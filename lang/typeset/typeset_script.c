@@ -9,8 +9,8 @@ bool typeset_head(const tree *t, head *h)
         h->component = t->item[1];
         t = t->item[0];
     }
-    if (t->kind == TREE_START) {
-        h->start = t->item[1];
+    if (t->kind == TREE_APPLY) {
+        h->applied = t;
         t = t->item[0];
     }
     h->name = t;
@@ -63,23 +63,23 @@ static void superscripts(typesetter *p, int primes, const tree *power, place at)
 void typeset_scripted(typesetter *p, const head *h, const tree *power, place at)
 {
     uint32_t parts = (uint32_t)typeset_has_tail(h->name->name) + h->name->index_count + (h->component != NULL);
-    const tree *own_power = h->start ? NULL : power;
+    const tree *own_power = h->applied ? NULL : power;
     int scripts = 2 * (parts > 0) + (h->name->primes || own_power);
     static const char *const open[] = {"", "<msup>", "<msub>", "<msubsup>"}, *const close[] = {"", "</msup>", "</msub>",
                                                                                                "</msubsup>"};
-    if (h->start && power) typeset_tag(p, "<msup>");
-    if (h->start) typeset_tag(p, "<mrow>");
+    if (h->applied && power) typeset_tag(p, "<msup>");
+    if (h->applied) typeset_tag(p, "<mrow>");
     typeset_tag(p, open[scripts]);
     typeset_word(p, TASK_NAME, h->name->name);
     if (parts) subscripts(p, h, parts, at);
     if (scripts & 1) superscripts(p, h->name->primes, own_power, at);
     typeset_tag(p, close[scripts]);
-    if (h->start) {
+    if (h->applied) {
         typeset_tag(p, TYPESET_APPLY);
-        typeset_itself(p, FENCE_ROUND, h->start, at);
+        typeset_arguments(p, h->applied, at);
         typeset_tag(p, "</mrow>");
     }
-    if (h->start && power) {
+    if (h->applied && power) {
         typeset_then(p, power, place_script(at));
         typeset_tag(p, "</msup>");
     }

@@ -21,7 +21,8 @@ static const char *function_name(const tree *t)
     case OP_MOD:
     case CALL_DOT:
     case CALL_CROSS:
-    case CALL_IF: return NULL;
+    case CALL_IF:
+    case CALL_DIFF: return NULL;
     case OP_ASIN: return "arcsin";
     case OP_ACOS: return "arccos";
     case OP_ATAN: return "arctan";
@@ -37,6 +38,13 @@ static bool raised_function(const tree *power)
     const tree *exponent = power->item[1];
     return function_name(power->item[0]) && power->item[0]->count == 1 && exponent->kind == TREE_NUMBER &&
            exponent->number >= 2 && exponent->number < 100 && exponent->number == (int)exponent->number;
+}
+
+/* ∂V/∂x, but (∂/∂x) (a + b) */
+static bool names_slope(const tree *diff)
+{
+    head h;
+    return typeset_head(diff->item[0], &h);
 }
 
 static tight tight_of(const typesetter *p, const tree *t, bool small)
@@ -57,6 +65,8 @@ static tight tight_of(const typesetter *p, const tree *t, bool small)
     case TREE_CALL:
         return t->operation == OP_MOD                                   ? TIGHT_MOD
                : t->operation == CALL_DOT || t->operation == CALL_CROSS ? TIGHT_DOT
+               : t->operation == CALL_DIFF && small && names_slope(t)   ? TIGHT_SLASH
+               : t->operation == CALL_DIFF                              ? TIGHT_POWER
                : t->operation == CALL_IF || function_name(t)            ? TIGHT_POWER
                                                                         : TIGHT_ATOM;
     default: return TIGHT_ATOM;
@@ -69,7 +79,7 @@ static bool single(const tree *t, bool small)
     switch (t->kind) {
     case TREE_NUMBER:
     case TREE_NAME:
-    case TREE_START:
+    case TREE_APPLY:
     case TREE_VECTOR:
     case TREE_LIST:
     case TREE_COMPONENT:
@@ -77,6 +87,7 @@ static bool single(const tree *t, bool small)
     case TREE_DIVIDE: return !small;
     case TREE_POWER: return !raised_function(t);
     case TREE_CALL:
+        if (t->operation == CALL_DIFF) return !small && names_slope(t);
         return !function_name(t) && t->operation != OP_MOD && t->operation != CALL_DOT && t->operation != CALL_CROSS;
     default: return false;
     }
@@ -100,7 +111,7 @@ static void times(typesetter *p, const tree *a, const tree *b, place at)
     const tree *before = a->kind == TREE_MULTIPLY ? a->item[1] : a, *first = b->kind == TREE_POWER ? b->item[0] : b;
     bool brackets = tight_of(p, b, at & PLACE_SMALL) < TIGHT_POWER, state = false, word = function_name(first) != NULL;
     bool dot = !brackets && digit_first(b) && (b->kind != TREE_DIVIDE || before->kind == TREE_NUMBER);
-    if (typeset_head(before, &h) && !h.start) {
+    if (typeset_head(before, &h) && !h.applied) {
         state = symbols_find(p->model, h.name->name).state != NULL;
         word |= typeset_is_word(h.name->name);
     }
@@ -185,6 +196,22 @@ static void function(typesetter *p, const tree *t, const tree *power, place at)
     typeset_items(p, FENCE_ROUND, t, at);
 }
 
+/* A derivative: of something with a name as a fraction, else by an operator before the bracket; in small print in a
+ * line. */
+static void slope(typesetter *p, const tree *t, place at)
+{
+    const bool small = at & PLACE_SMALL, named = names_slope(t);
+    typeset_tag(p, small ? "" : "<mfrac>");
+    typeset_tag(p, named ? "<mrow><mi>∂</mi>" : "<mi>∂</mi>");
+    if (named) typeset_then(p, t->item[0], place_element(at));
+    typeset_tag(p, named ? "</mrow>" : "");
+    typeset_tag(p, small ? "<mo lspace=\"0\" rspace=\"0\">/</mo>" : "");
+    typeset_tag(p, "<mrow><mi>∂</mi>");
+    typeset_then(p, t->item[1], place_element(at));
+    typeset_tag(p, small ? "</mrow>" : "</mrow></mfrac>");
+    if (!named) typeset_itself(p, FENCE_ROUND, t->item[0], at);
+}
+
 static void call(typesetter *p, const tree *t, place at)
 {
     switch (t->operation) {
@@ -207,6 +234,7 @@ static void call(typesetter *p, const tree *t, place at)
     case CALL_DOT: infix(p, t, at, TIGHT_POWER, FOLLOW_FACTOR, "<mo>⋅</mo>", TIGHT_POWER); return;
     case CALL_CROSS: infix(p, t, at, TIGHT_POWER, FOLLOW_FACTOR, "<mo>×</mo>", TIGHT_POWER); return;
     case CALL_IF: typeset_cases(p, t, at); return;
+    case CALL_DIFF: slope(p, t, at); return;
     default: function(p, t, NULL, at); return;
     }
 }
@@ -249,7 +277,7 @@ static void unbracketed(typesetter *p, const tree *t, place at)
     switch (t->kind) {
     case TREE_NUMBER: typeset_number(p, t); return;
     case TREE_NAME:
-    case TREE_START:
+    case TREE_APPLY:
     case TREE_COMPONENT:
         if (typeset_head(t, &h))
             typeset_scripted(p, &h, NULL, at);

@@ -34,6 +34,12 @@ await attempt('the model: undo, typeset, errors under the caret', async () => {
   await settled(page);
   const mathml = await page.locator('.typeset math').first().innerHTML();
   judge('the equation is typeset: a fraction, a power', /mfrac|<mn>3/.test(mathml) && /msup/.test(mathml), mathml);
+  await area.fill("g = 9.81\nL = 1\ntheta'' = -g/L sin(theta)\ntheta(0) = 1\ntheta'(0) = 0\nstep 0.01\nuntil 5\n");
+  await settled(page);
+  const printed = await page.locator('.typeset math').evaluateAll((all) => all.map((one) => one.innerHTML));
+  judge('the pendulum as textbooks print it: a fraction before the sine', printed.some((one) => /<mfrac><mi>g<\/mi><mi>L<\/mi><\/mfrac>.*sin/.test(one)), printed.join(' | '));
+  await area.fill("x'' = -k x^2/3\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
+  await settled(page);
   const before = await summaryOf(page, 'Motion'), picture = await shown(page, '#stage-figure canvas.figure-still');
   await area.fill("x'' = -k x^2/3 + foo\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
   await settled(page);

@@ -1,0 +1,66 @@
+/* Other nodes in place of loads, indices and sums within a node.
+ *
+ * Invariant: what holds none of these stays the node that it is. Only nested sums recurse, at most MAX_LEVELS
+ * deep.
+ */
+#include "lang/graph/graph_walk.h"
+#include "lang/base/operation.h"
+
+typedef struct replacing {
+    unsigned deps;
+    graph_substitute with;
+    void *ctx;
+} replacing;
+
+static node replaced(graph *g, node root, int level, const replacing *how);
+
+/* A sum whose condition has become false is empty. */
+static node replaced_sum(graph *g, graph_node n, const replacing *how)
+{
+    const node body = replaced(g, n.a, n.level + 1, how), condition = n.b ? replaced(g, n.b, n.level + 1, how) : 0;
+    if (g->arena->failed || g->too_large || (n.b && !condition)) return 0;
+    const range r = g->ranges[n.c];
+    return graph_sum(g, n.level, &r, condition, body);
+}
+
+static node replaced(graph *g, node root, int level, const replacing *how)
+{
+    graph_walk w;
+    if (!(g->nodes[root].deps & how->deps)) return root;
+    if (!graph_order(g, &root, 1, how->deps, false, &w)) return 0;
+    node *as = take(&g->arena->allocator, w.count, sizeof *as);
+    if (!as) g->arena->failed = true;
+    /* These first: what is asked may walk the graph itself, which overwrites `place`. */
+    for (uint32_t k = 0; as && k < w.count; k++) {
+        const graph_node n = g->nodes[w.nodes[k]];
+        const bool asked = n.op == OP_LOAD || n.op == OP_INDEX || n.op == OP_SUM;
+        as[k] = asked ? how->with(g, w.nodes[k], level, how->ctx) : w.nodes[k];
+        if (n.op == OP_SUM && as[k] == w.nodes[k]) as[k] = replaced_sum(g, n, how);
+    }
+    graph_order_again(g, &w);
+    for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
+        const graph_node n = g->nodes[w.nodes[k]];
+        node operand[3] = {0, 0, 0};
+        const int arity = graph_operands(&n, operand);
+        bool same = true;
+        if (arity == 0 || n.op == OP_SUM) continue;
+        for (int j = 0; j < arity; j++) {
+            const node was = operand[j];
+            if (graph_reached(g, &w, was)) operand[j] = as[g->place[was]];
+            same &= operand[j] == was;
+        }
+        if (same) continue;
+        const uint32_t *place = g->place;
+        as[k] = graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
+        if (g->place != place) graph_order_again(g, &w);
+    }
+    const node result = as && w.count ? as[w.count - 1] : 0;
+    give(&g->arena->allocator, as);
+    give(&g->arena->allocator, w.nodes);
+    return g->arena->failed || g->too_large ? 0 : result;
+}
+
+node graph_replace(graph *g, node root, unsigned deps, int level, graph_substitute with, void *ctx)
+{
+    return replaced(g, root, level, &(replacing){deps, with, ctx});
+}

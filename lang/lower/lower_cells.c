@@ -1,0 +1,198 @@
+/* Derivatives by one cell of a family: of x[j] by x[i] it is 1 where j is i, else 0.
+ *
+ * While the derivative is made, each such number is a leaf of its own, in which the derivative is linear. Then a sum
+ * over j becomes the terms in which its leaves are 1, where it is known that the sum has these terms for every i: a
+ * chain's force has two terms, and not N. Other leaves become conditions.
+ */
+#include "lang/lower/lower_diff.h"
+
+enum { SHORTENED_MAX = 64 }; /* cells, each of which takes a walk through every sum */
+
+static bool equal_subscripts(const subscript *a, const subscript *b)
+{
+    return a->level == b->level && a->slot == b->slot && a->modulus == b->modulus && a->literal == b->literal;
+}
+
+static bool never_equal(const subscript *a, const subscript *b)
+{
+    return a->level == b->level && a->slot == b->slot && a->modulus < 0 && b->modulus < 0 && a->literal != b->literal;
+}
+
+/* Of one cell of an array by another: whether all indices are the same. */
+static node same_cell(lowering *l, const reference *a, const reference *b)
+{
+    graph *g = l->model->graph;
+    node same = 0;
+    bool any = false;
+    for (int d = 0; d < a->dims; d++) {
+        if (equal_subscripts(&a->at[d], &b->at[d])) continue;
+        if (never_equal(&a->at[d], &b->at[d])) return 0;
+        const node i = lower_subscript_number(l, &a->at[d]), j = lower_subscript_number(l, &b->at[d]);
+        const node here = binary(l, OP_EQ, i, j);
+        same = any ? binary(l, OP_AND, same, here) : here;
+        any = true;
+    }
+    return any ? graph_op(g, OP_SELECT, same, graph_const(g, 1), graph_const(g, 0)) : graph_const(g, 1);
+}
+
+/* A leaf that nothing else has. */
+node lower_own_leaf(lowering *l)
+{
+    model *m = l->model;
+    if (!m->leaf_array) {
+        uint16_t at;
+        if (!model_take_arrays(m, 1, &at)) return 0;
+        m->arrays[at] = (array){.space = SPACE_DX, .dims = 1};
+        m->leaf_array = at;
+    }
+    const reference r = {.array = m->leaf_array,
+                         .dims = 1,
+                         .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = m->leaf_count++}}};
+    return graph_load(m->graph, &r);
+}
+
+node lower_cell(differential *d, const reference *of)
+{
+    model *m = d->l->model;
+    const reference by = m->graph->references[graph_at(m->graph, d->variable)->a];
+    for (int k = 0; k < by.dims; k++)
+        if (never_equal(&of->at[k], &by.at[k])) return 0;
+    if (d->cell_count == d->cell_room) {
+        const uint32_t room = d->cell_room ? 2 * d->cell_room : 8;
+        cell *more = arena_grow(m->arena, d->cells, d->cell_room * sizeof *more, room * sizeof *more);
+        if (!more) return 0;
+        if (!d->cell_room) d->first_leaf = m->leaf_count;
+        d->cells = more;
+        d->cell_room = room;
+    }
+    d->cells[d->cell_count] = (cell){lower_own_leaf(d->l), *of};
+    return d->cells[d->cell_count++].leaf;
+}
+
+/* In a sum over j the derivative of x[j + c] by x[i] counts for j = i - c alone, so the sum is one term: *at is i - c.
+ * False: it is not known that the sum has that term for every i. */
+static bool one_term(const differential *d, const graph_node *sum, const reference *of, subscript *at)
+{
+    const model *m = d->l->model;
+    const graph *g = m->graph;
+    const reference *by = &g->references[graph_at(g, d->variable)->a];
+    const range *r = &g->ranges[sum->c];
+    int e = -1;
+    for (int k = 0; k < of->dims; k++) {
+        if (of->at[k].level == (int8_t)sum->level && e < 0)
+            e = k;
+        else if (!equal_subscripts(&of->at[k], &by->at[k]))
+            return false;
+    }
+    if (e < 0 || r->first.level >= 0 || r->last.level >= 0) return false;
+    const subscript *j = &of->at[e];
+    *at = by->at[e];
+    if (j->modulus >= 0 || at->modulus >= 0 || (j->slot >= 0 && j->slot != at->slot)) return false;
+    if (j->slot >= 0) at->slot = -1;
+    at->literal -= j->literal;
+    const int64_t shift = at->literal + (at->slot >= 0 ? m->ints[at->slot] : 0);
+    const int64_t first = r->first.literal + (r->first.slot >= 0 ? m->ints[r->first.slot] : 0);
+    const int64_t last = r->last.literal + (r->last.slot >= 0 ? m->ints[r->last.slot] : 0);
+    const int64_t low = at->level >= 0 ? d->l->low[at->level] : 0, high = at->level >= 0 ? d->l->high[at->level] : 0;
+    return low + shift >= first && high + shift <= last;
+}
+
+/* The cell that a node is the leaf of; NULL: none. */
+static const cell *cell_of(const differential *d, node n)
+{
+    const graph *g = d->l->model->graph;
+    const graph_node *m = graph_at(g, n);
+    if (m->op != OP_LOAD || g->references[m->a].array != d->l->model->leaf_array) return NULL;
+    const int32_t k = g->references[m->a].at[0].literal - d->first_leaf;
+    return k >= 0 && k < (int32_t)d->cell_count ? &d->cells[k] : NULL;
+}
+
+typedef struct chosen_cell {
+    const differential *d;
+    node one; /* this leaf becomes 1, the others 0 */
+} chosen_cell;
+
+static node choose(graph *g, node n, int level, void *chosen_ctx)
+{
+    const chosen_cell *c = chosen_ctx;
+    (void)level;
+    return !cell_of(c->d, n) ? n : n == c->one ? graph_const(g, 1) : 0;
+}
+
+static node without(graph *g, node n, int level, void *leaf)
+{
+    (void)g, (void)level;
+    return n == *(const node *)leaf ? 0 : n;
+}
+
+typedef struct moved_index {
+    lowering *l;
+    int level;
+    subscript to;
+    bool failed;
+} moved_index;
+
+/* At one place of an index, which is another index and a constant. */
+static node moved(graph *g, node n, int level, void *moved_ctx)
+{
+    moved_index *to = moved_ctx;
+    const graph_node *m = graph_at(g, n);
+    (void)level;
+    if (m->op == OP_SUM) to->failed = true;
+    if (m->op == OP_INDEX) return m->level == to->level ? lower_subscript_number(to->l, &to->to) : n;
+    if (m->op != OP_LOAD) return n;
+    reference r = g->references[m->a];
+    for (int k = 0; k < r.dims; k++) {
+        if (r.at[k].level != to->level) continue;
+        to->failed |= r.at[k].slot >= 0 && to->to.slot >= 0;
+        r.at[k].level = to->to.level;
+        r.at[k].literal += to->to.literal;
+        if (to->to.slot >= 0) r.at[k].slot = to->to.slot;
+    }
+    return graph_load(g, &r);
+}
+
+/* The term of a sum that one cell counts in; false: the sum must stay. */
+static bool term_of_cell(differential *d, const graph_node *sum, node body, const cell *c, node *out)
+{
+    graph *g = d->l->model->graph;
+    moved_index to = {.l = d->l, .level = sum->level};
+    const unsigned deps = 1u << sum->level;
+    if (!one_term(d, sum, &c->of, &to.to)) return false;
+    const node chosen = graph_replace(g, body, DEP_D, sum->level + 1, choose, &(chosen_cell){d, c->leaf});
+    *out = graph_replace(g, chosen, deps, sum->level, moved, &to);
+    if (sum->b) {
+        const node condition = graph_replace(g, sum->b, deps, sum->level, moved, &to);
+        *out = graph_op(g, OP_SELECT, condition, *out, 0);
+    }
+    return !to.failed;
+}
+
+/* What becomes of the leaves: terms of the sums around them, else conditions. */
+static node of_cells(graph *g, node n, int level, void *differential_ctx)
+{
+    differential *d = differential_ctx;
+    const graph_node sum = *graph_at(g, n);
+    (void)level;
+    const reference by = g->references[graph_at(g, d->variable)->a];
+    const cell *own = cell_of(d, n);
+    if (own) return same_cell(d->l, &own->of, &by);
+    if (sum.op != OP_SUM || d->cell_count > SHORTENED_MAX) return n;
+    node body = sum.a, total = 0;
+    for (uint32_t k = 0; k < d->cell_count && !failed(d->l); k++) {
+        node term, leaf = d->cells[k].leaf;
+        const node rest = graph_replace(g, body, DEP_D, sum.level + 1, without, &leaf);
+        if (rest == body || !term_of_cell(d, &sum, body, &d->cells[k], &term)) continue;
+        total = graph_op(g, OP_ADD, total, term, 0);
+        body = rest;
+    }
+    if (body == sum.a) return n;
+    const range r = g->ranges[sum.c];
+    const node left = body ? graph_sum(g, sum.level, &r, sum.b, body) : 0;
+    return graph_op(g, OP_ADD, graph_replace(g, left, DEP_D, sum.level, of_cells, d), total, 0);
+}
+
+node lower_cells(differential *d, node n)
+{
+    return graph_replace(d->l->model->graph, n, DEP_D, d->l->levels, of_cells, d);
+}
