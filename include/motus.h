@@ -540,7 +540,8 @@ MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *
 typedef enum motus_event {
     /* The state at `time`, and the acceleration there. */
     MOTUS_EVENT_START,
-    /* v += coefficient step a, a = a(x, time): splitting. boris: a at the mean of the velocities before and after. */
+    /* v += coefficient step a, a = a(x, time): splitting. Where the force depends on the velocity: a at the mean of the
+     * velocities before and after. */
     MOTUS_EVENT_KICK,
     /* x += coefficient step v; `time` is the time after it. */
     MOTUS_EVENT_DRIFT,

@@ -14,9 +14,10 @@
 #include <string.h>
 
 enum {
-    SMALL_MAX = 16,        /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200, /* operations in all stages of a step, up to which they are written out */
-    FORCE_INLINE_MAX = 150 /* operations: a longer force is compiled once, and called */
+    SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
+    WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
+    SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
+    FORCE_INLINE_MAX = 150  /* operations: a longer force is compiled once, and called */
 };
 
 static void add_text(emit_text *t, const char *which)
@@ -131,7 +132,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
              stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX), structure ? w.nv : 0);
-    if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+    const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
+    if (structure && !many_solves && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;

@@ -15,13 +15,20 @@ static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, 
 static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }
 static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stages) - 1]; }
 
-/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is the Boris rotation, the Cayley
- * form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: the implicit midpoint rule for v' = a at fixed x and t,
+ * which is symmetric, so a step of leapfrog with this kick is symmetric and of order 2 for every force, and the
+ * compositions of such steps keep their order [HLW06, II.4, V.3.2]. For a = E + v × B it is the Boris rotation, the
+ * Cayley form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
 static int kick_implicit(work *w, int i)
 {
     int bad = newton_increment(w, kick_size(w, i), CLOCK(1), w->v, i);
     if (bad) return bad;
-    EACHV(k) w->v[k] += w->delta[k];
+    real *restrict v = w->v, *restrict ev = w->ev;
+    const real *restrict delta = w->delta;
+    if (ROW(w, compensated))
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], CLOCK(1), delta[k]);
+    else
+        EACHV(k) v[k] += delta[k];
     return STEP_OK;
 }
 

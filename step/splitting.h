@@ -52,10 +52,10 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
     (void)argument;
     w->stages = last + 1;
     w->linears = 2 * w->stages + 1;
-    w->solves = m->gyroscopic;
+    w->solves = w->velocity;
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
-    w->fsal = w->waits = !count && !m->gyroscopic && !m->adaptive && m->splitting.kick[0] != 0 &&
-                         m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
+    w->fsal = w->waits = !count && !m->adaptive && m->splitting.kick[0] != 0 && m->splitting.kick[last] != 0 &&
+                         m->splitting.drift[last] == 0;
     if (!unit) return;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
     for (int i = 0; i <= last; i++) {

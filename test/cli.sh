@@ -152,7 +152,7 @@ gives "an alias" 0 "$motus" run $osc --method rk2 --json
 gives "a method with arguments" 0 "$motus" run $osc --method "newmark(1/4, 1/2)" --json
 refuses "an unknown method" 2 "verlett" "$motus" run $osc --method verlett
 that "... has a remedy" says "verlet" "$err"
-refuses "a method that does not admit the model" 2 "forest-ruth" "$motus" run models/damped-cubic.motus --method forest-ruth
+refuses "a method that does not admit the model" 2 "pefrl" "$motus" run models/damped-cubic.motus --method pefrl
 that "looking changes nothing: -o, --plot-less and bare runs have the same bits" eval "
     '$motus' run $osc --json --method velocity-verlet >'$place/bare' && '$motus' run $osc --json --method velocity-verlet -o '$place/looked.csv' >'$place/looked' &&
     [ \"\$(jq -c .state '$place/bare')\" = \"\$(jq -c .state '$place/looked')\" ]"

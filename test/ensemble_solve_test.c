@@ -90,9 +90,10 @@ static void friction_that_is_not_linear(void **state)
     static const char coupled[] = "c = 1\nx'' = -x - c x'^3 - y'\ny'' = -y + sin(c x' y')\nx(0) = 1\nx'(0) = 2\ny(0) = "
                                   "0\ny'(0) = 1\nstep 0.1\nuntil 1\n";
     static const question list[] = {
-        {square, "verlet", "c", 0, 0.3, 0, 0},   {square, "verlet-literal", "c", 0, 0.3, 0, 0},
-        {square, "newmark", "c", 0, 0.3, 0, 0},  {square, "newmark(0, 1/2)", "c", 0, 0.3, 0, 0},
-        {coupled, "verlet", "c", 0, 0.05, 0, 0}, {coupled, "gauss4", "c", 0, 0.3, 0, 0}};
+        {square, "verlet", "c", 0, 0.3, 0, 0},    {square, "verlet-literal", "c", 0, 0.3, 0, 0},
+        {square, "newmark", "c", 0, 0.3, 0, 0},   {square, "newmark(0, 1/2)", "c", 0, 0.3, 0, 0},
+        {coupled, "verlet", "c", 0, 0.05, 0, 0},  {coupled, "gauss4", "c", 0, 0.3, 0, 0},
+        {square, "kahan-li6", "c", 0, 0.1, 0, 0}, {coupled, "forest-ruth", "c", 0, 0.05, 0, 0}};
     ASK(list);
 }
 
@@ -111,6 +112,8 @@ static void pivots_of_its_own(void **state)
                                     {pair, "newmark", "c", -40, 2.3, 0, 0},
                                     {three, "verlet", "c", -20, 1.3, 0, 0},
                                     {three, "verlet-literal", "c", -20, 1.3, 0, 0},
+                                    {three, "leapfrog", "c", -20, 1.3, 0, 0},
+                                    {three, "forest-ruth", "c", -20, 1.3, 0, 0},
                                     {three, "gauss6", "c", -4, 0.3, 0, 0},
                                     {line, "gauss4", "c", 0, 3, 0, 0}};
     ASK(list);
@@ -140,6 +143,8 @@ static void singular_in_one_lane(void **state)
     static const question list[] = {{one, "verlet", "g", -8, 1, 1, 1},
                                     {one, "verlet-literal", "g", -8, 1, 1, 1},
                                     {one, "implicit-midpoint", "g", -8, 1, 0, 0},
+                                    {one, "leapfrog", "g", -8, 1, 1, 1},
+                                    {later, "leapfrog", "g", 0, 1, 1, 1},
                                     {two, "verlet", "g", -9, 1, 1, 1},
                                     {two, "verlet-literal", "g", -9, 1, 1, 1},
                                     {later, "verlet", "g", -3.5, 0.25, 2, 2},

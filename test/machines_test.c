@@ -105,7 +105,8 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 
 static bool chosen(const char *name)
 {
-    static const char *const rows[] = {"verlet", "blanes-moan6", "boris", "rk4", "newmark", "gauss4"};
+    static const char *const rows[] = {"verlet",  "blanes-moan6", "boris",    "rk4",
+                                       "newmark", "gauss4",       "leapfrog", "kahan-li8"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* The sanitizers check the library's part, which is the same for every row. */

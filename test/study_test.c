@@ -563,7 +563,7 @@ static void failed_rows_have_status_and_note(void **state)
     callback.exact = NULL;
     callback.depends_on_velocity = 1;
     motus_system *s = system_of(&callback);
-    const char *methods[] = {"kahan-li8", "rk4"};
+    const char *methods[] = {"blanes-moan6", "rk4"};
     motus_study_def def = study_of(methods, 2, 0.1, 5);
     motus_comparison *c = compare(s, &def);
     assert_int_equal(c->rows[0]->status, MOTUS_METHOD);

@@ -102,7 +102,7 @@ static void kick(const step *s, const motus_trace_entry *e)
     double *mean = calloc(s->nv + 1, sizeof *mean);
     assert_non_null(mean);
     for (size_t k = 0; k < s->nv; k++) mean[k] = (before[k] + e->v[k]) / 2;
-    is_slope(s, e, e->x, mean, strcmp(s->method, "boris") ? 0 : SOLVED);
+    is_slope(s, e, e->x, mean, s->system->problem.traits.velocity ? SOLVED : 0);
     free(mean);
 }
 
