@@ -205,10 +205,14 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the acceleration is constant\n");
     else
         say(w, "the acceleration depends on %s%s%s\n",
-            t->first_order && !t->velocity ? "the positions"
-            : t->velocity                  ? "the state and its velocity"
-                                           : "the positions",
+            t->first_order && (!t->velocity || t->quadrature) ? "the positions"
+            : t->velocity                                     ? "the state and its velocity"
+                                                              : "the positions",
             t->time ? " and on time" : "", t->time ? "" : "; not on time");
+    if (t->quadrature)
+        say(w, "the velocity enters first-order variables alone, and nothing depends on these: they are integrals "
+               "along the "
+               "motion, which splitting methods follow at the mean velocity of each kick or at two of Gauss's nodes\n");
     if (t->velocity && t->linear_v) {
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
             t->constant_jv ? ", with constant coefficients" : "");

@@ -165,7 +165,7 @@ const row methods_table[] = {
        .cite = "BM02",
        .formula = "twelve kicks and eleven drifts, symmetric, beginning with a kick; a Runge-Kutta-Nyström splitting",
        .use = "Order 6 for long, accurate runs of x'' = a(x, t)." },
-      .family = SPLITTING, .compensated = true,
+      .family = SPLITTING, .nystrom = true, .compensated = true,
       .splitting = {12,
         C(K(0.0414649985182624), K(0.198128671918067), K(-0.0400061921041533), K(0.0752539843015807),
           K(-0.0115113874206879), K(0.2366699247869311), K(0.2366699247869311), K(-0.0115113874206879),
@@ -180,7 +180,7 @@ const row methods_table[] = {
        .formula = "fifteen drifts and fourteen kicks, symmetric, beginning with a drift; "
                   "a Runge-Kutta-Nyström splitting",
        .use = "Order 6 with the smallest error constant here." },
-      .family = SPLITTING, .compensated = true,
+      .family = SPLITTING, .nystrom = true, .compensated = true,
       .splitting = {15,
         C(K(0.0), K(0.09171915262446165), K(0.183983170005006), K(-0.05653436583288827), K(0.004914688774712854),
           K(0.143761127168358), K(0.328567693746804), K(-0.19641146648645423), K(-0.19641146648645423),

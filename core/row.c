@@ -182,6 +182,9 @@ static const char *reason(const row *row, const traits *traits)
             return "the velocity term is not of the form v × B: its matrix is not antisymmetric, so it does work";
         return "";
     }
+    if (traits->quadrature && row->family == SPLITTING)
+        return row->nystrom ? "a first-order variable depends on the velocity, and then this method loses its order"
+                            : "";
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
         return traits->first_order
                    ? "the right sides depend on a velocity or a first-order variable, and this method's kicks must not"

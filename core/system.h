@@ -25,6 +25,8 @@ typedef struct traits {
     bool smooth;
     bool has_exact;
     bool first_order; /* there are first-order variables: nv > nx */
+    /* velocity && it is read by first-order variables alone, which nothing reads: they are integrals along the motion */
+    bool quadrature;
 } traits;
 
 typedef struct problem {

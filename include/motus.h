@@ -384,7 +384,9 @@ typedef struct motus_method {
     const char *title;          /* for a text or a legend: "velocity Verlet" */
     const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
     int order, stages;
-    int evaluations;     /* of the acceleration per step in a long run; 0: it depends on the iterations */
+    /* of the acceleration per step in a long run; 0: it depends on the iterations. Splitting methods need more where
+     * first-order variables read the velocity, or the velocity enters nonlinearly. */
+    int evaluations;
     motus_forces forces; /* what the force may depend on */
     int symplectic, reversible;
     double stability_limit;    /* the largest stable h ω for x'' = -ω² x; INFINITY: all are; 0: none is */
@@ -541,7 +543,8 @@ typedef enum motus_event {
     /* The state at `time`, and the acceleration there. */
     MOTUS_EVENT_START,
     /* v += coefficient step a, a = a(x, time): splitting. Where the force depends on the velocity: a at the mean of the
-     * velocities before and after. */
+     * velocities before and after; the rates of first-order variables that only follow the motion, from there or a mean
+     * of two. */
     MOTUS_EVENT_KICK,
     /* x += coefficient step v; `time` is the time after it. */
     MOTUS_EVENT_DRIFT,

@@ -811,6 +811,26 @@ static void methods_are_refused_with_a_reason(void **state)
     motus_system_destroy(s);
 }
 
+/* A first-order variable that reads the velocity, and that nothing reads, leaves the splitting methods admitted but those
+ * whose order needs kicks without a velocity; one that acts back does not. */
+static void variables_that_follow(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\ns' = x'^2\nx(0) = 1\nx'(0) = 0\ns(0) = 0\n"),
+                 *back = given_text("x'' = -x\ns' = x'^2 - s\nx(0) = 1\nx'(0) = 0\ns(0) = 0\n");
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        if (strcmp(m->family, "splitting") || !strcmp(m->name, "boris")) continue;
+        const int nystrom = !strncmp(m->name, "blanes-moan6", 12), any = m->forces == MOTUS_FORCES_XVT;
+        assert_int_equal(motus_method_admits(s, m->name, NULL), nystrom ? MOTUS_METHOD : MOTUS_OK);
+        assert_int_equal(motus_method_admits(back, m->name, NULL), any ? MOTUS_OK : MOTUS_METHOD);
+    }
+    assert_non_null(strstr(motus_explain(s), "integrals along the motion"));
+    assert_null(strstr(motus_explain(back), "integrals along the motion"));
+    motus_system_destroy(s);
+    motus_system_destroy(back);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -835,6 +855,7 @@ int main(void)
         cmocka_unit_test(settings_and_analysis),
         cmocka_unit_test(methods_are_found),
         cmocka_unit_test(methods_are_refused_with_a_reason),
+        cmocka_unit_test(variables_that_follow),
     };
     return cmocka_run_group_tests_name("the public calls", tests, NULL, NULL);
 }

@@ -69,7 +69,7 @@ void laws_of_order(void)
     for (method m = 0; m < row_count(); m++) {
         const motus_method *card = row_card(m);
         palindrome(m);
-        static const int problems[] = {HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET, CUBIC, PARTICLE};
+        static const int problems[] = {HENON_HEILES, DRIVEN, RIDER, FOLLOWER, DAMPED, TANGLED, MAGNET, CUBIC, PARTICLE};
         for (size_t i = 0; i < sizeof problems / sizeof *problems; i++)
             /* of CUBIC, which is stiff, a method of order 1 would need too many steps */
             if (quad_admits(m, &quad_problems[problems[i]]) && (problems[i] != CUBIC || card->order > 1))

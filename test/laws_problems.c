@@ -72,6 +72,20 @@ static void rider_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[2] = dx[0] * x[1] + x[0] * dx[1] + t * dx[1];
 }
 
+/* One that acts on nothing but reads v, not as a polynomial. */
+static void follower(quad t, in x, in v, quad *a)
+{
+    driven(t, x, v, a);
+    a[2] = v[0] * v[0] + x[1] * v[1] / (1 + v[0] * v[0] + t * t) - t * x[0];
+}
+static void follower_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    const quad below = 1 + v[0] * v[0] + t * t;
+    driven_jvp(t, x, v, dx, dv, da);
+    da[2] = 2 * v[0] * dv[0] + (dx[1] * v[1] + x[1] * dv[1]) / below -
+            x[1] * v[1] * 2 * v[0] * dv[0] / (below * below) - t * dx[0];
+}
+
 /* Linear in v, with coefficients that depend on x and t, and not symmetric. */
 static void damped(quad t, in x, in v, quad *a)
 {
@@ -169,6 +183,8 @@ const quad_problem quad_problems[PROBLEMS] = {
     [TANGLED] = {"tangled", 2, 3, .velocity = true, .time = true, HH_START, .accel = tangled, .jvp = tangled_jvp},
     [MAGNET] = {"magnet", 3, 3, .velocity = true, .linear = true, .time = true, .gyroscopic = true,
                 .x = {Q(0.3), Q(-0.2), Q(0.1)}, .v = {Q(0.5), Q(0.4), Q(-0.3)}, .accel = magnet, .jvp = magnet_jvp},
+    [FOLLOWER] = {"follower", 2, 3, .velocity = true, .time = true, .quadrature = true, HH_START, .accel = follower,
+                  .jvp = follower_jvp},
     [CUBIC] = {"damped cubic", 1, 1, .velocity = true, .linear = true, .x = {10}, .accel = cubic, .jvp = cubic_jvp},
     [PARTICLE] = {"charged particle", 3, 3, .velocity = true, .linear = true, .gyroscopic = true, .v = {1, 0, Q(0.25)},
                   .accel = particle, .jvp = particle_jvp},

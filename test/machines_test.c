@@ -167,6 +167,28 @@ static void every_construct(void **state)
     }
 }
 
+/* First-order variables that read velocities and that nothing reads: a kick evaluates at several velocities, in the
+ * windows of a family too. */
+static void variables_that_follow(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x'' = -x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\ns' = x'^2 + t x\ns(0) = 0.5\nstep 0.05\nuntil 3\n",
+        "N = 40\nu[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = 0.1 sin(t)\nu[N+1] = 0\n"
+        "u[i](0) = sin(i) for i = 1..N\nu[i]'(0) = 0 for i = 1..N\nw' = sum(i = 1..N: u[i]'^4)\nw(0) = 0\n"
+        "step 0.05\nuntil 3\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        motus_system *s = open_text(texts[i], NULL);
+        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8"};
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+            assert_int_equal(motus_method_admits(s, rows[k], NULL), MOTUS_OK);
+            same_bits(s, texts[i], rows[k]);
+        }
+        assert_int_equal(motus_method_admits(s, "blanes-moan6", NULL), MOTUS_METHOD);
+        motus_system_destroy(s);
+    }
+}
+
 /* A compiled text contains only the functions that its model uses; each is tested alone, so that none depends on a
  * function that another includes. */
 static void every_function(void **state)
@@ -347,6 +369,7 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_model),
                                        cmocka_unit_test(every_construct),
+                                       cmocka_unit_test(variables_that_follow),
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),
