@@ -62,7 +62,7 @@ const row methods_table[] = {
        .title = "symplectic Euler",
        .cite = "Cromer81, deVogelaere56, HLW06 I.1.2",
        .formula = "v += h a(x, t);   x += h v",
-       .use = "The smallest change to Euler's method that keeps the energy; for teaching." },
+       .use = "The smallest change to Euler's method that keeps the energy of a gradient in a band; for teaching." },
       .family = SPLITTING, .splitting = {1, C(K(1.0)), C(K(1.0))} },
     { .card = { CARD("symplectic-euler-adjoint", "drift-kick-euler", "splitting", 1, 1, 1, XT, 1, 0, 2.0),
        .title = "symplectic Euler, adjoint",
@@ -215,11 +215,12 @@ const row methods_table[] = {
          K(0.25837438768632204729397911), K(0.29501172360931029887096624), K(-0.60550853383003451169892108))} },
     { .card = { CARD("boris", "", "splitting", 2, 1, 1, XVT, 0, 1, 2.0),
        .title = "Boris",
-       .cite = "Boris70, Qin13",
+       .cite = "Boris70, Qin13, HL18",
        .formula = "x += h/2 v;   v' = v + h a(x, (v + v')/2, t + h/2);   x += h/2 v'\n"
                   "for a = E + v × B the kick is half a kick by E, the Boris rotation, half a kick: "
                   "the Cayley form of the rotation",
-       .use = "Charged particles: keeps phase-space volume, and energy where E = 0; stable beyond the gyration." },
+       .use = "Charged particles: keeps phase-space volume, though it is not symplectic in general, and energy where\n"
+              "E = 0; stable beyond the gyration." },
       .family = SPLITTING, .gyroscopic = true, .splitting = {2, C(K(0.0), K(1.0)), C(K(0.5), K(0.5))} },
 
     /* Explicit Runge-Kutta. */
@@ -289,7 +290,7 @@ const row methods_table[] = {
        .title = "Gauss 4",
        .cite = "Butcher64, HLW06 II.1.3",
        .formula = "collocation at the two Gauss nodes 1/2 ∓ √3/6",
-       .use = "Symplectic and reversible at order 4 for every force; stable at every step." },
+       .use = "Order 4, reversible for every force and symplectic where it is a gradient; stable at every step." },
       .family = IMPLICIT,
       .tableau = {2, C(K(0.21132486540518711774542560974902127218), K(0.78867513459481288225457439025097872782)),
          C(K(0.25), K(-0.038675134594812882254574390250978727824),

@@ -201,6 +201,15 @@ static int unlike(const motus_method *wanted, const motus_method *other)
            4 * (wanted->reversible > other->reversible) + 2 * (other->evaluations == 0);
 }
 
+static motus_geometry geometry(const row *row, const traits *t)
+{
+    if (row->card.symplectic && t->gradient && !t->velocity && !t->first_order) return MOTUS_GEOMETRY_SYMPLECTIC;
+    if (row->family == SPLITTING && (!t->velocity || t->quadrature || t->gyroscopic)) return MOTUS_GEOMETRY_VOLUME;
+    return MOTUS_GEOMETRY_NONE;
+}
+
+motus_geometry row_geometry(const chosen *method, const traits *t) { return geometry(method->row, t); }
+
 motus_status row_admits(const chosen *method, const traits *traits, motus_error *err)
 {
     const char *why = reason(method->row, traits);
@@ -214,9 +223,8 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     }
     fail(err, MOTUS_METHOD, "%s does not admit this model: %s", method->name, why);
     if (nearest)
-        hint(err, "%s fits: order %d, %s", nearest->card.name, nearest->card.order,
-             nearest->card.symplectic   ? "symplectic and reversible"
-             : nearest->card.reversible ? "reversible"
-                                        : "for any force");
+        hint(err, "%s fits: order %d%s%s", nearest->card.name, nearest->card.order,
+             geometry(nearest, traits) == MOTUS_GEOMETRY_SYMPLECTIC ? ", symplectic" : "",
+             nearest->card.reversible ? ", reversible" : "");
     return MOTUS_METHOD;
 }

@@ -25,7 +25,7 @@ typedef struct traits {
     bool smooth;
     bool has_exact;
     bool first_order; /* there are first-order variables: nv > nx */
-    /* velocity && it is read by first-order variables alone, which nothing reads: they are integrals along the motion */
+    /* v is read by first-order variables alone, which nothing reads: integrals along the motion; velocity holds */
     bool quadrature;
 } traits;
 

@@ -29,7 +29,7 @@ export interface Parameter {
 /** A statement of the model typeset: one <math> element, well-formed XML. */
 export interface Statement { readonly kind: string; readonly line: number; readonly mathml: string }
 
-export interface Admission { readonly name: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
+export interface Admission { readonly name: string; readonly admitted: boolean; readonly preserves: 'symplectic' | 'volume' | ''; readonly reason: string; readonly hint: string }
 
 /** What the page itself has to say against something: no place in a text. */
 export function problem(kind: string, message: string, hint = ''): Problem {

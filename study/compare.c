@@ -313,7 +313,8 @@ static motus_status make_row(compare *c, size_t k)
     motus_status status = motus_method_find(method, &c->facts[k].card, &e);
     if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     row->order = c->facts[k].card->order;
-    if ((status = motus_method_admits(s->system, method, &e)) != MOTUS_OK) return row_failed(c, k, status, &e);
+    status = motus_method_geometry(s->system, method, &c->facts[k].geometry, &e);
+    if (status != MOTUS_OK) return row_failed(c, k, status, &e);
 
     row->step = c->step;
     double base = s->base, span = s->span;

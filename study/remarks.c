@@ -145,7 +145,8 @@ static bool drifts(const remarks_view *v, size_t k, size_t i)
 static bool stays(const remarks_view *v, size_t k, size_t i)
 {
     const motus_drift *d = ran(v, k) ? drift(v, k, i) : NULL;
-    return d && !d->trending && v->facts[k].card->symplectic && d->max_drift > v->facts[k].roundoff[i];
+    return d && !d->trending && v->facts[k].geometry == MOTUS_GEOMETRY_SYMPLECTIC &&
+           d->max_drift > v->facts[k].roundoff[i];
 }
 
 static bool conserves(const remarks_view *v, size_t k, size_t i)
@@ -177,12 +178,11 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
             name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial,
             drift(v, worst, i)->final, n == 1 ? "its" : "their");
     n = names(v, stays, i, list, sizeof list);
-    /* There is a modified energy only if the force does not depend on the velocity. */
-    if (n && !v->analysis.velocity_dependent)
+    /* There is a modified energy only where there is an energy. */
+    if (n && !v->analysis.time_dependent)
         say(out,
             "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "
-            "conserves "
-            "a modified energy.",
+            "conserves a modified energy.",
             name, list, largest_drift(v, stays, i));
     n = names(v, drifts, i, list, sizeof list);
     if (n)

@@ -37,7 +37,20 @@ typedef struct quad_problem {
     void (*jvp)(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da);
 } quad_problem;
 
-enum { FREE_FALL, OSCILLATOR, HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET, CUBIC, PARTICLE, FOLLOWER, PROBLEMS };
+enum {
+    FREE_FALL,
+    OSCILLATOR,
+    HENON_HEILES,
+    DRIVEN,
+    RIDER,
+    DAMPED,
+    TANGLED,
+    MAGNET,
+    CUBIC,
+    PARTICLE,
+    FOLLOWER,
+    PROBLEMS
+};
 extern const quad_problem quad_problems[PROBLEMS];
 /* The traits that the program would find in the problem's equations. */
 traits quad_traits(const quad_problem *);
