@@ -698,11 +698,13 @@ typedef struct motus_compare_row {
     double step;
     int64_t steps, evaluations;
     double seconds;
-    double error_max_x, error_max_v, error_final_x, error_final_v; /* of the largest component; NaN: not known */
+    double error_max_x, error_max_v, error_final_x,
+        error_final_v; /* largest of positions, velocities; NaN: none, or unknown */
     size_t invariant_count;
     const motus_drift *const *invariants; /* invariant_count, in the order of motus_invariant_name */
     double reversal;                      /* distance from the start after a run to the end and back */
     const char *note;
+    double error_max_s, error_final_s; /* of first-order variables; NaN: there are none, or not known */
 } motus_compare_row;
 
 typedef struct motus_comparison {

@@ -153,6 +153,8 @@ static void compare_row(json *j, const motus_compare_row *r)
     json_number(j, "error_final", r->error_final_x);
     json_number(j, "error_max_v", r->error_max_v);
     json_number(j, "error_final_v", r->error_final_v);
+    json_number(j, "error_max_s", r->error_max_s);
+    json_number(j, "error_final_s", r->error_final_s);
     json_open(j, "invariants", '{');
     for (size_t k = 0; k < r->invariant_count; k++) drift(j, r->invariants[k]);
     json_close(j, '}');
