@@ -448,6 +448,12 @@ cd "$root" || exit 1
 gives "compare --json" 0 "$motus" compare models/projectile.motus --json
 that "... is JSON" json "$out"
 that "compare: the keys of a row" holds '.rows | length > 3 and all(.[]; has("method") and has("order") and has("steps") and has("evaluations") and has("seconds") and has("error_max") and has("error_final") and has("invariants") and has("reversal"))'
+gives "compare: a composition under friction" 0 "$motus" compare models/damped-cubic.motus --methods kahan-li8 --step 0.01 --json
+that "... returns to its start by round-off" holds '.rows[0].reversal < 1e-11 and .rows[0].error_max < 1e-9'
+printf "x' = -x\nx(0) = 1\nstep 0.1\nuntil 1\n" >"$place/decay.motus"
+gives "compare: a first-order variable alone" 0 "$motus" compare "$place/decay.motus" --methods rk4 --json
+that "... has an error, and no position has" holds '.rows[0] | .error_max == null and .error_max_v == null and .error_max_s > 1e-8'
+gives "compare --json" 0 "$motus" compare models/projectile.motus --json
 euler=$(jq '.rows[] | select(.method == "explicit-euler").error_final' "$out")
 symplectic=$(jq '.rows[] | select(.method == "symplectic-euler").error_final' "$out")
 that "projectile: explicit Euler is off by ½ g h t" near "$euler" 0.73575 1e-12
@@ -504,6 +510,13 @@ that "check: damped cubic depends on the velocity, linearly" holds '.velocity_de
 that "check: every method, with a reason where it is refused" holds \
     "(.methods | length == $("$motus" methods --json | jq '.methods | length')) and all(.methods[]; .admitted or (.reason | length > 10))"
 that "check: some are refused, some not" holds '([.methods[].admitted] | any) and ([.methods[].admitted] | all | not)'
+that "check: with friction a composition is admitted, and preserves nothing" holds '.methods[] | select(.name == "kahan-li8") | .admitted and .preserves == ""'
+gives "check: a charged particle" 0 "$motus" check models/charged-particle.motus --json
+that "... boris preserves the volume, and is not symplectic" holds '.methods[] | select(.name == "boris") | .preserves == "volume"'
+gives "check: a planet" 0 "$motus" check models/kepler.motus --json
+that "... verlet is symplectic" holds '.methods[] | select(.name == "verlet") | .preserves == "symplectic"'
+gives "check: a driven oscillator" 0 "$motus" check models/driven-oscillator.motus
+that "... has no energy" lacks "an energy exists"
 gives "check for people" 0 "$motus" check models/damped-cubic.motus
 that "... says that the velocity is solved in closed form" says "closed form"
 for model in models/*.motus; do
