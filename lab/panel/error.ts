@@ -28,7 +28,9 @@ export const errorPanel: PanelMaker = (store): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, of: Of = 'x';
   let floor = 0, low = 1e-16, high = 1, zeros = false, drawn: Float64Array[] = [], leaving: number[] = [];
 
-  const options = ALL.map((value) => element('option', { value }, KINDS[value].name)), select = element('select', {}, ...options);
+  const select = element('select', {});
+  /* The kinds in the list, which is written anew only when they change. */
+  let offered = '';
   const control = element('label', {}, 'Error of the', select);
   select.addEventListener('change', () => {
     of = ALL.find((value) => value === select.value) ?? 'x';
@@ -177,8 +179,11 @@ export const errorPanel: PanelMaker = (store): Panel => {
       : '';
     const there = ALL.filter((value) => next.solution.errors.some((e) => e[value].length));
     if (there.length && !there.includes(of)) of = there[0]!;
+    if (offered !== there.join()) {
+      offered = there.join();
+      select.replaceChildren(...there.map((value) => element('option', { value }, KINDS[value].name)));
+    }
     select.value = of;
-    options.forEach((option, k) => { option.hidden = option.disabled = !there.includes(ALL[k]!); });
     if (!why) measure(next);
     control.hidden = there.length < 2;
     fig.say(why);
