@@ -1,4 +1,5 @@
 /* See choice.h. */
+#include "api/symmetry.h"
 #include "api/choice.h"
 
 #include <string.h>
@@ -12,8 +13,7 @@ motus_status choice_method(motus_system *s, const char *name, chosen *chosen, co
     if (status != MOTUS_OK) return status;
     /* also where Boris is not chosen: it may be the method that the refusal names */
     const bool may_need = (*card)->forces != MOTUS_FORCES_XVT || !strcmp((*card)->name, "boris");
-    if (may_need && !system_sample_gyroscopic(s))
-        return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+    if (may_need && !symmetry_gyroscopic(s)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
     return row_admits(chosen, &s->problem.traits, err);
 }
 

@@ -3,6 +3,7 @@
  * Invariant: a trajectory has the bits of a run with its values, and is observed at the same steps as in lanes.
  * Afterwards the system has its own numbers again.
  */
+#include "api/symmetry.h"
 #include "api/ensemble.h"
 
 #include "core/course.h"
@@ -78,7 +79,7 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
         /* whether the velocity term does no work is sampled for these parameters */
         if (e->chosen.row->gyroscopic) {
             y->sampled_gyroscopic = false;
-            if (!system_sample_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
+            if (!symmetry_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
             motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
             if (status != MOTUS_OK) return status;
         }

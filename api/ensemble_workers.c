@@ -3,6 +3,7 @@
  * Invariant: workers share no data that changes but `done` and `stop`, so the result of an item does not depend on
  * which worker computes it.
  */
+#include "api/symmetry.h"
 #include "api/ensemble.h"
 
 #include "api/choice.h"
@@ -33,7 +34,7 @@ static motus_status prepare_worker(motus_ensemble *e, int number, motus_error *e
         motus_status status = motus_system_clone(e->system, &s, err);
         if (status == MOTUS_OK && s->model)
             status = vary_create(s->model, e->places, e->vary_count, true, true, &w->vary, err);
-        if (status == MOTUS_OK && !system_sample_gyroscopic(s))
+        if (status == MOTUS_OK && !symmetry_gyroscopic(s))
             status = fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
         const char *why;
         w->machine = s->machine;

@@ -1,4 +1,5 @@
-/* The analysis of a model in words, and the traits that only sampled states can show. */
+/* The analysis of a model in words. */
+#include "api/symmetry.h"
 #include "api/system.h"
 
 #include <math.h>
@@ -6,96 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- symmetry of the derivatives, at sampled states ---- */
-
-enum { SYMMETRY_STATES = 6 };
-
-static double random_number(uint64_t *state) /* splitmix64, to (-1, 1) */
-{
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
-}
-
-/* Tests w·(J u) = sign · u·(J w) at random states and directions, to rounding: whether J is symmetric (sign 1) or
- * antisymmetric (-1). Another J fails at almost every state. False: there was no memory for the test. */
-static bool symmetric(motus_system *s, bool in_v, double sign, bool *answer)
-{
-    problem *p = &s->problem;
-    size_t n = p->nv, work = 7 * (n + 1);
-    *answer = false;
-    if (!p->jvp) return true;
-    if (p->prepare && !p->prepare(p->ctx, in_v)) return false;
-    double *x = take(&s->allocator, work, sizeof *x);
-    if (!x) return false;
-    double *v = x + n + 1, *u = v + n + 1, *w = u + n + 1, *ju = w + n + 1, *jw = ju + n + 1, *mask = jw + n + 1;
-    /* Only cells with an equation are varied. */
-    for (uint32_t i = 0; i < s->state_count; i++)
-        for (size_t c = 0; c < s->states[i].cells.count; c++)
-            for (int k = 0; k < (s->states[i].components ? s->states[i].components : 1); k++)
-                mask[system_place(&s->states[i], c, k)] = 1;
-    bool ok = true;
-    uint64_t random = 12345;
-    int judged = 0;
-    for (int round = 0; round < SYMMETRY_STATES && ok; round++) {
-        memcpy(x, s->x0, p->nx * sizeof *x);
-        memcpy(v, s->v0, n * sizeof *v);
-        for (size_t k = 0; k < n; k++) {
-            double spread = round == 0 ? 0 : 0.3;
-            if (k < p->nx) x[k] += mask[k] * spread * (fabs(x[k]) + 1) * random_number(&random);
-            v[k] += mask[k] * spread * (fabs(v[k]) + 1) * random_number(&random);
-            u[k] = mask[k] * random_number(&random);
-            w[k] = mask[k] * random_number(&random);
-        }
-        memset(ju, 0, n * sizeof *ju);
-        memset(jw, 0, n * sizeof *jw);
-        if (p->jvp(p->ctx, s->start, x, v, in_v ? NULL : u, in_v ? u : NULL, ju) ||
-            p->jvp(p->ctx, s->start, x, v, in_v ? NULL : w, in_v ? w : NULL, jw)) {
-            ok = false;
-            break;
-        }
-        double a = 0, b = 0, size = 0;
-        for (size_t k = 0; k < n; k++) {
-            a += w[k] * ju[k];
-            b += u[k] * jw[k];
-            size += fabs(w[k] * ju[k]) + fabs(u[k] * jw[k]);
-        }
-        if (!isfinite(size)) continue; /* the force is not defined there */
-        judged++;
-        ok = fabs(a - sign * b) <= 1e-11 * size;
-    }
-    give(&s->allocator, x);
-    *answer = ok && judged > 0;
-    return true;
-}
-
-bool system_sample_gyroscopic(motus_system *s)
-{
-    traits *t = &s->problem.traits;
-    if (s->sampled_gyroscopic || !t->velocity || !t->linear_v || t->first_order || !s->model) return true;
-    modes m = modes_enter();
-    s->sampled_gyroscopic = symmetric(s, true, -1, &t->gyroscopic);
-    modes_leave(m);
-    return s->sampled_gyroscopic;
-}
-
-static bool sample_gradient(motus_system *s)
-{
-    traits *t = &s->problem.traits;
-    if (s->sampled_gradient || t->velocity || t->first_order || !s->model) return true;
-    modes m = modes_enter();
-    s->sampled_gradient = symmetric(s, false, 1, &t->gradient);
-    t->gradient = t->gradient || t->constant;
-    modes_leave(m);
-    return s->sampled_gradient;
-}
-
 motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
 {
     motus_system *s = (motus_system *)given;
     if (!s || !out || motus_struct_check(MOTUS_DEF_ANALYSIS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
-    if (!system_sample_gyroscopic(s) || !sample_gradient(s)) return MOTUS_MEMORY;
+    if (!symmetry_gyroscopic(s) || !symmetry_gradient(s)) return MOTUS_MEMORY;
     const traits *t = &s->problem.traits;
     const motus_analysis ours = {.velocity_dependent = t->velocity,
                                  .linear_in_velocity = t->linear_v,
@@ -205,10 +121,14 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the acceleration is constant\n");
     else
         say(w, "the acceleration depends on %s%s%s\n",
-            t->first_order && !t->velocity ? "the positions"
-            : t->velocity                  ? "the state and its velocity"
-                                           : "the positions",
+            t->first_order && (!t->velocity || t->quadrature) ? "the positions"
+            : t->velocity                                     ? "the state and its velocity"
+                                                              : "the positions",
             t->time ? " and on time" : "", t->time ? "" : "; not on time");
+    if (t->quadrature)
+        say(w, "the velocity enters first-order variables alone, and nothing depends on these: they are integrals "
+               "along the "
+               "motion, which splitting methods follow at the mean velocity of each kick or at two of Gauss's nodes\n");
     if (t->velocity && t->linear_v) {
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
             t->constant_jv ? ", with constant coefficients" : "");
@@ -220,8 +140,8 @@ static void say_forces(words *w, const motus_system *s)
     }
     if (t->affine && !t->constant) say(w, "the equations are linear\n");
     if (t->gradient && !t->constant)
-        say(w, "the force is a gradient: its derivative is symmetric (tested at %d states), so an energy exists\n",
-            SYMMETRY_STATES);
+        say(w, "the force is a gradient%s: its derivative is symmetric, with constant masses (tested at %d states)%s\n",
+            t->time ? " at every time" : "", SYMMETRY_STATES, t->time ? "" : ", so an energy exists");
     if (!t->smooth)
         say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
                "orders lose their order where these switch\n");
@@ -234,7 +154,7 @@ const char *motus_explain(motus_system *s)
 {
     if (!s) return "";
     if (!s->model) return "the acceleration is a callback: its form is not known\n";
-    if (!system_sample_gyroscopic(s) || !sample_gradient(s)) return "";
+    if (!symmetry_gyroscopic(s) || !symmetry_gradient(s)) return "";
     const traits *t = &s->problem.traits;
     const char **kept = &s->explanation[t->gyroscopic][t->gradient];
     if (*kept) return *kept;

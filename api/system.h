@@ -51,9 +51,6 @@ struct motus_system {
     char *mathml; /* of the statement typeset last, from the hooks */
 };
 
-/* Tests at sampled states whether the velocity term is gyroscopic, once, when the answer is needed. False: there was no
- * memory, and the answer is not known. */
-bool system_sample_gyroscopic(motus_system *);
 /* defaults.c. Whether the size in `made` is valid, when the versions had `sizes`, of which the last is the present. */
 typedef enum defaults_fit { SIZE_FITS, SIZE_MISSING, SIZE_UNKNOWN, SIZE_ASKS_MORE } defaults_fit;
 defaults_fit defaults_judge(const uint32_t *sizes, size_t count, const void *made);

@@ -42,18 +42,21 @@ static motus_status print_text(const load *m, motus_error *err)
     printf("\n%sanalysis%s\n", strong, plain);
     text_wrap(stdout, text ? text : "", 2, 100);
     printf("\n%smethods%s\n", strong, plain);
-    table *t = table_create("llrl");
+    table *t = table_create("llrll");
     table_cell(t, "method");
     table_cell(t, "admitted");
     table_cell(t, "order");
+    table_cell(t, "preserves");
     table_cell(t, "why not");
     for (size_t k = 0; k < motus_method_count(); k++) {
         motus_error why = motus_default_error();
         const motus_method *method = motus_method_at(k);
-        motus_status status = motus_method_admits(m->system, method->name, &why);
+        motus_geometry geometry = MOTUS_GEOMETRY_NONE;
+        motus_status status = motus_method_geometry(m->system, method->name, &geometry, &why);
         table_cell(t, method->name);
         table_cell(t, status ? "no" : "yes");
         table_integer(t, method->order);
+        table_cell(t, tell_geometry(geometry));
         table_cell(t, status ? tell_reason(why.message, method->name) : "");
     }
     bool good = table_print(t, stdout, 2, colours);

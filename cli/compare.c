@@ -22,15 +22,24 @@ static void print_json(const studies *s, const void *result)
     json_end(&j);
 }
 
-static table *error_table(const motus_comparison *c)
+/* Errors of what the model has: of positions and velocities, and of first-order variables. */
+static table *error_table(const motus_comparison *c, bool positions, bool first_order)
 {
-    static const char *const heads[] = {"method",       "order",      "step",         "steps",
-                                        "evaluations",  "time",       "x error, max", "at the end",
-                                        "v error, max", "at the end", "reversal"};
-    table *t = table_create("lrrrrrrrrrr");
-    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
+    static const char *const heads[] = {"method", "order", "step", "steps", "evaluations", "time"};
+    enum { HEADS = sizeof heads / sizeof *heads };
+    table *t = table_create(positions && first_order ? "lrrrrrrrrrrrr" : positions ? "lrrrrrrrrrr" : "lrrrrrrrr");
+    for (size_t i = 0; i < HEADS; i++) table_cell(t, heads[i]);
+    const char *const names[] = {"x error, max", "v error, max", "first-order error, max"};
+    for (size_t i = 0; i < 3; i++)
+        if (i < 2 ? positions : first_order) {
+            table_cell(t, names[i]);
+            table_cell(t, "at the end");
+        }
+    table_cell(t, "reversal");
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = c->rows[k];
+        const double errors[][2] = {
+            {r->error_max_x, r->error_final_x}, {r->error_max_v, r->error_final_v}, {r->error_max_s, r->error_final_s}};
         char spent[DECIMAL_MAX];
         text_seconds(r->seconds, spent);
         table_cell(t, r->method);
@@ -39,10 +48,9 @@ static table *error_table(const motus_comparison *c)
         table_integer(t, r->steps);
         table_integer(t, r->evaluations);
         table_cell(t, r->status ? "-" : spent);
-        table_number(t, r->status ? NAN : r->error_max_x, -2);
-        table_number(t, r->status ? NAN : r->error_final_x, -2);
-        table_number(t, r->status ? NAN : r->error_max_v, -2);
-        table_number(t, r->status ? NAN : r->error_final_v, -2);
+        for (size_t i = 0; i < 3; i++)
+            for (size_t at = 0; (i < 2 ? positions : first_order) && at < 2; at++)
+                table_number(t, r->status ? NAN : errors[i][at], -2);
         table_number(t, r->status ? NAN : r->reversal, -2);
     }
     return t;
@@ -86,7 +94,9 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
 {
     const motus_comparison *c = result;
     bool colours = complain_colours(1);
-    table *errors = error_table(c), *drifts = drift_table(c);
+    const motus_system *system = s->model.system;
+    const size_t nx = motus_positions(system);
+    table *errors = error_table(c, nx > 0, motus_velocities(system) > nx), *drifts = drift_table(c);
     studies_title(s, c->reference, c->reference_error);
     fputs("\n", stdout);
     bool good = table_print(errors, stdout, 2, colours);

@@ -65,8 +65,10 @@ static motus_status print_catalogue(const options *o, motus_error *err)
     bool good = o->markdown ? table_markdown(t, stdout) : table_print(t, stdout, 0, complain_colours(1));
     table_destroy(t);
     if (good && !o->markdown)
-        puts("\nforces: what the force may depend on. limit: largest stable h ω for x'' = -ω² x.\n"
-             "motus methods NAME shows the card of one.");
+        puts(
+            "\nforces: what the force may depend on. symplectic: where the force is a gradient. limit: largest stable\n"
+            "h ω for x'' = -ω² x. motus check MODEL tells what each method preserves of a model.\n"
+            "motus methods NAME shows the card of one.");
     return good ? MOTUS_OK : complain_memory(err);
 }
 
@@ -90,7 +92,7 @@ static void print_card(const motus_method *m)
              "stages: %d\nevaluations per step: %s\nforces may depend on: %s\nsymplectic: %s\nreversible: %s\n"
              "largest stable h ω: %s",
              m->stages, m->evaluations > 0 ? evaluations : "as many as the solver needs", tell_forces(m->forces),
-             m->symplectic ? "yes" : "no", m->reversible ? "yes" : "no", limit);
+             m->symplectic ? "yes, where the force is a gradient" : "no", m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);
     section("when to use it", m->use ? m->use : "", strong, plain);

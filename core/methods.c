@@ -14,6 +14,9 @@
     .evaluations = evaluations_, .forces = MOTUS_FORCES_##forces_, .symplectic = symplectic_,                    \
     .reversible = reversible_, .stability_limit = limit_
 
+/* What the compositions of leapfrog steps do with forces that depend on the velocity. */
+#define IMPLICIT_KICKS "\nvelocity terms: each kick takes a at the mean of the velocities before and after it"
+
 /* A list of coefficients. */
 #define C(...) \
     (const coef[]) { __VA_ARGS__ }
@@ -59,7 +62,7 @@ const row methods_table[] = {
        .title = "symplectic Euler",
        .cite = "Cromer81, deVogelaere56, HLW06 I.1.2",
        .formula = "v += h a(x, t);   x += h v",
-       .use = "The smallest change to Euler's method that keeps the energy; for teaching." },
+       .use = "The smallest change to Euler's method that keeps the energy of a gradient in a band; for teaching." },
       .family = SPLITTING, .splitting = {1, C(K(1.0)), C(K(1.0))} },
     { .card = { CARD("symplectic-euler-adjoint", "drift-kick-euler", "splitting", 1, 1, 1, XT, 1, 0, 2.0),
        .title = "symplectic Euler, adjoint",
@@ -74,11 +77,12 @@ const row methods_table[] = {
        .use = "Verlet's method as a one-step map; the closing kick of a step and the opening one of the next\n"
               "are one." },
       .family = SPLITTING, .splitting = {2, C(K(0.5), K(0.5)), C(K(1.0), K(0.0))} },
-    { .card = { CARD("leapfrog", "drift-kick-drift dkd position-verlet", "splitting", 2, 1, 1, XT, 1, 1, 2.0),
+    { .card = { CARD("leapfrog", "drift-kick-drift dkd position-verlet", "splitting", 2, 1, 1, XVT, 1, 1, 2.0),
        .title = "leapfrog",
-       .cite = "HLW03",
-       .formula = "x += h/2 v;   v += h a(x, t + h/2);   x += h/2 v",
-       .use = "As velocity-verlet, with the force in the middle of the step; the base of the compositions below." },
+       .cite = "HLW03, HLW06 II.5",
+       .formula = "x += h/2 v;   v += h a(x, t + h/2);   x += h/2 v" IMPLICIT_KICKS,
+       .use = "As velocity-verlet, with the force in the middle of the step, and for velocity terms too; the base of\n"
+              "the compositions below." },
       .family = SPLITTING, .splitting = {2, C(K(0.0), K(1.0)), C(K(0.5), K(0.5))} },
     { .card = { CARD("ruth3", "", "splitting", 3, 3, 3, XT, 1, 0, 2.5074811709523554),
        .title = "Ruth 3",
@@ -88,11 +92,12 @@ const row methods_table[] = {
       .family = SPLITTING,
       .splitting = {3, C(K(7.0) / K(24.0), K(3.0) / K(4.0), K(-1.0) / K(24.0)),
                        C(K(2.0) / K(3.0), K(-2.0) / K(3.0), K(1.0))} },
-    { .card = { CARD("forest-ruth", "yoshida4 candy-rozmus", "splitting", 4, 3, 3, XT, 1, 1, 1.5734019474345401),
+    { .card = { CARD("forest-ruth", "yoshida4 candy-rozmus", "splitting", 4, 3, 3, XVT, 1, 1, 1.5734019474345401),
        .title = "Forest–Ruth",
        .cite = "ForestRuth90 eq. 4.8, Yoshida90",
-       .formula = "leapfrog steps of w h, (1 − 2w) h, w h;   w = 1/(2 − ∛2)",
-       .use = "The classical order 4; mclachlan4 and blanes-moan4 are far more accurate at equal work." },
+       .formula = "leapfrog steps of w h, (1 − 2w) h, w h;   w = 1/(2 − ∛2)" IMPLICIT_KICKS,
+       .use = "The classical order 4; for x'' = a(x, t) mclachlan4 and blanes-moan4 are far more accurate at equal\n"
+              "work. Its substep backward in time is long: under strong friction suzuki4 is safer." },
       .family = SPLITTING,
       .composition = {3,
         C(K(1.351207191959657634047687808971460826922), K(-1.702414383919315268095375617942921653844))} },
@@ -117,11 +122,11 @@ const row methods_table[] = {
           K(0.28813559322033898305), K(-0.04109589041095890411)),
         C(K(0.4051886183952522772), K(-0.287144040816524089), K(0.3819554224212718118), K(0.3819554224212718118),
           K(-0.287144040816524089), K(0.4051886183952522772))} },
-    { .card = { CARD("suzuki4", "", "splitting", 4, 5, 5, XT, 1, 1, 2.7209745385601497),
+    { .card = { CARD("suzuki4", "", "splitting", 4, 5, 5, XVT, 1, 1, 2.7209745385601497),
        .title = "Suzuki 4",
        .cite = "Suzuki90",
-       .formula = "leapfrog steps of w h, w h, (1 − 4w) h, w h, w h;   w = 1/(4 − ∛4)",
-       .use = "Order 4 with smaller substeps than forest-ruth's; robust on rough motions." },
+       .formula = "leapfrog steps of w h, w h, (1 − 4w) h, w h, w h;   w = 1/(4 − ∛4)" IMPLICIT_KICKS,
+       .use = "Order 4 with smaller substeps than forest-ruth's; robust on rough motions and under friction." },
       .family = SPLITTING,
       .composition = {5,
         C(K(0.4144907717943757371423540628607614957118), K(0.4144907717943757371423540628607614957118),
@@ -137,20 +142,20 @@ const row methods_table[] = {
           K(-0.0390563049223486), K(0.396309801498368), K(0.0829844064174052)),
         C(K(0.245298957184271), K(0.60487266571108), K(-0.350171622895351), K(-0.350171622895351),
           K(0.60487266571108), K(0.245298957184271), K(0.0))} },
-    { .card = { CARD("yoshida6", "", "splitting", 6, 7, 7, XT, 1, 1, 2.2690579963976594),
+    { .card = { CARD("yoshida6", "", "splitting", 6, 7, 7, XVT, 1, 1, 2.2690579963976594),
        .title = "Yoshida 6",
        .cite = "Yoshida90 table 1, solution A",
-       .formula = "seven leapfrog steps of w₁ h … w₄ h … w₁ h",
+       .formula = "seven leapfrog steps of w₁ h … w₄ h … w₁ h" IMPLICIT_KICKS,
        .use = "The textbooks' order 6; blanes-moan6 is far more accurate at equal work." },
       .family = SPLITTING, .compensated = true,
       .composition = {7,
         C(K(0.7845136104775572638194976338663498757768), K(0.2355732133593581336847931829785346016865),
          K(-1.177679984178871006946415680964315734639), K(1.315186320683911218884249728238862514352))} },
-    { .card = { CARD("kahan-li6", "", "splitting", 6, 9, 9, XT, 1, 1, 2.532627388334297),
+    { .card = { CARD("kahan-li6", "", "splitting", 6, 9, 9, XVT, 1, 1, 2.532627388334297),
        .title = "Kahan–Li 6",
        .cite = "KahanLi97",
-       .formula = "nine leapfrog steps, symmetric",
-       .use = "Order 6 for any separable system." },
+       .formula = "nine leapfrog steps, symmetric" IMPLICIT_KICKS,
+       .use = "Order 6 for every force, velocity terms included." },
       .family = SPLITTING, .compensated = true,
       .composition = {9,
         C(K(0.39216144400731413927925056), K(0.33259913678935943859974864), K(-0.70624617255763935980996482),
@@ -160,7 +165,7 @@ const row methods_table[] = {
        .cite = "BM02",
        .formula = "twelve kicks and eleven drifts, symmetric, beginning with a kick; a Runge-Kutta-Nyström splitting",
        .use = "Order 6 for long, accurate runs of x'' = a(x, t)." },
-      .family = SPLITTING, .compensated = true,
+      .family = SPLITTING, .nystrom = true, .compensated = true,
       .splitting = {12,
         C(K(0.0414649985182624), K(0.198128671918067), K(-0.0400061921041533), K(0.0752539843015807),
           K(-0.0115113874206879), K(0.2366699247869311), K(0.2366699247869311), K(-0.0115113874206879),
@@ -175,7 +180,7 @@ const row methods_table[] = {
        .formula = "fifteen drifts and fourteen kicks, symmetric, beginning with a drift; "
                   "a Runge-Kutta-Nyström splitting",
        .use = "Order 6 with the smallest error constant here." },
-      .family = SPLITTING, .compensated = true,
+      .family = SPLITTING, .nystrom = true, .compensated = true,
       .splitting = {15,
         C(K(0.0), K(0.09171915262446165), K(0.183983170005006), K(-0.05653436583288827), K(0.004914688774712854),
           K(0.143761127168358), K(0.328567693746804), K(-0.19641146648645423), K(-0.19641146648645423),
@@ -185,10 +190,10 @@ const row methods_table[] = {
           K(-0.130144459517415), K(0.106417700369543), K(-0.00879424312851058), K(0.2073050690568954),
           K(-0.00879424312851058), K(0.106417700369543), K(-0.130144459517415), K(0.314241403071447),
           K(-0.0258678882665587), K(0.102635633102435), K(0.0378593198406116))} },
-    { .card = { CARD("yoshida8", "", "splitting", 8, 15, 15, XT, 1, 1, 2.3565081394342591),
+    { .card = { CARD("yoshida8", "", "splitting", 8, 15, 15, XVT, 1, 1, 2.3565081394342591),
        .title = "Yoshida 8",
        .cite = "Yoshida90 table 2, solution D",
-       .formula = "fifteen leapfrog steps, symmetric",
+       .formula = "fifteen leapfrog steps, symmetric" IMPLICIT_KICKS,
        .use = "The textbooks' order 8; kahan-li8 is far more accurate at equal work." },
       /* The paper prints 15 digits, of which 13 satisfy the order conditions; Newton's method gives the others. */
       .family = SPLITTING, .compensated = true,
@@ -197,11 +202,12 @@ const row methods_table[] = {
          K(-1.444852236860605157694730657537390354956), K(-0.1582406353680501752040667767597542477554),
          K(1.938139137622525986579186487443641760954), K(-1.960610232975310807607633376399663640792),
          K(0.102799849391796440698115131601225862911), K(1.708453070787281584668379362228977878047))} },
-    { .card = { CARD("kahan-li8", "", "splitting", 8, 17, 17, XT, 1, 1, 3.0964386800007322),
+    { .card = { CARD("kahan-li8", "", "splitting", 8, 17, 17, XVT, 1, 1, 3.0964386800007322),
        .title = "Kahan–Li 8",
        .cite = "KahanLi97",
-       .formula = "seventeen leapfrog steps, symmetric",
-       .use = "Positions to round-off where the force is smooth; the most accurate row here at equal work." },
+       .formula = "seventeen leapfrog steps, symmetric" IMPLICIT_KICKS,
+       .use = "Positions to round-off where the force is smooth; the most accurate row here at equal work, for\n"
+              "every force, velocity terms included." },
       .family = SPLITTING, .compensated = true,
       .composition = {17,
         C(K(0.13020248308889008087881763), K(0.56116298177510838456196441), K(-0.3894749626448472864080786),
@@ -209,11 +215,12 @@ const row methods_table[] = {
          K(0.25837438768632204729397911), K(0.29501172360931029887096624), K(-0.60550853383003451169892108))} },
     { .card = { CARD("boris", "", "splitting", 2, 1, 1, XVT, 0, 1, 2.0),
        .title = "Boris",
-       .cite = "Boris70, Qin13",
+       .cite = "Boris70, Qin13, HL18",
        .formula = "x += h/2 v;   v' = v + h a(x, (v + v')/2, t + h/2);   x += h/2 v'\n"
                   "for a = E + v × B the kick is half a kick by E, the Boris rotation, half a kick: "
                   "the Cayley form of the rotation",
-       .use = "Charged particles: keeps phase-space volume, and energy where E = 0; stable beyond the gyration." },
+       .use = "Charged particles: keeps phase-space volume, though it is not symplectic in general, and energy where\n"
+              "E = 0; stable beyond the gyration." },
       .family = SPLITTING, .gyroscopic = true, .splitting = {2, C(K(0.0), K(1.0)), C(K(0.5), K(0.5))} },
 
     /* Explicit Runge-Kutta. */
@@ -283,7 +290,7 @@ const row methods_table[] = {
        .title = "Gauss 4",
        .cite = "Butcher64, HLW06 II.1.3",
        .formula = "collocation at the two Gauss nodes 1/2 ∓ √3/6",
-       .use = "Symplectic and reversible at order 4 for every force; stable at every step." },
+       .use = "Order 4, reversible for every force and symplectic where it is a gradient; stable at every step." },
       .family = IMPLICIT,
       .tableau = {2, C(K(0.21132486540518711774542560974902127218), K(0.78867513459481288225457439025097872782)),
          C(K(0.25), K(-0.038675134594812882254574390250978727824),

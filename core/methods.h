@@ -21,6 +21,10 @@ const motus_method *row_card(size_t k);
 motus_status row_choose(const char *name, chosen *, const motus_method **card, motus_error *);
 /* MOTUS_OK, or MOTUS_METHOD with the reason and the nearest method that admits the problem. */
 motus_status row_admits(const chosen *, const traits *, motus_error *);
+/* What a step of the row preserves of this problem's motion: all that the library says of it asks here. Kicks and
+ * drifts move v or x by what does not depend on it, which preserves the volume; so does the kick of a gyroscopic term,
+ * the Cayley form of an antisymmetric matrix [Qin13; HL18]. */
+motus_geometry row_geometry(const chosen *, const traits *);
 /* True: every step must have the same size, so `until` must be a whole number of steps away (verlet-literal). */
 bool row_uniform(const chosen *);
 /* True: step sizes follow from errors, so the number of steps is not known beforehand. */

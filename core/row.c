@@ -182,6 +182,9 @@ static const char *reason(const row *row, const traits *traits)
             return "the velocity term is not of the form v × B: its matrix is not antisymmetric, so it does work";
         return "";
     }
+    if (traits->quadrature && row->family == SPLITTING)
+        return row->nystrom ? "a first-order variable depends on the velocity, and then this method loses its order"
+                            : "";
     if (traits->velocity && row->card.forces != MOTUS_FORCES_XVT)
         return traits->first_order
                    ? "the right sides depend on a velocity or a first-order variable, and this method's kicks must not"
@@ -198,6 +201,15 @@ static int unlike(const motus_method *wanted, const motus_method *other)
            4 * (wanted->reversible > other->reversible) + 2 * (other->evaluations == 0);
 }
 
+static motus_geometry geometry(const row *row, const traits *t)
+{
+    if (row->card.symplectic && t->gradient && !t->velocity && !t->first_order) return MOTUS_GEOMETRY_SYMPLECTIC;
+    if (row->family == SPLITTING && (!t->velocity || t->quadrature || t->gyroscopic)) return MOTUS_GEOMETRY_VOLUME;
+    return MOTUS_GEOMETRY_NONE;
+}
+
+motus_geometry row_geometry(const chosen *method, const traits *t) { return geometry(method->row, t); }
+
 motus_status row_admits(const chosen *method, const traits *traits, motus_error *err)
 {
     const char *why = reason(method->row, traits);
@@ -211,9 +223,8 @@ motus_status row_admits(const chosen *method, const traits *traits, motus_error 
     }
     fail(err, MOTUS_METHOD, "%s does not admit this model: %s", method->name, why);
     if (nearest)
-        hint(err, "%s fits: order %d, %s", nearest->card.name, nearest->card.order,
-             nearest->card.symplectic   ? "symplectic and reversible"
-             : nearest->card.reversible ? "reversible"
-                                        : "for any force");
+        hint(err, "%s fits: order %d%s%s", nearest->card.name, nearest->card.order,
+             geometry(nearest, traits) == MOTUS_GEOMETRY_SYMPLECTIC ? ", symplectic" : "",
+             nearest->card.reversible ? ", reversible" : "");
     return MOTUS_METHOD;
 }

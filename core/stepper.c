@@ -54,6 +54,7 @@ work stepper_plan(const problem *p, const chosen *method, coef *memory)
     work plan = {.row = method->row, .nx = p->nx, .nv = p->nv};
     plan.velocity = p->traits.velocity;
     plan.linear = p->traits.linear_v;
+    plan.quadrature = p->traits.quadrature;
     plan.constant = p->traits.constant;
     plan.threads = method->threads > 1 ? method->threads : 1;
     plan.stride = (p->nv + 7) & ~(size_t)7;

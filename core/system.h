@@ -25,6 +25,8 @@ typedef struct traits {
     bool smooth;
     bool has_exact;
     bool first_order; /* there are first-order variables: nv > nx */
+    /* v is read by first-order variables alone, which nothing reads: integrals along the motion; velocity holds */
+    bool quadrature;
 } traits;
 
 typedef struct problem {

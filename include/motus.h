@@ -385,12 +385,14 @@ typedef struct motus_method {
     const char *title;          /* for a text or a legend: "velocity Verlet" */
     const char *family;         /* "splitting", "runge-kutta", "two-step", "implicit", "exact" */
     int order, stages;
-    int evaluations;     /* of the acceleration per step in a long run; 0: it depends on the iterations */
-    motus_forces forces; /* what the force may depend on */
-    int symplectic, reversible;
-    double stability_limit;    /* the largest stable h ω for x'' = -ω² x; INFINITY: all are; 0: none is */
-    const char *cite;          /* key in doc/references.bib, with the place */
-    const char *formula, *use; /* the formula of a step, and when to use the method */
+    /* of the acceleration per step in a long run; 0: it depends on the iterations. Splitting methods need more where
+     * first-order variables read the velocity, or the velocity enters nonlinearly. */
+    int evaluations;
+    motus_forces forces;        /* what the force may depend on */
+    int symplectic, reversible; /* symplectic: where the force is a gradient; motus_method_geometry tells of a system */
+    double stability_limit;     /* the largest stable h ω for x'' = -ω² x; INFINITY: all are; 0: none is */
+    const char *cite;           /* key in doc/references.bib, with the place */
+    const char *formula, *use;  /* the formula of a step, and when to use the method */
 } motus_method;
 MOTUS_API size_t motus_method_count(void);
 MOTUS_API const motus_method *motus_method_at(size_t k);
@@ -401,6 +403,18 @@ MOTUS_API motus_status motus_method_find(const char *name, const motus_method **
 /* MOTUS_OK: the method can integrate the system. MOTUS_METHOD: it cannot, for the reason in `message`, and `hint` names
  * the nearest method that can; or there is no such method. */
 MOTUS_API motus_status motus_method_admits(const motus_system *, const char *method, motus_error *);
+
+/* What every step of a method preserves of this system's motion; the card speaks of the forces that suit the method
+ * best. Reversibility, which the card states, holds for every force that the method admits. */
+typedef enum motus_geometry {
+    MOTUS_GEOMETRY_NONE,   /* or not known: a callback's force may be a gradient */
+    MOTUS_GEOMETRY_VOLUME, /* the volume of phase space: a splitting method, and a force without friction */
+    /* The symplectic structure, and so the volume: the force is a gradient. Where it does not depend on time either, an
+     * energy exists, and its error stays bounded for very long times. */
+    MOTUS_GEOMETRY_SYMPLECTIC
+} motus_geometry;
+/* MOTUS_METHOD: as motus_method_admits. */
+MOTUS_API motus_status motus_method_geometry(const motus_system *, const char *method, motus_geometry *, motus_error *);
 
 /* The stability region. radius[k], for each of `count` points z = h λ = re[k] + i im[k], is the spectral radius of one
  * step, the factor by which a step multiplies a motion in the long run, on the equation with the eigenvalues λ and its
@@ -564,7 +578,9 @@ MOTUS_API motus_status motus_run_set_state(motus_run *, double t, const double *
 typedef enum motus_event {
     /* The state at `time`, and the acceleration there. */
     MOTUS_EVENT_START,
-    /* v += coefficient step a, a = a(x, time): splitting. boris: a at the mean of the velocities before and after. */
+    /* v += coefficient step a, a = a(x, time): splitting. Where the force depends on the velocity: a at the mean of the
+     * velocities before and after; the rates of first-order variables that only follow the motion, from there or a mean
+     * of two. */
     MOTUS_EVENT_KICK,
     /* x += coefficient step v; `time` is the time after it. */
     MOTUS_EVENT_DRIFT,
@@ -706,11 +722,13 @@ typedef struct motus_compare_row {
     double step;
     int64_t steps, evaluations;
     double seconds;
-    double error_max_x, error_max_v, error_final_x, error_final_v; /* of the largest component; NaN: not known */
+    double error_max_x, error_max_v, error_final_x,
+        error_final_v; /* largest of positions, velocities; NaN: none, or unknown */
     size_t invariant_count;
     const motus_drift *const *invariants; /* invariant_count, in the order of motus_invariant_name */
     double reversal;                      /* distance from the start after a run to the end and back */
     const char *note;
+    double error_max_s, error_final_s; /* of first-order variables; NaN: there are none, or not known */
 } motus_compare_row;
 
 typedef struct motus_comparison {

@@ -171,12 +171,15 @@ export class Answers {
 
   private errors(track: Track, values: Float64Array, width: number, first: number, nx: number, nv: number): ErrorTrack {
     const rows = track.times.length, truth = this.truthAt(track.times);
-    const largest = (count: number, at: number, of: Float64Array): Float64Array => Float64Array.from({ length: rows }, (_, i) => {
+    /* Of the numbers from … to-1 of a row of `of`, which stands at column `at` in `values`. */
+    const largest = (from: number, to: number, of: Float64Array, each: number, at: number): Float64Array => Float64Array.from({ length: to > from ? rows : 0 }, (_, i) => {
       let worst = 0;
-      for (let k = 0; k < count; k++) worst = Math.max(worst, Math.abs((values[i * width + at + k] as number) - (of[i * count + k] as number)));
+      for (let k = from; k < to; k++) worst = Math.max(worst, Math.abs((values[i * width + at + k] as number) - (of[i * each + k] as number)));
       return worst;
     });
-    return { method: track.method, x: largest(nx, first, truth.x), v: largest(nv, first + nx, truth.v) };
+    return {
+      method: track.method, x: largest(0, nx, truth.x, nx, first), v: largest(0, nx, truth.v, nv, first + nx), s: largest(nx, nv, truth.v, nv, first + nx),
+    };
   }
 
   private trace(ask: Requests['trace']['ask']): Trace {

@@ -29,7 +29,7 @@ export interface Parameter {
 /** A statement of the model typeset: one <math> element, well-formed XML. */
 export interface Statement { readonly kind: string; readonly line: number; readonly mathml: string }
 
-export interface Admission { readonly name: string; readonly admitted: boolean; readonly reason: string; readonly hint: string }
+export interface Admission { readonly name: string; readonly admitted: boolean; readonly preserves: 'symplectic' | 'volume' | ''; readonly reason: string; readonly hint: string }
 
 /** What the page itself has to say against something: no place in a text. */
 export function problem(kind: string, message: string, hint = ''): Problem {
@@ -68,7 +68,8 @@ export interface Track {
 export interface Truth { readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[] }
 
 /** |x - truth| of one method: the largest component of the positions at each of the track's times, and of the velocities. */
-export interface ErrorTrack { readonly method: string; readonly x: Float64Array; readonly v: Float64Array }
+/** Empty where there are none of a kind; s: of first-order variables. */
+export interface ErrorTrack { readonly method: string; readonly x: Float64Array; readonly v: Float64Array; readonly s: Float64Array }
 
 export interface Solve {
   readonly model: Model; readonly methods: readonly string[];
@@ -106,7 +107,7 @@ export interface Convergence { readonly rows: readonly ConvergeRow[]; readonly r
 export interface Drift { readonly name: string; readonly initial: number; readonly final: number; readonly max_drift: number; readonly trend: number; readonly trending: boolean }
 export interface CompareRow {
   readonly method: string; readonly order: number; readonly status: string; readonly step: number; readonly steps: number; readonly evaluations: number;
-  readonly error_max: number | null; readonly error_max_v: number | null; readonly error_final: number | null; readonly reversal: number | null;
+  readonly error_max: number | null; readonly error_max_v: number | null; readonly error_final: number | null; readonly error_max_s: number | null; readonly reversal: number | null;
   readonly invariants: readonly Drift[]; readonly note: string;
 }
 export interface Comparison { readonly rows: readonly CompareRow[]; readonly reference: string; readonly reference_error: number; readonly remarks: readonly string[] }

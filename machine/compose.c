@@ -14,9 +14,10 @@
 #include <string.h>
 
 enum {
-    SMALL_MAX = 16,        /* numbers: what registers, or at least the fastest loads, may hold */
-    WRITTEN_OUT_MAX = 200, /* operations in all stages of a step, up to which they are written out */
-    FORCE_INLINE_MAX = 150 /* operations: a longer force is compiled once, and called */
+    SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
+    WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
+    SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
+    FORCE_INLINE_MAX = 150  /* operations: a longer force is compiled once, and called */
 };
 
 static void add_text(emit_text *t, const char *which)
@@ -116,10 +117,11 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t,
              "#define FACT_carried %d\n#define FACT_stages %d\n#define FACT_known %d\n#define FACT_fsal %d\n#define "
              "FACT_fused %d\n#define FACT_waits %d\n#define FACT_solves %d\n"
-             "#define FACT_solves_x %d\n#define FACT_direct %d\n#define FACT_order %d\n#define FACT_linears %d\n"
+             "#define FACT_solves_x %d\n#define FACT_means %d\n#define FACT_direct %d\n#define FACT_order %d\n#define "
+             "FACT_linears %d\n"
              "#define FACT_squares %d\n#define DRIFTS_FIRST %d\n",
-             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.direct, w.order, w.linears,
-             w.squares, r->family == SPLITTING && w.unit[0] == 0);
+             w.carried, stages, w.known, w.fsal, w.fused, w.waits, w.solves, w.solves_x, w.means, w.direct, w.order,
+             w.linears, w.squares, r->family == SPLITTING && w.unit[0] == 0);
     emit_add(t, "#define LIVE(w, k) (fact_unit[k] != 0)\n#define FACT_c fact_c\nstatic const int fact_moment[] = {%d",
              m.moment[0]);
     for (int i = 1; i < stages; i++) emit_add(t, ", %d", m.moment[i]);
@@ -131,7 +133,8 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
              stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX), structure ? w.nv : 0);
-    if (structure && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
+    const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
+    if (structure && !many_solves && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;
@@ -243,11 +246,11 @@ static void add_operations(emit *e, int width)
 /* ---- windows ---- */
 
 /* Whether the row moves numbers one by one, so that a window of them can go ahead of the others: nothing is solved,
- * and steps have one size. */
+ * a kick needs one acceleration, and steps have one size. */
 static bool by_number(const composition *c)
 {
-    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive &&
-           !stepper_plan(c->problem, c->chosen, NULL).solves;
+    const work plan = stepper_plan(c->problem, c->chosen, NULL);
+    return c->chosen->row->family != EXACT && !c->chosen->row->adaptive && !plan.solves && !plan.means;
 }
 
 static void add_windows(emit *e)

@@ -36,6 +36,7 @@ static bool make_view(held *h, model *m)
     analysis_traits(view);
     view->traits.velocity = m->traits.velocity; /* methods are admitted for the model itself */
     view->traits.time = m->traits.time;
+    view->traits.quadrature = m->traits.quadrature;
     view->traits.has_exact = false;
     view->pool_count = s->slot + s->count;
     view->pool = arena_room(m->arena, view->pool_count * sizeof *view->pool);

@@ -15,14 +15,42 @@ static inline clock drift_size(const work *w, int i) { return w->scaled[FACT(w, 
 static inline clock kick_joint(const work *w) { return w->scaled[2 * FACT(w, stages)]; }
 static inline clock kick_closing(const work *w) { return w->scaled[FACT(w, stages) - 1]; }
 
-/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: for a = E + v × B this is the Boris rotation, the Cayley
- * form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
+/* v += b a(x, (v + v')/2, t), v' the velocity after the kick: the implicit midpoint rule for v' = a at fixed x and t,
+ * which is symmetric, so a step of leapfrog with this kick is symmetric and of order 2 for every force, and the
+ * compositions of such steps keep their order [HLW06, II.4, V.3.2]. For a = E + v × B it is the Boris rotation, the
+ * Cayley form of exp(h B×), written as the one linear system that it solves [Boris70; Qin13]. */
 static int kick_implicit(work *w, int i)
 {
     int bad = newton_increment(w, kick_size(w, i), CLOCK(1), w->v, i);
     if (bad) return bad;
-    EACHV(k) w->v[k] += w->delta[k];
+    real *restrict v = w->v, *restrict ev = w->ev;
+    const real *restrict delta = w->delta;
+    if (ROW(w, compensated))
+        EACHV(k) ADVANCE_COMPENSATED(v[k], ev[k], CLOCK(1), delta[k]);
+    else
+        EACHV(k) v[k] += delta[k];
     return STEP_OK;
+}
+
+/* Of first-order variables that read v, and that nothing reads, a kick is an integral along the known v + u b a, 0 ≤ u
+ * ≤ 1: from w->a at u = 0 to its mean. One node, the mean velocity, is symmetric and of order 2, which compositions
+ * need; Gauss's two nodes are of order 4 [HNW93, II.7]. The accelerations of the positions do not change. */
+static inline int kick_mean(work *w, int i, clock b)
+{
+    real *V = w->vs, *a = w->a, *first = w->r;
+    const real *v = w->v;
+    const bool two = FACT(w, means) > 1;
+    const coef node = two ? w->unit[2 * FACT(w, stages) + 1] : (coef)1 / 2;
+    EACHV(k) V[k] = FMA(b * node, a[k], v[k]);
+    int bad = accel_in(w, i, w->x, V, a);
+    if (bad || !two) return bad;
+    EACHV(k) {
+        first[k] = a[k];
+        V[k] = FMA(b * (1 - node), a[k], v[k]);
+    }
+    bad = accel_in(w, i, w->x, V, a);
+    EACHV(k) a[k] = a[k] / 2 + first[k] / 2;
+    return bad;
 }
 
 static inline bool kick_drifts(const work *w, int i) { return FACT(w, fused) && kicks(w, i) && drifts(w, i); }
@@ -40,6 +68,7 @@ static inline int kick(work *w, int i)
     }
 #endif
     int bad = known ? STEP_OK : accel_in(w, i, w->x, w->v, w->a);
+    if (!bad && FACT(w, means)) bad = kick_mean(w, i, b);
     if (bad) return bad;
     real *restrict x = w->x, *restrict v = w->v, *restrict ev = w->ev;
     const real *restrict a = w->a;

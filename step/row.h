@@ -21,6 +21,8 @@ struct row {
         int stages;
         const coef *kick, *drift;
     } splitting;
+    /* SPLITTING: its order needs kicks that are free of v; others keep it with first-order variables that read v */
+    bool nystrom;
     /* SPLITTING as well: drift-kick-drift steps of w[0] h, w[1] h, … w[count-1] h, symmetric: the first half is
      * given */
     struct {

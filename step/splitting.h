@@ -37,24 +37,27 @@ static int splitting_sync(work *w, real *x, real *v)
 
 static inline void splitting_place(work *w, placing *p)
 {
-    if (!FACT(w, solves)) return;
+    if (!FACT(w, solves) && !FACT(w, means)) return;
     w->vs = work_array(p, 1);
+    if (FACT(w, means)) w->r = work_array(p, 1);
+    if (!FACT(w, solves)) return;
     w->delta = work_array(p, 1);
     w->r = work_array(p, 1);
 }
 
 #ifdef ROWS
-/* unit: kicks, drifts, and the joint kick of a row that begins and ends with one. */
+/* unit: kicks, drifts, the joint kick of a row that begins and ends with one, and Gauss's node for a quadrature. */
 static void splitting_plan(work *w, const double argument[2], coef *unit, coef *c)
 {
     const row *m = w->row;
     const int count = m->composition.count, last = count ? count : m->splitting.stages - 1;
     (void)argument;
     w->stages = last + 1;
-    w->linears = 2 * w->stages + 1;
-    w->solves = m->gyroscopic;
+    w->means = !w->quadrature ? 0 : count || m->splitting.stages <= 2 ? 1 : 2;
+    w->solves = w->velocity && !w->means;
+    w->linears = 2 * w->stages + 1 + (w->means > 1);
     w->fused = !m->compensated && !w->solves && w->nv == w->nx;
-    w->fsal = w->waits = !count && !m->gyroscopic && !m->adaptive && m->splitting.kick[0] != 0 &&
+    w->fsal = w->waits = !count && !m->adaptive && !w->means && m->splitting.kick[0] != 0 &&
                          m->splitting.kick[last] != 0 && m->splitting.drift[last] == 0;
     if (!unit) return;
     coef *kick = unit, *drift = unit + w->stages, time = 0;
@@ -76,6 +79,7 @@ static void splitting_plan(work *w, const double argument[2], coef *unit, coef *
         time += drift[i];
     }
     unit[2 * w->stages] = kick[0] + kick[last];
+    if (w->means > 1) unit[2 * w->stages + 1] = K(0.21132486540518711774542560974902127218);
 }
 #endif
 

@@ -93,6 +93,7 @@ typedef struct work {
     const row *row;
     size_t nx, nv, stride;                  /* stride: distance of two arrays below; at least nv */
     bool velocity, linear;                  /* the acceleration depends on v; at most linearly */
+    bool quadrature;                        /* it does in first-order variables alone, which nothing reads */
     bool constant;                          /* it depends on parameters alone */
     bool check;                             /* test after every step whether the state is finite */
     bool finite;                            /* the machine found the state finite after the last steps */
@@ -121,6 +122,7 @@ typedef struct work {
     bool direct;   /* it is linear in the unknowns, so that one solve is exact */
     /* first same as last: the closing kick of a step waits for the opening kick of the next */
     bool fsal;
+    int means;  /* of a quadrature: at how many velocities a kick takes its rates */
     bool fused; /* a kick and the drift after it are made in one pass over memory */
     bool waits; /* the state between two steps needs one more evaluation before it can be observed */
 

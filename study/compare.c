@@ -110,7 +110,9 @@ static motus_status make_result(compare *c)
                                          .invariant_count = c->invariants,
                                          .invariants = list,
                                          .reversal = NAN,
-                                         .note = r->texts[k].note};
+                                         .note = r->texts[k].note,
+                                         .error_max_s = NAN,
+                                         .error_final_s = NAN};
     }
     return MOTUS_OK;
 }
@@ -253,25 +255,28 @@ static motus_status forward(compare *c, size_t k, motus_run *run, const study_gr
     int64_t samples = 1;
     while (2 * samples <= per && (2 * samples * (int64_t)g->points) < (int64_t)c->samples_max) samples *= 2;
     c->samples = 0;
-    double x = 0, v = 0;
+    study_errors worst = {0, 0, 0};
     motus_status status = observe_invariants(c, run, e);
     for (size_t p = 0; p < g->points && status == MOTUS_OK; p++) {
         status = advance(c, run, per, samples, p + 1 == g->points, &row->seconds, e);
         if (status == MOTUS_OK) status = study_state(s, run, c->y, e);
         if (status != MOTUS_OK || !reference_rows) continue;
-        study_distance d = study_measure(s, c->y, reference_rows + p * s->numbers);
-        x = study_larger(x, d.x);
-        v = study_larger(v, d.v);
+        const study_errors d = study_errors_of(s, c->y, reference_rows + p * s->numbers);
+        worst.x = study_larger(worst.x, d.x);
+        worst.v = study_larger(worst.v, d.v);
+        worst.s = study_larger(worst.s, d.s);
         row->error_final_x = d.x;
         row->error_final_v = d.v;
+        row->error_final_s = d.s;
     }
     if (status == MOTUS_OK && reference_rows) {
-        row->error_max_x = x;
-        row->error_max_v = v;
+        row->error_max_x = worst.x;
+        row->error_max_v = worst.v;
+        row->error_max_s = worst.s;
         if (!isnan(c->acceleration))
             c->facts[k].miss = c->y[c->axis] - reference_rows[(g->points - 1) * s->numbers + c->axis];
     } else {
-        row->error_final_x = row->error_final_v = NAN;
+        row->error_final_x = row->error_final_v = row->error_final_s = NAN;
     }
     return status;
 }
@@ -313,7 +318,8 @@ static motus_status make_row(compare *c, size_t k)
     motus_status status = motus_method_find(method, &c->facts[k].card, &e);
     if (status != MOTUS_OK) return row_failed(c, k, status, &e);
     row->order = c->facts[k].card->order;
-    if ((status = motus_method_admits(s->system, method, &e)) != MOTUS_OK) return row_failed(c, k, status, &e);
+    status = motus_method_geometry(s->system, method, &c->facts[k].geometry, &e);
+    if (status != MOTUS_OK) return row_failed(c, k, status, &e);
 
     row->step = c->step;
     double base = s->base, span = s->span;

@@ -56,6 +56,12 @@ static size_t names(const remarks_view *v, member *is, size_t invariant, char *o
 
 static bool ran(const remarks_view *v, size_t k) { return v->rows[k].status == MOTUS_OK; }
 
+/* The largest error among positions, velocities and first-order variables, of those that there are. */
+static double largest_error(const motus_compare_row *r)
+{
+    return fmax(fmax(r->error_max_x, r->error_max_v), r->error_max_s);
+}
+
 /* How much rounding may change a position or velocity of row k over the run. */
 static double rounding(const remarks_view *v, size_t k)
 {
@@ -86,8 +92,7 @@ static bool leads(const remarks_view *v, size_t k, size_t unused)
 static bool on_the_parabola(const remarks_view *v, size_t k, size_t unused)
 {
     (void)unused;
-    return ran(v, k) && v->facts[k].card->order >= 2 && v->rows[k].error_max_x <= rounding(v, k) &&
-           v->rows[k].error_max_v <= rounding(v, k);
+    return ran(v, k) && v->facts[k].card->order >= 2 && largest_error(&v->rows[k]) <= rounding(v, k);
 }
 
 static void constant_acceleration(const remarks_view *v, sheet *out)
@@ -145,7 +150,8 @@ static bool drifts(const remarks_view *v, size_t k, size_t i)
 static bool stays(const remarks_view *v, size_t k, size_t i)
 {
     const motus_drift *d = ran(v, k) ? drift(v, k, i) : NULL;
-    return d && !d->trending && v->facts[k].card->symplectic && d->max_drift > v->facts[k].roundoff[i];
+    return d && !d->trending && v->facts[k].geometry == MOTUS_GEOMETRY_SYMPLECTIC &&
+           d->max_drift > v->facts[k].roundoff[i];
 }
 
 static bool conserves(const remarks_view *v, size_t k, size_t i)
@@ -177,12 +183,11 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
             name, list, n == 1 ? "" : v->rows[worst].method, n == 1 ? "" : " ", drift(v, worst, i)->initial,
             drift(v, worst, i)->final, n == 1 ? "its" : "their");
     n = names(v, stays, i, list, sizeof list);
-    /* There is a modified energy only if the force does not depend on the velocity. */
-    if (n && !v->analysis.velocity_dependent)
+    /* There is a modified energy only where there is an energy. */
+    if (n && !v->analysis.time_dependent)
         say(out,
             "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "
-            "conserves "
-            "a modified energy.",
+            "conserves a modified energy.",
             name, list, largest_drift(v, stays, i));
     n = names(v, drifts, i, list, sizeof list);
     if (n)
@@ -246,7 +251,8 @@ static void too_long(const remarks_view *v, sheet *out)
         const motus_compare_row *r = &v->rows[k];
         const motus_method *card = v->facts[k].card;
         if (!card || !(card->stability_limit > 0) || !(r->step * v->rate > card->stability_limit)) continue;
-        bool lost = r->status == MOTUS_DIVERGED || !(r->error_max_x <= FAR * fmax(v->s->magnitude, DBL_MIN));
+        bool lost = r->status == MOTUS_DIVERGED ||
+                    !(fmax(r->error_max_x, r->error_max_s) <= FAR * fmax(v->s->magnitude, DBL_MIN));
         if (lost)
             say(out,
                 "%s: the step %.6g is beyond its stability limit: the fastest rate of the motion is about %.4g, times "
@@ -258,7 +264,7 @@ static void too_long(const remarks_view *v, sheet *out)
 static bool as_good_as_the_reference(const remarks_view *v, size_t k, size_t unused)
 {
     (void)unused;
-    return ran(v, k) && fmax(v->rows[k].error_max_x, v->rows[k].error_max_v) <= 3 * v->reference->error;
+    return ran(v, k) && largest_error(&v->rows[k]) <= 3 * v->reference->error;
 }
 
 static void reference(const remarks_view *v, sheet *out)

@@ -7,6 +7,7 @@
 /* What the remarks need of a row besides its published numbers. */
 typedef struct remarks_fact {
     const motus_method *card;
+    motus_geometry geometry; /* of the method on this system */
     double last_step;
     double miss;            /* constant acceleration: numerical minus exact final position, along `axis` */
     double expected;        /* ½ a Σ h² along `axis`: the miss of explicit and symplectic Euler */

@@ -307,3 +307,14 @@ study_distance study_measure(const study *s, const double *p, const double *q)
     }
     return d;
 }
+
+study_errors study_errors_of(const study *s, const double *p, const double *q)
+{
+    const double none = s->nx ? 0 : NAN;
+    study_errors e = {none, none, s->nv > s->nx ? 0 : NAN};
+    for (size_t k = 0; k < s->numbers; k++) {
+        double *part = k < s->nx ? &e.x : k < 2 * s->nx ? &e.v : &e.s;
+        *part = study_larger(*part, fabs(p[k] - q[k]));
+    }
+    return e;
+}

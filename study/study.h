@@ -103,6 +103,11 @@ typedef struct study_distance {
     double x, v, scaled;
 } study_distance;
 study_distance study_measure(const study *, const double *p, const double *q);
+/* The largest |p - q| among positions, velocities and first-order variables; NaN where there are none, or if any is. */
+typedef struct study_errors {
+    double x, v, s;
+} study_errors;
+study_errors study_errors_of(const study *, const double *p, const double *q);
 /* The larger; NaN if either is, so that an unknown error never counts as small. */
 double study_larger(double, double);
 

@@ -87,6 +87,11 @@ void tell_variables(json *j, const motus_system *system)
     json_close(j, ']');
 }
 
+const char *tell_geometry(motus_geometry geometry)
+{
+    return geometry == MOTUS_GEOMETRY_SYMPLECTIC ? "symplectic" : geometry == MOTUS_GEOMETRY_VOLUME ? "volume" : "";
+}
+
 void tell_analysis(json *j, const motus_system *system)
 {
     motus_analysis a = motus_default_analysis();
@@ -108,10 +113,12 @@ void tell_admissions(json *j, const motus_system *system)
     for (size_t k = 0; k < motus_method_count(); k++) {
         motus_error why = motus_default_error();
         const char *name = motus_method_at(k)->name;
-        const bool admitted = motus_method_admits(system, name, &why) == MOTUS_OK;
+        motus_geometry geometry = MOTUS_GEOMETRY_NONE;
+        const bool admitted = motus_method_geometry(system, name, &geometry, &why) == MOTUS_OK;
         json_open(j, NULL, '{');
         json_string(j, "name", name);
         json_bool(j, "admitted", admitted);
+        json_string(j, "preserves", tell_geometry(geometry));
         json_string(j, "reason", admitted ? "" : tell_reason(why.message, name));
         json_string(j, "hint", admitted ? "" : why.hint);
         json_close(j, '}');
@@ -146,6 +153,8 @@ static void compare_row(json *j, const motus_compare_row *r)
     json_number(j, "error_final", r->error_final_x);
     json_number(j, "error_max_v", r->error_max_v);
     json_number(j, "error_final_v", r->error_final_v);
+    json_number(j, "error_max_s", r->error_max_s);
+    json_number(j, "error_final_s", r->error_final_s);
     json_open(j, "invariants", '{');
     for (size_t k = 0; k < r->invariant_count; k++) drift(j, r->invariants[k]);
     json_close(j, '}');

@@ -19,6 +19,7 @@ void tell_error(json *, const motus_error *, const char *message); /* message: t
 
 /* "x, t": what a force may depend on. */
 const char *tell_forces(motus_forces);
+const char *tell_geometry(motus_geometry); /* "symplectic", "volume", or "" */
 /* The reason in the message of a method that does not admit a model, without "METHOD does not admit this model: ". */
 const char *tell_reason(const char *message, const char *method);
 

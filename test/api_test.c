@@ -792,7 +792,9 @@ static void methods_are_refused_with_a_reason(void **state)
     motus_error err = motus_default_error();
     motus_system *s = given_text("x'' = -x - x'\nx(0) = 1\nx'(0) = 0\n");
     assert_int_equal(motus_method_admits(s, "verlet", &err), MOTUS_OK);
-    assert_int_equal(motus_method_admits(s, "leapfrog", &err), MOTUS_METHOD);
+    assert_int_equal(motus_method_admits(s, "leapfrog", &err), MOTUS_OK);
+    assert_int_equal(motus_method_admits(s, "kahan-li8", &err), MOTUS_OK);
+    assert_int_equal(motus_method_admits(s, "pefrl", &err), MOTUS_METHOD);
     assert_non_null(strstr(err.message, "velocity"));
     assert_true(strlen(err.hint) > 5);
     assert_int_equal(motus_method_admits(s, "boris", &err), MOTUS_METHOD);
@@ -801,12 +803,76 @@ static void methods_are_refused_with_a_reason(void **state)
     assert_int_equal(motus_method_admits(s, NULL, &err), MOTUS_ARGUMENT);
     motus_run_def def = motus_default_run();
     motus_run *r = NULL;
-    def.method = "leapfrog";
+    def.method = "pefrl";
     def.step = 0.1;
     def.until = 1;
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_METHOD);
     assert_null(r);
     motus_system_destroy(s);
+}
+
+/* What a method preserves is said of the method on the system, and an energy only where there is one. */
+static void what_is_preserved(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *method;
+        motus_geometry geometry;
+        int energy;
+    } known[] = {
+        {"x'' = -x^3\nx(0) = 1\nx'(0) = 0\n", "verlet", MOTUS_GEOMETRY_SYMPLECTIC, 1},
+        {"x'' = -x^3\nx(0) = 1\nx'(0) = 0\n", "rk4", MOTUS_GEOMETRY_NONE, 1},
+        {"x'' = -x^3 + cos(t)\nx(0) = 1\nx'(0) = 0\n", "kahan-li8", MOTUS_GEOMETRY_SYMPLECTIC, 0},
+        {"x'' = -x^3 - x'\nx(0) = 1\nx'(0) = 0\n", "kahan-li8", MOTUS_GEOMETRY_NONE, 0},
+        {"x'' = -x^3 - x'\nx(0) = 1\nx'(0) = 0\n", "gauss4", MOTUS_GEOMETRY_NONE, 0},
+        {"x'' = -y\ny'' = x\nx(0) = 1\nx'(0) = 0\ny(0) = 1\ny'(0) = 0\n", "leapfrog", MOTUS_GEOMETRY_VOLUME, 0},
+        {"x'' = -y\ny'' = x\nx(0) = 1\nx'(0) = 0\ny(0) = 1\ny'(0) = 0\n", "verlet", MOTUS_GEOMETRY_NONE, 0},
+        /* masses 1, 3 and 2: the acceleration is no gradient, the force is */
+        {"x'' = 3 (y - x)^3\ny'' = (x - y)^3 + 2 (z - y)\nz'' = 3 (y - z)\nx(0) = 1\nx'(0) = 0\ny(0) = 1\ny'(0) = 0\n"
+         "z(0) = 0\nz'(0) = 0\n",
+         "velocity-verlet", MOTUS_GEOMETRY_SYMPLECTIC, 1},
+        {"r'' = r + cross(r', (0, 0, 1 + r.x))\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\n", "boris", MOTUS_GEOMETRY_VOLUME,
+         0},
+        {"r'' = r + cross(r', (0, 0, 1 + r.x))\nr(0) = (1, 0, 0)\nr'(0) = (0, 1, 0)\n", "gauss4", MOTUS_GEOMETRY_NONE,
+         0},
+        {"x'' = -x\ns' = x'^2\nx(0) = 1\nx'(0) = 0\ns(0) = 0\n", "pefrl", MOTUS_GEOMETRY_VOLUME, 0}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        motus_system *s = given_text(known[i].text);
+        motus_geometry geometry = MOTUS_GEOMETRY_NONE;
+        assert_int_equal(motus_method_geometry(s, known[i].method, &geometry, NULL), MOTUS_OK);
+        if (geometry != known[i].geometry) fail_msg("%s by %s: %d", known[i].text, known[i].method, geometry);
+        if ((strstr(motus_explain(s), "an energy exists") != NULL) != known[i].energy)
+            fail_msg("energy: %s", known[i].text);
+        motus_system_destroy(s);
+    }
+    motus_system *damped = given_text("x'' = -x - x'\nx(0) = 1\nx'(0) = 0\n");
+    motus_geometry geometry;
+    motus_error err = motus_default_error();
+    assert_int_equal(motus_method_geometry(damped, "pefrl", &geometry, &err), MOTUS_METHOD);
+    assert_null(strstr(err.hint, "symplectic"));
+    assert_int_equal(motus_method_geometry(damped, "verlet", NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_method_geometry(NULL, "verlet", &geometry, &err), MOTUS_ARGUMENT);
+    motus_system_destroy(damped);
+}
+
+/* A first-order variable that reads the velocity, and that nothing reads, leaves the splitting methods admitted but
+ * those whose order needs kicks without a velocity; one that acts back does not. */
+static void variables_that_follow(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x\ns' = x'^2\nx(0) = 1\nx'(0) = 0\ns(0) = 0\n"),
+                 *back = given_text("x'' = -x\ns' = x'^2 - s\nx(0) = 1\nx'(0) = 0\ns(0) = 0\n");
+    for (size_t k = 0; k < motus_method_count(); k++) {
+        const motus_method *m = motus_method_at(k);
+        if (strcmp(m->family, "splitting") || !strcmp(m->name, "boris")) continue;
+        const int nystrom = !strncmp(m->name, "blanes-moan6", 12), any = m->forces == MOTUS_FORCES_XVT;
+        assert_int_equal(motus_method_admits(s, m->name, NULL), nystrom ? MOTUS_METHOD : MOTUS_OK);
+        assert_int_equal(motus_method_admits(back, m->name, NULL), any ? MOTUS_OK : MOTUS_METHOD);
+    }
+    assert_non_null(strstr(motus_explain(s), "integrals along the motion"));
+    assert_null(strstr(motus_explain(back), "integrals along the motion"));
+    motus_system_destroy(s);
+    motus_system_destroy(back);
 }
 
 int main(void)
@@ -833,6 +899,8 @@ int main(void)
         cmocka_unit_test(settings_and_analysis),
         cmocka_unit_test(methods_are_found),
         cmocka_unit_test(methods_are_refused_with_a_reason),
+        cmocka_unit_test(variables_that_follow),
+        cmocka_unit_test(what_is_preserved),
     };
     return cmocka_run_group_tests_name("the public calls", tests, NULL, NULL);
 }

@@ -115,7 +115,6 @@ declare -A also=(
     [machine/compiled.c]='machine_'
     [machine/nowhere.c]='compiled_ machine_'            # replaces machine/compiled.c in the page's module
     [api/columns.c]='system_'                       # parts of api/system.h
-    [api/explain.c]='system_'
 )
 archive=$build/libmotus.a
 program=$build/CMakeFiles/motus_program.dir

@@ -91,7 +91,7 @@ for verb in run compare; do refuses "$verb --share without a step anywhere" 2 "s
 gives "... which the command line may give" 0 "$motus" run nostep.motus --step 0.1 --share
 refuses "--share with an unknown method" 2 "verlett" "$motus" run osc.motus --method verlett --share
 refuses "... of compare" 2 "verlett" "$motus" compare osc.motus --methods rk4,verlett --share
-refuses "--share with a method that does not fit" 2 "forest-ruth" "$motus" run "$root/models/damped-cubic.motus" --method forest-ruth --share
+refuses "--share with a method that does not fit" 2 "pefrl" "$motus" run "$root/models/damped-cubic.motus" --method pefrl --share
 refuses "--share without a model" 2 "needs a model" "$motus" run --share
 for other in "-o traj.csv" "--plot fig.svg" "--save-state state" "--restart state" "--emit-c"; do
     # shellcheck disable=SC2086
@@ -140,7 +140,7 @@ gives "a model without step and end, which the page may choose" 0 "$motus" lab <
 mkdir empty && cd empty || exit 1
 refuses "lab of a model with a mistake" 2 "slip.motus:1:8: " "$motus" lab ../slip.motus
 refuses "lab with an unknown method" 2 "verlett" "$motus" lab ../osc.motus --methods rk4,verlett
-refuses "lab with a method that does not fit" 2 "forest-ruth" "$motus" lab "$root/models/damped-cubic.motus" --method forest-ruth
+refuses "lab with a method that does not fit" 2 "pefrl" "$motus" lab "$root/models/damped-cubic.motus" --method pefrl
 refuses "lab of a text that is not UTF-8" 2 "latin.motus:1:3: " "$motus" lab ../latin.motus
 refuses "lab of a long model" 2 "longer than 65536 bytes" "$motus" lab "../full.motus" --set F=0.25
 for option in --set=F=1 --method=rk4 --methods=rk4 --step=0.1 --until=1; do

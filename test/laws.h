@@ -21,13 +21,26 @@ enum { DIMENSIONS = 4, SPLITTING_MAX = 40 }; /* SPLITTING_MAX: stages of a split
 typedef struct quad_problem {
     const char *name;
     size_t nx, nv;
-    bool velocity, linear, time, gyroscopic, gradient;
+    bool velocity, linear, time, gyroscopic, gradient, quadrature;
     quad x[DIMENSIONS], v[DIMENSIONS];
     void (*accel)(quad t, const quad *x, const quad *v, quad *a);
     void (*jvp)(quad t, const quad *x, const quad *v, const quad *dx, const quad *dv, quad *da);
 } quad_problem;
 
-enum { FREE_FALL, OSCILLATOR, HENON_HEILES, DRIVEN, RIDER, DAMPED, TANGLED, MAGNET, PROBLEMS };
+enum {
+    FREE_FALL,
+    OSCILLATOR,
+    HENON_HEILES,
+    DRIVEN,
+    RIDER,
+    DAMPED,
+    TANGLED,
+    MAGNET,
+    CUBIC,
+    PARTICLE,
+    FOLLOWER,
+    PROBLEMS
+};
 extern const quad_problem quad_problems[PROBLEMS];
 /* The traits that the program would find in the problem's equations. */
 traits quad_traits(const quad_problem *);

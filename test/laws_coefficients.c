@@ -121,7 +121,7 @@ static void splitting_scheme(const row *m, const quad *value, scheme *out)
                 out->a[s][j] = out->b[j];
                 out->av[s][j] = out->bv[j];
             }
-            if (m->gyroscopic) out->av[s][s] = kick[i] / 2;
+            if (m->card.forces == MOTUS_FORCES_XVT) out->av[s][s] = kick[i] / 2;
         }
         out->end += drift[i];
         for (int j = 0; j < out->stages; j++) out->b[j] += out->bv[j] * drift[i];
@@ -155,9 +155,13 @@ void coefficients_scheme(method k, const quad *value, scheme *out)
         tableau_scheme(m->tableau.stages, value, out);
 }
 
-/* Kicks that depend on v need all Nyström trees, others the special ones; tableaux are methods for s' = f(s). */
+/* Kicks that depend on v need all Nyström trees, others the special ones; tableaux are methods for s' = f(s). Of
+ * compositions the order for forces with v follows from that of their step, by words. */
 trees_kind coefficients_trees(method k)
 {
     const row *m = &plain_table[k];
-    return m->family != SPLITTING ? TREES_ROOTED : m->card.forces == MOTUS_FORCES_XVT ? TREES_NYSTROM : TREES_SPECIAL;
+    if (m->family != SPLITTING) return TREES_ROOTED;
+    return m->card.forces == MOTUS_FORCES_XVT && !m->composition.count ? TREES_NYSTROM : TREES_SPECIAL;
 }
+
+bool coefficients_compose(method k) { return plain_table[k].composition.count > 0; }

@@ -72,6 +72,20 @@ static void rider_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[2] = dx[0] * x[1] + x[0] * dx[1] + t * dx[1];
 }
 
+/* One that acts on nothing but reads v, not as a polynomial. */
+static void follower(quad t, in x, in v, quad *a)
+{
+    driven(t, x, v, a);
+    a[2] = v[0] * v[0] + x[1] * v[1] / (1 + v[0] * v[0] + t * t) - t * x[0];
+}
+static void follower_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    const quad below = 1 + v[0] * v[0] + t * t;
+    driven_jvp(t, x, v, dx, dv, da);
+    da[2] = 2 * v[0] * dv[0] + (dx[1] * v[1] + x[1] * dv[1]) / below -
+            x[1] * v[1] * 2 * v[0] * dv[0] / (below * below) - t * dx[0];
+}
+
 /* Linear in v, with coefficients that depend on x and t, and not symmetric. */
 static void damped(quad t, in x, in v, quad *a)
 {
@@ -129,6 +143,32 @@ static void magnet_jvp(quad t, in x, in v, in dx, in dv, quad *da)
     da[2] = dv[0] * b[1] - dv[1] * b[0] + v[0] * db[1] - v[1] * db[0] - dx[2] + dx[0] * x[1] + x[0] * dx[1];
 }
 
+/* models/damped-cubic.motus and models/charged-particle.motus. */
+static void cubic(quad t, in x, in v, quad *a)
+{
+    (void)t;
+    a[0] = -v[0] - x[0] * x[0] * x[0];
+}
+static void cubic_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    (void)t, (void)v;
+    da[0] = -dv[0] - 3 * x[0] * x[0] * dx[0];
+}
+static void particle(quad t, in x, in v, quad *a)
+{
+    (void)t, (void)x;
+    a[0] = Q(0.5) + 2 * v[1];
+    a[1] = -2 * v[0];
+    a[2] = 0;
+}
+static void particle_jvp(quad t, in x, in v, in dx, in dv, quad *da)
+{
+    (void)t, (void)x, (void)v, (void)dx;
+    da[0] = 2 * dv[1];
+    da[1] = -2 * dv[0];
+    da[2] = 0;
+}
+
 #define HH_START .x = {Q(0.12), Q(-0.25)}, .v = {Q(0.42), Q(0.1), Q(0.3)}
 const quad_problem quad_problems[PROBLEMS] = {
     [FREE_FALL] = {"free fall", 2, 2, .gradient = true, .x = {0}, .v = {1, Q(4.5)}, .accel = free_fall,
@@ -143,6 +183,11 @@ const quad_problem quad_problems[PROBLEMS] = {
     [TANGLED] = {"tangled", 2, 3, .velocity = true, .time = true, HH_START, .accel = tangled, .jvp = tangled_jvp},
     [MAGNET] = {"magnet", 3, 3, .velocity = true, .linear = true, .time = true, .gyroscopic = true,
                 .x = {Q(0.3), Q(-0.2), Q(0.1)}, .v = {Q(0.5), Q(0.4), Q(-0.3)}, .accel = magnet, .jvp = magnet_jvp},
+    [FOLLOWER] = {"follower", 2, 3, .velocity = true, .time = true, .quadrature = true, HH_START, .accel = follower,
+                  .jvp = follower_jvp},
+    [CUBIC] = {"damped cubic", 1, 1, .velocity = true, .linear = true, .x = {10}, .accel = cubic, .jvp = cubic_jvp},
+    [PARTICLE] = {"charged particle", 3, 3, .velocity = true, .linear = true, .gyroscopic = true, .v = {1, 0, Q(0.25)},
+                  .accel = particle, .jvp = particle_jvp},
 };
 
 quad quad_distance(const quad_problem *p, const quad_state *a, const quad_state *b)
@@ -179,7 +224,7 @@ static void gragg(const quad_problem *p, quad t, quad h, int n, const quad_state
 
 void quad_reference(const quad_problem *p, quad t0, quad t1, quad_state *state)
 {
-    enum { PIECES = 16, COLUMNS = 14 };
+    enum { PIECES = 64, COLUMNS = 14 };
     const quad h = (t1 - t0) / PIECES;
     for (int piece = 0; piece < PIECES; piece++) {
         quad_state table[COLUMNS];

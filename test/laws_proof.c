@@ -55,6 +55,7 @@ static quad miss_of(const condition *c) { return quad_abs(c->left - c->right); }
 
 static void prove(const subject *s, int order)
 {
+    const bool words = s->kind == TREES_WORDS;
     static condition now[TREES_CONDITIONS_MAX];
     static quad bound[TREES_CONDITIONS_MAX];
     if (trees_count(s->kind, order + 1) == 0) {
@@ -73,11 +74,12 @@ static void prove(const subject *s, int order)
             next = share, best = k;
         }
     }
-    judge(most <= 1, s->name, "order conditions", "%d to order %d; worst, of order %d: %.1e, %.3f of its bound %.1e",
-          kept, order, now[worst].order, (double)miss_of(&now[worst]), (double)most, (double)bound[worst]);
-    judge(next > 1, s->name, "no higher order", "misses a condition of order %d by %.1e, digits allow %.1e%s",
-          now[best].order, (double)miss_of(&now[best]), (double)bound[best],
-          next > 1 ? "" : ": the order is higher, or the row prints too few digits to tell");
+    judge(most <= 1, s->name, words ? "order of the composition" : "order conditions",
+          "%d to order %d; worst, of order %d: %.1e, %.3f of its bound %.1e", kept, order, now[worst].order,
+          (double)miss_of(&now[worst]), (double)most, (double)bound[worst]);
+    judge(next > 1, s->name, words ? "no higher composition" : "no higher order",
+          "misses a condition of order %d by %.1e, digits allow %.1e%s", now[best].order, (double)miss_of(&now[best]),
+          (double)bound[best], next > 1 ? "" : ": the order is higher, or the row prints too few digits to tell");
 }
 
 void proof_of_scheme(const char *name, trees_kind kind, const scheme *m, int order)
@@ -120,6 +122,8 @@ static void census(void)
         [TREES_ROOTED] = {"rooted", {1, 1, 2, 4, 9, 20, 48, 115, 286}},
         [TREES_SPECIAL] = {"special Nyström", {1, 1, 2, 3, 6, 10, 20, 36, 72, 137, 275}},
         [TREES_NYSTROM] = {"Nyström", {1, 2, 6, 18, 60, 204}},
+        /* Fibonacci's numbers: words of odd letters by their sum */
+        [TREES_WORDS] = {"words for", {1, 1, 2, 3, 5, 8, 13, 21, 34, 55, 89}},
     };
     for (trees_kind kind = 0; kind < TREES_KINDS; kind++)
         for (int n = 1; n <= TREES_ORDER_MAX && known[kind].count[n - 1]; n++) {
@@ -135,6 +139,10 @@ static void row_with_coefficients(method m)
     scheme s;
     coefficients_scheme(m, c.value, &s);
     subject subject = {row_card(m)->name, coefficients_trees(m), &s, m, true};
+    prove(&subject, row_card(m)->order);
+    sharp(&subject, row_card(m)->order);
+    if (!coefficients_compose(m)) return;
+    subject.kind = TREES_WORDS;
     prove(&subject, row_card(m)->order);
     sharp(&subject, row_card(m)->order);
 }

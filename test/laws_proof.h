@@ -18,8 +18,9 @@ typedef struct scheme {
 } scheme;
 
 /* The trees of the order conditions: rooted trees for s' = f(s) [HNW93, II.2], special Nyström trees for x'' = a(x,
- * t), and Nyström trees for x'' = a(x, x', t) [HNW93, II.14]. */
-typedef enum trees_kind { TREES_ROOTED, TREES_SPECIAL, TREES_NYSTROM, TREES_KINDS } trees_kind;
+ * t), and Nyström trees for x'' = a(x, x', t) [HNW93, II.14]. TREES_WORDS: instead of trees the words of compositions
+ * of symmetric steps, whose sizes are the scheme's bv (laws_words.c). */
+typedef enum trees_kind { TREES_ROOTED, TREES_SPECIAL, TREES_NYSTROM, TREES_WORDS, TREES_KINDS } trees_kind;
 
 /* The coefficients of a row, and by how much each may differ from the value its author meant: half a unit in its last
  * printed place, 0 if it is exact. The count is 0 for rows without coefficients: the two-step methods, newmark,
@@ -33,6 +34,7 @@ quad coefficients_unit(method); /* the largest of these units */
 /* The tableau of the row with other values of its coefficients. */
 void coefficients_scheme(method, const quad *value, scheme *);
 trees_kind coefficients_trees(method);
+bool coefficients_compose(method); /* the row is a composition of leapfrog steps */
 
 enum { TREES_ORDER_MAX = 11, TREES_CONDITIONS_MAX = 1024 };
 /* Condition k holds where left = right; it belongs to the order `order`. */
@@ -42,6 +44,8 @@ typedef struct condition {
 } condition;
 int trees_count(trees_kind, int order); /* of exactly this order; 0: not generated */
 int trees_conditions(trees_kind, const scheme *, int order, condition *);
+int words_count(int order);
+int words_conditions(const scheme *, int order, condition *);
 /* A bound on the roundings, each of half QUAD_EPSILON, in one condition of this order, those of its coefficients
  * included. */
 quad trees_roundings(const scheme *, int order);

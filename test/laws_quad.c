@@ -123,6 +123,7 @@ traits quad_traits(const quad_problem *p)
                     .time = p->time,
                     .gyroscopic = p->gyroscopic,
                     .gradient = p->gradient,
+                    .quadrature = p->quadrature,
                     .smooth = true,
                     .first_order = p->nv > p->nx,
                     .constant = p->nx == 0};
@@ -149,7 +150,8 @@ static void begin(work *w, dense *d, quad *memory, const row *m, const double *a
                 .t0 = t0,
                 .library = d,
                 .velocity = p->velocity,
-                .linear = p->linear};
+                .linear = p->linear,
+                .quadrature = p->quadrature};
     d->problem = p;
     work_plan(w, argument ? argument : trapezoid, NULL);
     if (work_plan_size(w) > CONSTANTS_MAX) abort();

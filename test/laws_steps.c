@@ -63,7 +63,7 @@ static bool recurrence(const row *r) { return r->family == VERLET || r->family =
 static bool by_time(method m)
 {
     const row *r = &methods_table[m];
-    return r->family == IMPLICIT || recurrence(r) || r->gyroscopic;
+    return r->family == IMPLICIT || recurrence(r) || (r->family == SPLITTING && takes_v(m));
 }
 
 /* The tableau of one step, with stages at the places of `as`. Returns the largest violation of what holds for any

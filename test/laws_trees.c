@@ -64,6 +64,7 @@ static const forest *forest_of(trees_kind kind)
 
 int trees_count(trees_kind kind, int order)
 {
+    if (kind == TREES_WORDS) return words_count(order);
     const forest *f = forest_of(kind);
     int count = 0;
     for (int t = 0; t < f->count; t++) count += f->tree[t].order == order;
@@ -72,6 +73,7 @@ int trees_count(trees_kind kind, int order)
 
 int trees_conditions(trees_kind kind, const scheme *m, int order, condition *out)
 {
+    if (kind == TREES_WORDS) return words_conditions(m, order, out);
     static quad phi[TREES_MAX][SCHEME_STAGES_MAX];
     const forest *f = forest_of(kind);
     int count = 0;

@@ -105,7 +105,8 @@ static void same_bits(motus_system *s, const char *model, const char *method)
 
 static bool chosen(const char *name)
 {
-    static const char *const rows[] = {"verlet", "blanes-moan6", "boris", "rk4", "newmark", "gauss4"};
+    static const char *const rows[] = {"verlet",  "blanes-moan6", "boris",    "rk4",
+                                       "newmark", "gauss4",       "leapfrog", "kahan-li8"};
     if (getenv("MOTUS_ALL_ROWS")) return true;
 #ifdef SANITIZED
     /* The sanitizers check the library's part, which is the same for every row. */
@@ -162,6 +163,28 @@ static void every_construct(void **state)
         motus_system *s = open_text(text, set);
         static const char *const rows[] = {"rk4", "gauss4", "verlet"};
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) same_bits(s, "every construct", rows[k]);
+        motus_system_destroy(s);
+    }
+}
+
+/* First-order variables that read velocities and that nothing reads: a kick evaluates at several velocities, in the
+ * windows of a family too. */
+static void variables_that_follow(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x'' = -x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\ns' = x'^2 + t x\ns(0) = 0.5\nstep 0.05\nuntil 3\n",
+        "N = 40\nu[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = 0.1 sin(t)\nu[N+1] = 0\n"
+        "u[i](0) = sin(i) for i = 1..N\nu[i]'(0) = 0 for i = 1..N\nw' = sum(i = 1..N: u[i]'^4)\nw(0) = 0\n"
+        "step 0.05\nuntil 3\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        motus_system *s = open_text(texts[i], NULL);
+        static const char *const rows[] = {"velocity-verlet", "blanes-moan4", "kahan-li8"};
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+            assert_int_equal(motus_method_admits(s, rows[k], NULL), MOTUS_OK);
+            same_bits(s, texts[i], rows[k]);
+        }
+        assert_int_equal(motus_method_admits(s, "blanes-moan6", NULL), MOTUS_METHOD);
         motus_system_destroy(s);
     }
 }
@@ -346,6 +369,7 @@ int main(void)
     open_cache();
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_model),
                                        cmocka_unit_test(every_construct),
+                                       cmocka_unit_test(variables_that_follow),
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),

@@ -555,6 +555,37 @@ static void equal_work(void **state)
     motus_system_destroy(s);
 }
 
+/* Errors of first-order variables are errors of their own; where there are no positions, none are told of these. */
+static void errors_of_first_order_variables(void **state)
+{
+    (void)state;
+    const char *methods[] = {"explicit-euler", "rk4"};
+    motus_system *s = system_of_text("x' = -x\nx(0) = 1\nexact x = exp(-t)\n");
+    motus_study_def def = study_of(methods, 2, 0.1, 1);
+    motus_comparison *c = compare(s, &def);
+    /* (1 - h)^n misses exp(-1) by h/(2 e) and a little more; the error of rk4 is below h^4/120 */
+    assert_true(c->rows[0]->error_final_s > 0.1 / (2 * exp(1)) && c->rows[0]->error_final_s < 0.11 / (2 * exp(1)));
+    assert_true(c->rows[0]->error_max_s >= c->rows[0]->error_final_s);
+    assert_true(c->rows[1]->error_max_s > 1e-8 && c->rows[1]->error_max_s < 1e-6);
+    assert_true(isnan(c->rows[1]->error_max_x) && isnan(c->rows[1]->error_max_v));
+    motus_comparison_destroy(c);
+    motus_system_destroy(s);
+    s = system_of_text(
+        "x'' = -x\ns' = x'^2\nx(0) = 1\nx'(0) = 0\ns(0) = 0\nexact x = cos(t)\nexact s = t/2 - sin(2 t)/4\n");
+    def = study_of(methods, 2, 0.1, 1);
+    c = compare(s, &def);
+    assert_true(c->rows[0]->error_max_x > 1e-3 && c->rows[0]->error_max_v > 1e-3 && c->rows[0]->error_max_s > 1e-3);
+    assert_true(c->rows[0]->error_max_s != c->rows[0]->error_max_v);
+    motus_comparison_destroy(c);
+    motus_system_destroy(s);
+    s = system_of_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nexact x = cos(t)\n");
+    def = study_of(methods, 2, 0.1, 1);
+    c = compare(s, &def);
+    assert_true(isnan(c->rows[0]->error_max_s) && isnan(c->rows[0]->error_final_s) && c->rows[0]->error_max_v > 0);
+    motus_comparison_destroy(c);
+    motus_system_destroy(s);
+}
+
 static void failed_rows_have_status_and_note(void **state)
 {
     (void)state;
@@ -563,7 +594,7 @@ static void failed_rows_have_status_and_note(void **state)
     callback.exact = NULL;
     callback.depends_on_velocity = 1;
     motus_system *s = system_of(&callback);
-    const char *methods[] = {"kahan-li8", "rk4"};
+    const char *methods[] = {"blanes-moan6", "rk4"};
     motus_study_def def = study_of(methods, 2, 0.1, 5);
     motus_comparison *c = compare(s, &def);
     assert_int_equal(c->rows[0]->status, MOTUS_METHOD);
@@ -940,6 +971,7 @@ int main(void)
         cmocka_unit_test(short_last_steps_and_reversal),
         cmocka_unit_test(equal_work),
         cmocka_unit_test(failed_rows_have_status_and_note),
+        cmocka_unit_test(errors_of_first_order_variables),
         cmocka_unit_test(a_step_beyond_the_limit),
         cmocka_unit_test(certificates),
         cmocka_unit_test(an_undeclared_velocity_costs_the_reference),

@@ -158,6 +158,7 @@ static const char *const texts[] = {
     "N = 5\nx[i]'' = x[i+1] - 2 x[i] + x[i-1]   for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
     "x[i](0) = i   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\nr'' = -r\nr(0) = (1, 2)\nr'(0) = (0, 1)\nstep "
     "0.05\nuntil 3\n",
+    "x'' = -x^3 + 0.1 cos(t)\nx(0) = 0.3\nx'(0) = 0.1\ns' = x'^2 + t x\ns(0) = 0.5\nstep 0.05\nuntil 3\n",
     "s' = -s\ns(0) = 1\nexact s = exp(-t)\nstep 0.05\nuntil 3\n",
 };
 

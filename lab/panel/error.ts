@@ -4,6 +4,7 @@
  * error of zero stands at the foot of the picture, and is called zero where it is read out.
  */
 import type { Panel, PanelMaker, Scene } from '../scene';
+import type { ColumnKind } from '../protocol';
 import { axes } from '../figure/axes';
 import { cursor, drawHeading, heading } from '../figure/cursor';
 import { el as element } from '../dom';
@@ -16,16 +17,23 @@ import { drawTrack, begin, listed, rowAt } from '../figure/track';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
 import { columnOf, timeTable } from './columns';
 
-type Of = 'x' | 'v';
+/* What an error is of: the name in the list, the kind of the columns, and its sign on the axis. */
+type Of = 'x' | 'v' | 's';
+const KINDS: Readonly<Record<Of, { readonly name: string; readonly kind: ColumnKind; readonly sign: string }>> = {
+  x: { name: 'position', kind: 'position', sign: 'x' }, v: { name: 'velocity', kind: 'velocity', sign: 'x′' }, s: { name: 'first-order variable', kind: 'first-order', sign: 's' },
+};
+const ALL: readonly Of[] = ['x', 'v', 's'];
 
 export const errorPanel: PanelMaker = (store): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, of: Of = 'x';
   let floor = 0, low = 1e-16, high = 1, zeros = false, drawn: Float64Array[] = [], leaving: number[] = [];
 
-  const select = element('select', {}, element('option', { value: 'x' }, 'position'), element('option', { value: 'v' }, 'velocity'));
+  const select = element('select', {});
+  /* The kinds in the list, which is written anew only when they change. */
+  let offered = '';
   const control = element('label', {}, 'Error of the', select);
   select.addEventListener('change', () => {
-    of = select.value === 'v' ? 'v' : 'x';
+    of = ALL.find((value) => value === select.value) ?? 'x';
     if (scene) prepare(scene);
   });
 
@@ -42,7 +50,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
     let size = 0;
     columns.forEach((name, i) => {
       const column = columnOf(next, name);
-      if (column?.kind !== (of === 'x' ? 'position' : 'velocity')) return;
+      if (column?.kind !== KINDS[of].kind) return;
       for (const v of truth?.columns[i] ?? []) if (Math.abs(v) > size && Number.isFinite(v)) size = Math.abs(v);
     });
     floor = Number.EPSILON * (size || 1);
@@ -84,7 +92,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
     const from = tracks[0]?.times[0] ?? 0, back = tracks[0] && (tracks[0].times[1] ?? from) < from;
     const end = back ? Math.min(...tracks.map((t) => t.times[t.times.length - 1] ?? 0)) : to;
     const region = { left: 0, top: legend.height, width: pen.width, height: pen.height - legend.height };
-    frame = axes(pen, ink, { min: from, max: end, label: 't' }, { min: low, max: high, log: true, label: of === 'x' ? '|x − truth|' : '|x′ − truth|' }, { region });
+    frame = axes(pen, ink, { min: from, max: end, label: 't' }, { min: low, max: high, log: true, label: `|${KINDS[of].sign} − truth|` }, { region });
     const f = frame, foot = f.top + f.height;
     const shade = (upTo: number, words: string): void => {
       if (!(upTo > low)) return;
@@ -140,7 +148,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
     }).sort((a, b) => a.top - b.top);
     const said = worst.map((w) => `${w.name} ${w.top <= 16 * floor ? (w.top === 0 ? '0' : `${brief(w.top, 2)} (round-off)`) : brief(w.top, 3)}`);
     return [
-      said.length ? `Largest error in the ${of === 'x' ? 'position' : 'velocity'}: ${listed(said, 5)}.` : '',
+      said.length ? `Largest error in the ${KINDS[of].name}: ${listed(said, 5)}.` : '',
       against(),
       zeros ? 'Where an error is zero to the last digit, the line runs at the foot of the picture.' : '',
       leaving.length ? `${begin(listed(leaving.map((k) => scene!.looks[k]?.label ?? '')))} ${leaving.length > 1 ? 'leave' : 'leaves'} the picture.` : '',
@@ -148,7 +156,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
   }
   function table(): Table {
     if (!scene) return { head: [], rows: [] };
-    const made = timeTable(scene, [of === 'x' ? '|x − truth|' : "|x' − truth|"], (k) => errors(k));
+    const made = timeTable(scene, [`|${KINDS[of].sign.replace('′', "'")} − truth|`], (k) => errors(k));
     return { ...made, note: `${against()} ${made.note ?? ''}`.trim() };
   }
 
@@ -169,8 +177,15 @@ export const errorPanel: PanelMaker = (store): Panel => {
       : problem ? `The error cannot be told: there is nothing exact to compare with.\n${problem.message}${problem.hint ? ` ${problem.hint}` : ''}`
       : !truth || !next.solution.errors.length ? 'This model has no exact line. A reference is computed to compare with; the error appears here when it is known.'
       : '';
+    const there = ALL.filter((value) => next.solution.errors.some((e) => e[value].length));
+    if (there.length && !there.includes(of)) of = there[0]!;
+    if (offered !== there.join()) {
+      offered = there.join();
+      select.replaceChildren(...there.map((value) => element('option', { value }, KINDS[value].name)));
+    }
+    select.value = of;
     if (!why) measure(next);
-    control.hidden = !next.solution.errors.some((e) => e.v.length);
+    control.hidden = there.length < 2;
     fig.say(why);
     fig.redraw();
   }

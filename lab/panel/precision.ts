@@ -48,7 +48,8 @@ function columnsOf(found: Comparison, labels: ReadonlyMap<string, string>): Colu
     { name: 'method', about: '', value: (row) => labels.get(row.method) ?? row.method },
     { name: 'order', about: 'declared', value: (row) => row.order },
     { name: 'evaluations', about: 'of the force', value: (row) => row.evaluations, text: (row) => whole(row.evaluations) },
-    { name: 'error', about: 'largest, of the positions', value: (row) => number(row.error_max) },
+    ...(found.rows.some((row) => row.error_max !== null) ? [{ name: 'error', about: 'largest, of the positions', value: (row: CompareRow) => number(row.error_max) }] : []),
+    ...(found.rows.some((row) => row.error_max_s !== null) ? [{ name: 'first-order error', about: 'largest, of the first-order variables', value: (row: CompareRow) => number(row.error_max_s) }] : []),
     ...invariants.map((invariant, k): Column => ({
       name: `absolute drift of ${invariant.name}`, about: 'largest, in its own units; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max_drift ?? null),
       text: (row) => { const drift = row.invariants[k]; return drift ? `${readable(drift.max_drift, 2)}${drift.trending ? ' ↗' : ''}` : '–'; },

@@ -32,6 +32,7 @@ export function stepsPanel(store: Store): Panel {
   let toldAge = -1, toldIndex = -1;
   let visible = false, waiting = 0, lastLoad = -Infinity;
 
+  const byVelocity = (): boolean => scene?.description.velocity_dependent === true;
   const button = (text: string, label: string, act: () => void): HTMLButtonElement => {
     const b = document.createElement('button');
     b.type = 'button';
@@ -193,7 +194,7 @@ export function stepsPanel(store: Store): Panel {
   function told(): readonly Told[] {
     if (!trace || !plane) return [];
     const { indices } = plane, of = trace;
-    return of.entries.map((_, k) => tell(of, k, indices));
+    return of.entries.map((_, k) => tell(of, k, indices, byVelocity()));
   }
 
   function refresh(): void {
@@ -249,7 +250,7 @@ export function stepsPanel(store: Store): Panel {
   function summary(): string {
     if (!trace || !scene || trace.entries.length === 0) return 'No step to show yet.';
     const start = trace.entries[0]!, end = trace.entries[lastEvent()]!, k = event < 0 ? lastEvent() : event;
-    const what = plane ? tell(trace, k, plane.indices) : null;
+    const what = plane ? tell(trace, k, plane.indices, byVelocity()) : null;
     return `Step ${trace.index + 1} of ${trace.total} by ${scene.looks[0]?.label ?? trace.method}, from t = ${brief(start.time, 6)} to ${brief(end.time, 6)}. `
       + `Event ${k + 1} of ${trace.entries.length}: ${what?.title ?? ''}.${what?.note ? ` ${what.note}` : ''} Arrows show h v and h² a: what a velocity and an acceleration do in one step.`;
   }

@@ -33,7 +33,7 @@ export function facts(method: Method): string[] {
   return [
     `order ${method.order}`,
     method.family === 'implicit' ? 'solves an equation at each step' : `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step`,
-    method.symplectic ? 'symplectic' : 'not symplectic',
+    method.symplectic ? 'symplectic for a force that is a gradient' : 'not symplectic',
     method.reversible ? 'reversible' : 'not reversible',
     limit(method.stability_limit),
   ];

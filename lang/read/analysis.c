@@ -16,6 +16,43 @@ static node seed_velocity(graph *g, node leaf, void *shift)
     return graph_seed_direction(g, leaf, shift);
 }
 
+static const model_state *state_of(const model *m, block block, uint16_t array)
+{
+    const uint16_t number = (uint16_t)(array - m->block[block]);
+    for (uint32_t k = 0; k < m->state_count; k++) {
+        const model_state *s = &m->states[k];
+        if (number >= s->array && number < s->array + (s->components ? s->components : 1)) return s;
+    }
+    return NULL;
+}
+
+typedef struct reading {
+    const model *model;
+    bool first_order;
+} reading;
+
+static void see_load(void *ctx, const reference *ref, const range *sums, int first_level, int inside)
+{
+    reading *r = ctx;
+    (void)sums, (void)first_level, (void)inside;
+    const model_state *s = state_of(r->model, BLOCK_V, ref->array);
+    r->first_order |= !s || s->order == 1;
+}
+
+/* Whether v enters the right sides of first-order variables alone, and nothing reads these. */
+static bool only_follow(model *m)
+{
+    reading r = {.model = m};
+    for (size_t i = 0; i < m->accel_count && !r.first_order; i++) {
+        const output *o = &m->accel[i];
+        if (!(graph_deps(m->graph, o->value) & DEP_V)) continue;
+        const model_state *s = state_of(m, BLOCK_A, o->to.array);
+        if (!s || s->order == 2) return false;
+        graph_loads(m->graph, o->value, SPACE_V, see_load, &r);
+    }
+    return !r.first_order;
+}
+
 void analysis_traits(model *m)
 {
     graph *g = m->graph;
@@ -43,6 +80,7 @@ void analysis_traits(model *m)
     }
     t->constant &= !m->driven;
     t->constant_jv &= t->linear_v;
+    t->quadrature = t->velocity && t->first_order && only_follow(m);
 }
 
 /* Under a constant acceleration a the exact motion is x = x(0) + x'(0) τ + a τ²/2 with τ = t - start, so no exact line
@@ -55,12 +93,8 @@ static bool recognise_constant(model *m)
     node tau = graph_op(g, OP_SUB, graph_time(g), graph_const(g, m->start), 0);
     for (size_t i = 0; i < m->accel_count; i++) {
         output o = m->accel[i];
-        uint16_t number = (uint16_t)(o.to.array - m->block[BLOCK_A]);
-        const model_state *s = NULL;
-        for (uint32_t k = 0; k < m->state_count; k++)
-            if (number >= m->states[k].array &&
-                number < m->states[k].array + (m->states[k].components ? m->states[k].components : 1))
-                s = &m->states[k];
+        const uint16_t number = (uint16_t)(o.to.array - m->block[BLOCK_A]);
+        const model_state *s = state_of(m, BLOCK_A, o.to.array);
         reference at = o.to;
         at.array = (uint16_t)(s->start_array[0] + number - s->array);
         node x0 = graph_load(g, &at);

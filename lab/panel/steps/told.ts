@@ -51,8 +51,16 @@ function signed(c: number): string {
   return `${c < 0 ? '−' : '+'} ${size === '1' ? '' : `${size} `}`;
 }
 
-/** What event `at` of a trace does to the numbers with these indices. */
-export function tell(trace: Trace, at: number, indices: readonly number[]): Told {
+/* Where a kick takes the acceleration; of an implicit kick also what solving it took. */
+function kickNote(e: TraceEntry, before: TraceEntry, byVelocity: boolean): string {
+  if (!byVelocity) return `The acceleration at t = ${shortly(e.time)} changes the velocity; the position stays.`;
+  const turns = e.iterations - before.iterations;
+  const solved = turns > 0 ? ` Newton's method solved that equation in ${turns} iteration${turns === 1 ? '' : 's'}.` : '';
+  return `The acceleration at t = ${shortly(e.time)}, taken at the mean of the velocities before and after, changes the velocity; the position stays.${solved}`;
+}
+
+/** What event `at` of a trace does to the numbers with these indices. byVelocity: the force depends on the velocity. */
+export function tell(trace: Trace, at: number, indices: readonly number[], byVelocity: boolean): Told {
   const e = trace.entries[at]!, start = trace.entries[0]!, before = trace.entries[at - 1] ?? start;
   const h = e.step, x = (k: number): string => trace.names.x[k] ?? `x${sub(k + 1)}`, v = (k: number): string => trace.names.v[k] ?? `v${sub(k + 1)}`;
   const a = (k: number): string => accelerationName(v(k));
@@ -65,7 +73,7 @@ export function tell(trace: Trace, at: number, indices: readonly number[]): Told
       return { title: `Start, t = ${shortly(e.time)}`, note: '', formulas: state(e) };
     case 'kick':
       return {
-        title: 'Kick', note: `The acceleration at t = ${shortly(e.time)} changes the velocity; the position stays.`,
+        title: byVelocity ? 'Implicit kick' : 'Kick', note: kickNote(e, before, byVelocity),
         formulas: each(k => [formula(`${v(k)} ← ${v(k)} ${signed(e.coefficient)}h ${a(k)}`,
           w => `${v(k)} ← ${w(before.v[k]!)} + ${bracketed(coefficient(e.coefficient, w))} · ${bracketed(w(h))} · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.v[k]!)}`)]),
       };
