@@ -235,10 +235,7 @@ static void *build(const compiler *c, const char *text, size_t length, int how, 
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
     compiler c;
-    if (!compiler_find(&c)) {
-        snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
-        return NULL;
-    }
+    if (!compiler_find(&c, why, size)) return NULL;
     char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
     directory_of(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;

@@ -88,11 +88,17 @@ static bool search(const char *name, compiler *c)
     return false;
 }
 
-bool compiler_find(compiler *c)
+bool compiler_find(compiler *c, char *why, size_t size)
 {
-    const char *names[] = {getenv("CC"), "cc", "gcc", "clang"};
+    static const char *const names[] = {"cc", "gcc", "clang"};
+    const char *wanted = getenv("CC");
+    if (wanted && *wanted) {
+        snprintf(why, size, "CC is \"%s\", which is no program that can be run", wanted);
+        return search(wanted, c);
+    }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (names[i] && search(names[i], c)) return true;
+        if (search(names[i], c)) return true;
+    snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
     return false;
 }
 

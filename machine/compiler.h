@@ -12,8 +12,9 @@ typedef struct compiler {
     char identity[COMPILER_PATH_MAX + 96]; /* path, size and time of the file, for the cache key */
 } compiler;
 
-/* The first that exists of CC (one program name or path), cc, gcc, clang. */
-bool compiler_find(compiler *);
+/* The one that CC names (one program or path, without options); where CC is not set, the first that exists of cc, gcc,
+ * clang. False: `why` gives the reason. */
+bool compiler_find(compiler *, char *why, size_t size);
 /* FAST: with the options of --fast; LOOPS: the text has long loops over arrays. */
 enum { COMPILER_FAST = 1, COMPILER_LOOPS = 2 };
 /* Compiles `source` to `object`. On failure `why` holds the first line of the compiler's messages. */

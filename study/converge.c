@@ -315,7 +315,7 @@ static motus_status converge_all(converge *c)
     if (!c->reference.known) {
         fail(s->err, MOTUS_DIVERGED,
              "there is no reference solution to measure errors against: every method of high order failed before %.6g",
-             until);
+             isnan(c->uncut) ? until : c->uncut);
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }
