@@ -25,7 +25,8 @@
  * doubles the time of compiling and made no measured model faster. gcc does not unroll such loops. */
 /* clang-format off */
 static const char *const options[] = {"-std=gnu17", "-march=native", "-ffp-contract=off", "-fno-math-errno",
-    "-fno-stack-protector", "-fno-unroll-loops", "-fPIC", "-w", "-pipe", "-x", "c", "-c", NULL};
+    "-fno-stack-protector", "-fno-unroll-loops", "-fno-asynchronous-unwind-tables", "-fPIC", "-w", "-pipe",
+    "-x", "c", "-c", NULL};
 /* Long loops over arrays want vectors. In other texts the vectors are written out; vectorising what is left takes time,
  * and makes more models slower than faster. Two of gcc's passes cost a twentieth of its time and change no measured
  * speed. */
