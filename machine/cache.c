@@ -179,7 +179,8 @@ static bool put_seal(const char *path)
     return ok;
 }
 
-/* Links, seals and loads what was compiled. */
+/* Links, seals and loads what was compiled. The seal is not synchronised: after a power cut a damaged entry is found by
+ * it, and compiled again. */
 static void *link_and_load(const compiler *c, const char *object, const char *library, bool alone, char *why,
                            size_t size)
 {
@@ -249,6 +250,7 @@ void *cache_load(const char *text, size_t length, int how, char *why, size_t siz
     else if (!handle)
         handle = build(&c, text, length, how, fd >= 0 ? path : NULL, why, size);
     if (fd >= 0) close(fd);
+    if (handle) *why = 0; /* what failed on the way does not matter */
     return handle;
 }
 

@@ -92,8 +92,9 @@ bool compiler_find(compiler *c, char *why, size_t size)
     static const char *const names[] = {"cc", "gcc", "clang"};
     const char *wanted = getenv("CC");
     if (wanted && *wanted) {
+        if (search(wanted, c)) return true;
         snprintf(why, size, "CC is \"%s\", which is no program that can be run", wanted);
-        return search(wanted, c);
+        return false;
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (search(names[i], c)) return true;

@@ -98,6 +98,16 @@ refuses "--set of a component, in a link" 2 "r.x(0)=2" "$motus" run models/keple
 printf "x'' = -x\nx(0) = 1\nx'(0) = 0\n" >"$place/timeless.motus"
 refuses "no step and no end" 2 "no step is given" "$motus" run "$place/timeless.motus"
 that "... what to do, in options" says 'or give --step 0.01' "$err"
+mkdir "$place/tools"
+printf '#!/bin/sh\ncase "$*" in *--eh-frame-hdr*) exec "%s" "$@" ;; esac\necho no >&2\nexit 1\n' "$(command -v ld)" >"$place/tools/ld"
+chmod +x "$place/tools/ld"
+printf "x'' = -mod(x, 3)\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 2\n" >"$place/mod.motus"
+"$motus" sweep "$place/mod.motus" --vary "x(0)=0:1:9" --machine compiled --json -o /dev/null >"$place/linked" 2>"$err"
+that "the linker by itself links functions of the C library" eval "holds '.machine == \"compiled\"' '$place/linked' && empty '$err'"
+PATH=$place/tools:$PATH XDG_CACHE_HOME=$place/tools "$motus" sweep "$place/mod.motus" --vary "x(0)=0:1:9" --machine compiled --json -o /dev/null >"$out" 2>"$err"
+that "where the linker fails by itself, the compiler links" eval "holds '.machine == \"compiled\"' && empty '$err'"
+CC=gcc "$motus" sweep $osc --vary F=0:1:9 --machine compiled >/dev/null 2>"$err"
+that "CC that is one is not spoken of" lacks CC "$err"
 refuses "CC that is no program" 1 'CC is "nosuchcc"' env CC=nosuchcc "$motus" run $osc --machine compiled
 that "... what to do without" says "give --machine interpreter" "$err"
 refuses "--set of a quantity" 2 "energy" "$motus" run $osc --set energy=1
