@@ -49,6 +49,7 @@ bench:
 	@mkdir -p build
 	@$(CMAKE) --preset release -DMOTUS_BENCH=ON >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 	@$(CMAKE) --build build --target motus_program motus_bench
+	@mkdir -p $(RESULTS)
 	@build/bench/bench --save $(RESULTS)
 
 install: all

@@ -40,7 +40,7 @@ motus_status choice_compile(motus_system *s, const chosen *chosen, bool must, bo
     if (!*why) return compiled_machine(s->compiled, chosen, out, err);
     if (!must) return MOTUS_OK;
     fail(err, MOTUS_TOOL, "the model could not be compiled: %s", *why);
-    hint(err, "the interpreter needs no compiler: --machine interpreter, or \"interpreter\" in the definition");
+    hint(err, "the interpreter needs no compiler: give `machine = interpreter` of the definition");
     return MOTUS_TOOL;
 }
 

@@ -21,13 +21,13 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
     *out = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
-        hint(err, "write `step 0.01` in the model, or --step 0.01");
+        hint(err, "write `step 0.01` in the model, or give `step = 0.01` of the definition");
         return MOTUS_ARGUMENT;
     }
     if (!isfinite(h) || !(h > 0)) return fail(err, MOTUS_ARGUMENT, "the step is a positive number, not %g", h);
     if (isnan(out->until)) {
         fail(err, MOTUS_ARGUMENT, "no end is given");
-        hint(err, "write `until 10` in the model, or --until 10");
+        hint(err, "write `until 10` in the model, or give `until = 10` of the definition");
         return MOTUS_ARGUMENT;
     }
     if (!isfinite(out->until) || !isfinite(out->t0))

@@ -214,7 +214,7 @@ static bool undamaged(reader *r)
 static motus_status unreadable(motus_error *err)
 {
     fail(err, MOTUS_STATE, "the text is not a restart state, or it is damaged");
-    hint(err, "take the text that motus_run_save or --save-state has written, unchanged");
+    hint(err, "take the text as it was saved, unchanged");
     return MOTUS_STATE;
 }
 
@@ -234,7 +234,7 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     snprintf(expected, sizeof expected, "%016" PRIx64, fingerprint(r->system));
     if (strcmp(system, expected)) {
         fail(err, MOTUS_STATE, "the restart state belongs to another model, or to other parameters");
-        hint(err, "give the model and the --set options with which it was written");
+        hint(err, "give the model and `set` of the definition with which it was written");
         return MOTUS_STATE;
     }
     if (strcmp(method, r->chosen.name))

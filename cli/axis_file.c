@@ -50,7 +50,9 @@ static int next_line(table_file *f)
 {
     errno = 0;
     for (ssize_t length; (length = getline(&f->line, &f->room, f->stream)) >= 0;) {
-        f->number++;
+        static const char mark[] = "\xEF\xBB\xBF"; /* some programs begin a file of UTF-8 with it */
+        if (f->number++ == 0 && strncmp(f->line, mark, strlen(mark)) == 0)
+            memmove(f->line, f->line + strlen(mark), (size_t)(length -= (ssize_t)strlen(mark)) + 1);
         while (length > 0 && (f->line[length - 1] == '\n' || f->line[length - 1] == '\r')) f->line[--length] = 0;
         if (strlen(f->line) > 0 && f->line[0] != '#') return 1;
     }

@@ -7,6 +7,7 @@
 #include "cli/complain.h"
 
 #include "base/error.h"
+#include "cli/options.h"
 #include "cli/text.h"
 #include "tell/tell.h"
 
@@ -36,8 +37,32 @@ static bool show_json(const motus_error *err)
     return fflush(stdout) == 0 && !ferror(stdout);
 }
 
-int complain_show(const motus_error *err, bool as_json)
+/* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition". Here their
+ * members are options: --until, --until 3. */
+static void name_options(const char *text, char *out, size_t size)
 {
+    static const char of[] = "` of the definition";
+    size_t n = 0;
+    while (*text && n + 3 < size) {
+        const char *end = *text == '`' ? strchr(text + 1, '`') : NULL;
+        const size_t word = end ? strcspn(text + 1, " `") : 0;
+        if (!end || strncmp(end, of, strlen(of)) || !options_known(text + 1, word)) {
+            out[n++] = *text++;
+            continue;
+        }
+        const char *value = strncmp(text + 1 + word, " = ", 3) ? end : text + 4 + word;
+        n += (size_t)snprintf(out + n, size - n, "--%.*s%s%.*s", (int)word, text + 1, value < end ? " " : "",
+                              (int)(end - value), value);
+        text = end + strlen(of);
+    }
+    out[n < size ? n : size - 1] = 0;
+}
+
+int complain_show(const motus_error *given, bool as_json)
+{
+    motus_error own = *given, *err = &own;
+    name_options(given->hint, own.hint, sizeof own.hint);
+    if (strcmp(own.file, "motus_text_def.set") == 0) snprintf(own.file, sizeof own.file, "--set");
     if (as_json && show_json(err)) return motus_status_exit(err->status);
     bool colours = complain_colours(2);
     const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";

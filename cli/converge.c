@@ -1,6 +1,6 @@
 /* motus converge: error against step, the fitted order, the certificate.
  *
- * Invariant: the exit status is 0 only if every method showed its declared order.
+ * Invariant: the table of orders comes first. The exit status is 0 only if every method showed its declared order.
  */
 #include "base/error.h"
 #include "cli/complain.h"
@@ -48,18 +48,48 @@ static bool print_points(const motus_converge_row *r, bool colours)
     return good;
 }
 
+/* Why a row has no order; "": it has one. */
+static const char *without_order(const motus_converge_row *r)
+{
+    if (r->observed == r->observed || r->exact_here) return "";
+    return r->certificate && r->certificate[0] ? r->certificate : motus_status_text(r->status);
+}
+
+/* A line for each method. */
+static bool print_orders(const motus_convergence *c, bool colours)
+{
+    bool remarks = false;
+    for (size_t k = 0; k < c->row_count; k++) remarks |= *without_order(c->rows[k]) != 0;
+    table *t = table_create(remarks ? "lrrrl" : "lrrr");
+    static const char *const head[] = {"method", "declared", "observed", "passed"};
+    for (size_t i = 0; i < sizeof head / sizeof *head; i++) table_cell(t, head[i]);
+    if (remarks) table_cell(t, "");
+    for (size_t k = 0; k < c->row_count; k++) {
+        const motus_converge_row *r = c->rows[k];
+        char observed[32];
+        snprintf(observed, sizeof observed, "%.2f", r->observed);
+        table_cell(t, r->method);
+        table_integer(t, r->declared);
+        table_cell(t, r->exact_here ? "exact here" : r->observed == r->observed ? observed : "-");
+        table_cell(t, r->passed ? "yes" : "FAILED");
+        if (remarks) table_cell(t, without_order(r));
+    }
+    const bool good = table_print(t, stdout, 2, colours);
+    table_destroy(t);
+    return good;
+}
+
 static motus_status print_tables(const studies *s, const void *result, motus_error *err)
 {
     const motus_convergence *c = result;
-    bool colours = complain_colours(1), good = true;
+    const bool colours = complain_colours(1);
     studies_title(s, c->reference, c->reference_error);
-    puts("in brackets: not in the fit, because instability or round-off dominates\n");
-    for (size_t k = 0; k < c->row_count && good; k++) {
+    putchar('\n');
+    bool good = print_orders(c, colours);
+    if (s->options->points) puts("\nin brackets: not in the fit, because instability or round-off dominates");
+    for (size_t k = 0; s->options->points && k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
-        const char *colour = !colours ? "" : r->passed ? "\033[32m" : "\033[31m";
-        printf("  %s%s%s: %s", colours ? "\033[1m" : "", r->method, colours ? "\033[0m" : "", colour);
-        text_put(stdout, r->certificate && r->certificate[0] ? r->certificate : motus_status_text(r->status));
-        printf("%s%s\n", r->passed ? "" : "  FAILED", colours ? "\033[0m" : "");
+        printf("\n  %s%s%s\n", colours ? "\033[1m" : "", r->method, colours ? "\033[0m" : "");
         good = print_points(r, colours);
     }
     return good ? MOTUS_OK : complain_memory(err);

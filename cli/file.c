@@ -242,8 +242,10 @@ void file_drop(file_out *f)
 
 motus_status file_flush_output(motus_error *err)
 {
+    const int before = ferror(stdout) ? errno : 0; /* of the write that failed while more was printed */
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return MOTUS_OK;
-    if (errno == EPIPE) stop_reader_gone();
-    return fail(err, MOTUS_FILE, "cannot write standard output: %s", strerror(errno ? errno : EIO));
+    const int code = errno ? errno : before ? before : EIO;
+    if (code == EPIPE) stop_reader_gone();
+    return fail(err, MOTUS_FILE, "cannot write standard output: %s", strerror(code));
 }

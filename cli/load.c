@@ -5,6 +5,8 @@
 #include "cli/load.h"
 
 #include "base/error.h"
+#include "cli/complain.h"
+#include "cli/components.h"
 #include "cli/file.h"
 #include "cli/stop.h"
 #include "cli/text.h"
@@ -71,9 +73,14 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     def.text = m->text;
     def.length = length;
     def.file = called(o->operand);
-    def.set = o->set.items;
-    def.set_count = o->set.count;
+    const char **set = malloc((o->set.count + 1) * sizeof *set);
+    if (!set) return complain_memory(err);
+    for (size_t k = 0; k < o->set.count; k++)
+        if (!components_are(o->set.items[k])) set[def.set_count++] = o->set.items[k];
+    def.set = set;
     status = motus_system_from_text(&def, &m->system, err);
+    free(set);
+    if (!status) status = components_set(m->system, &o->set, err);
     if (status) return status;
     stop_catch_signals(); /* before this there is nothing to clean up, so signals end the program at once */
     m->positions = motus_positions(m->system);

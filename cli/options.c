@@ -81,6 +81,7 @@ static const option table[] = {
      "trajectories in one vector: 1, 2, 4, ... (for tests); the bits are the same"},
     {"--fast", NULL, NULL, FLAG, AT(fast), VERB_SWEEP,
      "let the compiler reorder operations: the last bits may differ between machines"},
+    {"--points", NULL, NULL, FLAG, AT(points), VERB_CONVERGE, "below the table, the error at every step"},
     {"--markdown", NULL, NULL, FLAG, AT(markdown), VERB_METHODS, "the catalogue as a Markdown table"},
     {"--json", NULL, NULL, FLAG, AT(json), ANY, "one JSON object on standard output"},
     {"--quiet", "-q", NULL, FLAG, AT(quiet), ANY, "print nothing but errors and --json"},
@@ -100,6 +101,13 @@ const char *options_verb(unsigned verb)
 static bool matches(const option *o, const char *name)
 {
     return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
+}
+
+bool options_known(const char *name, size_t length)
+{
+    for (size_t i = 0; i < OPTIONS; i++)
+        if (strlen(table[i].name) == 2 + length && strncmp(table[i].name + 2, name, length) == 0) return true;
+    return false;
 }
 
 /* The option `name` of this verb, or an error that says why there is none. */
@@ -127,7 +135,15 @@ static motus_status find(const char *name, unsigned verb, const option **found, 
                 snprintf(verbs + strlen(verbs), sizeof verbs - strlen(verbs), "%s%s", verbs[0] ? ", " : "",
                          options_verb(bit));
         fail(err, MOTUS_ARGUMENT, "motus %s takes no %s", options_verb(verb), elsewhere->name);
-        hint(err, "%s belongs to: %s", elsewhere->name, verbs);
+        const option *several = NULL; /* --methods for --method */
+        for (size_t i = 0; i < OPTIONS; i++)
+            if (table[i].verbs & verb && strncmp(table[i].name, elsewhere->name, strlen(elsewhere->name)) == 0 &&
+                strcmp(table[i].name + strlen(elsewhere->name), "s") == 0)
+                several = &table[i];
+        if (several)
+            hint(err, "write %s %s: %s", several->name, several->argument, several->help);
+        else
+            hint(err, "%s belongs to: %s", elsewhere->name, verbs);
         return MOTUS_ARGUMENT;
     }
     if (strcmp(name, "--tolerance") == 0) {
@@ -225,6 +241,7 @@ static motus_status store(options *o, const option *row, const char *value, motu
 {
     void *place = (char *)o + row->place;
     const char *rest;
+    double number;
     switch (row->kind) {
     case FLAG: *(bool *)place = true; return MOTUS_OK;
     case WORD:
@@ -238,7 +255,10 @@ static motus_status store(options *o, const option *row, const char *value, motu
         o->until_typed = value;
         return typed_number(value, &o->until) ? MOTUS_OK : bad_value(row, value, "a number", err);
     case COUNT:
-        return typed_count(value, place, &rest) && !*rest ? MOTUS_OK : bad_value(row, value, "an integer above 0", err);
+        if (typed_count(value, place, &rest) && !*rest) return MOTUS_OK;
+        if (typed_number(value, &number) && number >= TYPED_COUNT_MAX)
+            return fail(err, MOTUS_ARGUMENT, "%s %s: at most %g", row->name, value, TYPED_COUNT_MAX);
+        return bad_value(row, value, "an integer above 0", err);
     case EVERY: return read_every(o, row, value, err);
     case METHOD_LIST:
         free(o->methods_text);

@@ -41,7 +41,7 @@ typedef struct options {
     bool seeded; /* a seed was given */
     bool zip, fast, resume, force;
     char *methods_text; /* the items of `methods` point into it */
-    bool json, quiet, help, markdown, emit_c, clear, share, no_open;
+    bool json, quiet, help, markdown, points, emit_c, clear, share, no_open;
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;
@@ -50,6 +50,8 @@ typedef struct options {
 motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
 void options_free(options *);
 const char *options_verb(unsigned verb);
+/* Whether there is an option --name, of any verb. */
+bool options_known(const char *name, size_t length);
 /* The lines of --help for the options of a verb. */
 void options_help(FILE *, unsigned verb);
 /* Splits "x,r.x,u[1,2]" at the commas outside brackets. The items point into *copy; the caller frees both. */

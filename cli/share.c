@@ -7,6 +7,7 @@
 
 #include "base/utf8.h"
 #include "base/error.h"
+#include "cli/components.h"
 #include "cli/complain.h"
 #include "cli/file.h"
 #include "cli/text.h"
@@ -163,6 +164,13 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
 {
     enum { OTHERS = 5 }; /* v m a h T */
     char *methods = methods_of(o);
+    for (size_t k = 0; k < o->set.count; k++)
+        if (components_are(o->set.items[k])) {
+            free(methods);
+            fail(err, MOTUS_ARGUMENT, "--set %s: a link holds vectors as a whole", o->set.items[k]);
+            hint(err, "set all components: \"r(0) = (1, 0)\"");
+            return MOTUS_ARGUMENT;
+        }
     items all = {malloc((o->set.count + OTHERS) * sizeof *all.list), 0};
     motus_status status;
     if (methods && all.list)

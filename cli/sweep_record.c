@@ -36,9 +36,10 @@ static motus_status add(sweep_records *r, motus_reduction how, size_t first, siz
     return MOTUS_OK;
 }
 
-static motus_status unknown(const char *item, const char *word, size_t length, motus_error *err)
+static motus_status unknown(const load *m, const char *item, const char *word, size_t length, motus_error *err)
 {
-    char given[32] = "";
+    size_t first, count;
+    char given[MOTUS_NAME_MAX] = "";
     const char *near = NULL;
     int best = 8;
     memcpy(given, word, length < sizeof given ? length : sizeof given - 1);
@@ -49,7 +50,12 @@ static motus_status unknown(const char *item, const char *word, size_t length, m
             near = reductions[i].word;
         }
     }
-    fail(err, MOTUS_ARGUMENT, "--record %s: %s cannot be recorded", item, given);
+    if (length < sizeof given && motus_column_find(m->system, given, &first, &count, NULL) == MOTUS_OK) {
+        fail(err, MOTUS_ARGUMENT, "--record %s: %s is recorded at the end of the run, not at a time", item, given);
+        hint(err, "write %s, or one of its values on the way: min(%s), max(%s), mean(%s)", given, given, given, given);
+        return MOTUS_ARGUMENT;
+    }
+    fail(err, MOTUS_ARGUMENT, "--record %s: there is no %s(…) to record", item, given);
     if (near)
         hint(err, "did you mean %s(...)?", near);
     else
@@ -68,7 +74,7 @@ static motus_status one(sweep_records *r, const load *m, char *item, motus_error
         while (word > 0 && item[word - 1] == ' ') word--;
         while (i < REDUCTIONS && !(strlen(reductions[i].word) == word && strncmp(reductions[i].word, item, word) == 0))
             i++;
-        if (i == REDUCTIONS) return unknown(item, item, word, err);
+        if (i == REDUCTIONS) return unknown(m, item, item, word, err);
         how = reductions[i].how;
         name = open + 1 + strspn(open + 1, " ");
         item[--length] = 0;

@@ -54,7 +54,7 @@ bool typed_count(const char *s, int64_t *count, const char **rest)
     if (s[length] == 'e' || s[length] == 'E' || s[length] == '.') {
         double d;
         length = decimal_read(s, SIZE_MAX, &d);
-        if (!(d >= 1 && d < 9e18) || d != trunc(d)) return false;
+        if (!(d >= 1 && d < TYPED_COUNT_MAX) || d != trunc(d)) return false;
         n = (uint64_t)d;
     }
     *count = (int64_t)n;

@@ -93,8 +93,11 @@ static const char *blanks(const char *s)
 static const char *read_argument(const char *s, double *value)
 {
     s = blanks(s);
+    const bool negative = *s == '-';
+    s += negative;
     size_t length = decimal_read(s, SIZE_MAX, value);
     if (!length) return NULL;
+    if (negative) *value = 0 - *value;
     s = blanks(s + length);
     if (*s == '/') {
         double below = 1;
@@ -118,12 +121,13 @@ static motus_status read_arguments(const char *name, const char *s, chosen *out,
         else
             s = NULL;
         if (!s || *s != ')' || *blanks(s + 1)) {
-            fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers, beta and gamma", name, out->row->card.name);
+            fail(err, MOTUS_METHOD, "\"%s\": %s takes two numbers between 0 and 1, beta and gamma", name,
+                 out->row->card.name);
             hint(err, "write %s(1/4, 1/2), or %s alone for the same", out->row->card.name, out->row->card.name);
             return MOTUS_METHOD;
         }
     }
-    if (out->argument[0] > 1 || out->argument[1] > 1) {
+    if (!(out->argument[0] >= 0 && out->argument[0] <= 1 && out->argument[1] >= 0 && out->argument[1] <= 1)) {
         fail(err, MOTUS_METHOD, "\"%s\": beta and gamma must be between 0 and 1", name);
         hint(err, "usual choices: (1/4, 1/2) stable at every step, (1/6, 1/2) linear acceleration, (0, 1/2) explicit");
         return MOTUS_METHOD;

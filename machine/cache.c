@@ -174,16 +174,31 @@ static bool put_seal(const char *path)
             munmap(bytes, (size_t)s.st_size);
         }
     }
-    ok = ok && lseek(fd, 0, SEEK_END) == s.st_size && write_all(fd, &end, sizeof end) && !fsync(fd);
+    ok = ok && lseek(fd, 0, SEEK_END) == s.st_size && write_all(fd, &end, sizeof end);
     if (fd >= 0) close(fd);
     return ok;
 }
 
-/* Compiles in a temporary directory, seals the object and, where there is a cache, renames it to `target`. */
-static void *build(const compiler *c, const char *text, size_t length, bool fast, const char *target, char *why,
+/* Links, seals and loads what was compiled. The seal is not synchronised: after a power cut a damaged entry is found by
+ * it, and compiled again. */
+static void *link_and_load(const compiler *c, const char *object, const char *library, bool alone, char *why,
+                           size_t size)
+{
+    void *handle = NULL;
+    if (!compiler_link(c, object, library, alone, why, size))
+        ;
+    else if (!put_seal(library))
+        snprintf(why, size, "%s cannot be written: %s", library, strerror(errno));
+    else if (!(handle = dlopen(library, RTLD_NOW | RTLD_LOCAL)))
+        snprintf(why, size, "%s", dlerror());
+    return handle;
+}
+
+/* Compiles in a temporary directory, seals the library and, where there is a cache, renames it to `target`. */
+static void *build(const compiler *c, const char *text, size_t length, int how, const char *target, char *why,
                    size_t size)
 {
-    char folder[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96];
+    char folder[PATH_MAX + 80], source[PATH_MAX + 96], object[PATH_MAX + 96], library[PATH_MAX + 96];
     if (target) {
         snprintf(folder, sizeof folder, "%s", target);
         *strrchr(folder, '/') = 0;
@@ -198,45 +213,44 @@ static void *build(const compiler *c, const char *text, size_t length, bool fast
         return NULL;
     }
     snprintf(source, sizeof source, "%s/model.c", folder);
-    snprintf(object, sizeof object, "%s/model.so", folder);
+    snprintf(object, sizeof object, "%s/model.o", folder);
+    snprintf(library, sizeof library, "%s/model.so", folder);
     void *handle = NULL;
     if (!write_source(source, text, length))
         snprintf(why, size, "%s cannot be written: %s", source, strerror(errno));
-    else if (!compiler_run(c, source, object, fast, why, size))
-        ;
-    else if (!put_seal(object))
-        snprintf(why, size, "%s cannot be written: %s", object, strerror(errno));
-    else if (!(handle = dlopen(object, RTLD_NOW | RTLD_LOCAL)))
-        snprintf(why, size, "%s", dlerror());
-    else if (target)
-        rename(object, target);
+    else if (compiler_run(c, source, object, how, why, size)) {
+        handle = link_and_load(c, object, library, true, why, size);
+        if (!handle) {
+            unlink(library);
+            handle = link_and_load(c, object, library, false, why, size);
+        }
+    }
+    if (handle && target) rename(library, target);
     unlink(source);
     unlink(object);
+    unlink(library);
     rmdir(folder);
     return handle;
 }
 
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size)
 {
-    const bool fast = how & CACHE_FAST;
     compiler c;
-    if (!compiler_find(&c)) {
-        snprintf(why, size, "there is no C compiler (cc, gcc, clang, or the one named by CC)");
-        return NULL;
-    }
+    if (!compiler_find(&c, why, size)) return NULL;
     char directory[PATH_MAX], path[PATH_MAX + 64], name[48];
     directory_of(directory, sizeof directory);
     int fd = directory[0] ? open_directory(directory) : -1;
     hash key =
-        hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(fast)), c.identity));
+        hash_processor(hash_text(hash_text(hash_bytes(hash_start, text, length), compiler_options(how)), c.identity));
     snprintf(name, sizeof name, "%016" PRIx64 "%016" PRIx64 ".so", key.a, key.b);
     snprintf(path, sizeof path, "%s/%s", directory, name);
     void *handle = fd >= 0 ? load_sound(fd, name, path) : NULL;
     if (!handle && how & CACHE_KEPT)
         snprintf(why, size, "it has not been compiled before");
     else if (!handle)
-        handle = build(&c, text, length, fast, fd >= 0 ? path : NULL, why, size);
+        handle = build(&c, text, length, how, fd >= 0 ? path : NULL, why, size);
     if (fd >= 0) close(fd);
+    if (handle) *why = 0; /* what failed on the way does not matter */
     return handle;
 }
 

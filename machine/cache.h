@@ -5,8 +5,8 @@
 #include "machine/compiler.h"
 
 /* Loads the shared object of a C text: from the cache where it has a sound one, else compiled. Returns a handle for
- * dlsym and dlclose; NULL: `why` gives the reason. FAST: with the options of --fast; KEPT: from the cache alone. */
-enum { CACHE_FAST = 1, CACHE_KEPT = 2 };
+ * dlsym and dlclose; NULL: `why` gives the reason. `how`: COMPILER_FAST, COMPILER_LOOPS; KEPT: from the cache alone. */
+enum { CACHE_KEPT = 4 };
 void *cache_load(const char *text, size_t length, int how, char *why, size_t size);
 /* Removes every entry. Returns how many, or -1. */
 int cache_clear(void);

@@ -12,12 +12,17 @@ typedef struct compiler {
     char identity[COMPILER_PATH_MAX + 96]; /* path, size and time of the file, for the cache key */
 } compiler;
 
-/* The first that exists of CC (one program name or path), cc, gcc, clang. */
-bool compiler_find(compiler *);
-/* Compiles `source` to the shared object `object`; fast: with the options of --fast. On failure `why` holds the first
- * line of the compiler's messages. */
-bool compiler_run(const compiler *, const char *source, const char *object, bool fast, char *why, size_t size);
+/* The one that CC names (one program or path, without options); where CC is not set, the first that exists of cc, gcc,
+ * clang. False: `why` gives the reason. */
+bool compiler_find(compiler *, char *why, size_t size);
+/* FAST: with the options of --fast; LOOPS: the text has long loops over arrays. */
+enum { COMPILER_FAST = 1, COMPILER_LOOPS = 2 };
+/* Compiles `source` to `object`. On failure `why` holds the first line of the compiler's messages. */
+bool compiler_run(const compiler *, const char *source, const char *object, int how, char *why, size_t size);
+/* Links `object` to the shared library `library`; alone: by the linker itself and without any library, which may fail,
+ * and may leave functions that this process does not have; else by the compiler. */
+bool compiler_link(const compiler *, const char *object, const char *library, bool alone, char *why, size_t size);
 /* A text that names the options, for the cache key. */
-const char *compiler_options(bool fast);
+const char *compiler_options(int how);
 
 #endif

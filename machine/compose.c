@@ -17,7 +17,9 @@ enum {
     SMALL_MAX = 16,         /* numbers: what registers, or at least the fastest loads, may hold */
     WRITTEN_OUT_MAX = 200,  /* operations in all stages of a step, up to which they are written out */
     SOLVES_WRITTEN_MAX = 2, /* implicit kicks, with their drifts: Newton's method is long */
-    FORCE_INLINE_MAX = 150  /* operations: a longer force is compiled once, and called */
+    FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
+    FORCE_TURNS_MAX = 40    /* the same of an implicit row: one call more is nothing beside those of the library, which
+                             * solve its equations, and the row's text has the force several times */
 };
 
 static void add_text(emit_text *t, const char *which)
@@ -36,6 +38,8 @@ bool compose_sizes_are_structure(const model *m)
         if (m->states[i].dims > 0) return false;
     return true;
 }
+
+bool compose_small(const model *m) { return compose_sizes_are_structure(m) && m->nv <= SMALL_MAX; }
 
 /* ---- what is known ---- */
 
@@ -92,6 +96,19 @@ static const char *const family_names[] = {
 #define NAME_OF(NAME, name, shared) [NAME] = #name,
     FAMILIES(NAME_OF)};
 
+/* Which arrays the row's workspace has. */
+static void add_places(emit_text *t, work w)
+{
+    double any;
+    w.stride = 0;
+    stepper_best_body()->place(&w, &any);
+    emit_add(t,
+             "#define PLACED(w, name) PLACED_##name\n#define PLACED_x 1\n#define PLACED_v 1\n#define PLACED_a 1\n"
+             "#define PLACED_ex %d\n#define PLACED_ev %d\n#define PLACED_old %d\n#define PLACED_next_x %d\n"
+             "#define PLACED_delta %d\n#define PLACED_vs %d\n",
+             w.ex != NULL, w.ev != NULL, w.old != NULL, w.next_x != NULL, w.delta != NULL, w.vs != NULL);
+}
+
 /* The constants that ROW and FACT lead to: the same that the plan finds. */
 static bool add_facts(emit *e, const composition *c, bool structure)
 {
@@ -131,8 +148,13 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     add_numbers(t, "fact_at", m.at, m.count);
     e->moments = m.count;
     emit_add(t, "#define CARRIED %zu\n#define CONSTANTS %d\n", stepper_carried(w), constants);
+    const bool small = compose_small(c->model);
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count,
-             stepper_arrays(w), c->width || (structure && w.nv <= SMALL_MAX), structure ? w.nv : 0);
+             stepper_arrays(w), c->width || small, structure ? w.nv : 0);
+    if (small && !c->width) {
+        emit_add(t, "#define FIRST(w) false\n#define KNOWN(w) false\n#define CHECKS(w) false\n");
+        add_places(t, w);
+    }
     const bool many_solves = r->family == SPLITTING && w.solves && stages > SOLVES_WRITTEN_MAX;
     if (structure && !many_solves && (size_t)stages * c->model->graph->count <= WRITTEN_OUT_MAX)
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
@@ -280,8 +302,9 @@ bool compose(emit *e, const composition *c)
     e->literal = structure;
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
+    const uint32_t inlined = !lanes && c->chosen->row->family == IMPLICIT ? FORCE_TURNS_MAX : FORCE_INLINE_MAX;
     for (size_t i = 0; i < c->program_count; i++) {
-        e->separate = !i && c->model->graph->count > FORCE_INLINE_MAX;
+        e->separate = !i && c->model->graph->count > inlined;
         e->windowed = !i && windowed;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }

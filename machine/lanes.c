@@ -280,7 +280,7 @@ motus_status lanes_create(const lanes_def *d, lanes **out, char *note, size_t si
     l->groups = d->lanes ? d->lanes / l->width : best_groups(d, &l->plan);
     l->block = l->width * l->groups;
     if (!write_text(l)) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
-    l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? CACHE_FAST : 0, note, size);
+    l->handle = cache_load(l->e.text.bytes, l->e.text.length, d->fast ? COMPILER_FAST : 0, note, size);
     if (!l->handle) return MOTUS_TOOL;
     /* POSIX lets a void * hold the address of a function. */
     *(void **)&l->bind = dlsym(l->handle, "motus_lanes_bind");

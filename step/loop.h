@@ -38,6 +38,11 @@ static inline int advance_check(work *w)
     return STEP_DIVERGED;
 }
 
+/* Whether every step is tested. */
+#ifndef CHECKS
+#define CHECKS(w) ((w)->check)
+#endif
+
 /* Takes `steps` more steps, or fewer up to w->until where time is carried; stops in the middle of a step that fails.
  * advance_check then finds the number that is not finite. */
 static int advance_run(work *w, whole steps)
@@ -46,7 +51,7 @@ static int advance_run(work *w, whole steps)
         if (FACT(w, carried) && w->t == w->until) break;
         int bad = advance_step(w);
         if (bad) return bad;
-        if (w->check && !advance_finite(w)) return STEP_DIVERGED;
+        if (CHECKS(w) && !advance_finite(w)) return STEP_DIVERGED;
     }
     return STEP_OK;
 }

@@ -214,10 +214,14 @@ static inline void time_tick(work *w, clock_mask good)
 #define accel_now(w, x, v, a) accel(w, time_now(w), x, v, a)
 #endif
 
-/* Whether the acceleration at the start of the step is known from an observation; counts it as used. */
+/* Whether the acceleration at the start of the step is known from an observation; counts it as used. KNOWN: a compiled
+ * model may evaluate it again, to the same bits and at the same cost, so that its loop has one kind of step. */
+#ifndef KNOWN
+#define KNOWN(w) ((w)->fresh)
+#endif
 static inline bool work_reuse(work *w)
 {
-    if (!w->fresh) return false;
+    if (!KNOWN(w)) return false;
     w->fresh = false;
     w->evaluations += w->owed_evaluations;
     w->iterations += w->owed_iterations;
@@ -266,11 +270,16 @@ static inline real *work_array(placing *p, int count)
     return array;
 }
 
+/* Whether the row's workspace has this array; a compiled model knows. */
+#ifndef PLACED
+#define PLACED(w, name) ((w)->name)
+#endif
+
 /* Copies the numbers of all arrays, of the stages only the first, from one workspace to another. */
 static inline void work_move(work *to, const work *from, size_t count)
 {
 #define MOVE(name) \
-    for (size_t k = 0; to->name && k < count; k++) to->name[k] = from->name[k]
+    for (size_t k = 0; PLACED(to, name) && k < count; k++) to->name[k] = from->name[k]
     MOVE(x);
     MOVE(v);
     MOVE(a);

@@ -334,8 +334,8 @@ static motus_status converge_all(converge *c)
     study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
     if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
     if (!c->reference.known) {
-        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %.6g to measure errors against; %s", until,
-             c->reference.text);
+        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %.6g to measure errors against: %s",
+             c->uncut, solution_lacks(&c->reference));
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }

@@ -786,6 +786,38 @@ static void methods_are_found(void **state)
     assert_non_null(strstr(err.hint, "verlet"));
 }
 
+static void arguments_have_a_range(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    static const char *const wrong[] = {"newmark(-1, 7)", "newmark(1/4, -1/2)", "newmark(2, 1/2)", "newmark(1/4)"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(motus_method_find(wrong[i], NULL, &err), MOTUS_METHOD);
+        assert_non_null(strstr(err.message, "between 0 and 1"));
+    }
+    assert_int_equal(motus_method_find("newmark(-0, 1)", NULL, &err), MOTUS_OK);
+}
+
+static void hints_name_members(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\n"), *wrong = NULL;
+    motus_run *r = NULL;
+    assert_int_equal(motus_run_create(s, NULL, &r, &err), MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.hint, "`step = 0.01` of the definition"));
+    motus_system_destroy(s);
+    const char *const set[] = {" until = 3"};
+    motus_text_def def = motus_default_text();
+    def.text = "x'' = -x\nx(0) = 1\nx'(0) = 0\n";
+    def.set = set;
+    def.set_count = 1;
+    assert_int_equal(motus_system_from_text(&def, &wrong, &err), MOTUS_ARGUMENT);
+    assert_string_equal(err.hint, "give `until = 3` of the definition");
+    assert_string_equal(err.file, "motus_text_def.set");
+    assert_int_equal(err.column, 2);
+}
+
 static void methods_are_refused_with_a_reason(void **state)
 {
     (void)state;
@@ -898,6 +930,8 @@ int main(void)
         cmocka_unit_test(exact_columns),
         cmocka_unit_test(settings_and_analysis),
         cmocka_unit_test(methods_are_found),
+        cmocka_unit_test(arguments_have_a_range),
+        cmocka_unit_test(hints_name_members),
         cmocka_unit_test(methods_are_refused_with_a_reason),
         cmocka_unit_test(variables_that_follow),
         cmocka_unit_test(what_is_preserved),

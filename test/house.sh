@@ -227,6 +227,10 @@ else
             grep -xE '(__)?(printf|fprintf|vprintf|vfprintf|puts|fputs|putchar|fputc|fwrite|perror|exit|_exit|abort|longjmp|setjmp|_setjmp|__assert_fail|stdout|stderr|system|popen|getenv|setlocale)(_chk)?')"
 fi
 
+# The library's callers are C programs and the page too; the program puts its options for the members (cli/complain.c).
+judge "no text of the library names an option of the program" "$(
+    grep -nE '"[^"]*--[a-z]' -r base core lang machine api study tell --include='*.[ch]' | grep -v -e '-Wl,')"
+
 # --- files ----------------------------------------------------------------------------------------------------------------
 ours() {
     find include $(printf '%s\n' "${folders[@]%%/*}" | grep -vx lab | sort -u) test ! -path 'test/corpus/*' \

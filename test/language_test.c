@@ -405,7 +405,7 @@ static void rule_10_set_refused(void **unused)
         {"", MOTUS_SYNTAX, "F=0.2"},
         {"p=(1, 2)", MOTUS_SHAPE, "vector"},
         {"x''=-x", MOTUS_ARGUMENT, "parameters and initial values"},
-        {"method rk4", MOTUS_ARGUMENT, "option"},
+        {"method rk4", MOTUS_ARGUMENT, "`method = rk4` of the definition"},
         {"p=1\nq=2", MOTUS_SYNTAX, "one definition"},
         {"p=1 2", MOTUS_SYNTAX, "1*2"},
         {"x=3", MOTUS_ARGUMENT, "x(0)"},
@@ -418,7 +418,7 @@ static void rule_10_set_refused(void **unused)
         {"p=p", MOTUS_NAME, "circle"},
         {"p=1/0", MOTUS_ARGUMENT, "finite"},
         {"x''(0)=1", MOTUS_SYNTAX, "equation"},
-        {"step=0.1", MOTUS_SYNTAX, "step"},
+        {"step=0.1", MOTUS_ARGUMENT, "`step = 0.1` of the definition"},
     };
     int faults = 0;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

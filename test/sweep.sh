@@ -41,6 +41,11 @@ column() { rows "${2:-$out}" | cut -d, -f"$1" | tr '\n' ' '; }
 is() { [ "$1" = "$2" ] || { printf '%s\nis not\n%s\n' "$1" "$2"; return 1; }; }
 sweep() { "$motus" sweep "$@"; }
 
+refuses "a value at a time" 2 "x is recorded at the end of the run, not at a time" "$motus" sweep line.motus --vary a=1,2 --record "x(0)"
+that "... what there is" says "write x, or one of its values on the way: min(x), max(x), mean(x)" "$err"
+refuses "a slip in --record" 2 "there is no maxx(…) to record" "$motus" sweep line.motus --vary a=1,2 --record "maxx(x)"
+that "... and what was meant" says "did you mean max(...)?" "$err"
+
 # --- values ---------------------------------------------------------------------------------------------------------------------
 values() {                   # name, option, argument, the values
     sweep line.motus "$2" "$3" --record x -q >"$out" 2>"$err" </dev/null
@@ -59,6 +64,10 @@ printf 'n,"the a, quoted",b\r\n# a remark\n1,0.5,x\n\n2, 1.5 ,y\n3,"-2.5e-3",z\n
 values "a column of a file, by name" --vary "a=@values.csv:the a, quoted" "0.5 1.5 -0.0025"
 values "... by number" --vary a=@values.csv:2 "0.5 1.5 -0.0025"
 printf '1\n2\n4' >plain.csv
+printf '\357\273\277a,b\r\n1,5\r\n2,6\r\n' >marked.csv
+values "a file that begins with a byte order mark" --vary a=@marked.csv:a "1 2"
+printf '\357\273\2771\n2\n' >marked.csv
+values "... and has no head" --vary a=@marked.csv "1 2"
 values "a file of one column without a head" --vary a=@plain.csv "1 2 4"
 sweep line.motus --vary a=1:2:3 --record "x,x'" -o first.csv -q
 values "the file of another sweep" --vary "a=@first.csv:x'" "2 3 4"

@@ -23,7 +23,7 @@ _motus() {
         case $verb in
         run)      options+=' --method --step --until --set --output --columns --every --plot --plot-of --save-state --restart --machine --threads --emit-c --share' ;;
         compare)  options+=' --methods --step --until --set --evaluations --plot --share' ;;
-        converge) options+=' --methods --step --until --set --plot' ;;
+        converge) options+=' --methods --step --until --set --plot --points' ;;
         sweep)    options+=' --vary --random --count --seed --zip --record --method --step --until --every --set --output --resume --force'
                   options+=' --threads --lanes --machine --fast' ;;
         lab)      options+=' --method --methods --step --until --set --output --no-open' ;;

@@ -15,6 +15,7 @@ complete -c motus -n "not __fish_seen_subcommand_from $verbs" -a lab -d 'the pag
 complete -c motus -n "not __fish_seen_subcommand_from $verbs" -l version -d 'the version'
 complete -c motus -n "__fish_seen_subcommand_from run compare converge sweep check lab" -k -a "(__fish_complete_suffix .motus)"
 complete -c motus -n "__fish_seen_subcommand_from methods" -a "(__motus_methods)"
+complete -c motus -n "__fish_seen_subcommand_from converge" -l points -d 'the error at every step'
 complete -c motus -n "__fish_seen_subcommand_from methods" -l markdown -d 'as a Markdown table'
 complete -c motus -n "__fish_seen_subcommand_from run sweep lab" -l method -x -a "(__motus_methods)" -d 'the method'
 complete -c motus -n "__fish_seen_subcommand_from compare converge lab" -l methods -x -a "(__fish_append , (__motus_methods))" -d 'these methods'

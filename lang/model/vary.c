@@ -127,7 +127,7 @@ static motus_status refuse(const model *m, const uint8_t *changed, bool own_step
         if (!changed[f->n] || (step && own_step) || (until && own_until)) continue;
         fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories",
              step || until ? "the " : "", until ? "end" : decision(f));
-        if (step || until) hint(err, "give a step and an end of its own: --step and --until");
+        if (step || until) hint(err, "give `step` of the definition and `until` of the definition");
         return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;

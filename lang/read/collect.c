@@ -122,22 +122,45 @@ static bool add_function(model *m, statement *s)
     return check_arguments(m, s);
 }
 
-/* --set name=expression: a statement in a text of its own, which replaces the model's. */
+/* Refuses method, step and until, which are no parameters; true: it did. */
+static bool refuse_setting(model *m, uint32_t text)
+{
+    static const char *const words[] = {"method", "step", "until"};
+    const struct source_text *t = &m->source.texts[text];
+    const char *at = t->bytes, *end = at + t->length;
+    while (at < end && *at == ' ') at++;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const size_t n = strlen(words[i]);
+        if ((size_t)(end - at) <= n || memcmp(at, words[i], n) || !strchr(" =", at[n])) continue;
+        const uint32_t from = (uint32_t)(at - t->bytes);
+        const span word = {text, from, from + (uint32_t)n};
+        for (at += n; at < end && strchr(" =", *at);) at++;
+        source_complain(&m->source, MOTUS_ARGUMENT, word,
+                        "%s is a setting, and only parameters and initial values can be set", words[i]);
+        source_hint(&m->source, "give `%s = %.*s` of the definition", words[i], (int)(end - at > 40 ? 40 : end - at),
+                    at);
+        return true;
+    }
+    return false;
+}
+
+/* name=expression of `set`: a statement in a text of its own, which replaces the model's. */
 static bool replace(model *m, uint32_t text)
 {
     statements set = {0};
     source *s = &m->source;
     span all = {text, 0, s->texts[text].length};
+    if (refuse_setting(m, text)) return false;
     if (!parse_text(s, text, &set)) return false;
     if (set.count != 1) {
         source_complain(s, MOTUS_SYNTAX, all, "a setting is one definition");
-        source_hint(s, "write --set F=0.2 or --set \"x(0)=1\"");
+        source_hint(s, "write F=0.2 or x(0)=1");
         return false;
     }
     statement *one = &set.item[0];
     if (one->kind != STATEMENT_DEFINITION && one->kind != STATEMENT_START) {
         source_complain(s, MOTUS_ARGUMENT, all, "only parameters and initial values can be set");
-        source_hint(s, "write --set F=0.2 or --set \"x(0)=1\"; method, step and until have options of their own");
+        source_hint(s, "write F=0.2 or x(0)=1");
         return false;
     }
     for (uint32_t i = 0; one->kind == STATEMENT_DEFINITION && i < m->statements.count; i++)

@@ -57,7 +57,7 @@ motus_status read_model(arena *a, const motus_text_def *def, read_method method,
         size_t n = strlen(def->set[i]);
         if (n > SOURCE_BYTES_MAX)
             return fail(err, MOTUS_LIMIT, "a setting has %zu bytes; at most %d are read", n, SOURCE_BYTES_MAX);
-        m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "--set"};
+        m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "motus_text_def.set"};
     }
     motus_status status = build(m, def, method);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;

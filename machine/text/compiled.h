@@ -21,12 +21,21 @@ static void pass_force(work *, clock t, const clock *T, real *x, real *v, real *
 #define FORCE_OF(w, t, T, x, v, a) FORCE(w->host, t, T, x, v, a)
 #endif
 
+#if TERMS
+/* Compiled once, for all but the loop over steps. */
+__attribute__((noinline)) static void compiled_terms_apart(const compiled_host *host, const reals *t, reals *many)
+{
+    compiled_force_terms(host->pool, host->q, host->u, *t, many);
+}
+#endif
+
 /* The values that depend on time alone, at t; T is room for them. */
 static inline const clock *compiled_terms(const compiled_host *host, clock t, clock *T)
 {
 #if TERMS
+    const reals all = MANY(t);
     reals many[TERMS];
-    compiled_force_terms(host->pool, host->q, host->u, MANY(t), many);
+    compiled_terms_apart(host, &all, many);
     for (int k = 0; k < TERMS; k++) T[k] = LANE_OF(many[k], 0);
 #else
     (void)host, (void)t;
@@ -79,7 +88,8 @@ static inline int compiled_accel_now(work *w, real *x, real *v, real *a)
 
 /* The table of LANES_OF_TIME steps from step n on. It takes t0 and h instead of a workspace, so that the workspace can
  * stay in registers. */
-static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n)
+static inline void compiled_fill_some(const compiled_host *host, clock t0, clock h, clock *restrict table, whole n,
+                                      bool apart)
 {
     const work clockwork = {.t0 = t0, .h = h}, *w = &clockwork;
     reals step;
@@ -87,7 +97,11 @@ static inline void compiled_fill_some(const compiled_host *host, clock t0, clock
     step += (clock)n;
     for (int m = 0; m < MOMENTS; m++) {
         reals many[TERMS];
-        compiled_force_terms(host->pool, host->q, host->u, TIME_FIXED(w, step, fact_at[m]), many);
+        const reals t = TIME_FIXED(w, step, fact_at[m]);
+        if (apart)
+            compiled_terms_apart(host, &t, many);
+        else
+            compiled_force_terms(host->pool, host->q, host->u, t, many);
         for (int k = 0; k < TERMS; k++)
             for (int l = 0; l < LANES_OF_TIME; l++) table[(l * MOMENTS + m) * TERMS + k] = LANE_OF(many[k], l);
     }
@@ -98,7 +112,7 @@ __attribute__((noinline)) static void compiled_fill(const compiled_host *host, c
                                                     whole n, whole count)
 {
     for (whole k = 0; k < count; k += LANES_OF_TIME)
-        compiled_fill_some(host, t0, h, table + k * MOMENTS * TERMS, n + k);
+        compiled_fill_some(host, t0, h, table + k * MOMENTS * TERMS, n + k, true);
 }
 #endif
 

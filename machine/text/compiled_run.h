@@ -1,13 +1,14 @@
 /* The last text of a compiled model of one trajectory: the functions that the library's stepper calls.
  *
  * Invariant: motus_run copies the library's workspace, advances the copy and copies it back. Where the system is SMALL
- * it copies the arrays too, so that the compiler can keep them in registers, and tests only after every SPAN steps
- * whether the copy is finite, since a number that is not finite stays so. Where that test or a step fails, the
- * library's own loop takes these steps again, from the workspace as it was.
+ * it copies the arrays too, so that the compiler can keep them in registers, and tests at the end whether the copy is
+ * finite, since a number that is not finite stays so. What needs text of its own in a small system, the library's own
+ * loop does, to the same bits, because that text would take the compiler as long as all the rest: the first step of a
+ * leg, the steps that fill no vector of times, and the steps in which something fails, from the workspace as it was.
  */
 #if TERMS
 /* Takes LANES_OF_TIME steps at a time and first computes the table of the steps after them, which the processor
- * overlaps with the latency of the present steps. */
+ * overlaps with the latency of the present steps. SMALL: `steps` is a multiple of that. */
 static inline int compiled_steps(work *w, whole steps)
 {
     enum { HALF = LANES_OF_TIME * MOMENTS * TERMS };
@@ -17,10 +18,10 @@ static inline int compiled_steps(work *w, whole steps)
     w->table = table;
     compiled_fill(host, w->t0, w->h, table, w->n, LANES_OF_TIME);
     while (!bad && steps > 0) {
-        const whole some = steps < LANES_OF_TIME ? steps : LANES_OF_TIME;
+        const whole some = SMALL || steps > LANES_OF_TIME ? LANES_OF_TIME : steps;
         w->first = w->n;
-        compiled_fill_some(host, w->t0, w->h, table + HALF, w->n + LANES_OF_TIME);
-        bad = some == LANES_OF_TIME ? advance_run(w, LANES_OF_TIME) : advance_run(w, some);
+        compiled_fill_some(host, w->t0, w->h, table + HALF, w->n + LANES_OF_TIME, false);
+        bad = advance_run(w, some);
         for (int k = 0; k < HALF; k++) table[k] = table[HALF + k];
         steps -= some;
     }
@@ -31,53 +32,67 @@ static inline int compiled_steps(work *w, whole steps)
 #define compiled_steps advance_run
 #endif
 
-/* inlined, so that the workspace can stay in registers and the plan's numbers are constants */
 #if SMALL
-__attribute__((flatten))
+/* Flat, so that the workspace can stay in registers and the plan's numbers are constants. False: something failed, and
+ * nothing has changed. */
+__attribute__((flatten)) static bool compiled_small(work *given, whole steps)
+{
+    enum { STRIDE = (NUMBERS + 7) / 8 * 8 }; /* as the library's solver expects it */
+    work local = *given, *w = &local;
+    real room[ARRAYS * STRIDE];
+    clock scaled[CONSTANTS + 1];
+    w->diagonal = NULL;
+    w->stride = STRIDE;
+    w->moved = 0;
+    WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
+    w->scaled = scaled;
+    w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
+    work_place(w, room);
+    work_move(w, given, NUMBERS);
+    if (compiled_steps(w, steps) || !advance_finite(w)) return false;
+    work_move(given, w, NUMBERS);
+    given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations, given->fresh = false;
+#if FACT_carried
+    given->t = w->t, given->lost = w->lost, given->next = w->next, given->refused = w->refused,
+    given->stalled = w->stalled;
+    work_scale(given, w->h);
 #endif
+    return true;
+}
+
 int motus_run(work *given, whole steps)
 {
-    enum { SPAN = 1024, STRIDE = (NUMBERS + 7) / 8 * 8 }; /* as the library's solver expects it */
-    for (whole some; steps > 0; steps -= some) {
-        work local = *given, *w = &local;
-        w->diagonal = NULL;
-#if SMALL
-        some = steps < SPAN ? steps : SPAN;
-        real room[ARRAYS * STRIDE];
-        clock scaled[CONSTANTS + 1];
-        w->check = false;
-        w->stride = STRIDE;
-        w->moved = 0;
-        WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
-        w->scaled = scaled;
-        w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = NULL;
-        work_place(w, room);
-        work_move(w, given, NUMBERS);
-        if (compiled_steps(w, some) || !advance_finite(w)) return given->host->run(given, some);
-        work_move(given, w, NUMBERS);
-        given->n = w->n, given->evaluations = w->evaluations, given->iterations = w->iterations,
-        given->fresh = w->fresh;
-#if FACT_carried
-        given->t = w->t, given->lost = w->lost, given->next = w->next, given->refused = w->refused,
-        given->stalled = w->stalled;
-        work_scale(given, w->h);
-#endif
-#else
-        some = steps;
-        int bad = STEP_OK;
-#if LOCAL
-        window_open(w);
-        if (!w->check)
-            tiled_run(w, steps);
-        else
-#endif
-            bad = compiled_steps(w, steps);
-        *given = local;
+    const compiled_host *host = given->host;
+    if (!ROW_adaptive && given->n == 0 && steps > 0) {
+        const int bad = host->run(given, 1);
         if (bad) return bad;
-#endif
+        steps--;
     }
-    return STEP_OK;
+#if TERMS
+    const whole some = steps - steps % LANES_OF_TIME;
+#else
+    const whole some = steps;
+#endif
+    if (some > 0 && compiled_small(given, some)) steps -= some;
+    return steps > 0 ? host->run(given, steps) : STEP_OK;
 }
+#else
+int motus_run(work *given, whole steps)
+{
+    work local = *given, *w = &local;
+    int bad = STEP_OK;
+    w->diagonal = NULL;
+#if LOCAL
+    window_open(w);
+    if (!w->check)
+        tiled_run(w, steps);
+    else
+#endif
+        bad = compiled_steps(w, steps);
+    *given = local;
+    return bad;
+}
+#endif
 
 void motus_accel(const compiled_host *host, clock t, real *x, real *v, real *a) { compiled_evaluate(host, t, x, v, a); }
 
