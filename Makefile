@@ -2,6 +2,7 @@
 # make demo         runs and compares the founding models; tables here, plots in out/
 # make lab          the page: build/lab/ for a server, build/lab/motus-lab.html for a double click
 # make test         every test; ends with "N passed, N failed"
+# make test-aarch64 every test program, compiled for aarch64 and run by qemu (make test does a part of it)
 # make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
 # make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
@@ -19,7 +20,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo lab test bench install clean fuzz format tidy functions manual need-demo
+.PHONY: all demo lab test test-aarch64 bench install clean fuzz format tidy functions manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -39,8 +40,12 @@ lab:
 	@JOBS=$(JOBS) cmake/lab.sh
 
 test:
-	@cmake/need.sh build demo test lab page
+	@cmake/need.sh build demo test cross lab page
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary
+
+test-aarch64: all
+	@cmake/need.sh build test cross aarch64
+	@test/aarch64.sh all
 
 # A library that is not installed, or a missed limit, is no failure.
 bench:

@@ -2,7 +2,7 @@
 # Checks that the packages which a target needs are installed. Missing ones are installed by apt-get if this user may do so (root, or
 # sudo without a password); otherwise the script prints the command that installs them, and the exit status is 1.
 #
-#   cmake/need.sh [--check] build|demo|test|lab|page|bench|fuzz|format|tidy ...        --check: install nothing
+#   cmake/need.sh [--check] build|demo|test|cross|aarch64|lab|page|bench|fuzz|format|tidy ...        --check: install nothing
 set -eu
 check_only=no
 if [ "${1-}" = --check ]; then check_only=yes; shift; fi
@@ -34,6 +34,13 @@ for what; do
     demo)  tool gnuplot gnuplot-nox ;;
     test)  tool g++ build-essential; header cmocka.h libcmocka-dev; header mpfr.h libmpfr-dev; tool pkg-config pkg-config; tool jq jq
            tool clang clang; tool clang-format clang-format; fuzzer_runs || add clang-runtime ;;
+    # a cross compiler with its C library, and what runs its programs
+    cross) [ "$(uname -m)" = aarch64 ] || { tool aarch64-linux-gnu-gcc gcc-aarch64-linux-gnu
+           [ -e /usr/aarch64-linux-gnu/include/stdio.h ] || add libc6-dev-arm64-cross; tool qemu-aarch64 qemu-user; } ;;
+    # the libraries of the tests for aarch64, besides
+    aarch64) for library in cmocka mpfr; do
+             [ -e /usr/lib/aarch64-linux-gnu/lib$library.so ] || add lib$library-dev:arm64
+           done ;;
     lab)   tool node nodejs; tool npm npm; tool wasm-opt binaryen; tool clang clang; tool wasm-ld lld; wasm_links || add wasi ;;
     page)  tool chromium chromium ;;
     bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
@@ -81,6 +88,7 @@ fi
 echo "motus: installing what is missing ($(packages))" >&2
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
+case "$missing" in *:arm64*) $as dpkg --add-architecture arm64 ;; esac
 # The package lists may be old or absent.
 $as env DEBIAN_FRONTEND=noninteractive apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 # shellcheck disable=SC2046

@@ -50,6 +50,14 @@ static const char *const libraries[] = {"-lm", NULL};
 /* clang-format on */
 enum { ARGUMENTS_MAX = 40 };
 
+/* vfork copies no page tables, and a model may hold gigabytes. The child runs on the memory of this process until it
+ * executes the compiler, so `become` changes no variable. */
+#ifdef __linux__
+#define FORK vfork
+#else
+#define FORK fork
+#endif
+
 const char *compiler_options(int how)
 {
     static const char *const names[] = {"short", "loops", "short fast", "loops fast"};
@@ -161,7 +169,7 @@ static bool run(const char *path, char *const *arguments, const char *object, ch
         return false;
     }
     unlink(log_name);
-    pid_t parent = getpid(), child = fork();
+    pid_t parent = getpid(), child = FORK();
     if (child == 0) become(arguments, path, log, parent);
     bool ok = child > 0 && wait_for(child);
     if (!ok) first_line(log, why, size);
