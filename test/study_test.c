@@ -710,6 +710,68 @@ static void a_jump_costs_the_order(void **state)
     motus_system_destroy(s);
 }
 
+/* What the reference of a force that is not smooth claims about itself, at the end of the motion, where it is known. */
+static void references_of_forces_that_jump(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double until, x, v; /* x, v: to 17 digits */
+    } rows[] = {
+        {"x'' = -|x| x\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.078125\n", 5, -0.12403380220720711, 0.81571719623355746},
+        {"x'' = -sign(x)\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.078125\n", 5, 0.78427124746190098, 0.6568542494923802},
+        {"x'' = -x + if(t > 5.003, if(t < 5.0031, 1000, 0), 0)\nx(0) = 1\nx'(0) = 0\nuntil 10\nstep 0.1\n", 10,
+         -0.93505002731567308, 0.57209472603533875},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        motus_system *s = system_of_text(rows[k].text);
+        motus_reference *r = NULL;
+        motus_error e = motus_default_error();
+        double x, v;
+        assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_OK);
+        assert_int_equal(motus_reference_at(r, &rows[k].until, 1, &x, &v, &e), MOTUS_OK);
+        NEAR(x, rows[k].x, 1e-12);
+        NEAR(v, rows[k].v, 1e-12);
+        assert_true(motus_reference_error(r) >= 0.1 * fmax(fabs(x - rows[k].x), fabs(v - rows[k].v)));
+        assert_non_null(strstr(motus_reference_name(r), "where the force is not smooth"));
+        motus_reference_destroy(r);
+        motus_comparison *c = compare(s, NULL);
+        assert_non_null(strstr(c->remarks, "The force is not smooth along the motion"));
+        motus_comparison_destroy(c);
+        motus_system_destroy(s);
+    }
+}
+
+/* A jump at half of the run, where steps of simple fractions of it would end. */
+static void no_certificate_by_luck(void **state)
+{
+    (void)state;
+    motus_system *s = system_of_text("x'' = -x + if(t > 2.5, 1, 0)\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.1\n");
+    motus_convergence *c = converge(s, NULL);
+    for (size_t k = 0; k < c->row_count; k++) {
+        assert_true(c->rows[k]->passed == 0 || c->rows[k]->declared == 1);
+        if (c->rows[k]->declared > 1) assert_non_null(strstr(c->rows[k]->certificate, "the force jumps at t = 2.5"));
+    }
+    motus_convergence_destroy(c);
+    motus_system_destroy(s);
+}
+
+/* What cannot be resolved has no reference: a fall into the centre, friction that sticks. */
+static void no_reference(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"x'' = -1/x^2\nx(0) = 1\nx'(0) = 0\nuntil 2\nstep 0.001\n",
+                                        "x'' = -x - 0.3 sign(x')\nx(0) = 1\nx'(0) = 0\nuntil 20\nstep 0.01\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = system_of_text(texts[k]);
+        motus_reference *r = NULL;
+        motus_error e = motus_default_error();
+        assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);
+        assert_null(r);
+        motus_system_destroy(s);
+    }
+}
+
 static void exact_here(void **state)
 {
     (void)state;
@@ -976,6 +1038,9 @@ int main(void)
         cmocka_unit_test(certificates),
         cmocka_unit_test(an_undeclared_velocity_costs_the_reference),
         cmocka_unit_test(a_jump_costs_the_order),
+        cmocka_unit_test(references_of_forces_that_jump),
+        cmocka_unit_test(no_certificate_by_luck),
+        cmocka_unit_test(no_reference),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),
 #ifdef MOTUS_SOURCE_DIR
