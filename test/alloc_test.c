@@ -329,6 +329,35 @@ static void runs(void **state)
     }
 }
 
+/* A run whose steps end at switches, and resolve the force. */
+static motus_status across(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = method;
+    def.switches = MOTUS_SWITCHES_RESOLVE;
+    motus_status status = motus_run_create(s, &def, &r, err);
+    if (status == MOTUS_OK) status = motus_run_finish(r, err);
+    double x[3];
+    if (status == MOTUS_OK) status = motus_run_state(r, x, NULL, err);
+    if (status == MOTUS_OK) *result = mix(*result, x, sizeof *x);
+    motus_run_destroy(r);
+    return status;
+}
+
+static void runs_across_switches(void **state)
+{
+    (void)state;
+    static const char *const kinked[] = {
+        "x'' = -x - |x| x + if(t > 1.03, 1, 0) + exp(-x^2)\nx(0) = 1\nx'(0) = 0\nstep 0.2\nuntil 3\n",
+        "x[i]'' = -x[i] - max(0, x[i] - x[i-1])   for i = 1..3\nx[0] = mod(t, 0.7)\nx[i](0) = i/3   for i = 1..3\n"
+        "x[i]'(0) = 0   for i = 1..3\nstep 0.1\nuntil 2\n"};
+    static const char *const methods[] = {"rk4", "gauss4", "verlet"};
+    for (size_t i = 0; i < sizeof kinked / sizeof *kinked; i++)
+        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+            assert_true(refuse_each(kinked[i], methods[k], across, "run across switches") >= 3);
+}
+
 /* Whether a method is admitted may depend on sampled derivatives, which need memory; out of memory, the method must
  * not be refused. */
 static motus_status admit(motus_system *s, const char *method, uint64_t *result, motus_error *err)
@@ -620,6 +649,7 @@ int main(void)
         cmocka_unit_test(systems),
         cmocka_unit_test(wrong_texts),
         cmocka_unit_test(runs),
+        cmocka_unit_test(runs_across_switches),
         cmocka_unit_test(admission),
         cmocka_unit_test(what_may_be_set),
         cmocka_unit_test(setting),
