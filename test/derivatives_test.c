@@ -158,8 +158,8 @@ static void three_derivatives(void **state)
     assert_int_equal(tested, 28);
 }
 
-/* hypot where the first derivative of what is under the root is 0 although neither operand rests, and |r| as the root of
- * a scalar product. */
+/* hypot where the first derivative of what is under the root is 0 although neither operand rests; and |r| as the root
+ * of a scalar product. */
 static void lengths(void **state)
 {
     (void)state;
