@@ -200,7 +200,8 @@ typedef struct motus_callback_def {
 } motus_callback_def;
 
 /* Reads the whole text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its range,
- * or an exact line that does not obey the equation) and MOTUS_UNAVAILABLE, each with its place in the text. */
+ * an exact line that does not obey the equation, or an invariant that changes along the motion) and MOTUS_UNAVAILABLE,
+ * each with its place in the text. */
 MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
 /* MOTUS_ARGUMENT: there is no acceleration, neither positions nor first-order variables, or an initial value is
  * missing or not finite. MOTUS_NAME: a name is not a name of the language, or is used twice. MOTUS_LIMIT: too many
@@ -216,9 +217,9 @@ MOTUS_API const motus_allocator *motus_system_allocator(const motus_system *);
  * depends on them, except what was set itself. Runs created afterwards have the bits of a system that was read with
  * these numbers in `set` of its motus_text_def. After a failure all numbers are unchanged. MOTUS_NAME: no such
  * parameter or initial value. MOTUS_SHAPE: `count` is not the number of its numbers. MOTUS_ARGUMENT: a number is not
- * finite, or a number that depends on it would not be; an exact line would no longer obey the equation; the parameter
- * decides a size, the step or the like (motus_parameter.decides); or a run, an ensemble or a reference still uses the
- * system. */
+ * finite, or a number that depends on it would not be; an exact line would no longer obey the equation, or an invariant
+ * would change along the motion; the parameter decides a size, the step or the like (motus_parameter.decides); or a
+ * run, an ensemble or a reference still uses the system. */
 MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count,
                                         motus_error *);
 /* A copy of the system for another thread, numbers that were set included. The two share only the callbacks, their
