@@ -34,6 +34,9 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
     } else if (bad == STEP_STALLED) {
         status = fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s", time);
         hint(err, "the motion may have a singularity there; otherwise allow a larger error");
+    } else if (s->problem.returned && *s->problem.returned == 0) {
+        fail(err, MOTUS_CALLBACK, "the callback reads the velocity, though its definition says that it does not");
+        hint(err, "set depends_on_velocity to 1 in the definition, or do not read v");
     } else {
         const bool here = s->problem.returned && *s->problem.returned > 0;
         fail(err, MOTUS_CALLBACK,

@@ -55,7 +55,9 @@ typedef struct problem {
     bool (*exact_rounding)(void *ctx, double t, double *x, double *v);
     /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
-    const int *returned; /* what the user's callback returned when it failed last; NULL: there is no callback */
+    /* What the user's callback returned when it failed last; 0: it read the velocity, though its definition says that
+     * it does not. NULL: there is no callback. */
+    const int *returned;
 } problem;
 
 #endif
