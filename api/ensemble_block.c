@@ -11,14 +11,15 @@
 #include <math.h>
 #include <string.h>
 
-/* numbers in one array, so that all arrays of a method fit the first-level cache; trajectories in a block */
-enum { BLOCK_NUMBERS = 512, BLOCK_MOST = 256 };
+/* Trajectories in a block. Its arrays have CALLING_NUMBERS at most, so that all of a method fit the first-level
+ * cache. */
+enum { BLOCK_MOST = 256 };
 
 size_t ensemble_block_size(const motus_system *s, const chosen *c)
 {
     /* A method that solves equations solves those of one trajectory. */
     if (c->row->family == EXACT || stepper_plan(&s->problem, c, NULL).solves) return 1;
-    const size_t fits = BLOCK_NUMBERS / s->problem.nv;
+    const size_t fits = CALLING_NUMBERS / s->problem.nv;
     return fits < 1 ? 1 : fits > BLOCK_MOST ? BLOCK_MOST : fits;
 }
 
@@ -152,7 +153,8 @@ static motus_status run_halving(worker *w, const places *p, size_t first, size_t
                           .x = memory + nx + nv};
     b.v = b.x + nx * count;
     b.kept = b.v + nv * count;
-    b.calling = (calling){.def = &w->system->callback, .first = first, .count = count};
+    b.calling =
+        (calling){.def = &w->system->callback, .unread = w->system->calling.unread, .first = first, .count = count};
     b.problem = callback_block(&b.calling, &w->system->problem);
     w->trajectories = count;
     motus_status status = run(&b, &w->why);

@@ -76,8 +76,8 @@ static motus_status setting_of(motus_system *s, const char *name, const paramete
     return MOTUS_OK;
 }
 
-/* Refuses what a text is refused for: numbers that depend on the change and are not finite, and an exact line that no
- * longer obeys the equation. */
+/* Refuses what a text is refused for: numbers that depend on the change and are not finite, an exact line that no
+ * longer obeys the equation, and an invariant that is none any more. */
 static motus_status check(motus_system *s, const char *name, motus_error *err)
 {
     const model *m = s->model;
@@ -98,7 +98,7 @@ static motus_status check(motus_system *s, const char *name, motus_error *err)
                                 "an initial value of %s depends on %s, and would not be a finite number",
                                 s->states[i].name, name);
             }
-    return analysis_exact(s->model, err);
+    return verify_again(s->model, err);
 }
 
 static motus_status set_model(motus_system *s, const char *name, const parameters_target *t, const double *values,

@@ -103,6 +103,15 @@ static motus_status take_start(motus_system *s, const motus_callback_def *def, m
     return MOTUS_OK;
 }
 
+/* What a callback gets that does not read the velocity. */
+static void keep_unread(motus_system *s)
+{
+    const size_t count = s->problem.nv > CALLING_NUMBERS ? s->problem.nv : CALLING_NUMBERS;
+    double *unread = arena_room(&s->arena, count * sizeof *unread);
+    for (size_t k = 0; unread && k < count; k++) unread[k] = NAN;
+    s->calling.unread = unread;
+}
+
 motus_status motus_system_from_callback(const motus_callback_def *given, motus_system **out, motus_error *err)
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
@@ -120,7 +129,8 @@ motus_status motus_system_from_callback(const motus_callback_def *given, motus_s
     if (status == MOTUS_OK) {
         s->machine = (machine){.name = "callback", .problem = &s->problem};
         if (def.derivative) s->calling.zeros = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
-        status = take_start(s, &def, err);
+        if (!def.depends_on_velocity) keep_unread(s);
+        status = s->arena.failed ? fail(err, MOTUS_MEMORY, "no memory for the system") : take_start(s, &def, err);
     }
     if (status == MOTUS_OK) status = stand_in_make(s, err);
     if (status == MOTUS_OK && (!system_number_columns(s) || s->arena.failed))

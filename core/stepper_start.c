@@ -34,6 +34,9 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
     } else if (bad == STEP_STALLED) {
         status = fail(err, MOTUS_DIVERGED, "the step that error control needs is too small to change t = %s", time);
         hint(err, "the motion may have a singularity there; otherwise allow a larger error");
+    } else if (s->problem.returned && *s->problem.returned == 0) {
+        fail(err, MOTUS_CALLBACK, "the callback reads the velocity, though its definition says that it does not");
+        hint(err, "set depends_on_velocity to 1 in the definition, or do not read v");
     } else {
         const bool here = s->problem.returned && *s->problem.returned > 0;
         fail(err, MOTUS_CALLBACK,
@@ -70,28 +73,57 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
     return MOTUS_OK;
 }
 
+/* The rounding of the exact motion at t0 in units of EXACT_ROUNDING; of a callback, of which no formula is known, the
+ * size that the motion has in its first steps. False: no memory. */
+static bool exact_size(const problem *p, double t0, double h, const double *start, double *size, size_t nx)
+{
+    enum { STEPS = 8 };
+    const size_t all = nx + p->nv;
+    if (p->exact_rounding) return p->exact_rounding(p->ctx, t0, size, size + nx);
+    double of[3] = {0, 0, 0}; /* positions, velocities, first-order variables */
+    for (int n = 0; n <= STEPS; n++) {
+        memcpy(size, start, all * sizeof *size);
+        if (n && p->exact(p->ctx, t0 + n * h, size, size + nx)) break;
+        for (size_t k = 0; k < all; k++) {
+            double *most = &of[k < nx ? 0 : k < 2 * nx ? 1 : 2];
+            if (isfinite(size[k])) *most = fmax(*most, fabs(size[k]));
+        }
+    }
+    for (size_t k = 0; k < all; k++) size[k] = of[k < nx ? 0 : k < 2 * nx ? 1 : 2];
+    return true;
+}
+
+static motus_status refuse_start(const stepper *s, double t0, size_t k, bool in_v, double exact, double start,
+                                 motus_error *err)
+{
+    char name[MOTUS_NAME_MAX], is[DECIMAL_MAX], due[DECIMAL_MAX];
+    fail(err, MOTUS_METHOD,
+         "exact does not admit this start: the exact motion has another state at t = %g: %s is %s, not %s", t0,
+         name_of(s, in_v, k, name), decimal(exact, is), decimal(start, due));
+    hint(err, "start on the exact motion, or choose another method");
+    return MOTUS_METHOD;
+}
+
 /* The exact line describes one motion only, so a run by it must start on this motion. */
-static motus_status check_exact(stepper *s, double t0, const double *x, const double *v, motus_error *err)
+static motus_status check_exact(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     const problem *p = &s->problem;
     if (s->method.row->family != EXACT || p->traits.constant) return MOTUS_OK;
     if (!p->exact) return fail(err, MOTUS_METHOD, "exact does not admit this model: its exact motion is not known");
-    double *there = take(&s->allocator, p->nx + p->nv, sizeof *there), size = 0, miss = 0;
+    const size_t nx = p->nx, all = p->nx + p->nv;
+    double *there = take(&s->allocator, 3 * all, sizeof *there), *size = there + all, *start = size + all;
     if (!there) return fail(err, MOTUS_MEMORY, "out of memory");
-    memcpy(there, x, p->nx * sizeof *x);
-    memcpy(there + p->nx, v, p->nv * sizeof *v);
-    int bad = p->exact(p->ctx, t0, there, there + p->nx);
-    for (size_t k = 0; k < p->nx + p->nv; k++) {
-        const double start = k < p->nx ? x[k] : v[k - p->nx], off = fabs(there[k] - start);
-        size = fmax(size, fabs(start));
-        if (!(off <= miss)) miss = off;
-    }
+    memcpy(start, x, nx * sizeof *x);
+    memcpy(start + nx, v, p->nv * sizeof *v);
+    memcpy(there, start, all * sizeof *there);
+    const int bad = p->exact(p->ctx, t0, there, there + nx);
+    motus_status status = bad ? stepper_report(s, STEP_CALLBACK, t0, err) : MOTUS_OK;
+    if (!bad && !exact_size(p, t0, h, start, size, nx)) status = fail(err, MOTUS_MEMORY, "out of memory");
+    for (size_t k = 0; k < all && !status; k++)
+        if (!(fabs(there[k] - start[k]) <= EXACT_ROUNDING * size[k]))
+            status = refuse_start(s, t0, k < nx ? k : k - nx, k >= nx, there[k], start[k], err);
     give(&s->allocator, there);
-    if (bad) return stepper_report(s, STEP_CALLBACK, t0, err);
-    if (miss <= 1e-9 * (1 + size)) return MOTUS_OK;
-    fail(err, MOTUS_METHOD, "exact does not admit this start: the exact motion has another state at t = %g", t0);
-    hint(err, "start on the exact motion, or choose another method");
-    return MOTUS_METHOD;
+    return status;
 }
 
 void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
@@ -114,7 +146,7 @@ void stepper_begin(stepper *s, double t0, double h, const double *x, const doubl
 motus_status stepper_start(stepper *s, double t0, double h, const double *x, const double *v, motus_error *err)
 {
     motus_status status = check_start(s, t0, h, x, v, err);
-    if (!status) status = check_exact(s, t0, x, v, err);
+    if (!status) status = check_exact(s, t0, h, x, v, err);
     if (status) return status;
     s->leg_h = h;
     s->main_t0 = t0;

@@ -29,6 +29,11 @@ typedef struct traits {
     bool quadrature;
 } traits;
 
+/* How far an exact motion may be from the initial state, and its acceleration from the force, in units of the size of
+ * the motion and of the bound on the rounding of its formula: 512 roundings, because parameters carry those of their
+ * own formulas. */
+#define EXACT_ROUNDING 0x1p-44
+
 typedef struct problem {
     void *ctx;
     size_t nx, nv;
@@ -45,9 +50,14 @@ typedef struct problem {
     void (*pattern)(void *ctx, bool in_v, void (*emit)(void *arg, size_t row, size_t column), void *arg);
     void (*refresh)(void *ctx, double t, double *x, double *v); /* NULL: no driven boundary */
     int (*exact)(void *ctx, double t, double *x, double *v);    /* NULL: unknown */
+    /* How far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING, written to x and v; false:
+     * no memory. NULL: not known. */
+    bool (*exact_rounding)(void *ctx, double t, double *x, double *v);
     /* Name of position k (in_v: of v[k]) for messages: "r[3].y", "x'". */
     void (*name)(void *ctx, bool in_v, size_t k, char *out, size_t size);
-    const int *returned; /* what the user's callback returned when it failed last; NULL: there is no callback */
+    /* What the user's callback returned when it failed last; 0: it read the velocity, though its definition says that
+     * it does not. NULL: there is no callback. */
+    const int *returned;
 } problem;
 
 #endif

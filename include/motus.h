@@ -113,8 +113,10 @@ MOTUS_API int motus_status_exit(motus_status);         /* 0, 1 or 2 */
 typedef struct motus_error {
     uint32_t size; /* by motus_default_error() */
     motus_status status;
-    int line, column;              /* of an error in a text: its place, both from 1, column in characters; else 0 */
-    int returned;                  /* CALLBACK: what the callback returned, not 0; else 0 */
+    int line, column; /* of an error in a text: its place, both from 1, column in characters; else 0 */
+    /* CALLBACK: what the callback returned; 0: it reads the velocity, though its definition says that it does not. Else
+     * 0. */
+    int returned;
     double time;                   /* DIVERGED, SOLVE, CALLBACK: the time of the failure; else NaN */
     char variable[MOTUS_NAME_MAX]; /* DIVERGED, SOLVE: the number that failed, "r[3].y"; else "" */
     char message[MOTUS_TEXT_MAX];  /* one sentence, UTF-8, without a newline, safe to print on a terminal */
@@ -183,9 +185,12 @@ typedef struct motus_callback_def {
     int (*invariant)(void *context, double t, const double *x, const double *v, double *values);
     size_t quantities, invariants;
     const char *const *quantity_names, *const *invariant_names;
-    int depends_on_velocity, depends_on_time; /* whether `acceleration` reads v and t; 1 by default, which is safe */
-    int linear_in_velocity;                   /* 1: one linear solve suffices for implicit velocity terms */
-    void *context;                            /* the first argument of all callbacks */
+    /* Whether `acceleration` (or `block`) reads v and t; 1 by default, which is safe. Where depends_on_velocity is 0,
+     * its v holds NaN instead of velocities and first-order variables: if it reads them all the same, the acceleration
+     * is NaN, and the call that needed it fails with MOTUS_CALLBACK. */
+    int depends_on_velocity, depends_on_time;
+    int linear_in_velocity; /* 1: one linear solve suffices for implicit velocity terms */
+    void *context;          /* the first argument of all callbacks */
     motus_allocator allocator;
     /* Optional: the acceleration of a block of `count` trajectories of an ensemble, trajectories `first` to `first +
      * count - 1`: number k of trajectory first + j is x[k * count + j], and likewise for v and a. Write it as loops
@@ -200,7 +205,8 @@ typedef struct motus_callback_def {
 } motus_callback_def;
 
 /* Reads the whole text. MOTUS_SYNTAX, MOTUS_NAME, MOTUS_SHAPE, MOTUS_LIMIT, MOTUS_ARGUMENT (a value out of its range,
- * or an exact line that does not obey the equation) and MOTUS_UNAVAILABLE, each with its place in the text. */
+ * an exact line that does not obey the equation, or an invariant that changes along the motion) and MOTUS_UNAVAILABLE,
+ * each with its place in the text. */
 MOTUS_API motus_status motus_system_from_text(const motus_text_def *, motus_system **, motus_error *);
 /* MOTUS_ARGUMENT: there is no acceleration, neither positions nor first-order variables, or an initial value is
  * missing or not finite. MOTUS_NAME: a name is not a name of the language, or is used twice. MOTUS_LIMIT: too many
@@ -216,9 +222,9 @@ MOTUS_API const motus_allocator *motus_system_allocator(const motus_system *);
  * depends on them, except what was set itself. Runs created afterwards have the bits of a system that was read with
  * these numbers in `set` of its motus_text_def. After a failure all numbers are unchanged. MOTUS_NAME: no such
  * parameter or initial value. MOTUS_SHAPE: `count` is not the number of its numbers. MOTUS_ARGUMENT: a number is not
- * finite, or a number that depends on it would not be; an exact line would no longer obey the equation; the parameter
- * decides a size, the step or the like (motus_parameter.decides); or a run, an ensemble or a reference still uses the
- * system. */
+ * finite, or a number that depends on it would not be; an exact line would no longer obey the equation, or an invariant
+ * would change along the motion; the parameter decides a size, the step or the like (motus_parameter.decides); or a
+ * run, an ensemble or a reference still uses the system. */
 MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count,
                                         motus_error *);
 /* A copy of the system for another thread, numbers that were set included. The two share only the callbacks, their
@@ -742,7 +748,7 @@ typedef struct motus_comparison {
  * model's; the same holds for motus_converge and motus_reference_create. The row of a method that fails says so.
  * MOTUS_ARGUMENT: there is no end or no step, or a number is out of its range. MOTUS_METHOD: there is no such method,
  * or none admits the model. MOTUS_LIMIT: too many steps. MOTUS_CANCELLED: `progress` returned other than 0.
- * MOTUS_CALLBACK: a callback returned other than 0 at the initial state. */
+ * MOTUS_CALLBACK: a callback returned other than 0 at the initial state, or reads the velocity undeclared. */
 MOTUS_API motus_status motus_compare(motus_system *, const motus_study_def *, motus_comparison **, motus_error *);
 MOTUS_API void motus_comparison_destroy(motus_comparison *);
 

@@ -1,9 +1,12 @@
 /* The callback machine: the acceleration is the user's C function.
  *
- * Invariant: where a callback returns a value other than 0, `returned` of the calling holds it, for the error.
+ * Invariant: where a callback returns a value other than 0, `returned` of the calling holds it, for the error. A
+ * callback that is said not to read the velocity gets NaN in its place, so that it cannot read it unnoticed; where it
+ * does, the evaluation fails with `returned` 0.
  */
 #include "machine/machine.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static int keep_returned(calling *c, int returned)
@@ -12,13 +15,32 @@ static int keep_returned(calling *c, int returned)
     return returned;
 }
 
-static int accel(void *ctx, double t, double *x, double *v, double *a)
+static int call(calling *c, double t, const double *x, const double *v, double *a)
 {
-    calling *c = ctx;
     const motus_callback_def *def = c->def;
     if (c->count || !def->acceleration)
         return keep_returned(c, def->block(def->context, c->first, c->count ? c->count : 1, t, x, v, a));
     return keep_returned(c, def->acceleration(def->context, t, x, v, a));
+}
+
+static bool finite_numbers(const double *a, size_t count)
+{
+    double none = 0;
+    for (size_t k = 0; k < count; k++) none += a[k] - a[k];
+    return none == 0;
+}
+
+static int accel(void *ctx, double t, double *x, double *v, double *a)
+{
+    calling *c = ctx;
+    const motus_callback_def *def = c->def;
+    if (!c->unread) return call(c, t, x, v, a);
+    const size_t count = (def->positions + def->first_order) * (c->count ? c->count : 1);
+    const int bad = call(c, t, x, c->unread, a);
+    if (bad || finite_numbers(a, count)) return bad;
+    if (call(c, t, x, v, a) || !finite_numbers(a, count)) return 0; /* NaN for another reason */
+    c->returned = 0;
+    return -1;
 }
 
 static int jvp(void *ctx, double t, double *x, double *v, const double *dx, const double *dv, double *da)

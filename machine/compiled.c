@@ -69,6 +69,10 @@ static void pattern(void *ctx, bool in_v, void (*emit)(void *, size_t, size_t), 
 }
 static void refresh(void *ctx, double t, double *x, double *v) { of(ctx)->refresh(of(ctx)->ctx, t, x, v); }
 static int exact(void *ctx, double t, double *x, double *v) { return of(ctx)->exact(of(ctx)->ctx, t, x, v); }
+static bool exact_rounding(void *ctx, double t, double *x, double *v)
+{
+    return of(ctx)->exact_rounding(of(ctx)->ctx, t, x, v);
+}
 static void name(void *ctx, bool in_v, size_t k, char *out, size_t size)
 {
     of(ctx)->name(of(ctx)->ctx, in_v, k, out, size);
@@ -90,6 +94,7 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
                            .pattern = interpreted->pattern ? pattern : NULL,
                            .refresh = interpreted->refresh ? refresh : NULL,
                            .exact = interpreted->exact ? exact : NULL,
+                           .exact_rounding = interpreted->exact_rounding ? exact_rounding : NULL,
                            .name = name};
     *out = c;
     return MOTUS_OK;

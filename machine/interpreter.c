@@ -1,6 +1,7 @@
 /* The interpreter, the portable machine: evaluates a model's programs as tapes, for the library's stepper. */
 #include "machine/machine.h"
 
+#include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
 #include <string.h>
@@ -44,6 +45,12 @@ static int exact(void *ctx, double t, double *x, double *v)
     if (in->boundary) tape_run(in->boundary, t, base);
     tape_run(in->exact, t, base);
     return 0;
+}
+
+static bool exact_rounding(void *ctx, double t, double *x, double *v)
+{
+    interpreter *in = ctx;
+    return verify_exact_rounding(in->model, t, x, v);
 }
 
 enum { ALONG_X = 1, ALONG_V = 2 };
@@ -189,6 +196,7 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
                    .pattern = pattern,
                    .refresh = m->driven ? refresh : NULL,
                    .exact = in->exact ? exact : NULL,
+                   .exact_rounding = m->exact_given ? exact_rounding : NULL,
                    .name = name};
     *out = in;
     return MOTUS_OK;

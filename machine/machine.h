@@ -22,12 +22,16 @@ bool interpreter_rebind(interpreter *);
 
 /* A problem from a callback definition; definition and calling must outlive it. `zeros` is the direction of a
  * derivative along dx alone or dv alone: as many zeros as there are velocities and first-order variables. */
+enum { CALLING_NUMBERS = 512 }; /* in one array of a block of several trajectories, at most */
 typedef struct calling {
     const motus_callback_def *def;
     const double *zeros;
+    /* NULL: the acceleration reads the velocity. Else NaN, for all numbers of a trajectory and of a block */
+    const double *unread;
     /* the trajectories that `block` computes; count 0: one trajectory, by `acceleration` where the definition has it */
     size_t first, count;
-    int returned; /* the value of the callback that failed last */
+    /* the value of the callback that failed last; 0: it read the velocity, and its definition says that it does not */
+    int returned;
 } calling;
 motus_status callback_problem(calling *, problem *, motus_error *);
 /* The problem of a block: the calling's `count` trajectories side by side. The calling must outlive it. */

@@ -104,6 +104,15 @@ static void find_groups(study *s)
     }
 }
 
+/* A callback that reads the velocity though its definition says that it does not: every run would fail. */
+static motus_status refuse_undeclared(motus_run *trial, motus_error *err)
+{
+    motus_error e = motus_default_error();
+    if (motus_run_step(trial, 1, &e) != MOTUS_CALLBACK || e.returned) return MOTUS_OK;
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &e, err);
+    return MOTUS_CALLBACK;
+}
+
 motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
 {
     *s = (study){
@@ -142,6 +151,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
         s->total = motus_run_steps_total(run);
         s->last_step = fabs(motus_run_last_step(run));
     }
+    if (status == MOTUS_OK) status = refuse_undeclared(run, err);
     motus_run_destroy(run);
     if (status == MOTUS_OK && s->from == s->until) {
         fail(err, MOTUS_ARGUMENT, "the motion from %g until %g has no length", s->from, s->until);

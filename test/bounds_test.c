@@ -440,8 +440,8 @@ static const char rich[] =
     "r[i](0) = places[i] for i = 1..N\nr[i]'(0) = (0, w[i]/10) for i = 1..N\n"
     "u[i]'' = u[i+1] - 2 u[i] + u[i-1] for i = 1..N\nu[0] = sin(t)\nu[N+1] = 0\nu[i](0) = i for i = 1..N\nu[2](0) = "
     "5\nu[i]'(0) = u[i](0) for i = 1..N\n"
-    "s' = if(s > 0, -s, 1)\ns(0) = 1\nfar = |r[1] - r[2]|\ninvariant P = sum(i = 1..N: m[i] r[i]')\nacc = u[2]''\nstep "
-    "0.01\nuntil 0.05\n";
+    "s' = if(s > 0, -s, 1)\ns(0) = 1\nfar = |r[1] - r[2]|\ninvariant P = sum(i = 1..N: m[i] (r[i]' + "
+    "0.1 r[i])) + (0, 6 cos(t))\nacc = u[2]''\nstep 0.01\nuntil 0.05\n";
 static const char *const methods[] = {"rk4", "verlet", "gauss6", "implicit-midpoint", "newmark", "midpoint"};
 
 /* The life of a system, from text to destroy, with the memory of `l`. */

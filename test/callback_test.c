@@ -585,10 +585,9 @@ static void quantities_and_invariants(void **state)
 
     /* A comparison reports the drift of each invariant under its name. */
     motus_study_def study = motus_default_study();
-    const char *methods[] = {"velocity-verlet"};
+    const char *methods[] = {"midpoint"};
     motus_comparison *c = NULL;
     study.methods = methods, study.method_count = 1, study.step = 0.05, study.until = 2;
-    def.depends_on_velocity = 0;
     motus_system_destroy(s);
     s = system_of(&def);
     must(motus_compare(s, &study, &c, &err), &err, "compare");
@@ -731,6 +730,84 @@ static void a_run_goes_on_from_its_last_good_step(void **state)
     motus_system_destroy(s);
 }
 
+/* Friction, in the second half of the run alone. */
+static int late_friction(void *context, size_t first, size_t count, double t, const double *x, const double *v,
+                         double *a)
+{
+    (void)context, (void)first;
+    for (size_t j = 0; j < count; j++) a[j] = t < 0.5 ? -x[j] : -x[j] - v[j];
+    return 0;
+}
+
+static int late_friction_alone(void *context, double t, const double *x, const double *v, double *a)
+{
+    return late_friction(context, 0, 1, t, x, v, a);
+}
+
+static const char reads_velocity[] = "the callback reads the velocity, though its definition says that it does not";
+
+/* It is noticed at the first evaluation that does, in a run and in an ensemble. */
+static void an_undeclared_velocity(void **state)
+{
+    (void)state;
+    static const char *const vary[] = {"x(0)"};
+    const double x = 1, v = 0.5, starts[] = {1, 2, 3, 4, 5};
+    const double *values[] = {starts};
+    double ends[5], *results[] = {ends};
+    for (int block = 0; block < 2; block++) {
+        motus_callback_def def = motus_default_callback();
+        motus_error err = motus_default_error();
+        def.positions = 1, def.x = &x, def.v = &v, def.depends_on_velocity = 0;
+        if (block)
+            def.block = late_friction;
+        else
+            def.acceleration = late_friction_alone;
+        motus_system *s = system_of(&def);
+        static const char *const methods[] = {"velocity-verlet", "rk4", "implicit-midpoint", "verlet"};
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+            motus_run *r = given_run(s, methods[m], 0.01, 1);
+            assert_int_equal(motus_run_finish(r, &err), MOTUS_CALLBACK);
+            assert_string_equal(err.message, reads_velocity);
+            assert_true(err.returned == 0 && fabs(err.time - 0.5) < 0.02 && strstr(err.hint, "depends_on_velocity"));
+            double y, w;
+            must(motus_run_state(r, &y, &w, &err), &err, methods[m]);
+            assert_true(fabs(motus_run_time(r) - 0.5) < 0.02 && isfinite(y) && isfinite(w));
+            motus_run_destroy(r);
+        }
+        const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+        motus_ensemble_def how = motus_default_ensemble();
+        motus_ensemble *e;
+        how.vary = vary, how.vary_count = 1, how.records = &record, how.record_count = 1;
+        how.method = "velocity-verlet", how.step = 0.01, how.until = 1;
+        must(motus_ensemble_create(s, &how, &e, &err), &err, "ensemble");
+        assert_int_equal(motus_ensemble_run(e, 5, values, results, NULL, &err), MOTUS_CALLBACK);
+        assert_string_equal(err.message, reads_velocity);
+        motus_ensemble_destroy(e);
+        motus_system_destroy(s);
+    }
+}
+
+static int root(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)context, (void)t, (void)v;
+    a[0] = -sqrt(x[0]);
+    return 0;
+}
+
+static void nan_for_another_reason(void **state)
+{
+    (void)state;
+    const double x = 1, v = -1;
+    motus_callback_def def = motus_default_callback();
+    motus_error err = motus_default_error();
+    def.positions = 1, def.x = &x, def.v = &v, def.acceleration = root, def.depends_on_velocity = 0;
+    motus_system *s = system_of(&def);
+    motus_run *r = given_run(s, "rk4", 0.01, 5);
+    assert_int_equal(motus_run_finish(r, &err), MOTUS_DIVERGED);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 static int burst(void *context, double t, const double *x, const double *v, double *a)
 {
     (void)context;
@@ -839,6 +916,8 @@ int main(void)
         cmocka_unit_test(linear_velocity_terms_take_one_step),
         cmocka_unit_test(a_failing_callback_stops_the_run_and_not_more),
         cmocka_unit_test(exact_and_invariant_callbacks),
+        cmocka_unit_test(an_undeclared_velocity),
+        cmocka_unit_test(nan_for_another_reason),
         cmocka_unit_test(numbers_have_names),
         cmocka_unit_test(quantities_and_invariants),
         cmocka_unit_test(names_that_are_refused),

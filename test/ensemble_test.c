@@ -86,7 +86,7 @@ static const char rich[] = "N = 4\nm = [1, 2, 3]\nq = 0.3\nB = (0, 0, q)\nw[i] =
                            "s' = -s r.x/(1 + |r|^2) + floor(10 t) q + if(s > q, 1, sqrt(s + 9))\ns(0) = 1 - q\n"
                            "push = r''.x + u[1]''\nfar[i] = u[i]^2 + u[i-1]^2 + u[i+1] q for i = 1..N\npair[i] = "
                            "(u[i], q u[i]') for i = 1..N\nedge = u[0] + u[N+1]\n"
-                           "invariant e = |r'|^2/2 + q s\nstep 0.01\nuntil 1\n";
+                           "p'' = -q p\np(0) = q\np'(0) = 1\ninvariant e = p'^2/2 + q p^2/2\nstep 0.01\nuntil 1\n";
 
 /* The text of a model file, or the text above. */
 static char *text_of(const char *model)

@@ -12,7 +12,7 @@ enum { THREADS = 4, ROUNDS = 10 };
 
 static const char *const texts[] = {
     "k = 1.5\nx'' = -k sin(x) + 0.1 cos(t)\nx(0) = 1\nx'(0) = 0\nspeed = |x'|\n",
-    "r'' = -r/|r|^3 - 0.1 |r'| r'\nr(0) = (1, 0)\nr'(0) = (0, 1)\ninvariant L = r.x r'.y - r.y r'.x\n",
+    "r'' = -r/|r|^3 - 0.1 |r'| r'\nr(0) = (1, 0)\nr'(0) = (0, 1)\nL = r.x r'.y - r.y r'.x\n",
     ("x[i]'' = x[i+1] - 2 x[i] + x[i-1] + (x[i+1] - x[i])^3 for i = 1..20\nx[0] = 0\nx[21] = sin(t)\nx[i](0) = sin(i) "
      "for i = 1..20\n"
      "x[i]'(0) = 0 for i = 1..20\n"),

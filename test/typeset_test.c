@@ -212,7 +212,7 @@ static void statements(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
-        {"z'' = -z\nz(0) = 1\nz'(0) = 0\ninvariant energy = z'^2/2", "energy=mfrac{msup{z|{′2}}|2}"},
+        {"z'' = 0\nz(0) = 1\nz'(0) = 0\ninvariant energy = z'^2/2", "energy=mfrac{msup{z|{′2}}|2}"},
         {"f' = x\nf(0) = 0", "{f@{(0)}}=0"},
         {"g[i]'' = -g[i] for i = 1..5\ng[0] = 1\ng[i](0) = i for i = 1..5\ng[i]'(0) = 0 for i = 1..5",
          "{msubsup{g|i|′}@{(0)}}=0 {for_i=1,…,5}"},

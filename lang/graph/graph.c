@@ -85,6 +85,24 @@ static bool same_node(const graph *g, const graph_node *n, const graph_node *m, 
     return n->c == m->c;
 }
 
+static void fill_table(const graph *g, const graph_node *nodes, node *table, uint32_t size)
+{
+    for (uint32_t k = 1; k < g->count; k++) {
+        const graph_node *n = &nodes[k];
+        uint64_t h =
+            hash_node(n, n->op == OP_LOAD ? &g->references[n->a] : NULL, n->op == OP_SUM ? &g->ranges[n->c] : NULL);
+        while (table[h & (size - 1)]) h++;
+        table[h & (size - 1)] = k;
+    }
+}
+
+void graph_cut(graph *g, uint32_t count)
+{
+    g->count = count;
+    memset(g->table, 0, g->table_size * sizeof *g->table);
+    fill_table(g, g->nodes, g->table, g->table_size);
+}
+
 static bool grow_nodes(graph *g)
 {
     if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
@@ -93,13 +111,7 @@ static bool grow_nodes(graph *g)
     uint32_t *place = nodes ? arena_room(g->arena, capacity * sizeof *place) : NULL;
     node *table = place ? arena_room(g->arena, size * sizeof *table) : NULL;
     if (!table) return false;
-    for (uint32_t k = 1; k < g->count; k++) {
-        const graph_node *n = &nodes[k];
-        uint64_t h =
-            hash_node(n, n->op == OP_LOAD ? &g->references[n->a] : NULL, n->op == OP_SUM ? &g->ranges[n->c] : NULL);
-        while (table[h & (size - 1)]) h++;
-        table[h & (size - 1)] = k;
-    }
+    fill_table(g, nodes, table, size);
     g->nodes = nodes;
     g->place = place;
     g->table = table;

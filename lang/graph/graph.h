@@ -108,6 +108,9 @@ node graph_sum(graph *, int level, const range *, node condition, node body);
  * zero total. */
 node graph_total(graph *, const node *terms, size_t count);
 
+/* Forgets all nodes but the first `count`. Programs made of them are copies and stay. */
+void graph_cut(graph *, uint32_t count);
+
 const graph_node *graph_at(const graph *, node);
 unsigned graph_deps(const graph *, node);
 /* 0: does not depend on the spaces in `deps`; 1: affine in them; 2: neither, or not recognised as affine. */
@@ -126,6 +129,9 @@ typedef struct graph_shift {
 } graph_shift;
 node graph_seed_direction(graph *, node leaf, void *graph_shift_ctx);
 node graph_seed_time(graph *, node leaf, void *unused); /* d/dt where only t moves */
+/* A bound on how far rounding carries the value of a node, in units of the rounding 2^-53; what is infinite is not
+ * known. `leaf` gives the error of a TIME, LOAD or PARAM in these units, 0: it is exact. */
+node graph_rounding(graph *, node, graph_seed leaf, void *ctx);
 /* The node with other nodes in place of some of its loads, indices and sums: `with` gives the one for each at a level
  * (inside a sum that opens level l it is l + 1), or itself. Only those that depend on something in `deps` are asked
  * for. */

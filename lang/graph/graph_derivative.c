@@ -6,13 +6,9 @@
 #include "lang/graph/graph_walk.h"
 #include "lang/base/operation.h"
 
-typedef struct chain {
-    node a, b, c, da, db, dc, r;
-} chain;
-
-static node by_rule(graph *g, const graph_node *n, const chain *k)
+node graph_derivative_rule(graph *g, const graph_node *n, node self, const node slope[3])
 {
-    const node A = k->a, B = k->b, C = k->c, DA = k->da, DB = k->db, DC = k->dc, R = k->r, ZERO = 0;
+    const node A = n->a, B = n->b, C = n->c, DA = slope[0], DB = slope[1], DC = slope[2], R = self, ZERO = 0;
     (void)A, (void)B, (void)C, (void)DA, (void)DB, (void)DC, (void)R;
 #define CONST(value) graph_const(g, value)
 #define ONE CONST(1)
@@ -80,7 +76,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
             d[k] = dn[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, dn[0]) : 0;
         else if (dn[0] || dn[1] || dn[2])
             if (!g->tidy || !graph_tidy_slope(g, &n, w.nodes[k], dn[0], dn[1], &d[k]))
-                d[k] = by_rule(g, &n, &(chain){n.a, n.b, n.c, dn[0], dn[1], dn[2], w.nodes[k]});
+                d[k] = graph_derivative_rule(g, &n, w.nodes[k], dn);
         if (g->place != place) graph_order_again(g, &w);
     }
     g->simplify = before;

@@ -22,6 +22,9 @@ static inline bool graph_reached(const graph *g, const graph_walk *w, node n)
     return g->place[n] < w->count && w->nodes[g->place[n]] == n;
 }
 
+/* graph_derivative.c: the derivative of an operation, from those of its operands, by its row of operations.def. */
+node graph_derivative_rule(graph *, const graph_node *, node self, const node slope[3]);
+
 /* graph_tidy.c: the node that this operation is by like terms and powers; false: it stays what it is. */
 bool graph_tidied(graph *, operation, node a, node b, node *out);
 /* The derivative of a root, whose kink at 0 has no slope here, as it is where a force is a gradient; false: the row of

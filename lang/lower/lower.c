@@ -240,6 +240,7 @@ static value lower_sum(lowering *l, const tree *t)
                         "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
         return wrong(l);
     }
+    if (l->place != PLACE_CONSTANT) l->model->terms = fmax(l->model->terms, inner.terms);
     node mask = 0;
     bool masked = false, never = false; /* never: a condition is the constant false, so the sum is empty */
     for (uint32_t i = 0; i + 1 < t->count; i++) {

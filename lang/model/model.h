@@ -115,14 +115,15 @@ typedef struct model {
     uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
 
     vary_log log;
-    uint8_t *overridden;       /* vary.h: by place of the pool, 1: set by motus_system_set; NULL: none is */
-    struct exact_check *check; /* analysis.c: of the exact line; NULL: there is none */
-    double constant_terms;     /* of sums in constants so far */
-    uint16_t leaf_array;       /* lower_diff.c: the array of the leaves of its own, 0 none */
-    int32_t leaf_count;        /* how many there are */
-    int depth;                 /* present depth of expressions within expressions */
-    int start_depth;           /* present depth of initial values that use one another */
-    uint64_t lowered;          /* trees lowered so far, which bounds the cost of quantities of quantities */
+    uint8_t *overridden;   /* vary.h: by place of the pool, 1: set by motus_system_set; NULL: none is */
+    struct verify *verify; /* verify.h: the checks of exact lines and invariants; NULL: there are none */
+    double constant_terms; /* of sums in constants so far */
+    double terms;          /* of the largest nest of families and sums that moves */
+    uint16_t leaf_array;   /* lower_diff.c: the array of the leaves of its own, 0 none */
+    int32_t leaf_count;    /* how many there are */
+    int depth;             /* present depth of expressions within expressions */
+    int start_depth;       /* present depth of initial values that use one another */
+    uint64_t lowered;      /* trees lowered so far, which bounds the cost of quantities of quantities */
     model_state *states;
     uint32_t state_count;
     model_definition *definitions;

@@ -4,6 +4,7 @@
 #include "lang/lower/resolve.h"
 #include "lang/lower/start.h"
 #include "lang/read/read_steps.h"
+#include "lang/read/verify.h"
 
 #include <string.h>
 
@@ -29,6 +30,7 @@ static motus_status build(model *m, const motus_text_def *def, read_method metho
     if (collect_all(m, def) && classify_all(m) && names_all(m) && constants(m) && settings_all(m, method) &&
         layout_all(m) && equations_all(m))
         analysis_all(m);
+    if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
     if (m->source.failed) return m->source.status;
     if (m->arena->failed) return MOTUS_MEMORY;
     if (m->graph->too_large)

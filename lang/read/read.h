@@ -11,8 +11,11 @@ typedef motus_status (*read_method)(const char *name, motus_error *);
 /* On failure the error says what and where, and *out is NULL; the arena keeps what was taken. */
 motus_status read_model(arena *, const motus_text_def *, read_method, model **out, motus_error *);
 
-/* Checks the exact line again after numbers have changed; takes no memory. */
-motus_status analysis_exact(model *, motus_error *);
+/* Checks exact lines and invariants again after numbers have changed. */
+motus_status verify_again(model *, motus_error *);
+/* How far rounding may carry the exact motion at time t off, in units of EXACT_ROUNDING, written to x and v. False: no
+ * memory. */
+bool verify_exact_rounding(model *, double t, double *x, double *v);
 
 /* Finds the traits of the model's equations that follow from their form, but for has_exact. */
 void analysis_traits(model *);

@@ -11,6 +11,6 @@ bool names_all(model *);                           /* complains about names that
 bool settings_all(model *, read_method);           /* method, step, until … */
 bool layout_all(model *);                          /* places of the states in x and v */
 bool equations_all(model *);                       /* outputs over the graph */
-void analysis_all(model *);                        /* traits of the equations; may complain too */
+void analysis_all(model *);                        /* traits of the equations */
 
 #endif

@@ -1,0 +1,91 @@
+/* How far rounding carries the value of a node, as a node: the running error analysis of Wilkinson.
+ *
+ * Every operation is within a rounding of its exact result, or two (a function), and passes on the errors of its
+ * operands, each times the slope in it: E = |R| + sum |dR/dk| Ek. The slopes are those of graph_derivative.c.
+ * Invariant: an error of 0 is passed on as 0, also where the slope is infinite; jumps, which have no slope, pass on
+ * nothing.
+ */
+#include "lang/graph/graph_walk.h"
+
+#include <math.h>
+
+static node size_of(graph *g, node n) { return graph_op(g, OP_ABS, n, 0, 0); }
+
+/* A constant that is no whole number was rounded when it was read. */
+static node of_constant(graph *g, double c) { return floor(c) == c ? 0 : graph_const(g, fabs(c)); }
+
+static node passed_on(graph *g, const graph_node *n, node self, int operand, node error)
+{
+    node slope[3] = {0, 0, 0};
+    slope[operand] = graph_const(g, 1);
+    const node s = graph_derivative_rule(g, n, self, slope);
+    if (!s) return 0;
+    const node product = graph_op(g, OP_MUL, size_of(g, s), error, 0);
+    const bool bounded = n->op == OP_NEG || n->op == OP_ADD || n->op == OP_SUB || n->op == OP_MUL || n->op == OP_SUM;
+    return bounded ? product : graph_op(g, OP_SELECT, graph_op(g, OP_NE, error, 0, 0), product, 0);
+}
+
+static bool jumps(const graph_node *n)
+{
+    switch ((operation)n->op) {
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_EQ:
+    case OP_NE:
+    case OP_AND:
+    case OP_OR:
+    case OP_NOT:
+    case OP_SIGN:
+    case OP_FLOOR: return true;
+    default: return false;
+    }
+}
+
+/* The error of one operation, from those of its operands. */
+static node of_operation(graph *g, node self, const node error[3])
+{
+    const graph_node n = g->nodes[self];
+    node operand[3];
+    const int arity = graph_operands(&n, operand);
+    if (jumps(&n)) return 0;
+    if (n.op == OP_SUM) {
+        const node body = error[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, error[0]) : 0;
+        return graph_op(g, OP_ADD, body, size_of(g, self), 0);
+    }
+    if (n.op == OP_NEG || n.op == OP_ABS) return error[0];
+    if (n.op == OP_SELECT) return graph_op(g, OP_SELECT, operand[0], error[1], error[2]);
+    node sum = size_of(g, self);
+    for (int k = 0; k < arity; k++)
+        if (error[k]) sum = graph_op(g, OP_ADD, sum, passed_on(g, &n, self, k, error[k]), 0);
+    return sum;
+}
+
+node graph_rounding(graph *g, node root, graph_seed leaf, void *ctx)
+{
+    graph_walk w;
+    if (!graph_order(g, &root, 1, 0, true, &w)) return 0;
+    node *e = take(&g->arena->allocator, w.count, sizeof *e);
+    if (!e) g->arena->failed = true;
+    const bool before = g->simplify;
+    const uint32_t *place = g->place;
+    g->simplify = true;
+    for (uint32_t k = 0; e && k < w.count && !g->arena->failed && !g->too_large; k++) {
+        const graph_node n = g->nodes[w.nodes[k]];
+        node operand[3], error[3] = {0, 0, 0};
+        const int arity = graph_operands(&n, operand);
+        if (g->place != place) graph_order_again(g, &w); /* the graph has grown */
+        place = g->place;
+        for (int j = 0; j < arity; j++) error[j] = e[g->place[operand[j]]];
+        e[k] = arity              ? of_operation(g, w.nodes[k], error)
+               : n.op == OP_CONST ? of_constant(g, n.value)
+               : n.op == OP_INDEX ? 0
+                                  : leaf(g, w.nodes[k], ctx);
+    }
+    g->simplify = before;
+    const node result = e && w.count ? e[w.count - 1] : 0;
+    give(&g->arena->allocator, e);
+    give(&g->arena->allocator, w.nodes);
+    return g->arena->failed || g->too_large ? 0 : result;
+}

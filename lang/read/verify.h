@@ -1,0 +1,55 @@
+/* What a model claims of its motion is checked: its exact lines (verify_exact.c) and its invariants
+ * (verify_invariant.c); what both need is in verify.c.
+ *
+ * Numbers count as equal where their difference is below EXACT_ROUNDING times what rounding may make of them: a bound
+ * from their formulas (graph_rounding), which knows about cancellation, and the size of the motion, by which a velocity
+ * or a place is known. Invariant: a claim that rounding alone contradicts is accepted.
+ */
+#ifndef LANG_READ_VERIFY_H
+#define LANG_READ_VERIFY_H
+
+#include "lang/read/read.h"
+#include "lang/tape/tape.h"
+
+enum {
+    VERIFY_NODES_MAX = 10000, /* of formulas: of larger ones no bound is derived, and no invariant checked */
+    VERIFY_TERMS_MAX = 200000 /* of families and sums, per evaluation: likewise */
+};
+
+typedef struct verify {
+    bool bounded;   /* the formulas are small enough to derive bounds */
+    uint32_t nodes; /* of the formulas */
+    tape *boundary, *force, *force_rounding;
+    tape *motion, *motion_rounding, *second, *second_rounding; /* of exact lines */
+    tape *boundary_second;                                     /* the acceleration of boundary cells */
+    tape **rate, **rate_rounding; /* for each definition; NULL: it is no invariant, or none that is checked */
+    size_t numbers;               /* of the largest invariant */
+} verify;
+
+/* MOTUS_OK; MOTUS_ARGUMENT: complained; MOTUS_MEMORY. */
+motus_status verify_claims(model *);
+
+/* verify.c, for the two checks. NULL: no memory. */
+tape *verify_tape(model *, const output *, size_t count);
+bool verify_bind(const model *, tape *const tapes[], size_t count);
+output *verify_rounding(model *, const output *, size_t count, graph_seed leaf);
+/* The error of a leaf in SPACE_DX, SPACE_DV for X and V; a parameter's is its size. */
+node verify_leaf(graph *, node leaf, void *model);
+/* The acceleration at a state, whose driven boundary cells become those of time t. */
+void verify_force(const model *, double t, double *x, double *v, double *a);
+/* The fastest rate of change by the force at a state: the largest sum of |da/dv| in a row, or the root of that of
+ * |da/dx|; 0: not known. room: 3 nv numbers. */
+double verify_fastest(const model *, double t, double *x, double *v, double *room);
+/* The size of the motion of each variable at a state: the largest of its places, or its largest velocity over `rate`;
+ * and so for velocities. */
+void verify_size(const model *, double rate, const double *x, const double *v, double *size_x, double *size_v);
+/* Two numbers with the digits that tell them apart. */
+enum { VERIFY_DIGITS = 32 };
+void verify_digits(double a, double b, char of_a[VERIFY_DIGITS], char of_b[VERIFY_DIGITS]);
+
+bool verify_exact_make(model *);
+motus_status verify_exact(model *);
+bool verify_invariant_make(model *);
+motus_status verify_invariants(model *);
+
+#endif
