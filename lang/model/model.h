@@ -91,10 +91,11 @@ typedef struct model_definition {
     const char *name;
     const statement *statement;
     definition_kind kind;
-    uint8_t progress; /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    int components;   /* 0: scalar */
-    uint8_t reads;    /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
-    bool list;        /* list or family: an array over indices */
+    uint8_t progress;   /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
+    uint32_t last_line; /* 1 + number of its last line: a family may have several, each naming the next */
+    int components;     /* 0: scalar */
+    uint8_t reads;      /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
+    bool list;          /* list or family: an array over indices */
     int dims;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     uint16_t log_array;   /* vary_record.h: 1 + its array over the pool, 0 none */
