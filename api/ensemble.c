@@ -2,6 +2,7 @@
 #include "api/ensemble.h"
 
 #include "api/choice.h"
+#include "api/suggest.h"
 #include "machine/parallel.h"
 #include "machine/reduction.h"
 
@@ -171,12 +172,14 @@ static motus_status make(motus_ensemble *e, const motus_ensemble_def *d, motus_e
     const motus_method *card;
     motus_status status = choice_method(s, d->method, &e->chosen, &card, err);
     if (status == MOTUS_OK) status = find_places(e, d, err);
+    double end = d->until;
+    if (status == MOTUS_OK) status = suggest_missing(s, d->method, NAN, &e->step, &end, err);
     /* where ends vary, each trajectory gets its own timing later */
-    const double until = e->until == SIZE_MAX ? d->until : s->start;
-    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, d->step, until, NAN, &e->timing, err);
+    const double until = e->until == SIZE_MAX ? end : s->start;
+    if (status == MOTUS_OK) status = run_timing(s, &e->chosen, e->step, until, NAN, &e->timing, err);
     if (status == MOTUS_OK && s->model)
-        status = vary_create(s->model, e->places, e->vary_count, !isnan(d->step),
-                             !isnan(d->until) || e->until != SIZE_MAX, &e->vary, err);
+        status = vary_create(s->model, e->places, e->vary_count, !isnan(e->step), !isnan(end) || e->until != SIZE_MAX,
+                             &e->vary, err);
     const char *wanted = d->machine;
     bool automatic, compiled;
     if (status == MOTUS_OK) status = choice_machine(wanted, &automatic, &compiled, err);

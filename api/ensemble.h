@@ -39,7 +39,7 @@ struct motus_ensemble {
     const double **values;           /* of the present run, at these places */
     size_t given;                    /* arrays of values that a run is given, `until` included */
     size_t until;                    /* its index among them where it varies, or SIZE_MAX */
-    double step;                     /* of the definition; NaN: the model's */
+    double step;                     /* of the definition, or suggested; NaN: the model's */
     motus_record *records;
     vary *vary;
     lanes *lanes;    /* NULL: workers compute the trajectories */

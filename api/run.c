@@ -2,6 +2,7 @@
 #include "api/locate.h"
 
 #include "api/choice.h"
+#include "api/suggest.h"
 
 #include "machine/cache.h"
 
@@ -21,13 +22,13 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
     *out = (timing){.until = isnan(until) ? set.until : until, .t0 = isnan(start) ? s->start : start};
     if (isnan(h)) {
         fail(err, MOTUS_ARGUMENT, "no step is given");
-        hint(err, "write `step 0.01` in the model, or give `step = 0.01` of the definition");
+        hint(err, "give `step = 0.01` of the definition; motus_suggest finds one");
         return MOTUS_ARGUMENT;
     }
     if (!isfinite(h) || !(h > 0)) return fail(err, MOTUS_ARGUMENT, "the step is a positive number, not %g", h);
     if (isnan(out->until)) {
         fail(err, MOTUS_ARGUMENT, "no end is given");
-        hint(err, "write `until 10` in the model, or give `until = 10` of the definition");
+        hint(err, "give `until = 10` of the definition; motus_suggest finds one");
         return MOTUS_ARGUMENT;
     }
     if (!isfinite(out->until) || !isfinite(out->t0))
@@ -225,6 +226,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     r->pace = (pace){.seconds = 0.05, .tell = def.progress ? tell : NULL, .ctx = r};
     modes m = modes_enter();
     status = choice_method(s, def.method, &r->chosen, &r->card, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, def.method, def.start, &def.step, &def.until, err);
     timing leg;
     if (status == MOTUS_OK) status = run_timing(s, &r->chosen, def.step, def.until, def.start, &leg, err);
     if (status == MOTUS_OK) run_leg(r, &leg);

@@ -18,6 +18,7 @@ static void print_json(const studies *s, const void *result)
 {
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
+    settle_json(&j, &s->model);
     tell_comparison(&j, result);
     json_end(&j);
 }
@@ -138,7 +139,8 @@ motus_status compare_verb(const options *o, motus_error *err)
     studies s;
     motus_study_def def;
     motus_comparison *c = NULL;
-    motus_status status = studies_begin(&s, "compare", o, &def, err);
+    motus_status status =
+        studies_begin(&s, "compare", SETTLE_UNTIL | (o->evaluations > 0 ? 0 : SETTLE_STEP), o, &def, err);
     if (!status) status = motus_compare(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);
     if (!status) status = studies_show(&s, &ways, c, err);

@@ -18,6 +18,7 @@ static void print_json(const studies *s, const void *result)
 {
     json j = text_json(stdout);
     json_string(&j, "model", s->options->operand);
+    settle_json(&j, &s->model);
     tell_convergence(&j, result);
     json_end(&j);
 }
@@ -152,7 +153,9 @@ motus_status converge_verb(const options *o, motus_error *err)
     studies s;
     motus_study_def def;
     motus_convergence *c = NULL;
-    motus_status status = studies_begin(&s, "converge", o, &def, err);
+    motus_status status = studies_begin(&s, "converge", SETTLE_UNTIL, o, &def, err);
+    if (!status)
+        def.until = o->until; /* the library suggests the same end, and may cut it, as it does with the model's */
     if (!status) status = motus_converge(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);
     if (!status) status = studies_show(&s, &ways, c, err);

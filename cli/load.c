@@ -61,7 +61,7 @@ static size_t numbers_of(const motus_system *system, load_naming *name)
 
 motus_status load_model(load *m, const options *o, motus_error *err)
 {
-    *m = (load){0};
+    *m = (load){.step = NAN, .until = NAN};
     if (!o->operand) return no_model(o, err);
     name_of(o->operand, m->title, sizeof m->title);
     size_t length;
@@ -101,9 +101,9 @@ size_t load_quantity_column(const load *m) { return 1 + m->positions + m->veloci
 
 size_t load_invariant_column(const load *m) { return load_quantity_column(m) + m->quantities; }
 
-double load_until(const load *m, const options *o)
+double load_until(const load *m)
 {
     motus_settings settings = motus_default_settings();
     motus_settings_of(m->system, &settings);
-    return isnan(o->until) ? settings.until : o->until;
+    return isnan(m->until) ? settings.until : m->until;
 }

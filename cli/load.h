@@ -9,6 +9,8 @@ typedef struct load {
     motus_system *system;
     size_t positions, velocities;  /* columns: t, then these, then quantities, invariants, exact */
     size_t quantities, invariants; /* their numbers, not their names */
+    double step, until;            /* by settle.c: of the options, or suggested; NaN: the model's */
+    int suggested;                 /* which of them: SETTLE_STEP | SETTLE_UNTIL */
     char title[MOTUS_NAME_MAX];    /* file name without folder and ending, safe to show */
 } load;
 
@@ -24,7 +26,7 @@ typedef const char *load_naming(const motus_system *, size_t k, size_t *numbers)
 /* First column of the quantities and of the invariants. */
 size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);
-/* The end: the options', else the model's. NaN: none. */
-double load_until(const load *, const options *);
+/* The end, once it is settled. NaN: none. */
+double load_until(const load *);
 
 #endif

@@ -83,13 +83,12 @@ static bool add_curve(overlay *v, record *r, const slot *s, const size_t columns
 }
 
 /* Runs one method again and records its curves for every panel; the first method's run records the exact ones too. */
-static motus_status run_method(overlay *v, const motus_compare_row *row, const options *o, stop_progress *progress,
-                               motus_error *err)
+static motus_status run_method(overlay *v, const motus_compare_row *row, stop_progress *progress, motus_error *err)
 {
     motus_run_def def = motus_default_run();
     def.method = row->method;
     def.step = row->step;
-    def.until = o->until;
+    def.until = v->model->until;
     def.progress = stop_progress_hook;
     def.context = progress;
     motus_run *run = NULL;
@@ -105,7 +104,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, const o
         if (room && first && s->exact[1]) room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
     }
     walk_observer w = record_observer(r);
-    status = room ? walk(run, motus_run_time(run), load_until(v->model, o), &w, 1, err) : complain_memory(err);
+    status = room ? walk(run, motus_run_time(run), load_until(v->model), &w, 1, err) : complain_memory(err);
     for (size_t i = 0; i < v->slot_count; i++) {
         plot_panel *p = &v->plot.panels[v->slots[i].panel];
         for (size_t k = 0; k < p->curve_count; k++)
@@ -128,7 +127,7 @@ motus_status overlay_draw(const load *m, const motus_comparison *c, const option
         if (v.record_count == METHODS)
             left++;
         else
-            status = run_method(&v, c->rows[k], o, progress, err);
+            status = run_method(&v, c->rows[k], progress, err);
     }
     if (!status && v.record_count == 0)
         status = fail(err, c->row_count ? c->rows[0]->status : MOTUS_METHOD,

@@ -10,6 +10,7 @@
 #include "cli/figure.h"
 #include "cli/file.h"
 #include "cli/load.h"
+#include "cli/settle.h"
 #include "cli/share.h"
 #include "cli/stop.h"
 #include "cli/summary.h"
@@ -79,12 +80,13 @@ static motus_status begin(job *j, motus_error *err)
     const options *o = j->options;
     motus_status status = check_names(o, err);
     if (!status) status = load_model(&j->model, o, err);
+    if (!status) status = settle_timing(&j->model, o, SETTLE_STEP | SETTLE_UNTIL, o->method, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (status) return status;
     motus_run_def def = motus_default_run();
     def.method = o->method;
-    def.step = o->step;
-    def.until = o->until;
+    def.step = j->model.step;
+    def.until = j->model.until;
     def.machine = o->machine;
     def.threads = (int)o->threads;
     def.progress = stop_progress_hook;
@@ -93,7 +95,7 @@ static motus_status begin(job *j, motus_error *err)
     if (status) return status;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
-    j->until = load_until(&j->model, o);
+    j->until = load_until(&j->model);
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
     if (!status && o->plot) status = figure_begin(&j->figure, &j->model, o, j->run, err);

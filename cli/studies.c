@@ -9,19 +9,22 @@
 #include "cli/plot.h"
 #include "cli/text.h"
 
-motus_status studies_begin(studies *s, const char *what, const options *o, motus_study_def *def, motus_error *err)
+motus_status studies_begin(studies *s, const char *what, int needed, const options *o, motus_study_def *def,
+                           motus_error *err)
 {
     *s = (studies){.options = o};
     motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
         status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
+    /* By a method that takes all steps and forces: the model's own need not be among those that are studied. */
+    if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", err);
     if (status) return status;
     *def = motus_default_study();
     def->methods = o->methods.count ? o->methods.items : NULL;
     def->method_count = o->methods.count;
-    def->step = o->step;
-    def->until = o->until;
+    def->step = s->model.step;
+    def->until = s->model.until;
     def->evaluations = o->evaluations;
     def->progress = stop_progress_hook;
     def->context = &s->progress;

@@ -3,7 +3,7 @@
 #define CLI_STUDIES_H
 
 #include "cli/file.h"
-#include "cli/load.h"
+#include "cli/settle.h"
 #include "cli/stop.h"
 
 typedef struct studies {
@@ -12,8 +12,9 @@ typedef struct studies {
     stop_progress progress;
 } studies;
 
-/* Loads the model and fills the definition. Progress is shown under the name `what` until stop_progress_end(). */
-motus_status studies_begin(studies *, const char *what, const options *, motus_study_def *, motus_error *);
+/* Loads the model and fills the definition; needed: as of settle_timing. Progress is shown under the name
+ * `what` until stop_progress_end(). */
+motus_status studies_begin(studies *, const char *what, int needed, const options *, motus_study_def *, motus_error *);
 
 /* Prints the first line of the tables: the model and the reference. */
 void studies_title(const studies *, const char *reference, double error);

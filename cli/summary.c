@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/figure.h"
+#include "cli/settle.h"
 #include "cli/table.h"
 #include "cli/text.h"
 
@@ -281,6 +282,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         json_string(&j, "method", motus_run_method(s->run));
         json_string(&j, "machine", motus_run_machine(s->run));
         json_number(&j, "step", motus_run_step_size(s->run));
+        settle_json(&j, s->model);
         json_integer(&j, "steps", motus_run_steps(s->run));
         json_integer(&j, "evaluations", motus_run_evaluations(s->run));
         json_integer(&j, "iterations", motus_run_iterations(s->run));

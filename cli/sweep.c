@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/complain.h"
 #include "cli/file.h"
+#include "cli/settle.h"
 #include "cli/stop.h"
 #include "cli/text.h"
 #include "cli/verbs.h"
@@ -82,8 +83,8 @@ static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
     def.records = s->records.items;
     def.record_count = s->records.count;
     def.method = o->method;
-    def.step = o->step; /* else the model's, which a number that varies may not decide */
-    def.until = o->until;
+    def.step = s->model.step; /* else the model's, which a number that varies may not decide */
+    def.until = s->model.until;
     def.every = s->every;
     def.machine = o->machine;
     def.threads = (int)o->threads;
@@ -139,10 +140,13 @@ static motus_status begin(sweep *s, stop_progress *progress, motus_error *err)
             status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", s->grid.axes[k].path);
     if (!status) status = sweep_records_read(&s->records, &s->model, o->record, err);
     if (status) return status;
+    const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
+    status = settle_timing(&s->model, o, SETTLE_STEP | (own_ends ? 0 : SETTLE_UNTIL), o->method, err);
+    if (status) return status;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s->model.system, &settings);
-    s->step = isnan(o->step) ? settings.step : o->step;
-    s->until = grid_find(&s->grid, "until") < s->grid.count ? NAN : load_until(&s->model, o);
+    s->step = isnan(s->model.step) ? settings.step : s->model.step;
+    s->until = own_ends ? NAN : load_until(&s->model);
     if (isnan(s->until) && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
     s->columns = 2 + s->grid.count + s->records.count;
@@ -187,6 +191,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall)
     json_string(&j, "model", s->options->operand);
     json_string(&j, "method", s->method);
     json_number(&j, "step", s->step);
+    settle_json(&j, &s->model);
     json_integer(&j, "trajectories", (int64_t)s->grid.total);
     json_integer(&j, "resumed", (int64_t)f->found);
     json_integer(&j, "steps", motus_ensemble_steps(e));

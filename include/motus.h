@@ -333,8 +333,25 @@ typedef struct motus_settings {
     double step, from, until;
     double every_time;   /* every T */
     int64_t every_steps; /* every n steps */
+    /* Of motus_suggest alone, where it had to find a number: the fastest rate at the start, in radians per time, 0: the
+     * force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
+    double rate, period;
 } motus_settings;
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
+/* Fills in step, until and method where they are NaN or NULL, for this method, step, start and end where they are
+ * given. What creates runs, ensembles and studies of a model does so itself where neither its definition nor the model
+ * gives a number; of a callback only this call does, since it evaluates the acceleration.
+ *
+ * The rates at the start are the sizes of the eigenvalues of the equations linearised there, the rate at which the
+ * force changes with t, and how fast the state changes, min(|x'|/|x|, |x''|/|x'|). The step is at most 1/80 of the
+ * period of the fastest rate, 2 pi/rate, and at most 1/100 of the way to the end. The end comes after 10 of the longest
+ * periods that the motion has; of what does not oscillate, after 10 times its scale of time, 1/rate. Where the force is
+ * constant the scale of time follows from the initial values: 2 max(|x'|/|x''|, sqrt(|x|/|x''|)), after which the run
+ * ends; without a force after 10 |x|/|x'|, or at 10. Both numbers are rounded to 1, 2 or 5 times a power of ten. There
+ * are at most 1e6 steps, of large systems fewer, and the end comes earlier to keep to that, or if it is given the step
+ * grows. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned other than
+ * 0. */
+MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_error *);
 
 /* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
  * not known. */
@@ -456,8 +473,8 @@ typedef enum motus_switches {
 typedef struct motus_run_def {
     uint32_t size;       /* by motus_default_run() */
     const char *method;  /* NULL: the model's, or "verlet" */
-    double step;         /* > 0; NaN: the model's. Its direction follows from `until` */
-    double until;        /* the end; NaN: the model's. Before the start: the run goes backward */
+    double step;         /* > 0; NaN: the model's, or motus_suggest's. Its direction follows from `until` */
+    double until;        /* the end; NaN: likewise. Before the start: the run goes backward */
     double start;        /* NaN: the model's */
     const double *x, *v; /* the initial state: nx and nv finite numbers, copied; NULL: the model's */
     /* NULL, or called from time to time, at most about every 10 ms, with the fraction of the run that is done, 0 … 1.
@@ -481,10 +498,11 @@ typedef struct motus_run_def {
 #define MOTUS_THREADS_MAX 1024
 
 /* The definition may be NULL: then everything is the model's. MOTUS_METHOD: there is no such method, it does not admit
- * the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: there is no step or no end, a number
- * is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, or implicit
+ * the force or the start, or it cannot take the shorter last step. MOTUS_ARGUMENT: a callback has no step or no end, a
+ * number is not finite or out of its range, or there is no such machine. MOTUS_LIMIT: more than 1e15 steps, or implicit
  * equations too large to solve. MOTUS_TOOL: "compiled" is asked for and not available. MOTUS_CALLBACK: the callback
- * `exact` returned other than 0, where the method is exact. The call does not evaluate the acceleration. */
+ * `exact` returned other than 0, where the method is exact. The call does not evaluate the
+ * acceleration of a callback. */
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);
 
@@ -661,7 +679,7 @@ typedef struct motus_ensemble_def {
     const motus_record *records; /* at least one */
     size_t record_count;
     const char *method;  /* NULL: the model's, or "verlet" */
-    double step, until;  /* NaN: the model's */
+    double step, until;  /* NaN: the model's, or motus_suggest's, the same for all trajectories */
     int64_t every;       /* steps between two observations, for all records but MOTUS_REDUCE_FINAL; 1 by default */
     const char *machine; /* as in motus_run_def */
     /* How many threads; 0: as many as there are processors, and one for a system from C. With more threads its
@@ -708,7 +726,7 @@ typedef struct motus_study_def {
     uint32_t size;              /* by motus_default_study() */
     const char *const *methods; /* method_count names; NULL: every admitted method */
     size_t method_count;
-    double step, until;  /* NaN: the model's */
+    double step, until;  /* NaN: the model's, or motus_suggest's */
     int64_t evaluations; /* compare: > 0: each method's step is chosen so that it takes this many evaluations */
     int (*progress)(void *context, double fraction); /* as in motus_run_def, of the whole study */
     void *context;
@@ -746,8 +764,8 @@ typedef struct motus_comparison {
 } motus_comparison;
 /* Integrates the model by each method and compares the results. The definition may be NULL: then everything is the
  * model's; the same holds for motus_converge and motus_reference_create. The row of a method that fails says so.
- * MOTUS_ARGUMENT: there is no end or no step, or a number is out of its range. MOTUS_METHOD: there is no such method,
- * or none admits the model. MOTUS_LIMIT: too many steps. MOTUS_CANCELLED: `progress` returned other than 0.
+ * MOTUS_ARGUMENT: a callback has no end or no step, or a number is out of its range. MOTUS_METHOD: there is no such
+ * method, or none admits the model. MOTUS_LIMIT: too many steps. MOTUS_CANCELLED: `progress` returned other than 0.
  * MOTUS_CALLBACK: a callback returned other than 0 at the initial state, or reads the velocity undeclared. */
 MOTUS_API motus_status motus_compare(motus_system *, const motus_study_def *, motus_comparison **, motus_error *);
 MOTUS_API void motus_comparison_destroy(motus_comparison *);

@@ -43,7 +43,7 @@ export interface Description {
   readonly statements: readonly Statement[];
   readonly velocity_dependent: boolean; readonly time_dependent: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
-  readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number };
+  readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
   readonly has_exact: boolean;
   readonly methods: readonly Admission[];
 }

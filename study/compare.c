@@ -402,15 +402,16 @@ static motus_status probe_motion(compare *c, const study_grid *g)
 static motus_status prepare(compare *c, motus_system *system, motus_error *err)
 {
     study *s = &c->s;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(system, &settings);
-    c->step = isnan(c->def.step) ? settings.step : c->def.step;
+    motus_settings settings;
+    motus_status status = study_settings(system, &c->def, &settings, err);
+    if (status != MOTUS_OK) return status;
+    c->step = settings.step;
     if (c->def.evaluations == 0 && !(c->step > 0)) {
         fail(err, MOTUS_ARGUMENT, "the comparison has no step: neither its definition nor the model gives one");
-        hint(err, "write in the model, for example, step 0.01");
+        hint(err, "give the definition a step; motus_suggest finds one");
         return MOTUS_ARGUMENT;
     }
-    motus_status status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
+    status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
     if (status == MOTUS_OK) status = study_methods(s, &c->def, &c->methods, &c->count);
     if (status == MOTUS_OK) status = find_columns(c);
     if (status != MOTUS_OK) return status;

@@ -3,13 +3,10 @@
  * Invariant: a probe never changes the system; what it cannot compute is NaN or false, not an error.
  */
 #include "probe.h"
+#include "api/rate.h"
 #include <math.h>
 
-#define RATE_ITERATIONS 32     /* even: the square of an oscillator's Jacobian is -ω² */
-#define RATE_FORGET 8          /* iterations that are not averaged: the fastest direction does not dominate yet */
-#define RATE_OFFSET 1e-5       /* of the size of the motion: rounding and curvature both stay below 1e-4 */
-#define RATE_NUMBERS_MAX 20000 /* larger states take fewer iterations, since each costs too much */
-#define RATE_LEAST 1e-9
+#define RATE_OFFSET 1e-5 /* of the size of the motion: rounding and curvature both stay below 1e-4 */
 #define PATTERNS 4
 #define PATTERN_OFFSET 0x1p-20
 
@@ -30,23 +27,25 @@ bool probe_acceleration(study *s, double t, const double *y, double *a)
     return ok;
 }
 
-/* A fixed, even scatter of directions, so that no result depends on a random seed. */
-static double scatter(size_t k)
-{
-    double u = fmod(0.6180339887498949 * (double)(k + 1), 1);
-    return u < 0.5 ? -0.5 - u : u;
-}
+typedef struct linearised {
+    study *s;
+    double t;
+    const double *y;
+    double *moved, *plus, *minus;
+} linearised;
 
 /* out = J u, both in units of scale; false where it cannot be computed. */
-static bool jacobian(study *s, double t, const double *y, const double *u, double *out, double *moved, double *plus,
-                     double *minus)
+static bool product(void *ctx, const double *u, double *out)
 {
-    for (size_t k = 0; k < s->numbers; k++) moved[k] = y[k] + RATE_OFFSET * s->scale[k] * u[k];
-    if (!probe_acceleration(s, t, moved, plus)) return false;
-    for (size_t k = 0; k < s->numbers; k++) moved[k] = y[k] - RATE_OFFSET * s->scale[k] * u[k];
-    if (!probe_acceleration(s, t, moved, minus)) return false;
+    const linearised *j = ctx;
+    study *s = j->s;
+    for (size_t k = 0; k < s->numbers; k++) j->moved[k] = j->y[k] + RATE_OFFSET * s->scale[k] * u[k];
+    if (!probe_acceleration(s, j->t, j->moved, j->plus)) return false;
+    for (size_t k = 0; k < s->numbers; k++) j->moved[k] = j->y[k] - RATE_OFFSET * s->scale[k] * u[k];
+    if (!probe_acceleration(s, j->t, j->moved, j->minus)) return false;
     for (size_t k = 0; k < s->nx; k++) out[k] = u[s->nx + k] * s->scale[s->nx + k] / s->scale[k];
-    for (size_t k = 0; k < s->nv; k++) out[s->nx + k] = (plus[k] - minus[k]) / (2 * RATE_OFFSET) / s->scale[s->nx + k];
+    for (size_t k = 0; k < s->nv; k++)
+        out[s->nx + k] = (j->plus[k] - j->minus[k]) / (2 * RATE_OFFSET) / s->scale[s->nx + k];
     return true;
 }
 
@@ -71,29 +70,10 @@ double probe_rate(study *s, double t, const double *y)
         study_note(s, MOTUS_MEMORY);
         return NAN;
     }
-    double *u = room, *next = u + n, *moved = next + n, *plus = moved + n, *minus = plus + n;
-    for (size_t k = 0; k < n; k++) u[k] = scatter(k);
-    int iterations = n > RATE_NUMBERS_MAX ? RATE_FORGET + 4 : RATE_ITERATIONS;
-    double growth = 0, rate = 0;
-    for (int i = 0; i < iterations; i++) {
-        double size = 0;
-        if (!jacobian(s, t, y, u, next, moved, plus, minus)) {
-            rate = NAN;
-            break;
-        }
-        for (size_t k = 0; k < n; k++) size = fmax(size, fabs(next[k]));
-        if (!(size > 0)) { /* J u = 0: the force is constant */
-            rate = 0;
-            break;
-        }
-        if (i >= RATE_FORGET) {
-            growth += log(size);
-            rate = exp(growth / (i + 1 - RATE_FORGET));
-        }
-        for (size_t k = 0; k < n; k++) u[k] = next[k] / size;
-    }
+    linearised j = {.s = s, .t = t, .y = y, .moved = room, .plus = room + n, .minus = room + 2 * n};
+    const double rate = rate_fastest(&(rate_map){n, product, &j}, room + 3 * n, room + 4 * n);
     give(s->allocator, room);
-    return rate < RATE_LEAST ? 0 : rate;
+    return rate;
 }
 
 motus_status probe_columns(study *s, double t, const double *y, const size_t *columns, size_t column_count,
@@ -105,7 +85,7 @@ motus_status probe_columns(study *s, double t, const double *y, const size_t *co
     for (int pattern = -1; pattern < PATTERNS; pattern++) {
         /* The signs differ from pattern to pattern, so that opposite contributions do not always cancel. */
         for (size_t k = 0; k < s->numbers; k++) {
-            double sign = pattern < 0 ? 0 : scatter((size_t)(pattern + 1) * (k + 1)) > 0 ? 1 : -1;
+            double sign = pattern < 0 ? 0 : rate_scatter((size_t)(pattern + 1) * (k + 1)) > 0 ? 1 : -1;
             moved[k] = y[k] * (1 + sign * PATTERN_OFFSET);
         }
         motus_run *run = NULL;

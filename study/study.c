@@ -92,6 +92,18 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
     return MOTUS_OK;
 }
 
+motus_status study_settings(motus_system *system, const motus_study_def *def, motus_settings *set, motus_error *err)
+{
+    *set = motus_default_settings();
+    motus_settings_of(system, set);
+    if (isnan(set->from)) set->from = 0;
+    if (!isnan(def->step)) set->step = def->step;
+    if (!isnan(def->until)) set->until = def->until;
+    if (motus_statement_count(system) == 0 || (!isnan(set->step) && !isnan(set->until))) return MOTUS_OK;
+    set->method = STUDY_SIMPLEST; /* the model's own method need not be among those that are studied */
+    return motus_suggest(system, set, err);
+}
+
 static void find_groups(study *s)
 {
     size_t variables = motus_variable_count(s->system);
@@ -121,13 +133,14 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);
     s->numbers = s->nx + s->nv;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(system, &settings);
-    s->from = isnan(settings.from) ? 0 : settings.from;
-    s->until = isnan(def->until) ? settings.until : def->until;
+    motus_settings settings;
+    motus_status status = study_settings(system, def, &settings, err);
+    if (status != MOTUS_OK) return status;
+    s->from = settings.from;
+    s->until = settings.until;
     if (isnan(s->until)) {
         fail(err, MOTUS_ARGUMENT, "the study has no end: neither its definition nor the model gives one");
-        hint(err, "write in the model, for example, until 10");
+        hint(err, "give the definition an end; motus_suggest finds one");
         return MOTUS_ARGUMENT;
     }
 
@@ -144,7 +157,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     motus_run *run = NULL;
     double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
     if (!(trial > 0)) trial = 1;
-    motus_status status = study_run(s, STUDY_SIMPLEST, trial, NAN, s->until, NULL, &run, err);
+    status = study_run(s, STUDY_SIMPLEST, trial, NAN, s->until, NULL, &run, err);
     if (status == MOTUS_OK) status = study_state(s, run, s->start, err);
     if (status == MOTUS_OK) {
         s->from = motus_run_time(run);

@@ -64,6 +64,8 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
 /* Finds the start, the end and the groups; `step` is the trial run's if it is above 0. Call study_close in any case. */
 motus_status study_open(study *, motus_system *, const motus_study_def *, double step, motus_error *err);
 void study_close(study *);
+/* Step, start and end of the definition, else of the model, else, of a model, suggested. NaN: a callback has none. */
+motus_status study_settings(motus_system *, const motus_study_def *, motus_settings *, motus_error *);
 
 bool study_admits(study *, const char *method);
 /* The methods to be studied: those named, or every admitted one but the exact motion. */

@@ -381,9 +381,31 @@ that "... do not reach the terminal" eval "! LC_ALL=C grep -qE $'\033'\"|\$(prin
 "$motus" run escape.motus --json >"$out" 2>"$err"
 that "... nor JSON" json "$out"
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nuntil 1\n" >nostep.motus
-refuses "no step anywhere" 2 "step" "$motus" run nostep.motus
+"$motus" run nostep.motus >"$out" 2>"$err"
+that "no step anywhere: one is suggested" eval "grep -qF 'the model gives no step: motus takes it from its fastest rate at the start, 1, and its longest period there, 6.28. To keep it' '$err'"
+that "... as a line of a model" eval "grep -qx 'step 0.01' '$err'"
+"$motus" run nostep.motus --json >"$out" 2>"$err"
+that "... and marked in JSON" holds '.step == 0.01 and .suggested == {"step": 0.01}'
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nstep 0.1\n" >nountil.motus
-refuses "no end anywhere" 2 "until" "$motus" run nountil.motus
+"$motus" run nountil.motus --json >"$out" 2>"$err"
+that "no end anywhere: one is suggested" holds '.time == 50 and .suggested == {"until": 50}'
+that "... as a line of a model" eval "grep -qx 'until 50' '$err'"
+printf "x'' = -x\nx(0)=1\nx'(0)=0\n" >neither.motus
+"$motus" run neither.motus -o suggested.csv >/dev/null 2>"$err"
+that "neither: both on one line" eval "grep -qx 'step 0.05; until 50' '$err'"
+{ cat neither.motus; grep '^step' "$err"; } >kept.motus
+"$motus" run kept.motus -o kept.csv --json >"$out" 2>"$err"
+that "... which keeps the run" eval "diff <(grep -v '^#' suggested.csv) <(grep -v '^#' kept.csv) && [ ! -s '$err' ]"
+that "... and is no suggestion any more" holds '.suggested == {}'
+"$motus" run neither.motus -q >"$out" 2>"$err"
+that "--quiet says nothing of it" eval "[ ! -s '$err' ]"
+"$motus" compare neither.motus --methods verlet,rk4 --json >"$out" 2>"$err"
+that "compare suggests the same" holds '.suggested == {"step": 0.05, "until": 50} and all(.rows[]; .step == 0.05 and .steps == 1000)'
+"$motus" converge neither.motus --methods verlet --json >"$out" 2>"$err"
+that "converge needs an end alone" holds '.suggested == {"until": 50} and .rows[0].observed > 1.9'
+"$motus" sweep neither.motus --vary "x(0)=1,2,4" --json -o neither.csv --force >"$out" 2>"$err"
+that "sweep suggests the same for all trajectories" eval "grep -qF -- '--step 0.05 --until 50' neither.csv"
+that "... and marks it" holds '.suggested == {"step": 0.05, "until": 50} and .steps == 1000'
 
 # --- restart ------------------------------------------------------------------------------------------------------------------------
 restart_case() {            # model, step, half, whole, method
@@ -549,6 +571,7 @@ that "check: damped cubic depends on the velocity, linearly" holds '.velocity_de
 that "check: every method, with a reason where it is refused" holds \
     "(.methods | length == $("$motus" methods --json | jq '.methods | length')) and all(.methods[]; .admitted or (.reason | length > 10))"
 that "check: some are refused, some not" holds '([.methods[].admitted] | any) and ([.methods[].admitted] | all | not)'
+that "check: with friction a composition is admitted, and preserves nothing" holds '.methods[] | select(.name == "kahan-li8") | .admitted and .preserves == ""'
 cat >"$place/printed.motus" <<'M'
 g = 9.81
 L = 1
@@ -559,7 +582,6 @@ M
 gives "check: the pendulum as textbooks print it" 0 "$motus" check "$place/printed.motus"
 that "... says what was understood" says "theta'' = -(g/L) sin(theta)"
 gives "... and it runs" 0 "$motus" run "$place/printed.motus" --step 0.01 --until 1
-that "check: with friction a composition is admitted, and preserves nothing" holds '.methods[] | select(.name == "kahan-li8") | .admitted and .preserves == ""'
 gives "check: a charged particle" 0 "$motus" check models/charged-particle.motus --json
 that "... boris preserves the volume, and is not symplectic" holds '.methods[] | select(.name == "boris") | .preserves == "volume"'
 gives "check: a planet" 0 "$motus" check models/kepler.motus --json

@@ -349,6 +349,47 @@ typedef struct setting {
     double value;
 } setting;
 
+static double quantity(motus_system *s, const char *name)
+{
+    motus_run *r = given_run(s, "rk4", 1, 1);
+    size_t at, count;
+    double value;
+    motus_error err = motus_default_error();
+    must(motus_column_find(s, name, &at, &count, &err), &err, name);
+    must(motus_run_values(r, &at, 1, &value, &err), &err, name);
+    motus_run_destroy(r);
+    return value;
+}
+
+/* Of lines about the same place that with fewer indices holds; what is set holds before all. */
+static void rule_10_families_by_places(void **state)
+{
+    (void)state;
+    const char text[] =
+        "q = 3\nk[i] = 1 + q/10 for i = 1..4\nk[3] = 2 q\nc[1,j] = 100 + j for j = 1..3\nc[2,2] = 7\n"
+        "c[i,j] = i + j for i = 1..2, j = 1..3\nd[1] = 5\nd[2] = d0\nd0 = 6\nx'' = -x\nx(0) = 1\nx'(0) = 0\n"
+        "K[i] = k[i] + 0 t for i = 1..4\nC[i,j] = c[i,j] + 0 t for i = 1..2, j = 1..3\nD = d[1] + d[2] + 0 t\n";
+    motus_system *s = given_text(text);
+    assert_true(quantity(s, "K[1]") == 1.3 && quantity(s, "K[3]") == 6 && quantity(s, "K[4]") == 1.3);
+    assert_true(quantity(s, "C[1,3]") == 103 && quantity(s, "C[2,2]") == 7 && quantity(s, "C[2,3]") == 5);
+    assert_true(quantity(s, "D") == 11);
+    const double q = 10, all[] = {1, 2, 3, 4};
+    motus_error err = motus_default_error();
+    must(motus_system_set(s, "q", &q, 1, &err), &err, "q"); /* each line again, in its places alone */
+    assert_true(quantity(s, "K[1]") == 2 && quantity(s, "K[3]") == 20 && quantity(s, "K[4]") == 2);
+    must(motus_system_set(s, "k", all, 4, &err), &err, "k");
+    assert_true(quantity(s, "K[3]") == 3);
+    motus_system_destroy(s);
+    const char *const set[] = {"k[3]=9", "k[4]=8", "q=10"};
+    s = given_text_with(text, set, 3, text);
+    assert_true(quantity(s, "K[2]") == 2 && quantity(s, "K[3]") == 9 && quantity(s, "K[4]") == 8);
+    motus_system_destroy(s);
+    const char *const family[] = {"k[i]=i for i = 1..4"};
+    s = given_text_with(text, family, 1, text);
+    assert_true(quantity(s, "K[3]") == 3);
+    motus_system_destroy(s);
+}
+
 static void rule_10_set(void **unused)
 {
     (void)unused;
@@ -921,6 +962,7 @@ int main(void)
         cmocka_unit_test(rule_8_lines),
         cmocka_unit_test(rule_9_shapes),
         cmocka_unit_test(rule_10_parameters_and_quantities),
+        cmocka_unit_test(rule_10_families_by_places),
         cmocka_unit_test(rule_10_set),
         cmocka_unit_test(rule_10_set_refused),
         cmocka_unit_test(rule_11_indices),

@@ -207,8 +207,12 @@ static void wrong_requests(void **state)
     def.size = 0;
     assert_int_equal(motus_reference_create(s, &def, &r, &e), MOTUS_ARGUMENT);
     motus_system_destroy(s);
-    s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\n");
-    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_ARGUMENT); /* no end */
+    s = given_text("x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\n"); /* no end: suggested, 50 */
+    must(motus_reference_create(s, NULL, &r, &e), &e, "no end");
+    const double end = 50, beyond = 50.1;
+    assert_int_equal(motus_reference_at(r, &end, 1, NULL, NULL, &e), MOTUS_OK);
+    assert_int_equal(motus_reference_at(r, &beyond, 1, NULL, NULL, &e), MOTUS_ARGUMENT);
+    motus_reference_destroy(r);
     motus_system_destroy(s);
     s = given_text("x'' = 2 x^3\nx(0) = 1\nx'(0) = 1\nstep 0.1\nuntil 2\n"); /* 1/(1 - t) */
     assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);

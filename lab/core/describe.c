@@ -1,6 +1,7 @@
 /* What a model is, and what methods there are, for the page. */
 #include "lab/core/core.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,6 +108,9 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     motus_system *s = l->system;
     motus_settings settings = motus_default_settings();
     motus_settings_of(s, &settings);
+    motus_settings found = settings;
+    const bool suggested = isnan(settings.step) || isnan(settings.until);
+    if (suggested) motus_suggest(s, &found, NULL); /* after a failure they stay unknown */
     json j = lab_answer(l);
     tell_variables(&j, s);
     tell_analysis(&j, s);
@@ -116,9 +120,10 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     describe_parameters(&j, s);
     json_open(&j, "settings", '{');
     json_string(&j, "method", method_of(&settings));
-    json_number(&j, "step", settings.step);
-    json_number(&j, "until", settings.until);
+    json_number(&j, "step", found.step);
+    json_number(&j, "until", found.until);
     json_number(&j, "start", settings.from);
+    json_bool(&j, "suggested", suggested);
     json_close(&j, '}');
     json_bool(&j, "has_exact", motus_has_exact(s));
     return lab_answered(l, &j);

@@ -1,7 +1,7 @@
 /* The hull of a state's indices, and its cells with an equation or a boundary line. See hull.h. */
 #include "lang/lower/hull.h"
 
-#include "lang/lower/lower.h"
+#include "lang/lower/lower_ghost.h"
 
 #include <string.h>
 
@@ -84,6 +84,7 @@ static bool mark_owners(model *m, model_state *s)
         if (!lower_target(&l, one, &o)) return false;
         lower_extent(m, &l, &o, first, last);
         if (!hull_mark(m, s, one, first, last, s->owner, one->kind == STATEMENT_EQUATION ? 1 : 2, true)) return false;
+        if (lower_is_ghost(m, one) && !lower_add_ghost(m, s, one, first, last)) return false;
     }
     size_t count = 0;
     bool gap = false;

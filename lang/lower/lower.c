@@ -1,5 +1,6 @@
 /* Expressions: operators, calls and sums to nodes. See lower.h. Chains of operators may be long and lean left, so a
  * loop walks them; the rest recurses, as deep as the parser has allowed. */
+#include "lang/lower/lower_ghost.h"
 #include "lang/lower/lower_parts.h"
 
 #include "lang/model/symbols.h"
@@ -211,40 +212,113 @@ static value lower_call(lowering *l, const tree *t)
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
 }
 
-/* sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the body. */
-static value lower_sum(lowering *l, const tree *t)
-{
-    lowering inner = *l;
+/* Restricts indices of a sum to a part of their ranges. */
+typedef struct sum_part {
+    bool cut[MAX_DIMS];
+    int64_t low[MAX_DIMS], high[MAX_DIMS];
+} sum_part;
+
+/* A sum whose indices are known to `inner`: its levels, from `first` on. */
+typedef struct sum_levels {
+    int first, count;
     range ranges[MAX_DIMS];
-    graph *g = l->model->graph;
+    uint32_t index[MAX_DIMS]; /* which of the sum's indices the level is: one that has a single value is no level */
+} sum_levels;
+
+static value lower_sum_part(lowering *l, const tree *t, const sum_part *part);
+
+/* A sum over ghost cells and others: the sum of the parts before and after a cut. */
+static value lower_sum_cut(const lowering *inner, const tree *t, const sum_part *whole, const sum_levels *s,
+                           const model_cut *cut, lowering *l)
+{
+    const range *of = &s->ranges[cut->level - s->first];
+    const uint32_t k = s->index[cut->level - s->first];
+    if (of->first.level >= 0 || of->last.level >= 0) {
+        COMPLAIN(l, t->loops[k].at, "the index %s reaches cells whose boundary line depends on a state",
+                 t->loops[k].name);
+        HINT(l, "its range cannot depend on another index then: write the sum without these cells");
+        return wrong(l);
+    }
+    sum_part before = *whole, after = *whole;
+    before.cut[k] = after.cut[k] = true;
+    before.low[k] = inner->low[cut->level];
+    before.high[k] = cut->at - 1;
+    after.low[k] = cut->at;
+    after.high[k] = inner->high[cut->level];
+    const value a = lower_sum_part(l, t, &before), b = failed(l) ? wrong(l) : lower_sum_part(l, t, &after);
+    if (failed(l)) return wrong(l);
+    value v = vector(l, a.count);
+    for (int i = 0; i < (v.count ? v.count : 1); i++) v.item[i] = binary(l, OP_ADD, a.item[i], b.item[i]);
+    return v;
+}
+
+/* Makes the indices of a sum known to `inner`. */
+static bool open_sum(lowering *l, const tree *t, const sum_part *part, lowering *inner, sum_levels *s)
+{
     if (l->levels + (int)t->loop_count > MAX_LEVELS) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at, "sums and families are nested more than %d deep",
                         MAX_LEVELS);
-        return wrong(l);
+        return false;
     }
     for (uint32_t k = 0; k < t->loop_count; k++) {
+        const subscript none = {.level = -1, .slot = -1, .modulus = -1};
         int64_t low, high;
-        if (!lower_range(&inner, &t->loops[k], &ranges[k], &low, &high) ||
-            !lower_add_index(&inner, &t->loops[k], inner.levels, low, high))
-            return wrong(l);
-        inner.levels++;
-        inner.terms *= high >= low ? (double)(high - low + 1) : 1;
+        range *r = &s->ranges[s->count];
+        if (!lower_range(inner, &t->loops[k], r, &low, &high)) return false;
+        if (part->cut[k]) {
+            *r = (range){none, none};
+            r->first.literal = (int32_t)(low = part->low[k]);
+            r->last.literal = (int32_t)(high = part->high[k]);
+        }
+        if (!lower_add_index(inner, &t->loops[k], inner->levels, low, high)) return false;
+        inner->terms *= high >= low ? (double)(high - low + 1) : 1;
+        if (part->cut[k] && low == high) {
+            index_name *n = &inner->names[inner->name_count - 1];
+            n->at = r->first;
+            n->number = graph_const(l->model->graph, (double)low);
+        } else {
+            s->index[s->count++] = k;
+            inner->levels++;
+        }
     }
-    if (inner.terms > MODEL_TERMS_MAX) {
+    if (inner->terms > MODEL_TERMS_MAX) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at,
-                        "%.3g terms are more than the %.0e that an evaluation may take", inner.terms, MODEL_TERMS_MAX);
-        return wrong(l);
+                        "%.3g terms are more than the %.0e that an evaluation may take", inner->terms, MODEL_TERMS_MAX);
+        return false;
     }
-    if (l->place == PLACE_CONSTANT && (l->model->constant_terms += inner.terms) > MODEL_CONSTANT_TERMS_MAX) {
+    if (l->place == PLACE_CONSTANT && (l->model->constant_terms += inner->terms) > MODEL_CONSTANT_TERMS_MAX) {
         source_complain(&l->model->source, MOTUS_LIMIT, t->at,
                         "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
-        return wrong(l);
+        return false;
     }
-    if (l->place != PLACE_CONSTANT) l->model->terms = fmax(l->model->terms, inner.terms);
+    if (l->place != PLACE_CONSTANT) l->model->terms = fmax(l->model->terms, inner->terms);
+    return true;
+}
+
+/* The sum of a body, whose indices have been opened, over its levels. */
+static node lower_sum_over(lowering *l, const sum_levels *s, bool masked, node mask, node n)
+{
+    graph *g = l->model->graph;
+    if (s->count == 0) return masked ? graph_op(g, OP_SELECT, mask, n, 0) : n;
+    for (int i = s->count - 1; i >= 0; i--)
+        n = graph_sum(g, s->first + i, &s->ranges[i], i == s->count - 1 ? mask : 0, n);
+    return n;
+}
+
+/* sum(j = a..b, condition, …: body) [12]: each index is a loop; the innermost contains the conditions and the body. */
+static value lower_sum(lowering *l, const tree *t) { return lower_sum_part(l, t, &(sum_part){{false}, {0}, {0}}); }
+
+static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
+{
+    lowering inner = *l;
+    sum_levels s = {.first = l->levels};
+    if (!open_sum(l, t, part, &inner, &s)) return wrong(l);
     node mask = 0;
     bool masked = false, never = false; /* never: a condition is the constant false, so the sum is empty */
+    model_cut cut;
     for (uint32_t i = 0; i + 1 < t->count; i++) {
         value c = lower_expression(&inner, t->item[i]);
+        if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
         if (failed(l)) return wrong(l);
         if (!c.boolean) {
             COMPLAIN(l, t->item[i]->at, "a condition is expected here, such as j != i");
@@ -255,18 +329,11 @@ static value lower_sum(lowering *l, const tree *t)
         never |= mask == 0;
     }
     value body = lower_expression(&inner, t->item[t->count - 1]);
+    if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
     if (!want_number(l, body, t->item[t->count - 1])) return wrong(l);
     value v = vector(l, body.count);
-    for (int k = 0; k < (v.count ? v.count : 1); k++) {
-        node n = body.item[k];
-        if (never) {
-            v.item[k] = 0;
-            continue;
-        }
-        for (int i = (int)t->loop_count - 1; i >= 0; i--)
-            n = graph_sum(g, l->levels + i, &ranges[i], i == (int)t->loop_count - 1 ? mask : 0, n);
-        v.item[k] = n;
-    }
+    for (int k = 0; k < (v.count ? v.count : 1); k++)
+        v.item[k] = never ? 0 : lower_sum_over(l, &s, masked, mask, body.item[k]);
     return v;
 }
 

@@ -47,6 +47,7 @@ typedef struct lowering {
     int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* the range of each level */
     double terms; /* the number of evaluations of the expression in one evaluation of the model */
     int chain;
+    bool by_variable; /* the variable of a diff is lowered */
 } lowering;
 
 void lower_start(lowering *, model *, lower_place, const char *what);

@@ -18,6 +18,33 @@ static bool never_equal(const subscript *a, const subscript *b)
     return a->level == b->level && a->slot == b->slot && a->modulus < 0 && b->modulus < 0 && a->literal != b->literal;
 }
 
+typedef enum within { WITHIN_NEVER, WITHIN_SOME, WITHIN_ALL } within;
+
+/* Whether the values of a subscript lie in [first, last]. In a model that is divided where families read ghost cells
+ * (lower_ghost.c), the index is divided here as well, so that none does for some values alone. */
+static within values_within(lowering *l, const subscript *s, int64_t first, int64_t last)
+{
+    const model *m = l->model;
+    if (s->level >= l->levels) return WITHIN_SOME; /* of a sum inside the expression */
+    const int64_t shift = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
+    const int64_t low = shift + (s->level >= 0 ? l->low[s->level] : 0);
+    const int64_t high = shift + (s->level >= 0 ? l->high[s->level] : 0);
+    if (low >= first && high <= last) return WITHIN_ALL;
+    if (!m->divided || s->modulus >= 0) return WITHIN_SOME;
+    if (high < first || low > last) return WITHIN_NEVER;
+    l->model->cut = (model_cut){true, s->level, (low < first ? first : last + 1) - shift};
+    return WITHIN_SOME;
+}
+
+/* Whether one subscript is a number that the other is not, or that all of its values are. */
+static within constant_within(lowering *l, const subscript *a, const subscript *b)
+{
+    const subscript *number = a->level < 0 ? a : b, *other = a->level < 0 ? b : a;
+    if (number->level >= 0 || number->modulus >= 0 || !l->model->divided) return WITHIN_SOME;
+    const int64_t is = number->literal + (number->slot >= 0 ? l->model->ints[number->slot] : 0);
+    return values_within(l, other, is, is);
+}
+
 /* Of one cell of an array by another: whether all indices are the same. */
 static node same_cell(lowering *l, const reference *a, const reference *b)
 {
@@ -27,6 +54,9 @@ static node same_cell(lowering *l, const reference *a, const reference *b)
     for (int d = 0; d < a->dims; d++) {
         if (equal_subscripts(&a->at[d], &b->at[d])) continue;
         if (never_equal(&a->at[d], &b->at[d])) return 0;
+        const within constant = constant_within(l, &a->at[d], &b->at[d]);
+        if (constant == WITHIN_NEVER) return 0;
+        if (constant == WITHIN_ALL) continue;
         const node i = lower_subscript_number(l, &a->at[d]), j = lower_subscript_number(l, &b->at[d]);
         const node here = binary(l, OP_EQ, i, j);
         same = any ? binary(l, OP_AND, same, here) : here;
@@ -70,8 +100,8 @@ node lower_cell(differential *d, const reference *of)
 }
 
 /* In a sum over j the derivative of x[j + c] by x[i] counts for j = i - c alone, so the sum is one term: *at is i - c.
- * False: it is not known that the sum has that term for every i. */
-static bool one_term(const differential *d, const graph_node *sum, const reference *of, subscript *at)
+ * WITHIN_SOME: it is not known that the sum has that term for every i, or for none. */
+static within one_term(const differential *d, const graph_node *sum, const reference *of, subscript *at)
 {
     const model *m = d->l->model;
     const graph *g = m->graph;
@@ -82,19 +112,17 @@ static bool one_term(const differential *d, const graph_node *sum, const referen
         if (of->at[k].level == (int8_t)sum->level && e < 0)
             e = k;
         else if (!equal_subscripts(&of->at[k], &by->at[k]))
-            return false;
+            return WITHIN_SOME;
     }
-    if (e < 0 || r->first.level >= 0 || r->last.level >= 0) return false;
+    if (e < 0 || r->first.level >= 0 || r->last.level >= 0) return WITHIN_SOME;
     const subscript *j = &of->at[e];
     *at = by->at[e];
-    if (j->modulus >= 0 || at->modulus >= 0 || (j->slot >= 0 && j->slot != at->slot)) return false;
+    if (j->modulus >= 0 || at->modulus >= 0 || (j->slot >= 0 && j->slot != at->slot)) return WITHIN_SOME;
     if (j->slot >= 0) at->slot = -1;
     at->literal -= j->literal;
-    const int64_t shift = at->literal + (at->slot >= 0 ? m->ints[at->slot] : 0);
     const int64_t first = r->first.literal + (r->first.slot >= 0 ? m->ints[r->first.slot] : 0);
     const int64_t last = r->last.literal + (r->last.slot >= 0 ? m->ints[r->last.slot] : 0);
-    const int64_t low = at->level >= 0 ? d->l->low[at->level] : 0, high = at->level >= 0 ? d->l->high[at->level] : 0;
-    return low + shift >= first && high + shift <= last;
+    return values_within(d->l, at, first, last);
 }
 
 /* The cell that a node is the leaf of; NULL: none. */
@@ -158,7 +186,9 @@ static bool term_of_cell(differential *d, const graph_node *sum, node body, cons
     graph *g = d->l->model->graph;
     moved_index to = {.l = d->l, .level = sum->level};
     const unsigned deps = 1u << sum->level;
-    if (!one_term(d, sum, &c->of, &to.to)) return false;
+    const within term = one_term(d, sum, &c->of, &to.to);
+    *out = 0;
+    if (term != WITHIN_ALL) return term == WITHIN_NEVER;
     const node chosen = graph_replace(g, body, DEP_D, sum->level + 1, choose, &(chosen_cell){d, c->leaf});
     *out = graph_replace(g, chosen, deps, sum->level, moved, &to);
     if (sum->b) {

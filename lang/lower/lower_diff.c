@@ -161,7 +161,9 @@ value lower_diff(lowering *l, const tree *call)
         return wrong(l);
     }
     if (lower_find_index(l, name->name) || !strcmp(name->name, "pi")) return no_variable(l, by);
-    const value variable = lower_expression(l, by);
+    lowering only = *l;
+    only.by_variable = true;
+    const value variable = lower_expression(&only, by);
     const value of = failed(l) ? wrong(l) : lower_expression(l, call->item[0]);
     return failed(l) ? wrong(l) : derivative(l, call, of, variable);
 }

@@ -3,6 +3,7 @@
 #include "lang/lower/lower_parts.h"
 
 #include "lang/lower/hull.h"
+#include "lang/lower/lower_ghost.h"
 #include "lang/lower/resolve.h"
 #include "lang/lower/start.h"
 #include "lang/model/evaluate.h"
@@ -139,6 +140,8 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     }
     if (!select && (!subscripts(l, t, s->dims, &r, low, high) || (s->dims > 0 && !covered(l, s, t, low, high))))
         return wrong(l);
+    value ghost;
+    if (!select && s->ghosts && lower_ghost(l, t, s, &r, low, high, &ghost)) return ghost;
     /* A first-order variable and its rate are in V and A; a position, its velocity and acceleration in X, V and A. */
     int block = t->primes + (s->order == 1 ? BLOCK_V : BLOCK_X);
     value v = load(l, (uint16_t)(l->model->block[block] + s->array), s->components, &r);

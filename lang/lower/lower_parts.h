@@ -9,7 +9,12 @@
 #define COMPLAIN(l, at, ...) (source_complain(&(l)->model->source, MOTUS_SHAPE, (at), __VA_ARGS__))
 #define HINT(l, ...) (source_hint(&(l)->model->source, __VA_ARGS__))
 
-static inline bool failed(const lowering *l) { return source_failed(&l->model->source) || l->model->graph->too_large; }
+/* Also where what is lowered must be divided first: lower_ghost.c. */
+static inline bool failed(const lowering *l)
+{
+    const model *m = l->model;
+    return source_failed(&m->source) || m->graph->too_large || m->cut.wanted;
+}
 
 static inline const char *quote(const lowering *l, span at, char out[80])
 {

@@ -7,6 +7,7 @@
 #include "lang/model/vary_record.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static bool failed(const model *m) { return source_failed(&m->source); }
@@ -94,30 +95,159 @@ static bool resolve_list(model *m, model_definition *d)
     return true;
 }
 
-static bool resolve_family(model *m, model_definition *d)
+/* The lines of a family. Of lines about the same place that with fewer indices holds, and one that is set before all. */
+enum { RANK_CELL = MAX_DIMS + 1, RANK_SET };
+#define EACH_LINE(m, d, one) \
+    for (const statement *one = (d)->statement; one; one = one->next ? &(m)->statements.item[one->next - 1] : NULL)
+
+static int rank_of(const statement *line, const output *o)
+{
+    return o->loops ? 1 + o->to.dims - o->loops : line->at.text > 0 ? RANK_SET : RANK_CELL;
+}
+
+static bool open_line(model *m, const model_definition *d, const statement *line, lowering *l, output *o)
+{
+    *o = (output){0};
+    lower_start(l, m, d->kind == DEFINED_PARAMETER ? PLACE_CONSTANT : PLACE_QUANTITY, "a parameter");
+    return lower_target(l, line, o);
+}
+
+/* The places of all lines. */
+static bool family_extent(model *m, model_definition *d)
+{
+    EACH_LINE(m, d, line)
+    {
+        lowering l;
+        output o;
+        int64_t first[MAX_DIMS], last[MAX_DIMS];
+        if (!open_line(m, d, line, &l, &o)) return false;
+        if (line == d->statement && !line->next && (o.loops == 0 || o.loops != o.to.dims)) {
+            source_complain(&m->source, MOTUS_SHAPE, line->at, "%s[…] needs an index that runs", d->name);
+            source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
+            return false;
+        }
+        lower_extent(m, &l, &o, first, last);
+        d->dims = o.to.dims;
+        for (int k = 0; k < d->dims; k++) {
+            if (line == d->statement || first[k] < d->first[k]) d->first[k] = first[k];
+            if (line == d->statement || last[k] > d->last[k]) d->last[k] = last[k];
+        }
+    }
+    return true;
+}
+
+static bool name_place(model *m, const model_definition *d, span where, size_t place, const char *what)
+{
+    char index[80] = "";
+    int64_t at[MAX_DIMS];
+    for (int k = d->dims - 1; k >= 0; k--) {
+        const size_t length = (size_t)(d->last[k] - d->first[k] + 1);
+        at[k] = d->first[k] + (int64_t)(place % length);
+        place /= length;
+    }
+    for (int k = 0, n = 0; k < d->dims && n < (int)sizeof index; k++)
+        n += snprintf(index + n, sizeof index - (size_t)n, "%s%lld", k ? "," : "", (long long)at[k]);
+    source_complain(&m->source, MOTUS_NAME, where, "%s[%s] %s", d->name, index, what);
+    return false;
+}
+
+/* Marks the places of a line in the map, which holds the highest rank. */
+static bool mark_line(model *m, const model_definition *d, const statement *line, uint8_t *map)
 {
     lowering l;
-    output o = {0};
-    lower_start(&l, m, d->kind == DEFINED_PARAMETER ? PLACE_CONSTANT : PLACE_QUANTITY, "a parameter");
-    if (!lower_target(&l, d->statement, &o)) return false;
-    if (o.loops == 0 || o.loops != o.to.dims) {
-        source_complain(&m->source, MOTUS_SHAPE, d->statement->at, "%s[…] needs an index that runs", d->name);
-        source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
+    output o;
+    int64_t first[MAX_DIMS], last[MAX_DIMS], at[MAX_DIMS];
+    if (!open_line(m, d, line, &l, &o)) return false;
+    lower_extent(m, &l, &o, first, last);
+    const uint8_t rank = (uint8_t)rank_of(line, &o);
+    memcpy(at, first, sizeof at);
+    for (;;) {
+        size_t place = 0;
+        for (int k = 0; k < d->dims; k++)
+            place = place * (size_t)(d->last[k] - d->first[k] + 1) + (size_t)(at[k] - d->first[k]);
+        if (map[place] == rank) return name_place(m, d, line->at, place, "is defined twice");
+        if (map[place] < rank) map[place] = rank;
+        int k = d->dims - 1;
+        while (k >= 0 && ++at[k] > last[k]) {
+            at[k] = first[k];
+            k--;
+        }
+        if (k < 0) return true;
+    }
+}
+
+static bool family_map(model *m, const model_definition *d, size_t hull, uint8_t **map)
+{
+    *map = NULL;
+    if (!d->statement->next) return true;
+    *map = arena_take(m->arena, hull);
+    if (m->arena->failed) return false;
+    EACH_LINE(m, d, line) if (!mark_line(m, d, line, *map)) return false;
+    for (size_t k = 0; k < hull; k++)
+        if (!(*map)[k]) return name_place(m, d, d->statement->at, k, "has no line, but places around it do");
+    return true;
+}
+
+/* Lines of one rank, into the places of the family. */
+static bool family_lines(model *m, model_definition *d, int rank, const uint8_t *map, size_t hull)
+{
+    EACH_LINE(m, d, line)
+    {
+        lowering l;
+        output o;
+        int64_t first[MAX_DIMS], last[MAX_DIMS];
+        if (!open_line(m, d, line, &l, &o)) return false;
+        if (rank_of(line, &o) != rank) continue;
+        lower_extent(m, &l, &o, first, last);
+        size_t place = 0;
+        for (int k = 0; k < d->dims; k++)
+            place = place * (size_t)(d->last[k] - d->first[k] + 1) + (size_t)(first[k] - d->first[k]);
+        if (rank == RANK_CELL && map[place] == RANK_SET) continue;
+        value v = lower_expression(&l, line->value);
+        if (failed(m)) return false;
+        if (v.boolean || v.count != d->components) {
+            source_complain(&m->source, MOTUS_SHAPE, line->value->at,
+                            "the lines of %s are all numbers, or all vectors of one length", d->name);
+            return false;
+        }
+        const int parts = v.count ? v.count : 1;
+        const size_t base = m->arrays[d->array].base;
+        if (!evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) ||
+            !vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, map, (uint8_t)rank,
+                         &d->log_array))
+            return false;
+    }
+    return true;
+}
+
+static bool resolve_family(model *m, model_definition *d)
+{
+    if (!family_extent(m, d)) return false;
+    const statement *s = d->statement;
+    if (d->kind != DEFINED_PARAMETER && s->next) {
+        const statement *other = &m->statements.item[s->next - 1];
+        source_complain(&m->source, MOTUS_NAME, other->name_at, "%s is defined twice; the first time in line %d",
+                        d->name, source_line(&m->source, s->at));
+        source_hint(&m->source,
+                    "it depends on a state or on time: a quantity has one line; choose by if(i == 3, …, …)");
         return false;
     }
-    lower_extent(m, &l, &o, d->first, d->last);
-    d->dims = o.to.dims;
     if (d->kind != DEFINED_PARAMETER) return true; /* each use lowers its expression (lower_name.c) */
-    value v = lower_expression(&l, d->statement->value);
+    lowering l;
+    output o;
+    if (!open_line(m, d, s, &l, &o)) return false;
+    value v = lower_expression(&l, s->value);
     if (failed(m)) return false;
     int parts = v.count ? v.count : 1;
     d->list = true;
     d->components = v.count;
     array probe;
     size_t hull = graph_shape(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
-    if (hull * (size_t)parts > MODEL_LIST_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "%zu numbers are more than the %d that fit",
-                        hull * (size_t)parts, MODEL_LIST_MAX);
+    double numbers = parts;
+    for (int k = 0; k < d->dims; k++) numbers *= (double)(d->last[k] - d->first[k] + 1);
+    if (numbers > MODEL_LIST_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, s->at, "%.0f numbers are more than the %d that fit", numbers,
+                        MODEL_LIST_MAX);
         return false;
     }
     uint16_t at;
@@ -125,9 +255,14 @@ static bool resolve_family(model *m, model_definition *d)
     d->array = at;
     for (int k = 0; k < parts; k++)
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
-    return evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) &&
-           finite_values(m, d, m->pool + base, hull * (size_t)parts) &&
-           vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, NULL, 0, &d->log_array);
+    uint8_t *map;
+    if (!family_map(m, d, hull, &map)) return false;
+    if (!map && (!evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) ||
+                 !vary_record(m, &o, v.item, parts, base, d->dims, d->first, d->last, hull, NULL, 0, &d->log_array)))
+        return false;
+    for (int rank = 1; map && rank <= RANK_SET; rank++)
+        if (!family_lines(m, d, rank, map, hull)) return false;
+    return finite_values(m, d, m->pool + base, hull * (size_t)parts);
 }
 
 static bool circle(model *m, const model_definition *d)

@@ -29,6 +29,21 @@ typedef struct model_cells { /* the cells of a family that have an equation, in 
     uint32_t *offset; /* place within the hull; NULL: 0 … count-1 */
 } model_cells;
 
+/* A boundary line that depends on a state: lower_ghost.c. */
+typedef struct model_ghost {
+    const statement *line;
+    int64_t first[MAX_DIMS], last[MAX_DIMS]; /* its cells */
+    bool expanding;                          /* its right side is being lowered */
+    struct model_ghost *next;
+} model_ghost;
+
+/* A family must be divided before the index `at` of a level. */
+typedef struct model_cut {
+    bool wanted;
+    int level;
+    int64_t at;
+} model_cut;
+
 typedef struct model_state {
     const char *name;
     span at;
@@ -40,6 +55,7 @@ typedef struct model_state {
     size_t hull;                                   /* cells in the hull */
     model_cells cells;
     uint8_t *owner;           /* per hull cell: 0 none, 1 equation, 2 boundary; NULL for a scalar */
+    model_ghost *ghosts;      /* boundary lines that depend on a state; NULL: none */
     size_t base;              /* of component 0 in x (order 2) and v */
     uint16_t array;           /* number within a block of state arrays, component 0 */
     uint16_t start_array[2];  /* POOL arrays of x(0) and x'(0), component 0 */
@@ -75,9 +91,11 @@ typedef struct model_definition {
     const char *name;
     const statement *statement;
     definition_kind kind;
-    uint8_t progress; /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    int components;   /* 0: scalar */
-    bool list;        /* list or family: an array over indices */
+    uint8_t progress;   /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
+    uint32_t last_line; /* 1 + number of its last line: a family may have several, each naming the next */
+    int components;     /* 0: scalar */
+    uint8_t reads;      /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
+    bool list;          /* list or family: an array over indices */
     int dims;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     uint16_t log_array;   /* vary_record.h: 1 + its array over the pool, 0 none */
@@ -94,6 +112,7 @@ typedef struct model_function {
     const char *name;
     const statement *statement;
     uint8_t progress;       /* of classifying: 0 not yet, 1 now (needed now, it calls itself), 2 done */
+    uint8_t reads;          /* lower_ghost.c: 0 unknown, 1 its body reads no state, 2 it does */
     bool moves;             /* its body uses a state or t, besides its arguments */
     struct expansion *last; /* lower_function.c: the last call; NULL: none */
 } model_function;
@@ -124,6 +143,8 @@ typedef struct model {
     int depth;             /* present depth of expressions within expressions */
     int start_depth;       /* present depth of initial values that use one another */
     uint64_t lowered;      /* trees lowered so far, which bounds the cost of quantities of quantities */
+    model_cut cut;         /* lower_ghost.c: what is lowered just now must be divided */
+    bool divided;          /* something was */
     model_state *states;
     uint32_t state_count;
     model_definition *definitions;

@@ -53,7 +53,8 @@ static bool definition_moves(model *m, model_definition *d, span at, const reade
     if (!within_chain(m, at, by)) return false;
     d->progress = 1;
     bool own = false;
-    if (!moves(m, d->statement->value, &(reader){d->name, NULL, by, by ? by->chain + 1 : 1}, &own)) return false;
+    for (const statement *s = d->statement; s; s = s->next ? &m->statements.item[s->next - 1] : NULL)
+        if (!moves(m, s->value, &(reader){d->name, NULL, by, by ? by->chain + 1 : 1}, &own)) return false;
     d->progress = 0;
     if (d->kind == DEFINED_UNKNOWN)
         d->kind = own ? DEFINED_QUANTITY : DEFINED_PARAMETER;

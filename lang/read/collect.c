@@ -39,6 +39,7 @@ static bool add_state(model *m, const statement *s)
 
 static bool add_definition(model *m, const statement *s)
 {
+    const uint32_t number = 1 + (uint32_t)(s - m->statements.item);
     symbol known = symbols_find(m, s->name);
     if (known.state) {
         if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION) return true; /* a boundary line */
@@ -48,12 +49,20 @@ static bool add_definition(model *m, const statement *s)
         return false;
     }
     if (known.definition) {
-        twice(m, s, known.definition->statement->name_at);
+        const statement *first = known.definition->statement;
+        const bool families = s->kind == STATEMENT_DEFINITION && first->kind == STATEMENT_DEFINITION;
+        if (families && s->index_count > 0 && s->index_count == first->index_count) { /* k[3] = 2 beside k[i] = 1 */
+            m->statements.item[known.definition->last_line - 1].next = number;
+            known.definition->last_line = number;
+            return true;
+        }
+        twice(m, s, first->name_at);
         return false;
     }
     model_definition *d = &m->definitions[m->definition_count++];
     *d = (model_definition){.name = s->name,
                             .statement = s,
+                            .last_line = number,
                             .dims = (int)s->index_count,
                             .kind = s->kind == STATEMENT_INVARIANT ? DEFINED_INVARIANT : DEFINED_UNKNOWN};
     symbols_enter(m, s->name, (symbol){.definition = d});
@@ -170,14 +179,18 @@ static bool replace(model *m, uint32_t text)
             source_hint(s, "its initial values can: %s%s(0) = …", one->name, one->index_count ? "[…]" : "");
             return false;
         }
-    uint32_t found = 0, kept = 0;
+    /* x[3](0) = … and k[3] = … are additional lines */
+    const bool cell = one->kind == STATEMENT_DEFINITION && one->index_count > 0 && one->loop_count == 0;
+    uint32_t found = 0, kept = 0, families = 0;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         statement *old = &m->statements.item[i];
         bool same = old->kind == one->kind && !strcmp(old->name, one->name);
-        if (one->kind == STATEMENT_START) /* x[3](0) is an additional line, before the model's */
+        if (one->kind == STATEMENT_START)
             same = same && old->primes == one->primes && one->index_count == 0;
         else
             same = same && old->index_count == one->index_count;
+        families += same && cell;
+        same = same && !cell;
         if (same && found++) continue; /* it replaces the first and removes the others */
         if (same) {
             tree *replaced = old->replaced ? old->replaced : old->value;
@@ -190,7 +203,7 @@ static bool replace(model *m, uint32_t text)
     }
     m->statements.count = kept;
     if (found) return true;
-    if (one->kind == STATEMENT_START) {
+    if (one->kind == STATEMENT_START || families) {
         statement *item = arena_grow(m->arena, m->statements.item, m->statements.count * sizeof *item,
                                      (m->statements.count + 1) * sizeof *item);
         if (!item) return false;

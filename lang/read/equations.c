@@ -2,7 +2,7 @@
 #include "lang/read/read_steps.h"
 
 #include "lang/lower/hull.h"
-#include "lang/lower/lower.h"
+#include "lang/lower/lower_ghost.h"
 #include "lang/model/evaluate.h"
 #include "lang/model/symbols.h"
 
@@ -11,13 +11,13 @@
 
 typedef struct outputs {
     output **item;
-    size_t *count, room;
+    size_t *count, room, least; /* least: what there is room for at first */
 } outputs;
 
 static bool add(model *m, outputs *o, const output *one)
 {
     if (*o->count == o->room) {
-        size_t room = o->room ? 2 * o->room : 16;
+        size_t room = o->room ? 2 * o->room : o->least;
         output *more = arena_grow(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
         if (!more) return false;
         *o->item = more;
@@ -27,31 +27,23 @@ static bool add(model *m, outputs *o, const output *one)
     return true;
 }
 
-static bool same_shape(model *m, const statement *s, const model_state *state, value v, const char *what)
-{
-    if (!v.boolean && v.count == state->components) return true;
-    char is[48] = "a condition", due[48] = "a number";
-    if (!v.boolean) snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
-    if (state->components) snprintf(due, sizeof due, "a vector of length %d", state->components);
-    source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
-                    state->name, due);
-    if (v.count) source_hint(&m->source, "write %s(%g) = (…) for a vector", state->name, m->start);
-    return false;
-}
+static bool divide(model *m, const statement *s, const model_state *state, const lowering *of, const output *o,
+                   const model_cut *cut, outputs *into);
 
-static bool equation(model *m, const statement *s, outputs *into)
+/* The part of an equation, or of a boundary line that depends on a state, that the ranges of its indices leave. into:
+ * NULL: it is only checked. */
+static bool part(model *m, const statement *s, const model_state *state, const lowering *of, output o, outputs *into)
 {
-    const model_state *state = symbols_find(m, s->name).state;
-    lowering l;
-    output o = {0};
-    lower_start(&l, m, PLACE_EQUATION, "an equation");
-    if (!lower_target(&l, s, &o)) return false;
+    lowering l = *of;
+    model_cut cut;
     value v = lower_expression(&l, s->value);
+    if (lower_cut(m, 0, o.loops, &cut)) return divide(m, s, state, of, &o, &cut, into);
     if (m->graph->too_large)
         source_complain(&m->source, MOTUS_LIMIT, s->at,
                         "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
-    if (source_failed(&m->source) || !same_shape(m, s, state, v, "the right side")) return false;
-    for (int k = 0; k < (v.count ? v.count : 1); k++) {
+    if (source_failed(&m->source) || !lower_fits(m, s, state, v, into ? "the right side" : "a boundary line"))
+        return false;
+    for (int k = 0; into && k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];
         if (graph_deps(m->graph, o.value) & DEP_A) {
             source_complain(&m->source, MOTUS_SHAPE, s->value->at,
@@ -65,6 +57,29 @@ static bool equation(model *m, const statement *s, outputs *into)
     return true;
 }
 
+/* Some of its cells read cells whose boundary line depends on a state: the parts before and after the cut. */
+static bool divide(model *m, const statement *s, const model_state *state, const lowering *of, const output *o,
+                   const model_cut *cut, outputs *into)
+{
+    for (int after = 0; after < 2; after++) {
+        lowering l = *of;
+        output one = *o;
+        lower_narrow(&l, &one, cut->level, after ? cut->at : of->low[cut->level],
+                     after ? of->high[cut->level] : cut->at - 1);
+        if (!part(m, s, state, &l, one, into)) return false;
+    }
+    return true;
+}
+
+static bool equation(model *m, const statement *s, outputs *into)
+{
+    const model_state *state = symbols_find(m, s->name).state;
+    lowering l;
+    output o = {0};
+    lower_start(&l, m, PLACE_EQUATION, into ? "an equation" : "a boundary line");
+    return lower_target(&l, s, &o) && part(m, s, state, &l, o, into);
+}
+
 /* A motion that is given as a function of time: its value goes into x (of a first-order variable into v), its
  * derivative into v. */
 static bool given_motion(model *m, const statement *s, lower_place place, const char *what, outputs *into, bool *timed)
@@ -76,7 +91,7 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     if ((int)s->index_count != state->dims) { return hull_indices_wrong(m, state, s->at); }
     if (!lower_target(&l, s, &o)) return false;
     value v = lower_expression(&l, s->value);
-    if (source_failed(&m->source) || !same_shape(m, s, state, v, what)) return false;
+    if (source_failed(&m->source) || !lower_fits(m, s, state, v, what)) return false;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         *timed |= (graph_deps(m->graph, v.item[k]) & DEP_TIME) != 0;
         o.value = v.item[k];
@@ -85,6 +100,37 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
         if (state->order == 1) continue;
         o.value = graph_derivative(m->graph, v.item[k], graph_seed_time, NULL);
         o.to.array = (uint16_t)(m->block[BLOCK_V] + state->array + k);
+        if (!add(m, into, &o)) return false;
+    }
+    return true;
+}
+
+/* The values of a quantity, one output for each component of each part; their arrays follow when the shape is known. */
+static bool values(model *m, const model_definition *d, const lowering *of, output o, outputs *into, int *components)
+{
+    const statement *s = d->statement;
+    lowering l = *of;
+    model_cut cut;
+    value v = lower_expression(&l, s->value);
+    if (lower_cut(m, 0, o.loops, &cut)) {
+        for (int after = 0; after < 2; after++) {
+            output one = o;
+            l = *of;
+            lower_narrow(&l, &one, cut.level, after ? cut.at : of->low[cut.level],
+                         after ? of->high[cut.level] : cut.at - 1);
+            if (!values(m, d, &l, one, into, components)) return false;
+        }
+        return true;
+    }
+    if (source_failed(&m->source)) return false;
+    if (v.boolean) {
+        source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is a condition, not a number", d->name);
+        source_hint(&m->source, "write if(condition, 1, 0)");
+        return false;
+    }
+    *components = v.count;
+    for (int k = 0; k < (v.count ? v.count : 1); k++) {
+        o.value = v.item[k];
         if (!add(m, into, &o)) return false;
     }
     return true;
@@ -101,17 +147,11 @@ static bool looked_at(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_SHAPE, s->at, "%s[…] needs an index that runs", d->name);
         return false;
     }
+    outputs into = {&d->outputs, &d->output_count, 0, 1};
     d->progress = 1; /* needed now, it depends on itself */
-    value v = lower_expression(&l, s->value);
-    if (source_failed(&m->source)) return false;
+    if (!values(m, d, &l, o, &into, &d->components)) return false;
     d->progress = 2;
-    if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is a condition, not a number", d->name);
-        source_hint(&m->source, "write if(condition, 1, 0)");
-        return false;
-    }
-    int parts = v.count ? v.count : 1;
-    d->components = v.count;
+    const int parts = d->components ? d->components : 1;
     d->dims = o.loops;
     size_t hull = 1;
     array shape = {.space = SPACE_OUT, .dims = o.loops};
@@ -127,16 +167,12 @@ static bool looked_at(model *m, model_definition *d)
                         d->numbers, MODEL_NUMBERS_MAX);
         return false;
     }
-    d->outputs = arena_room(m->arena, (size_t)parts * sizeof *d->outputs);
-    if (!d->outputs || !model_take_arrays(m, parts, &d->array)) return false;
+    if (!model_take_arrays(m, parts, &d->array)) return false;
     for (int k = 0; k < parts; k++) {
         shape.base = hull * (size_t)k;
         m->arrays[d->array + k] = shape;
-        d->outputs[k] = o;
-        d->outputs[k].value = v.item[k];
-        d->outputs[k].to.array = (uint16_t)(d->array + k);
     }
-    d->output_count = (size_t)parts;
+    for (size_t k = 0; k < d->output_count; k++) d->outputs[k].to.array = (uint16_t)(d->array + k % (size_t)parts);
     return true;
 }
 
@@ -174,8 +210,8 @@ static bool exact_complete(model *m)
 
 bool equations_all(model *m)
 {
-    outputs accel = {&m->accel, &m->accel_count, 0}, boundary = {&m->boundary, &m->boundary_count, 0},
-            exact = {&m->exact, &m->exact_count, 0};
+    outputs accel = {&m->accel, &m->accel_count, 0, 16}, boundary = {&m->boundary, &m->boundary_count, 0, 16},
+            exact = {&m->exact, &m->exact_count, 0, 16};
     bool timed = false;
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *s = &m->statements.item[i];
@@ -183,7 +219,8 @@ bool equations_all(model *m)
         if (s->kind == STATEMENT_EQUATION)
             ok = equation(m, s, &accel);
         else if (s->kind == STATEMENT_DEFINITION && s->index_count > 0 && symbols_find(m, s->name).state)
-            ok = given_motion(m, s, PLACE_BOUNDARY, "a boundary line", &boundary, &m->driven);
+            ok = lower_is_ghost(m, s) ? equation(m, s, NULL)
+                                      : given_motion(m, s, PLACE_BOUNDARY, "a boundary line", &boundary, &m->driven);
         else if (s->kind == STATEMENT_EXACT)
             ok = given_motion(m, s, PLACE_EXACT, "an exact motion", &exact, &timed);
         if (!ok) return false;

@@ -79,7 +79,7 @@ typedef struct statement {
     tree *replaced;   /* by --set: the model's expression that it replaces, */
     span stood;       /*   and the place of that statement */
     uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    uint32_t next;    /* 1 + number of the next line about the same state; 0: none */
+    uint32_t next;    /* 1 + number of the next line about the same state or family; 0: none */
 } statement;
 
 typedef struct statements {

@@ -1,0 +1,345 @@
+/* The step and the end of a model that gives none: motus_suggest.
+ *
+ * Two scales of time decide: the fastest rate and the longest period at the start. They come from the equations
+ * linearised there (rate.h), from how fast the state changes, and from samples of the force in time; where the force is
+ * constant, from the initial values. Invariant: the same system gives the same numbers on every machine, and nothing
+ * about the system changes.
+ */
+#include "api/suggest.h"
+
+#include "api/choice.h"
+#include "api/rate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TWO_PI 6.283185307179586
+#define PERIODS 10.0           /* of the longest one, up to the end */
+#define STEPS_A_PERIOD 80.0    /* at least, in the shortest one */
+#define STEPS_LEAST 100.0      /* up to the end */
+#define STEPS_MOST 1e6         /* up to the end; of large systems fewer, */
+#define NUMBERS_MOST 1e9       /*   so that steps times numbers stay below this, */
+#define STEPS_ALWAYS 1000.0    /*   but never fewer than these */
+#define NOISE_EXACT 1e-6       /* slower than this part of the fastest rate: rounding, with exact derivatives, */
+#define NOISE_QUOTIENT 1e-4    /*   and with difference quotients */
+#define ROUNDING_EXACT 1e-13   /* of a product with the Jacobian matrix, relative to it, */
+#define ROUNDING_QUOTIENT 1e-8 /*   and with difference quotients */
+#define OFFSET 1e-5            /* of difference quotients, in units of the size */
+#define DECAY 0.05             /* an eigenvalue is real if its imaginary part is less than this part of it */
+
+typedef struct scales {
+    motus_system *system;
+    const problem *problem;
+    double t, way; /* way: 1, or -1 where the run goes backward */
+    double *x, *v; /* the start, and room to move away from it */
+    double *moved_x, *moved_v;
+    double *a, *other, *dx, *dv;
+    double size_x, size_v, size_a, size_moving; /* size_moving: of the velocities of positions */
+    bool failed;                                /* a callback */
+    double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
+} scales;
+
+static double largest(const double *u, size_t n)
+{
+    double most = 0;
+    for (size_t k = 0; k < n; k++) most = fabs(u[k]) > most || isnan(u[k]) ? fabs(u[k]) : most;
+    return most;
+}
+
+/* a at the start's (x, v), or at (moved_x, moved_v), and time t. */
+static bool evaluate(scales *s, double t, bool moved, double *a)
+{
+    const problem *p = s->problem;
+    if (!moved) {
+        if (p->nx) memcpy(s->moved_x, s->x, p->nx * sizeof *s->x);
+        memcpy(s->moved_v, s->v, p->nv * sizeof *s->v);
+    }
+    memset(a, 0, p->nv * sizeof *a);
+    if (p->refresh) p->refresh(p->ctx, t, s->moved_x, s->moved_v);
+    if (p->accel(p->ctx, t, s->moved_x, s->moved_v, a)) s->failed = true;
+    return !s->failed && isfinite(largest(a, p->nv));
+}
+
+/* ---- the linearised equations ---- */
+
+static bool quotient(scales *s)
+{
+    const problem *p = s->problem;
+    for (int side = 0; side < 2; side++) {
+        const double by = side ? -OFFSET : OFFSET;
+        for (size_t k = 0; k < p->nx; k++) s->moved_x[k] = s->x[k] + by * s->dx[k];
+        for (size_t k = 0; k < p->nv; k++) s->moved_v[k] = s->v[k] + by * s->dv[k];
+        if (!evaluate(s, s->t, true, side ? s->other : s->a)) return false;
+    }
+    for (size_t k = 0; k < p->nv; k++) s->a[k] = (s->a[k] - s->other[k]) / (2 * OFFSET);
+    return true;
+}
+
+/* (x', v') along u = (x, v), in units of the sizes. */
+static bool product(void *ctx, const double *u, double *out)
+{
+    scales *s = ctx;
+    const problem *p = s->problem;
+    for (size_t k = 0; k < p->nx; k++) s->dx[k] = s->size_x * u[k];
+    for (size_t k = 0; k < p->nv; k++) s->dv[k] = s->size_v * u[p->nx + k];
+    memset(s->a, 0, p->nv * sizeof *s->a);
+    if (p->jvp ? p->jvp(p->ctx, s->t, s->x, s->v, s->dx, s->dv, s->a) != 0 : !quotient(s)) return false;
+    for (size_t k = 0; k < p->nx; k++) out[k] = s->dv[k] / s->size_x;
+    for (size_t k = 0; k < p->nv; k++) out[p->nx + k] = s->a[k] / s->size_v;
+    return isfinite(largest(out, p->nx + p->nv));
+}
+
+/* Raises rate and period to those of the linearised motion. */
+static void linearise(scales *s, double *basis)
+{
+    const problem *p = s->problem;
+    const size_t n = p->nx + p->nv;
+    const rate_map map = {n, product, s};
+    const double rate = rate_fastest(&map, basis, basis + n);
+    double re[RATE_MOTION_MAX], im[RATE_MOTION_MAX], most = isfinite(rate) ? rate : 0, size[RATE_MOTION_MAX];
+    /* Position and velocity of the fastest oscillation get the same size, so that no root is lost beside the others. */
+    if (most > 0 && p->nx) s->size_v = most * s->size_x;
+    /* The motion's own direction, (v, a); at rest, all directions. */
+    for (size_t k = 0; k < p->nx; k++) basis[k] = s->v[k] / s->size_x;
+    const bool moves = evaluate(s, s->t, false, s->a) && (largest(s->a, p->nv) > 0 || largest(basis, p->nx) > 0);
+    for (size_t k = 0; k < p->nv; k++) basis[p->nx + k] = s->a[k] / s->size_v;
+    for (size_t k = 0; k < n && !moves; k++) basis[k] = rate_scatter(k);
+    const int count = rate_motion(&map, p->jvp ? ROUNDING_EXACT : ROUNDING_QUOTIENT, basis, re, im);
+    for (int k = 0; k < count; k++) {
+        size[k] = sqrt(re[k] * re[k] + im[k] * im[k]);
+        most = fmax(most, size[k]);
+    }
+    s->rate = most;
+    for (int k = 0; k < count; k++)
+        if (size[k] > most * (p->jvp ? NOISE_EXACT : NOISE_QUOTIENT))
+            s->period = fmax(s->period, (fabs(im[k]) < DECAY * size[k] ? 1 : TWO_PI) / size[k]);
+    if (most > 0 && s->period == 0) s->period = TWO_PI / most;
+}
+
+/* ---- the force in time ---- */
+
+/* By how much a differs from that at the start, after `later`; negative: it is not finite there. */
+static double change(scales *s, double later)
+{
+    if (!evaluate(s, s->t + s->way * later, false, s->other)) return -1;
+    double most = 0;
+    for (size_t k = 0; k < s->problem->nv; k++) most = fmax(most, fabs(s->other[k] - s->a[k]));
+    return most;
+}
+
+/* The rate of what depends on t, from its first four differences at a spacing; NaN: they are rounding alone. */
+static double rate_at(scales *s, double spacing, double *samples)
+{
+    static const double differences[4][5] = {/* all about the third sample, so that phases do not differ */
+                                             {0, -0.5, 0, 0.5, 0},
+                                             {0, 1, -2, 1, 0},
+                                             {-0.5, 1, 0, -1, 0.5},
+                                             {1, -4, 6, -4, 1}};
+    const size_t n = s->problem->nv;
+    double size[4] = {0}, most = 0;
+    for (int i = 0; i < 5; i++) {
+        if (!evaluate(s, s->t + s->way * i * spacing, false, samples + (size_t)i * n)) return NAN;
+        most = fmax(most, largest(samples + (size_t)i * n, n));
+    }
+    for (int d = 0; d < 4; d++)
+        for (size_t k = 0; k < n; k++) {
+            double sum = 0;
+            for (int i = 0; i < 5; i++) sum += differences[d][i] * samples[(size_t)i * n + k];
+            size[d] = fmax(size[d], fabs(sum));
+        }
+    if (!(size[0] + size[1] > 1e-11 * most)) return NAN;
+    return sqrt((size[2] + size[3]) / (size[0] + size[1])) / spacing;
+}
+
+/* Raises rate and period to those of the driving: where a first differs from the start by half of what it changes in
+ * all is its coarse scale of time, and differences over ever shorter times find the fine one. */
+static void drive(scales *s, double horizon, double *samples)
+{
+    enum { OCTAVES = 60, FINER = 30 };
+    double changes[2 * OCTAVES + 1], most = 0, spacing = 0;
+    if (!evaluate(s, s->t, false, s->a)) return;
+    int count = 0;
+    for (int k = 0; k <= 2 * OCTAVES && ldexp(1, k - OCTAVES) <= horizon; k++, count++) {
+        changes[k] = change(s, ldexp(1, k - OCTAVES));
+        if (changes[k] < 0) break;
+        most = fmax(most, changes[k]);
+    }
+    if (!(most > 1e-12 * largest(s->a, s->problem->nv))) return;
+    for (int k = 0; k < count && spacing == 0; k++)
+        if (changes[k] >= most / 2) spacing = ldexp(1, k - OCTAVES);
+    double rate = 1 / spacing, before = NAN;
+    for (int k = 3; k < 3 + FINER; k++) {
+        const double now = rate_at(s, ldexp(spacing, -k), samples);
+        if (isnan(now)) break;
+        if (now > 0) rate = now;
+        if (now * ldexp(spacing, -k) < 0.2 && fabs(now - before) <= 0.03 * now) break;
+        before = now;
+    }
+    s->rate = fmax(s->rate, rate);
+    s->period = fmax(s->period, TWO_PI / rate);
+}
+
+/* ---- the start ---- */
+
+/* A ball falls until it has moved by a few times its height; what moves evenly, by ten times its distance. */
+static double time_of_values(const scales *s)
+{
+    const double x = s->problem->nx ? s->size_x : 0, v = s->size_moving, a = s->size_a;
+    if (a > 0 && s->problem->nx) {
+        const double t = 2 * fmax(v / a, sqrt(largest(s->x, s->problem->nx) / a));
+        return t > 0 ? t : PERIODS;
+    }
+    if (v > 0 && largest(s->x, s->problem->nx) > 0) return PERIODS * x / v;
+    if (a > 0 && largest(s->v, s->problem->nv) > 0) return PERIODS * largest(s->v, s->problem->nv) / a;
+    return PERIODS;
+}
+
+static void measure_sizes(scales *s)
+{
+    const problem *p = s->problem;
+    const bool known = evaluate(s, s->t, false, s->a);
+    const double x = largest(s->x, p->nx), v = largest(s->v, p->nv);
+    s->size_a = known ? largest(s->a, p->nv) : 0;
+    s->size_moving = largest(s->v, p->nx);
+    s->size_x = x > 0 ? x : 1;
+    s->size_v = v > 0 ? v : s->size_a > 0 ? sqrt(s->size_a * s->size_x) : 1;
+}
+
+static motus_status measure(scales *s, double duration, motus_error *err)
+{
+    const problem *p = s->problem;
+    const size_t nx = p->nx, nv = p->nv, n = nx + nv;
+    const size_t numbers = 3 * nx + 5 * nv + (RATE_MOTION_MAX + 1) * n;
+    double *room = take(&s->system->allocator, numbers, sizeof *room);
+    if (!room) return fail(err, MOTUS_MEMORY, "no memory to find a step");
+    s->x = room, s->moved_x = s->x + nx, s->dx = s->moved_x + nx;
+    s->v = s->dx + nx, s->moved_v = s->v + nv, s->dv = s->moved_v + nv, s->a = s->dv + nv, s->other = s->a + nv;
+    double *work = s->other + nv;
+    if (nx) memcpy(s->x, s->system->x0, nx * sizeof *room);
+    memcpy(s->v, s->system->v0, nv * sizeof *room);
+    if (p->refresh) p->refresh(p->ctx, s->t, s->x, s->v);
+    measure_sizes(s);
+    linearise(s, work);
+    const double horizon = duration > 0 ? duration : s->period > 0 ? PERIODS * s->period : INFINITY;
+    if (p->traits.time || p->refresh) drive(s, horizon, work);
+    if (s->rate == 0)
+        s->period = time_of_values(s);
+    else if (nx && largest(s->x, nx) > 0 && s->size_moving > 0)
+        s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
+    give(&s->system->allocator, room);
+    if (s->failed) return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %g", s->t);
+    return MOTUS_OK;
+}
+
+/* ---- round numbers ---- */
+
+static double round_number(int digit, int power)
+{
+    char text[16];
+    double value = NAN;
+    const int length = snprintf(text, sizeof text, "%de%d", digit, power);
+    decimal_read(text, (size_t)length, &value);
+    return value;
+}
+
+/* The largest of 1, 2 and 5 times a power of ten that is not above x. */
+static double round_down(double x)
+{
+    static const int digits[] = {5, 2, 1};
+    int exponent;
+    x = fmin(fmax(x, 1e-290), 1e290);
+    frexp(x, &exponent);
+    for (int power = (int)(0.30103 * exponent) + 1;; power--)
+        for (int i = 0; i < 3; i++)
+            if (round_number(digits[i], power) <= x) return round_number(digits[i], power);
+}
+
+static double round_up(double x)
+{
+    const double below = round_down(x);
+    if (below >= x) return below;
+    const double above = round_down(2.1 * below); /* from 2 to 4: not far enough */
+    return above > below ? above : round_down(2.6 * below);
+}
+
+static double round_near(double x)
+{
+    const double below = round_down(x), above = round_up(x);
+    return x / below < above / x ? below : above;
+}
+
+/* ---- the suggestion ---- */
+
+static void choose(const scales *s, bool uniform, double from, double duration, motus_settings *set)
+{
+    const problem *p = s->problem;
+    const double steps = fmin(STEPS_MOST, fmax(STEPS_ALWAYS, NUMBERS_MOST / (double)(p->nx + p->nv)));
+    const double longest = s->rate > 0 ? PERIODS * s->period : s->period;
+    const bool ends = !isnan(set->until);
+    if (!(duration > 0)) duration = round_near(longest);
+    if (isnan(set->step)) {
+        double step = duration / STEPS_LEAST;
+        if (s->rate > 0) step = fmin(step, TWO_PI / s->rate / STEPS_A_PERIOD);
+        set->step = round_down(step);
+        if (!ends && duration > steps * set->step) duration = round_down(steps * set->step);
+        if (ends && duration > steps * set->step) set->step = round_up(duration / steps);
+        if (ends && uniform) set->step = duration / ceil(duration / set->step);
+    } else if (!ends) {
+        duration = fmin(fmax(duration, set->step), steps * set->step);
+        if (uniform) duration = ceil(duration / set->step) * set->step;
+    }
+    if (!ends) set->until = from + duration;
+}
+
+static motus_status suggest(motus_system *system, motus_settings *set, motus_error *err)
+{
+    chosen row;
+    const motus_method *card;
+    if (!set->method) set->method = "verlet";
+    motus_status status = choice_method(system, set->method, &row, &card, err);
+    if (status != MOTUS_OK || (!isnan(set->step) && !isnan(set->until))) return status;
+    const double from = isnan(set->from) ? system->start : set->from;
+    const double duration = isnan(set->until) ? 0 : fabs(set->until - from);
+    scales s = {.system = system, .problem = &system->problem, .t = from, .way = set->until < from ? -1 : 1};
+    status = measure(&s, duration, err);
+    if (status != MOTUS_OK) return status;
+    choose(&s, row_uniform(&row), from, duration, set);
+    set->rate = s.rate;
+    set->period = s.period;
+    return MOTUS_OK;
+}
+
+motus_status motus_suggest(motus_system *s, motus_settings *set, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || !set) return fail(err, MOTUS_ARGUMENT, "motus_suggest needs a system and settings to fill in");
+    motus_settings ours;
+    motus_status status = motus_struct_read(MOTUS_DEF_SETTINGS, set, &ours, err);
+    if (status != MOTUS_OK) return status;
+    if (isinf(ours.step) || ours.step <= 0 || isinf(ours.until) || isinf(ours.from))
+        return fail(err, MOTUS_ARGUMENT, "the step is a positive number, and start and end are finite");
+    const modes m = modes_enter();
+    status = suggest(s, &ours, err);
+    modes_leave(m);
+    if (status == MOTUS_OK) motus_struct_write(MOTUS_DEF_SETTINGS, &ours, set);
+    return status;
+}
+
+motus_status suggest_missing(motus_system *s, const char *method, double start, double *step, double *until,
+                             motus_error *err)
+{
+    motus_settings set = motus_default_settings();
+    motus_settings_of(s, &set);
+    const bool no_step = isnan(*step) && isnan(set.step), no_end = isnan(*until) && isnan(set.until);
+    const bool sound = !isinf(*step) && !(*step <= 0) && !isinf(*until) && !isinf(start); /* else run_timing says so */
+    if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK;
+    if (!isnan(*step)) set.step = *step;
+    if (!isnan(*until)) set.until = *until;
+    if (!isnan(start)) set.from = start;
+    if (method) set.method = method;
+    motus_status status = motus_suggest(s, &set, err);
+    if (no_step && status == MOTUS_OK) *step = set.step;
+    if (no_end && status == MOTUS_OK) *until = set.until;
+    return status;
+}

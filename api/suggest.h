@@ -1,0 +1,12 @@
+/* The step and the end of a model that gives none. See motus_suggest. */
+#ifndef API_SUGGEST_H
+#define API_SUGGEST_H
+
+#include "motus.h"
+
+/* Fills in *step and *until where they are NaN and the model, which is not a callback, has none. start: NaN: the
+ * model's. */
+motus_status suggest_missing(motus_system *, const char *method, double start, double *step, double *until,
+                             motus_error *);
+
+#endif

@@ -1,0 +1,64 @@
+/* See settle.h.
+ *
+ * Invariant: the line that a note prints, added to the model, gives the same run without a note.
+ */
+#include "cli/settle.h"
+
+#include "base/decimal.h"
+#include "cli/complain.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void note(const load *m, const motus_settings *set)
+{
+    char line[128], step[DECIMAL_MAX], until[DECIMAL_MAX], why[128];
+    const bool both = m->suggested == (SETTLE_STEP | SETTLE_UNTIL);
+    decimal(set->step, step);
+    decimal(set->until, until);
+    if (both)
+        snprintf(line, sizeof line, "step %s; until %s", step, until);
+    else
+        snprintf(line, sizeof line, "%s %s", m->suggested == SETTLE_STEP ? "step" : "until",
+                 m->suggested == SETTLE_STEP ? step : until);
+    if (set->rate > 0)
+        snprintf(why, sizeof why, "its fastest rate at the start, %.3g, and its longest period there, %.3g", set->rate,
+                 set->period);
+    else
+        snprintf(why, sizeof why, "its initial values, which change in a time of %.3g", set->period);
+    complain_note("the model gives no %s: motus takes %s from %s. To keep %s, add to the model:",
+                  both                          ? "step and no end"
+                  : m->suggested == SETTLE_STEP ? "step"
+                                                : "end",
+                  both ? "them" : "it", why, both ? "them" : "it");
+    fprintf(stderr, "%s\n", line);
+}
+
+motus_status settle_timing(load *m, const options *o, int needed, const char *method, motus_error *err)
+{
+    motus_settings set = motus_default_settings();
+    motus_settings_of(m->system, &set);
+    m->step = o->step;
+    m->until = o->until;
+    m->suggested = (isnan(o->step) && isnan(set.step) ? SETTLE_STEP : 0) |
+                   (isnan(o->until) && isnan(set.until) ? SETTLE_UNTIL : 0);
+    m->suggested &= needed;
+    if (!m->suggested) return MOTUS_OK;
+    if (!isnan(o->step)) set.step = o->step;
+    if (!isnan(o->until)) set.until = o->until;
+    if (method) set.method = method;
+    motus_status status = motus_suggest(m->system, &set, err);
+    if (status) return status;
+    if (m->suggested & SETTLE_STEP) m->step = set.step;
+    if (m->suggested & SETTLE_UNTIL) m->until = set.until;
+    if (!o->quiet) note(m, &set);
+    return MOTUS_OK;
+}
+
+void settle_json(json *j, const load *m)
+{
+    json_open(j, "suggested", '{');
+    if (m->suggested & SETTLE_STEP) json_number(j, "step", m->step);
+    if (m->suggested & SETTLE_UNTIL) json_number(j, "until", m->until);
+    json_close(j, '}');
+}

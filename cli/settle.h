@@ -1,0 +1,16 @@
+/* The step and the end of a command: its options', else the model's, else those that the library suggests. */
+#ifndef CLI_SETTLE_H
+#define CLI_SETTLE_H
+
+#include "cli/load.h"
+#include "tell/json.h"
+
+enum { SETTLE_STEP = 1, SETTLE_UNTIL = 2 };
+
+/* Sets step and until of the load; what the command needs and nobody gives is suggested, and a note says so. method:
+ * NULL: the model's. */
+motus_status settle_timing(load *, const options *, int needed, const char *method, motus_error *);
+/* {"suggested": {"step": 0.05}}: what was suggested. */
+void settle_json(json *, const load *);
+
+#endif

@@ -1,0 +1,227 @@
+/* The step and the end of a model that gives none. Rates are compared with the eigenvalues that the equation has on
+ * paper; the numbers must be round, few enough, and the same wherever they are asked for. */
+#include "given.h"
+
+#include <stdbool.h>
+
+static motus_settings suggestion(motus_system *s, double step, double until)
+{
+    motus_settings set = motus_default_settings();
+    motus_error err = motus_default_error();
+    motus_settings_of(s, &set);
+    if (!isnan(step)) set.step = step;
+    if (!isnan(until)) set.until = until;
+    must(motus_suggest(s, &set, &err), &err, "motus_suggest");
+    return set;
+}
+
+/* 1, 2 or 5 times a power of ten: its shortest digits are one digit and zeros. */
+static bool is_round(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.14e", fabs(value));
+    return strchr("125", text[0]) && strspn(text + 2, "0") == 14;
+}
+
+static const struct {
+    const char *text;
+    double rate, period, step, until; /* NaN: not compared */
+} known[] = {
+    {"x'' = -x; x(0) = 1; x'(0) = 0", 1, 6.2832, 0.05, 50},
+    {"x'' = -100 x; x(0) = 0; x'(0) = 1", 10, 0.62832, 0.005, 5},
+    {"x'' = -x; x(0) = 0; x'(0) = 0", 1, 6.2832, 0.05, 50},             /* at rest: the rates of what might move */
+    {"x'' = -9.81; x(0) = 10; x'(0) = 0", 0, 2.0193, 0.02, 2},          /* 2 sqrt(x/a) */
+    {"r'' = (0, -10); r(0) = (0, 0); r'(0) = (10, 20)", 0, 4, 0.05, 5}, /* 2 v/a */
+    {"x'' = 0; x(0) = 1; x'(0) = 2", 0, 5, 0.05, 5},                    /* 10 x/v */
+    {"x'' = 0; x(0) = 0; x'(0) = 0", 0, 10, 0.1, 10},
+    {"s' = -2 s; s(0) = 1", 2, 0.5, 0.02, 5},
+    {"s' = 3; s(0) = 1", 0, 3.3333, 0.05, 5},
+    {"x'' = sin(5 t); x(0) = 0; x'(0) = 0", 5, 1.2566, 0.01, 10},
+    {"x'' = cos(5 t); x(0) = 0; x'(0) = 0", 5, 1.2566, 0.01, 10},
+    {"x'' = -x + 0.01 sin(100 t); x(0) = 0; x'(0) = 0", 100, 6.2832, 0.0005, 50},
+    {"x'' = -x + sin(0.1 t); x(0) = 0; x'(0) = 1", 1, 62.832, 0.05, 500},
+    /* λ = -1000 and -0.001: a million steps do not reach ten times 1/0.001 */
+    {"x'' = -1000 x' - x; x(0) = 1; x'(0) = 0", 1000, 1000, 0.00005, 50},
+    {"x'' = -1000 x' - 1000 x; x(0) = 1; x'(0) = 0", 1000, 1, 0.00005, 10},
+    /* λ² = 2 mu/r³ and λ² = -mu/r³ */
+    {"r'' = -r/|r|^3; r(0) = (0.4, 0); r'(0) = (0, 2)", 5.5902, 1.5895, 0.01, 20},
+    {"r'' = -3.986e14 r/|r|^3; r(0) = (7e6, 0); r'(0) = (0, 7546)", NAN, 5828.5, 50, 50000},
+    {"x'' = if(t > 2.5, 1, 0); x(0) = 0; x'(0) = 0", NAN, NAN, 0.2, 200}, /* within the run */
+};
+
+static void rates(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        motus_system *s = given_text(known[k].text);
+        const motus_settings set = suggestion(s, NAN, NAN);
+        if (!(isnan(known[k].rate) || fabs(set.rate - known[k].rate) <= 0.02 * known[k].rate) ||
+            !(isnan(known[k].period) || fabs(set.period - known[k].period) <= 0.02 * known[k].period) ||
+            set.step != known[k].step || set.until != known[k].until)
+            fail_msg("%s: rate %g, period %g, step %.17g, until %.17g", known[k].text, set.rate, set.period, set.step,
+                     set.until);
+        assert_true(is_round(set.step) && is_round(set.until));
+        assert_string_equal(set.method, "verlet");
+        motus_system_destroy(s);
+    }
+}
+
+#define CHAIN                                                            \
+    "N = 32\nx[i]'' = x[i+1] - 2 x[i] + x[i-1] for i = 1..N\nx[0] = 0\n" \
+    "x[N+1] = 0\nx[i]'(0) = 0 for i = 1..N\n"
+
+/* A chain that moves in its slowest mode, ω = 2 sin(π/66), takes steps for its fastest, 2 sin(32 π/66). */
+static void slow_and_fast(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979324, slow = 2 * sin(pi / 66), fast = 2 * sin(32 * pi / 66);
+    motus_system *s = given_text(CHAIN "x[i](0) = sin(pi i/(N+1)) for i = 1..N\n");
+    const motus_settings set = suggestion(s, NAN, NAN);
+    assert_true(set.rate > 0.9 * fast && set.rate <= 1.000001 * fast);
+    assert_true(fabs(set.period - 2 * pi / slow) < 1e-6 * set.period);
+    assert_true(set.step == 0.02 && set.until == 500);
+    motus_system_destroy(s);
+}
+
+static void given_numbers_stay(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -x; x(3) = 1; x'(3) = 0");
+    assert_true(suggestion(s, NAN, NAN).until == 53); /* from the start on */
+    motus_settings set = suggestion(s, 0.25, NAN);
+    assert_true(set.step == 0.25 && set.until == 53);
+    set = suggestion(s, NAN, 4);
+    assert_true(set.step == 0.01 && set.until == 4); /* at least 100 steps */
+    set = suggestion(s, NAN, -1e6);                  /* at most a million */
+    assert_true(set.step == 2 && set.until == -1e6);
+    set = suggestion(s, 1e-6, NAN);
+    assert_true(set.step == 1e-6 && fabs(set.until - 4) < 1e-9);
+    set = suggestion(s, 0.5, 4);
+    assert_true(set.step == 0.5 && set.until == 4 && set.rate == 0);
+    motus_system_destroy(s);
+    s = given_text("x'' = -x; x(0) = 1; x'(0) = 0; method verlet-literal; until 20 pi"); /* equal steps */
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    assert_true(motus_run_last_step(r) == 0 && motus_run_step_size(r) < 0.0785);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+/* Runs, ensembles and studies have what motus_suggest says; a system that is set anew is measured anew. */
+static void everywhere(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_system *s = given_text("k = 1; x'' = -k x; x(0) = 1; x'(0) = 0");
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    assert_true(motus_run_step_size(r) == 0.05 && motus_run_steps_total(r) == 1000);
+    motus_run_destroy(r);
+    const char *vary[] = {"k"};
+    const double values[] = {1, 100}, *given[] = {values};
+    double ends[2], *results[] = {ends};
+    motus_record record = {.how = MOTUS_REDUCE_FINAL, .column = 0};
+    motus_ensemble_def def = motus_default_ensemble();
+    def.vary = vary, def.vary_count = 1, def.records = &record, def.record_count = 1, def.machine = "interpreter";
+    motus_ensemble *e = NULL;
+    must(motus_ensemble_create(s, &def, &e, &err), &err, "ensemble");
+    must(motus_ensemble_run(e, 2, given, results, NULL, &err), &err, "ensemble");
+    assert_true(motus_ensemble_steps(e) == 1000 && ends[0] == 50 && ends[1] == 50);
+    motus_ensemble_destroy(e);
+    motus_study_def study = motus_default_study();
+    const char *methods[] = {"verlet"};
+    study.methods = methods, study.method_count = 1;
+    motus_comparison *c = NULL;
+    must(motus_compare(s, &study, &c, &err), &err, "compare");
+    assert_true(c->rows[0]->step == 0.05 && c->rows[0]->steps == 1000);
+    motus_comparison_destroy(c);
+    const double k = 100;
+    must(motus_system_set(s, "k", &k, 1, &err), &err, "set");
+    assert_true(suggestion(s, NAN, NAN).until == 5);
+    motus_system_destroy(s);
+}
+
+/* By difference quotients, with their noise: two oscillators and a coordinate that nothing acts on. */
+static int springs(void *context, double t, const double *x, const double *v, double *a)
+{
+    (void)t;
+    (void)v;
+    ++*(int *)context;
+    a[0] = -x[0], a[1] = -25 * x[1], a[2] = 0;
+    return x[0] > 1.5 ? 7 : 0;
+}
+
+static void callbacks(void **state)
+{
+    (void)state;
+    int calls = 0;
+    double x[] = {1, 1, 5}, v[] = {0, 0, 0.5};
+    motus_error err = motus_default_error();
+    motus_callback_def def = motus_default_callback();
+    def.positions = 3, def.x = x, def.v = v, def.acceleration = springs, def.context = &calls;
+    def.depends_on_velocity = def.depends_on_time = 0;
+    motus_system *s = NULL;
+    must(motus_system_from_callback(&def, &s, &err), &err, "callback");
+    motus_run *r = NULL;
+    assert_int_equal(motus_run_create(s, NULL, &r, &err), MOTUS_ARGUMENT); /* evaluates nothing */
+    assert_int_equal(calls, 0);
+    assert_non_null(strstr(err.hint, "motus_suggest"));
+    const motus_settings set = suggestion(s, NAN, NAN);
+    assert_true(calls > 0 && fabs(set.rate - 5) < 0.01 && fabs(set.period - 6.2832) < 0.01);
+    assert_true(set.step == 0.01 && set.until == 50);
+    motus_system_destroy(s);
+    x[0] = 2;
+    must(motus_system_from_callback(&def, &s, &err), &err, "callback");
+    motus_settings failing = motus_default_settings();
+    assert_int_equal(motus_suggest(s, &failing, &err), MOTUS_CALLBACK);
+    assert_true(isnan(failing.step));
+    motus_system_destroy(s);
+}
+
+static void wrong_requests(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    motus_settings set = motus_default_settings();
+    motus_system *s = given_text("x'' = -x; x(0) = 1; x'(0) = 0");
+    assert_int_equal(motus_suggest(NULL, &set, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_suggest(s, NULL, &err), MOTUS_ARGUMENT);
+    set.step = -1;
+    assert_int_equal(motus_suggest(s, &set, &err), MOTUS_ARGUMENT);
+    set.step = NAN, set.until = INFINITY;
+    assert_int_equal(motus_suggest(s, &set, &err), MOTUS_ARGUMENT);
+    set.until = NAN, set.method = "verlt";
+    assert_int_equal(motus_suggest(s, &set, &err), MOTUS_METHOD);
+    set.size = 0;
+    assert_int_equal(motus_suggest(s, &set, &err), MOTUS_ARGUMENT);
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.step = -1; /* what is wrong is said, although the end is missing too */
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_ARGUMENT);
+    assert_non_null(strstr(err.message, "positive"));
+    motus_system_destroy(s);
+}
+
+/* A force that is not finite at the start, or has no scale, has numbers all the same: the run says what is wrong. */
+static void no_scale(void **state)
+{
+    (void)state;
+    const char *texts[] = {"x'' = 1/x; x(0) = 0; x'(0) = 0",         "x'' = -x^3; x(0) = 0; x'(0) = 1",
+                           "x'' = exp(t); x(0) = 0; x'(0) = 0",      "x'' = sqrt(1 - t); x(0) = 0; x'(0) = 0",
+                           "x'' = 1e300 x; x(0) = 1e300; x'(0) = 0", "x'' = t; x(0) = 0; x'(0) = 0"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = given_text(texts[k]);
+        const motus_settings set = suggestion(s, NAN, NAN);
+        if (!(set.step > 0 && isfinite(set.step) && set.until > 0 && set.until / set.step <= 1.0001e6))
+            fail_msg("%s: step %g, until %g", texts[k], set.step, set.until);
+        motus_system_destroy(s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rates),      cmocka_unit_test(slow_and_fast), cmocka_unit_test(given_numbers_stay),
+        cmocka_unit_test(everywhere), cmocka_unit_test(callbacks),     cmocka_unit_test(wrong_requests),
+        cmocka_unit_test(no_scale),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
