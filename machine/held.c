@@ -14,7 +14,7 @@ struct held {
     problem problem;
     switches switches;
     tape *argument, *held, *rate;
-    resolver *resolver; /* NULL: nothing to resolve */
+    resolution *resolution; /* NULL: nothing to resolve */
     double *sides;      /* that are bound: the last numbers of view.pool */
     bool bound;
 };
@@ -60,9 +60,9 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     const switches *s = &h->switches;
     *refused = s->refused;
     if (s->refused) return MOTUS_OK;
-    if (!resolve_create(m, s->accel, m->accel_count, &h->resolver))
+    if (!resolution_create(m, s->accel, m->accel_count, &h->resolution))
         return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
-    if (s->count == 0 && !h->resolver) return MOTUS_OK;
+    if (s->count == 0 && !h->resolution) return MOTUS_OK;
     h->model = m;
     if (!make_view(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = interpreter_create(&h->view, &h->interpreter, &h->problem, err);
@@ -117,9 +117,9 @@ void held_arguments(held *h, double t, double *x, double *v, double *out) { run(
 void held_values(held *h, double t, double *x, double *v, double *out) { run(h, h->held, t, x, v, NULL, out); }
 void held_rates(held *h, double t, double *x, double *v, double *a, double *out) { run(h, h->rate, t, x, v, a, out); }
 
-bool held_resolves(const held *h) { return h->resolver != NULL; }
+bool held_resolves(const held *h) { return h->resolution != NULL; }
 
 bool held_fits(held *h, interval t, const interval *x, const interval *v)
 {
-    return !h->resolver || resolve_fits(h->resolver, t, x, v, h->view.pool);
+    return !h->resolution || resolution_fits(h->resolution, t, x, v, h->view.pool);
 }

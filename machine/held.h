@@ -5,7 +5,7 @@
 #ifndef MACHINE_HELD_H
 #define MACHINE_HELD_H
 
-#include "lang/model/resolve.h"
+#include "lang/model/resolution.h"
 #include "lang/model/switches.h"
 #include "machine/machine.h"
 
@@ -27,7 +27,7 @@ bool held_bind(held *, const double *sides, bool fresh);
 void held_arguments(held *, double t, double *x, double *v, double *out);
 void held_values(held *, double t, double *x, double *v, double *out);
 void held_rates(held *, double t, double *x, double *v, double *a, double *out);
-/* Whether a step over these times and states resolves the force: lang/model/resolve.h. */
+/* Whether a step over these times and states resolves the force: lang/model/resolution.h. */
 bool held_resolves(const held *); /* there is something to resolve */
 bool held_fits(held *, interval t, const interval *x, const interval *v);
 

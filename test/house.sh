@@ -229,7 +229,7 @@ fi
 
 # The library's callers are C programs and the page too; the program puts its options for the members (cli/complain.c).
 judge "no text of the library names an option of the program" "$(
-    grep -nE '"[^"]*--[a-z]' -r base core lang machine api study tell --include='*.[ch]' | grep -v -e '-Wl,')"
+    grep -nE '"([^"]*[ `(])?--[a-z]' -r base core lang machine api study tell --include='*.[ch]' | grep -v -e '-Wl,')"
 
 # --- files ----------------------------------------------------------------------------------------------------------------
 ours() {

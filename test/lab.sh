@@ -87,8 +87,8 @@ refuses "... and one byte more" 2 "longer than 65536 bytes" "$motus" run full.mo
 printf "x'' = -omga x\nx(0)=1\nx'(0)=0\nstep 0.1\nuntil 1\n" >slip.motus
 refuses "--share of a model with a mistake" 2 "slip.motus:1:8: " "$motus" run slip.motus --share
 printf "x'' = -x\nx(0)=1\nx'(0)=0\nuntil 1\n" >nostep.motus
-for verb in run compare; do refuses "$verb --share without a step anywhere" 2 "step" "$motus" $verb nostep.motus --share; done
-gives "... which the command line may give" 0 "$motus" run nostep.motus --step 0.1 --share
+for verb in run compare; do gives "$verb --share without a step anywhere" 0 "$motus" $verb nostep.motus --share; done
+gives "... which the command line may give too" 0 "$motus" run nostep.motus --step 0.1 --share
 refuses "--share with an unknown method" 2 "verlett" "$motus" run osc.motus --method verlett --share
 refuses "... of compare" 2 "verlett" "$motus" compare osc.motus --methods rk4,verlett --share
 refuses "--share with a method that does not fit" 2 "pefrl" "$motus" run "$root/models/damped-cubic.motus" --method pefrl --share

@@ -95,7 +95,8 @@ static bool resolve_list(model *m, model_definition *d)
     return true;
 }
 
-/* The lines of a family. Of lines about the same place that with fewer indices holds, and one that is set before all. */
+/* The lines of a family. Of lines about the same place the one with fewer indices holds, and one that was set by the
+ * caller before all. */
 enum { RANK_CELL = MAX_DIMS + 1, RANK_SET };
 #define EACH_LINE(m, d, one) \
     for (const statement *one = (d)->statement; one; one = one->next ? &(m)->statements.item[one->next - 1] : NULL)

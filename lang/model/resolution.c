@@ -1,5 +1,5 @@
-/* See resolve.h. Interval arithmetic over the nodes of a graph, in their order. */
-#include "lang/model/resolve.h"
+/* See resolution.h. Interval arithmetic over the nodes of a graph, in their order. */
+#include "lang/model/resolution.h"
 
 #include "lang/base/operation.h"
 #include "lang/graph/graph_walk.h"
@@ -21,7 +21,7 @@ typedef struct step {
     double value;
 } step;
 
-struct resolver {
+struct resolution {
     step *steps;
     interval *values;
     uint32_t count;
@@ -57,7 +57,7 @@ static bool hides(operation op)
     }
 }
 
-bool resolve_create(model *m, const output *outputs, size_t count, resolver **out)
+bool resolution_create(model *m, const output *outputs, size_t count, resolution **out)
 {
     graph *g = m->graph;
     graph_walk w;
@@ -77,7 +77,7 @@ bool resolve_create(model *m, const output *outputs, size_t count, resolver **ou
         any |= hides(n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
     }
     if (any && scalar) {
-        resolver *r = arena_take(m->arena, sizeof *r);
+        resolution *r = arena_take(m->arena, sizeof *r);
         step *steps = arena_room(m->arena, w.count * sizeof *steps);
         interval *values = arena_room(m->arena, w.count * sizeof *values);
         for (uint32_t k = 0; r && steps && values && k < w.count; k++) {
@@ -92,7 +92,7 @@ bool resolve_create(model *m, const output *outputs, size_t count, resolver **ou
             s->space = g->arrays[ref->array].space;
             s->at = place_of(m, ref);
         }
-        if (r && steps && values) *r = (resolver){steps, values, w.count};
+        if (r && steps && values) *r = (resolution){steps, values, w.count};
         *out = m->arena->failed ? NULL : r;
     }
     give(&g->arena->allocator, w.nodes);
@@ -241,7 +241,7 @@ static bool hidden(operation op, interval a, interval b)
     }
 }
 
-bool resolve_fits(resolver *r, interval t, const interval *x, const interval *v, const double *pool)
+bool resolution_fits(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
 {
     for (uint32_t k = 0; k < r->count; k++) {
         const step *s = &r->steps[k];

@@ -5,8 +5,8 @@
  * on which the operation changes, the step is not resolved. The bounds hold for a straight way with a margin for its
  * curvature; they are not rounded outward, so this is a precaution and no proof.
  */
-#ifndef LANG_MODEL_RESOLVE_H
-#define LANG_MODEL_RESOLVE_H
+#ifndef LANG_MODEL_RESOLUTION_H
+#define LANG_MODEL_RESOLUTION_H
 
 #include "lang/model/model.h"
 
@@ -14,12 +14,12 @@ typedef struct interval {
     double low, high;
 } interval;
 
-typedef struct resolver resolver;
+typedef struct resolution resolution;
 
 /* For these outputs, which may read x and v alone. *out is NULL where no operation can hide anything, or where there
  * are families. Lives in the model's arena. False: no memory. */
-bool resolve_create(model *, const output *, size_t count, resolver **out);
+bool resolution_create(model *, const output *, size_t count, resolution **out);
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
-bool resolve_fits(resolver *, interval t, const interval *x, const interval *v, const double *pool);
+bool resolution_fits(resolution *, interval t, const interval *x, const interval *v, const double *pool);
 
 #endif
