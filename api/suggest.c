@@ -36,7 +36,7 @@ typedef struct scales {
     double *moved_x, *moved_v;
     double *a, *other, *dx, *dv;
     double size_x, size_v, size_a, size_moving; /* size_moving: of the velocities of positions */
-    bool failed;                                /* a callback */
+    bool failed, no_memory;                     /* failed: a callback */
     double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
 } scales;
 
@@ -84,7 +84,11 @@ static bool product(void *ctx, const double *u, double *out)
     for (size_t k = 0; k < p->nx; k++) s->dx[k] = s->size_x * u[k];
     for (size_t k = 0; k < p->nv; k++) s->dv[k] = s->size_v * u[p->nx + k];
     memset(s->a, 0, p->nv * sizeof *s->a);
-    if (p->jvp ? p->jvp(p->ctx, s->t, s->x, s->v, s->dx, s->dv, s->a) != 0 : !quotient(s)) return false;
+    if (p->jvp && p->jvp(p->ctx, s->t, s->x, s->v, s->dx, s->dv, s->a)) {
+        *(s->system->model ? &s->no_memory : &s->failed) = true;
+        return false;
+    }
+    if (!p->jvp && !quotient(s)) return false;
     for (size_t k = 0; k < p->nx; k++) out[k] = s->dv[k] / s->size_x;
     for (size_t k = 0; k < p->nv; k++) out[p->nx + k] = s->a[k] / s->size_v;
     return isfinite(largest(out, p->nx + p->nv));
@@ -228,6 +232,7 @@ static motus_status measure(scales *s, double duration, motus_error *err)
     else if (nx && largest(s->x, nx) > 0 && s->size_moving > 0)
         s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
     give(&s->system->allocator, room);
+    if (s->no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
     if (s->failed) return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %g", s->t);
     return MOTUS_OK;
 }

@@ -70,6 +70,12 @@ static const char wide[] = "N = 1200\nw = 0.7\nx[i]'' = x[i+1] - 2 x[i] + x[i-1]
                            "for i = 1..N\nx[0] = sin(t)\nx[N+1] = 0\n"
                            "x[i](0) = sin(pi i/N)   for i = 1..N\nx[i]'(0) = 0   for i = 1..N\ne = sum(i = 1..N: "
                            "x[i]'^2)\nstep 0.05\nuntil 0.205\n";
+/* Ghost cells, places of families, matrices; neither step nor end. */
+static const char cells[] =
+    "N = 5\nk[i] = 1 for i = 1..N\nk[3] = 2\nK = [[2, -1], [-1, k[3]]]\n"
+    "x[i]'' = k[i] (x[i+1] - 2 x[i] + x[i-1]) for i = 1..N\nx[0] = x[1]\nx[N+1] = cos(t) - x[N]\n"
+    "x[i](0) = i for i = 1..N\nx[i]'(0) = 0 for i = 1..N\nstretch[i] = x[i+1] - x[i] for i = 0..N\n"
+    "all = sum(i = 0..N: x[i+1]' - x[i]')\nr'' = -K r\nr(0) = (1, 0)\nr'(0) = (0, 0)\n";
 static const char *const texts[] = {
     rich,
     wide,
@@ -78,6 +84,7 @@ static const char *const texts[] = {
     "y(0) = 1\ny'(0) = 0\nstep 0.05\nuntil 0.205\n",
     "y'' = -9.81 - 0.1 y' |y'|\ny(0) = 1\ny'(0) = 3\ns' = y'^2 - s\ns(0) = 0.5\nstep 0.05\nuntil 0.205\n",
     "r'' = -2 r + (sin(t), 0)\nr(0) = (1, 2)\nr'(0) = (0, 0)\nspin = r.x r'.y - r.y r'.x\nstep 0.05\nuntil 0.205\n",
+    cells,
 };
 enum { TEXTS = sizeof texts / sizeof *texts, LARGE = 2 };
 
@@ -480,6 +487,25 @@ static void statements(void **state)
     for (int i = 0; i < TEXTS; i++) assert_true(refuse_each(texts[i], "", typeset, "typeset") > 8);
 }
 
+static motus_status suggested(motus_system *s, const char *method, uint64_t *result, motus_error *err)
+{
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = method;
+    const motus_status status = motus_run_create(s, &def, &r, err);
+    if (status != MOTUS_OK) assert_null(r);
+    const double numbers[] = {motus_run_step_size(r), (double)motus_run_steps_total(r)};
+    *result = mix(1, numbers, status == MOTUS_OK ? sizeof numbers : 0);
+    motus_run_destroy(r);
+    return status;
+}
+
+static void suggestions(void **state)
+{
+    (void)state;
+    assert_true(refuse_each(cells, "verlet", suggested, "suggest") > 10);
+}
+
 static motus_status compare(motus_system *s, const char *methods, uint64_t *result, motus_error *err)
 {
     motus_comparison *c = NULL;
@@ -646,17 +672,12 @@ static void a_pool_without_release(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(systems),
-        cmocka_unit_test(wrong_texts),
-        cmocka_unit_test(runs),
-        cmocka_unit_test(runs_across_switches),
-        cmocka_unit_test(admission),
-        cmocka_unit_test(what_may_be_set),
-        cmocka_unit_test(setting),
-        cmocka_unit_test(explanations),
-        cmocka_unit_test(statements),
-        cmocka_unit_test(studies),
-        cmocka_unit_test(a_pool_without_release),
+        cmocka_unit_test(systems),    cmocka_unit_test(wrong_texts),
+        cmocka_unit_test(runs),       cmocka_unit_test(runs_across_switches),
+        cmocka_unit_test(admission),  cmocka_unit_test(what_may_be_set),
+        cmocka_unit_test(setting),    cmocka_unit_test(explanations),
+        cmocka_unit_test(statements), cmocka_unit_test(suggestions),
+        cmocka_unit_test(studies),    cmocka_unit_test(a_pool_without_release),
         cmocka_unit_test(ensembles),
     };
     open_cache();

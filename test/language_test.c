@@ -945,6 +945,38 @@ static void empty_texts(void **unused)
     }
 }
 
+static void rule_18_matrices(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "q = 2\nK = [[q, -1], [-1, 3]]\nL = [[1, 2, 3], [4, 5, 6]]\nm = 4\nx'' = -K x/m\nx(0) = (1, 10)\nx'(0) = (2, "
+        "20)\n"
+        "u'' = -u\nu(0) = (1, 2, 3)\nu'(0) = (0, 0, 0)\n",
+        "a = K x\nb = -K/2 (x' - x)\nc = L u + 3 K x\nd = K L u\ne = [[1, 2, 3]] u\nf = K[2, 1] + K[1, 1] + 0 t\n"
+        "g = dot(x, K x)\nh = [[0, 1], [-1, 0]] x'\n"};
+    static const struct {
+        const char *name;
+        double value;
+    } want[] = {{"a.x", -8}, {"a.y", 29}, {"b.x", 4}, {"b.y", -14.5}, {"c.x", -10}, {"c.y", 119}, {"d.x", -4},
+                {"d.y", 82}, {"e", 14},   {"f", 1},   {"g", 282},     {"h.x", 20},  {"h.y", -2}};
+    char text[1024];
+    snprintf(text, sizeof text, "%s%s", texts[0], texts[1]);
+    motus_system *s = given_text(text);
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++)
+        if (quantity(s, want[k].name) != want[k].value)
+            fail_msg("%s: %g, not %g", want[k].name, quantity(s, want[k].name), want[k].value);
+    assert_string_equal(motus_equation_text(s, 0), "x''.x = -(K[1,1] x.x + K[1,2] x.y) (1/m)");
+    const double q = 5;
+    motus_error err = motus_default_error();
+    must(motus_system_set(s, "q", &q, 1, &err), &err, "q");
+    assert_true(quantity(s, "a.x") == -5);
+    const double all[] = {1, 2, 3, 4}; /* row by row */
+    must(motus_system_set(s, "K", all, 4, &err), &err, "K");
+    assert_true(quantity(s, "a.x") == 21 && quantity(s, "a.y") == 43);
+    for (size_t k = 0; k < motus_statement_count(s); k++) assert_non_null(motus_statement_mathml(s, k));
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -979,6 +1011,7 @@ int main(void)
         cmocka_unit_test(rule_17_derivatives),
         cmocka_unit_test(rule_17_many_cells),
         cmocka_unit_test(rule_17_forces),
+        cmocka_unit_test(rule_18_matrices),
         cmocka_unit_test(analysis_reads_the_equations),
         cmocka_unit_test(settings_are_read),
         cmocka_unit_test(carets_stand_under_the_fault),

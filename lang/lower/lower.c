@@ -47,9 +47,43 @@ static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value v
     return v;
 }
 
+/* [18] A matrix times a matrix, a vector (a column) or a number; a number times a matrix. */
+static value lower_matrix_product(lowering *l, const tree *t, value a, value b)
+{
+    if (b.count == 0 || (a.count == 0 && !a.rows)) { /* of a number and a matrix */
+        const value *number = b.count == 0 ? &b : &a, *matrix = b.count == 0 ? &a : &b;
+        value v = vector(l, matrix->rows * matrix->count);
+        for (int k = 0; k < v.count; k++) v.item[k] = binary(l, OP_MUL, number->item[0], matrix->item[k]);
+        v.count = matrix->count;
+        v.rows = matrix->rows;
+        return v;
+    }
+    const int inner = b.rows ? b.rows : b.count, columns = b.rows ? b.count : 1;
+    if (!a.rows || a.count != inner) {
+        if (a.rows)
+            COMPLAIN(l, t->at, "a matrix of %d by %d takes a vector of length %d, not %d", a.rows, a.count, a.count,
+                     inner);
+        else
+            COMPLAIN(l, t->at, "a vector stands behind its matrix, not before it");
+        return wrong(l);
+    }
+    value v = vector(l, a.rows * columns), products = vector(l, inner);
+    for (int i = 0; i < a.rows; i++)
+        for (int j = 0; j < columns; j++) {
+            for (int k = 0; k < inner; k++)
+                products.item[k] = binary(l, OP_MUL, a.item[i * inner + k], b.item[k * columns + j]);
+            v.item[i * columns + j] = graph_total(l->model->graph, products.item, (size_t)inner);
+        }
+    v.count = b.rows ? columns : a.rows > 1 ? a.rows : 0;
+    v.rows = b.rows ? a.rows : 0;
+    return v;
+}
+
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
+    if (va.rows || vb.rows)
+        return want_number(l, va, a) && want_number(l, vb, b) ? lower_matrix_product(l, t, va, vb) : wrong(l);
     va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
     if (va.count && vb.count) {
         COMPLAIN(l, t->at, "two vectors have no plain product");
@@ -87,8 +121,10 @@ static value lower_quotient(lowering *l, const tree *t, const tree *a, value va,
     if (!va.count) return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
     /* v/s is v*(1/s), so it divides once */
     node once = binary(l, OP_DIV, graph_const(l->model->graph, 1), vb.item[0]);
-    value v = vector(l, va.count);
+    value v = vector(l, va.rows ? va.rows * va.count : va.count);
     for (int k = 0; k < v.count; k++) v.item[k] = binary(l, OP_MUL, va.item[k], once);
+    v.count = va.count;
+    v.rows = va.rows;
     return v;
 }
 
@@ -347,6 +383,29 @@ static value lower_truth(lowering *l, const tree *t)
     return v;
 }
 
+/* [[2, -1], [-1, 2]]: rows of numbers [18]. */
+value lower_matrix(lowering *l, const tree *t)
+{
+    const uint32_t columns = t->item[0]->count;
+    if ((double)t->count * columns > MODEL_COMPONENTS_MAX) {
+        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "a matrix has at most %d numbers", MODEL_COMPONENTS_MAX);
+        return wrong(l);
+    }
+    value v = vector(l, (int)(t->count * columns));
+    for (uint32_t i = 0; i < t->count; i++) {
+        const tree *row = t->item[i];
+        if (row->kind != TREE_LIST || row->count != columns) {
+            COMPLAIN(l, row->at, "the rows of a matrix are lists of one length");
+            return wrong(l);
+        }
+        for (uint32_t k = 0; k < columns && !failed(l); k++)
+            v.item[i * columns + k] = lower_scalar(l, row->item[k], "an entry of a matrix");
+    }
+    v.count = (int)columns;
+    v.rows = (int)t->count;
+    return v;
+}
+
 static value lower_vector(lowering *l, const tree *t)
 {
     if (t->count > MODEL_COMPONENTS_MAX) {
@@ -359,6 +418,22 @@ static value lower_vector(lowering *l, const tree *t)
     return v;
 }
 
+static value lower_factor(lowering *l, const tree *t);
+
+/* Complains where a matrix is no factor. */
+static bool no_matrix(lowering *l, value v, const tree *t)
+{
+    char text[80];
+    if (failed(l) || !v.rows) return true;
+    quote(l, t->at, text);
+    COMPLAIN(l, t->at, "%s is a matrix, which may multiply a vector and stand nowhere else", text);
+    if (t->kind == TREE_NAME)
+        HINT(l, "write %s x, or %s[1, 2] for an entry", text, text);
+    else
+        HINT(l, "write it before a vector");
+    return false;
+}
+
 /* One operator whose left operand is lowered already. */
 static value lower_right(lowering *l, const tree *t, value left)
 {
@@ -369,7 +444,8 @@ static value lower_right(lowering *l, const tree *t, value left)
         return failed(l) ? wrong(l)
                          : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
-    value right = lower_expression(l, b);
+    if (t->kind != TREE_MULTIPLY && t->kind != TREE_DIVIDE && !no_matrix(l, left, a)) return wrong(l);
+    value right = t->kind == TREE_MULTIPLY ? lower_factor(l, b) : lower_expression(l, b);
     if (failed(l)) return wrong(l);
     if (t->kind == TREE_ADD || t->kind == TREE_SUBTRACT) return lower_sum_of_two(l, t, a, left, b, right);
     const bool derived = left.derived || right.derived;
@@ -397,7 +473,7 @@ static value lower_chain(lowering *l, const tree *t)
     if (!chain) return wrong(l);
     size_t n = depth;
     for (const tree *c = t; n > 0; c = c->item[0]) chain[--n] = c;
-    value v = lower_expression(l, leaf);
+    value v = lower_factor(l, leaf);
     for (size_t i = 0; i < depth && !failed(l); i++) v = lower_right(l, chain[i], v);
     return v;
 }
@@ -426,13 +502,15 @@ static value lower_any(lowering *l, const tree *t)
     }
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:
-        v = lower_expression(l, t->item[0]);
+        v = lower_factor(l, t->item[0]);
         if (!want_number(l, v, t->item[0])) return wrong(l);
-        value r = vector(l, v.count);
+        value r = vector(l, v.rows ? v.rows * v.count : v.count);
         r.derived = v.derived;
         lower_tidy(l, v.derived);
         for (int k = 0; k < (r.count ? r.count : 1); k++) r.item[k] = graph_op(g, OP_NEG, v.item[k], 0, 0);
         lower_tidy(l, false);
+        r.count = v.count;
+        r.rows = v.rows;
         return r;
     case TREE_POWER: return lower_power(l, t);
     case TREE_COMPARE: {
@@ -445,6 +523,7 @@ static value lower_any(lowering *l, const tree *t)
         return failed(l) ? wrong(l) : condition(l, graph_op(g, OP_NOT, v.item[0], 0, 0));
     case TREE_VECTOR: return lower_vector(l, t);
     case TREE_LIST:
+        if (t->count > 0 && t->item[0]->kind == TREE_LIST) return lower_matrix(l, t);
         COMPLAIN(l, t->at, "a list stands alone behind the = of a parameter");
         HINT(l, "write m = [1, 2], then m[1]; a vector is written (1, 2)");
         return wrong(l);
@@ -458,7 +537,8 @@ static value lower_any(lowering *l, const tree *t)
     }
 }
 
-value lower_expression(lowering *l, const tree *t)
+/* What may be a matrix. */
+static value lower_factor(lowering *l, const tree *t)
 {
     model *m = l->model;
     if (m->depth == MODEL_DEPTH_MAX) {
@@ -471,4 +551,10 @@ value lower_expression(lowering *l, const tree *t)
     value v = lower_any(l, t);
     m->depth--;
     return v;
+}
+
+value lower_expression(lowering *l, const tree *t)
+{
+    value v = lower_factor(l, t);
+    return no_matrix(l, v, t) ? v : wrong(l);
 }

@@ -13,6 +13,7 @@
 typedef struct value {
     node *item;
     int count;             /* 0: a scalar, item[0] */
+    int rows;              /* 0: no matrix; else row by row, `count` numbers each: a factor alone may be one */
     bool boolean, derived; /* derived: made by diff, see lower_tidy */
 } value;
 
@@ -52,6 +53,8 @@ typedef struct lowering {
 
 void lower_start(lowering *, model *, lower_place, const char *what);
 value lower_expression(lowering *, const tree *);
+/* Rows of numbers. */
+value lower_matrix(lowering *, const tree *);
 /* The same for a tree that must be a number, neither vector nor condition. */
 node lower_scalar(lowering *, const tree *, const char *what);
 /* A left side, `name[indices] … for loops`: fills to->dims, to->at and the loops of the output, and makes the indices

@@ -148,8 +148,25 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     return select ? lower_component(l, v, t->item[0], t) : v;
 }
 
+/* All entries of a matrix that was written as one. */
+static value whole_matrix(lowering *l, const model_definition *d)
+{
+    const int rows = (int)d->last[0], columns = (int)d->last[1];
+    value v = vector(l, rows * columns);
+    for (int k = 0; k < rows * columns && !failed(l); k++) {
+        reference r = {.array = d->array, .dims = 2};
+        r.at[0] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k / columns};
+        r.at[1] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k % columns};
+        v.item[k] = graph_load(l->model->graph, &r);
+    }
+    v.count = columns;
+    v.rows = rows;
+    return v;
+}
+
 static value lower_list(lowering *l, const tree *t, model_definition *d)
 {
+    if (!t->index_count && d->dims == 2 && d->statement->value->kind == TREE_LIST) return whole_matrix(l, d);
     if ((int)t->index_count != d->dims) {
         COMPLAIN(l, t->at, "%s is a list and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
         HINT(l, "write %s[1] or %s[i]", d->name, d->name);

@@ -50,10 +50,41 @@ static bool resolve_plain(model *m, model_definition *d)
     return true;
 }
 
+/* K = [[2, -1], [-1, 2]]: places [row, column], each from 1 */
+static bool resolve_matrix(model *m, model_definition *d)
+{
+    lowering l;
+    lower_start(&l, m, PLACE_CONSTANT, "a parameter");
+    value v = lower_matrix(&l, d->statement->value);
+    if (failed(m)) return false;
+    const int n = v.rows * v.count;
+    d->list = true;
+    d->dims = 2;
+    d->components = 0;
+    d->first[0] = d->first[1] = 1;
+    d->last[0] = v.rows;
+    d->last[1] = v.count;
+    size_t base;
+    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
+    if (!out || !model_take_numbers(m, (size_t)n, &base) || !model_take_arrays(m, 1, &d->array)) return false;
+    graph_shape(&m->arrays[d->array], SPACE_POOL, base, 2, d->first, d->last);
+    if (!evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
+    memcpy(m->pool + base, out, (size_t)n * sizeof *out);
+    for (int k = 0; k < n; k++) {
+        output place = {.to = {.dims = 2}};
+        place.to.at[0] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k / v.count};
+        place.to.at[1] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k % v.count};
+        if (!vary_record(m, &place, v.item + k, 1, base, 2, d->first, d->last, (size_t)n, NULL, 0, &d->log_array))
+            return false;
+    }
+    return true;
+}
+
 /* m = [1, 2, 3] or [(1, 0), (0, 1)]: places 1 … n */
 static bool resolve_list(model *m, model_definition *d)
 {
     const tree *list = d->statement->value;
+    if (list->count > 0 && list->item[0]->kind == TREE_LIST) return resolve_matrix(m, d);
     int n = (int)list->count;
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
@@ -95,8 +126,7 @@ static bool resolve_list(model *m, model_definition *d)
     return true;
 }
 
-/* The lines of a family. Of lines about the same place the one with fewer indices holds, and one that was set by the
- * caller before all. */
+/* The lines of a family. Of lines about the same place that with fewer indices holds; what is set holds before all. */
 enum { RANK_CELL = MAX_DIMS + 1, RANK_SET };
 #define EACH_LINE(m, d, one) \
     for (const statement *one = (d)->statement; one; one = one->next ? &(m)->statements.item[one->next - 1] : NULL)
