@@ -41,6 +41,7 @@ struct locate {
     place from, to, beyond; /* a piece's start, its end, and a trial between */
     place start;            /* of the step */
     place twice;            /* the end of two half pieces */
+    place found;            /* where an argument is beyond in the middle of a step */
     interval *box;          /* nx, then nv */
     bool resolves;          /* pieces must resolve the force */
     double *start_side;
@@ -94,7 +95,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     const bool resolves = h && switches == MOTUS_SWITCHES_RESOLVE && held_resolves(h);
     if (!h || (!held_count(h) && !resolves)) return MOTUS_OK;
     const problem *p = held_problem(h);
-    const size_t count = held_count(h), numbers = 7 * count + 5 * place_numbers(p, count) + 2 * (p->nx + p->nv);
+    const size_t count = held_count(h), numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + p->nv);
     locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
     if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
     *l = (locate){.held = h, .problem = *p, .count = count, .jump = -1, .jump_time = NAN};
@@ -109,6 +110,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     at = place_memory(&l->to, p, count, at);
     at = place_memory(&l->beyond, p, count, at);
     at = place_memory(&l->twice, p, count, at);
+    at = place_memory(&l->found, p, count, at);
     l->box = (interval *)(void *)at;
     l->resolves = resolves;
     for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
@@ -176,22 +178,24 @@ static double least_gap(const locate *l, const place *at, const double *size)
 
 /* Brackets --------------------------------------------------------------------------------------------------------- */
 
-/* The fraction of the step at which a gap that is positive at both ends is least, by the cubic through its values and
- * slopes; NaN: it does not come near 0 there. */
-static double dip(double g0, double s0, double g1, double s1)
+/* Fractions of a step at which a gap may be below 0, although it is not at the ends: where the tangents at both ends
+ * meet, if they meet near 0 or below it (a convex gap lies above them; |r| - d lies near their meeting point), and
+ * where the cubic through both ends is least. Returns how many, 0 to 2. */
+static int dips(double g0, double s0, double g1, double s1, double at[2])
 {
-    if (!(s0 < 0 && s1 > 0)) return NAN;
+    int count = 0;
+    if (!(s0 < 0 && s1 > 0)) return 0;
+    const double meet = (g1 - s1 - g0) / (s0 - s1);
+    if (!(meet > 0 && meet < 1 && g0 + s0 * meet < 0.25 * fmin(g0, g1))) return 0;
+    at[count++] = meet;
     /* g(z) = g0 + s0 z + b z² + c z³ */
-    const double c = 2 * (g0 - g1) + s0 + s1, b = 3 * (g1 - g0) - 2 * s0 - s1;
-    const double root = b * b - 3 * c * s0;
-    if (!(root >= 0)) return NAN;
-    const double z = -s0 / (b + sqrt(root));
-    if (!(z > 0 && z < 1)) return NAN;
-    return g0 + z * (s0 + z * (b + z * c)) < 0.25 * fmin(g0, g1) ? z : NAN;
+    const double c = 2 * (g0 - g1) + s0 + s1, b = 3 * (g1 - g0) - 2 * s0 - s1, z = -s0 / (b + sqrt(b * b - 3 * c * s0));
+    if (z > 0 && z < 1) at[count++] = z;
+    return count;
 }
 
 /* The end of the first part of the step in which an argument leaves its side and comes back: a fraction of the step at
- * which it is beyond, with `beyond` there; 1: there is none. */
+ * which it is beyond, with `found` there; 1: there is none. */
 static motus_status find_dip(motus_run *r, double h, double *fraction, motus_error *err)
 {
     locate *l = r->locate;
@@ -202,11 +206,15 @@ static motus_status find_dip(motus_run *r, double h, double *fraction, motus_err
         const operation op = held_operation(l->held, k);
         const double s0 = h * switches_gap_rate(op, l->side[k], l->from.u[k], l->rate[0][k]),
                      s1 = h * switches_gap_rate(op, l->side[k], l->to.u[k], l->rate[1][k]);
-        const double z = dip(gap(l, k, &l->from), s0, gap(l, k, &l->to), s1);
-        if (!(z < *fraction) || l->from.t + z * h == l->from.t) continue;
-        motus_status status = step_from(r, &l->from, z * h, &l->beyond, err);
-        if (status == MOTUS_MEMORY || status == MOTUS_CANCELLED) return status;
-        if (status == MOTUS_OK && gap(l, k, &l->beyond) < 0) *fraction = z;
+        double z[2];
+        for (int i = dips(gap(l, k, &l->from), s0, gap(l, k, &l->to), s1, z); i-- > 0;) {
+            if (!(z[i] < *fraction) || l->from.t + z[i] * h == l->from.t) continue;
+            motus_status status = step_from(r, &l->from, z[i] * h, &l->beyond, err);
+            if (status == MOTUS_MEMORY) return status;
+            if (status != MOTUS_OK || !(gap(l, k, &l->beyond) < 0)) continue;
+            *fraction = z[i];
+            place_swap(&l->beyond, &l->found);
+        }
     }
     return MOTUS_OK;
 }
@@ -288,6 +296,30 @@ static double either_side(const locate *l, double way, double *size)
     return isnan(after) || isnan(before) ? NAN : fmax(after, before);
 }
 
+/* The difference of the acceleration on the old sides before `from` and on the new ones after it: what remains where a
+ * formula is not defined beyond its side. It goes to 0 with `way` where the force is continuous. */
+static double one_sided(const locate *l, double way)
+{
+    const problem *p = &l->problem;
+    const place *at = &l->from;
+    double *x = l->beyond.x, *v = l->beyond.v, *a[2] = {l->beyond.a, l->to.a}, most = 0;
+    for (int side = 0; side < 2; side++) {
+        const double dt = side ? way : -way;
+        for (size_t k = 0; k < p->nv; k++) {
+            if (k < p->nx) x[k] = at->x[k] + dt * (at->v[k] + dt / 2 * at->a[k]);
+            v[k] = at->v[k] + dt * at->a[k];
+            a[side][k] = 0;
+        }
+        if (!held_bind(l->held, side ? l->side : l->old_side, false) || p->accel(p->ctx, at->t + dt, x, v, a[side]))
+            return NAN;
+    }
+    for (size_t k = 0; k < p->nv; k++) {
+        if (!isfinite(a[1][k] - a[0][k])) return NAN;
+        most = fmax(most, fabs(a[1][k] - a[0][k]));
+    }
+    return most;
+}
+
 /* Records the lowest derivative that jumps at `from`, near a step of size h. The difference grows as way^jump; where
  * one formula is not defined beyond the root, the force itself alone can be compared. The slope of cbrt is infinite. */
 static void note_jump(locate *l, double h, operation changed)
@@ -298,7 +330,7 @@ static void note_jump(locate *l, double h, operation changed)
                  here = difference(l, 0, &size), noise = 64 * 0x1p-52 * size;
     int jump = -1;
     if (here <= DBL_MAX) l->rounding += here * 0x1p-52 * fabs(l->from.t);
-    if (!(here <= 1e-7 * size))
+    if (isnan(here) ? one_sided(l, h / 512) >= one_sided(l, h / 8) / 2 : here > noise && !(here <= near / 4))
         jump = 0;
     else if (changed == OP_CBRT || isnan(far) || isnan(near))
         jump = 1;
@@ -323,20 +355,16 @@ static motus_status slides(const locate *l, size_t k, motus_error *err)
     return MOTUS_SOLVE;
 }
 
-/* Changes the sides of all arguments that have left theirs at `to`; where none has (failed), of the one that is
- * nearest to it. Returns one of them, or `count`. */
+/* Changes the sides of all arguments that have left theirs at `to`; where none can (failed), of those that are about
+ * to. Returns one of them, or `count`. */
 static size_t change_sides(locate *l, bool failed)
 {
-    size_t changed = l->count, nearest = l->count;
+    size_t changed = l->count;
     memcpy(l->old_side, l->side, l->count * sizeof *l->side);
-    for (size_t k = 0; k < l->count; k++)
-        if (gap(l, k, &l->to) <= 1e-9 * l->size[k] &&
-            (nearest == l->count || gap(l, k, &l->to) / l->size[k] < gap(l, nearest, &l->to) / l->size[nearest]))
-            nearest = k;
     for (size_t k = 0; k < l->count; k++) {
         const operation op = held_operation(l->held, k);
         const double u = l->to.u[k];
-        if (gap(l, k, &l->to) < 0 || (failed && k == nearest)) {
+        if (gap(l, k, &l->to) < 0 || (failed && gap(l, k, &l->to) <= 1e-9 * l->size[k])) {
             l->side[k] = switches_beyond(op, l->side[k], u);
             changed = k;
         }
@@ -383,8 +411,8 @@ static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
     const double a = fmax(largest(l->from.a, p->nv), fmax(largest(l->beyond.a, p->nv), largest(l->to.a, p->nv))),
                  v = fmax(largest(l->from.v, p->nv), largest(l->to.v, p->nv)),
                  late = 0x1p-52 * fabs(l->to.t); /* rounding of the time, at which a force changes fast */
-    const double of_x = 1e-13 * (largest(l->to.x, p->nx) + fabs(h) * v) + late * v,
-                 of_v = 1e-13 * (v + fabs(h) * a) + late * a;
+    const double of_x = 1e-13 * (largest(l->to.x, p->nx) + fabs(h) * v) + late * v + 1e-30,
+                 of_v = 1e-13 * (v + fabs(h) * a) + late * a + 1e-30; /* before a force sets in */
     *same = true;
     for (size_t k = 0; k < p->nv; k++) {
         if (k < p->nx && !(fabs(l->to.x[k] - l->twice.x[k]) <= of_x)) *same = false;
@@ -456,7 +484,7 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
                 continue;
             }
             h *= part;
-            place_swap(&l->to, &l->beyond);
+            place_swap(&l->to, &l->found);
         }
         const double tried = h;
         const bool lost = failed;
@@ -502,6 +530,9 @@ motus_status locate_begin(motus_run *r, motus_error *err)
         if (pass == 2 || status != MOTUS_OK) break;
         status = observe(r, at, err);
         if (status != MOTUS_OK) break;
+        const problem *own = &r->system->problem;
+        if (pass == 0 && own->accel(own->ctx, at->t, at->x, at->v, at->a))
+            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", at->t);
         const double way = r->timing.h * 0x1p-20;
         for (size_t k = 0; k < l->problem.nv; k++) {
             if (k < l->problem.nx) x[k] = at->x[k] + way * (at->v[k] + way / 2 * at->a[k]);

@@ -15,7 +15,7 @@ struct held {
     switches switches;
     tape *argument, *held, *rate;
     resolution *resolution; /* NULL: nothing to resolve */
-    double *sides;      /* that are bound: the last numbers of view.pool */
+    double *sides;          /* that are bound: the last numbers of view.pool */
     bool bound;
 };
 
@@ -60,7 +60,12 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     const switches *s = &h->switches;
     *refused = s->refused;
     if (s->refused) return MOTUS_OK;
-    if (!resolution_create(m, s->accel, m->accel_count, &h->resolution))
+    const size_t accels = m->accel_count, all = accels + s->kinds;
+    output *reads = arena_room(m->arena, (all + 1) * sizeof *reads); /* what decides the motion */
+    if (!reads) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    memcpy(reads, s->accel, accels * sizeof *reads);
+    if (s->kinds) memcpy(reads + accels, s->held, s->kinds * sizeof *reads);
+    if (!resolution_create(m, reads, all, s->count > 0, &h->resolution))
         return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     if (s->count == 0 && !h->resolution) return MOTUS_OK;
     h->model = m;

@@ -132,6 +132,9 @@ static double round_down(double duration)
 static motus_status bound_length(converge *c, double *until)
 {
     study *s = &c->s;
+    motus_analysis analysis = motus_default_analysis();
+    study_note(s, motus_analysis_of(s->system, &analysis));
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
     study_grid g = even_grid(s, s->until, SURVEY);
     solution survey;
     motus_status status = solution_find(s, &g, SURVEY, SURVEY_TRUST / 100, &survey);
@@ -151,8 +154,9 @@ static motus_status bound_length(converge *c, double *until)
     double duration = fabs(s->until - s->from);
     double longest = duration;
     if (phase_rate * duration > PHASE_MOST) longest = PHASE_GOOD / phase_rate;
-    if (peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
-    if (stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
+    if (analysis.smooth && peak * longest > PEAK_MOST) longest = PEAK_MOST / peak;
+    /* Where a force jumps, its derivative is no rate of the motion. */
+    if (analysis.smooth && stiff * longest > STIFF_MOST) longest = STIFF_MOST / stiff;
     if (longest == duration) return MOTUS_OK;
     c->cut = true;
     *until = s->from + direction * round_down(longest);

@@ -760,6 +760,22 @@ static void no_certificate_by_luck(void **state)
     motus_system_destroy(s);
 }
 
+static void a_pulse_at_rest_has_a_reference(void **state)
+{
+    (void)state;
+    motus_system *s = system_of_text("x'' = -x + exp(-((t-5)/0.1)^2)\nx(0) = 0\nx'(0) = 0\nuntil 10\nstep 0.1\n");
+    motus_reference *r = NULL;
+    motus_error e = motus_default_error();
+    const double end = 10;
+    double x;
+    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_OK);
+    assert_int_equal(motus_reference_at(r, &end, 1, &x, NULL, &e), MOTUS_OK);
+    NEAR(x, 0.1 * sqrt(acos(-1)) * exp(-0.0025) * sin(5), 1e-12); /* ∫ sin(10 - s) exp(-((s-5)/0.1)²) ds */
+    assert_true(motus_reference_error(r) < 1e-11);
+    motus_reference_destroy(r);
+    motus_system_destroy(s);
+}
+
 /* What cannot be resolved has no reference: a fall into the centre, friction that sticks. */
 static void no_reference(void **state)
 {
@@ -1045,6 +1061,7 @@ int main(void)
         cmocka_unit_test(references_of_forces_that_jump),
         cmocka_unit_test(no_certificate_by_luck),
         cmocka_unit_test(no_reference),
+        cmocka_unit_test(a_pulse_at_rest_has_a_reference),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),
 #ifdef MOTUS_SOURCE_DIR

@@ -135,10 +135,10 @@ static void which_derivative_jumps(void **state)
     static const struct {
         const char *force;
         int jump;
-    } rows[] = {{"-x - sign(x)", 0},           {"-x - |x|", 1},          {"-x - |x| x", 2},
-                {"-x - 0.1 |x| x^2", 3},       {"-x - max(0, x)", 1},    {"-x - x |x|^3", 4},
-                {"-x - cbrt(x)", 1},           {"-x + floor(2 x)", 0},   {"-x |x^2 + 1|", -1},
-                {"-x + if(t < 20, 0, 1)", -1}, {"-x + max(0, t - 1)", 1}};
+    } rows[] = {{"-x - sign(x)", 0},      {"-x - |x|", 1},        {"-x - |x| x", 2},    {"-x - 0.1 |x| x^2", 3},
+                {"-x - max(0, x)", 1},    {"-x - x |x|^3", 4},    {"-x - cbrt(x)", 1},  {"-x - sign(x) |x|^1.5", 1},
+                {"-x + 1e-9 sign(x)", 0}, {"-x + floor(2 x)", 0}, {"-x |x^2 + 1|", -1}, {"-x + if(t < 20, 0, 1)", -1},
+                {"-x + max(0, t - 1)", 1}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         char text[256];
         snprintf(text, sizeof text, "x'' = %s\nx(0) = 1\nx'(0) = 0.1\nuntil 4\n", rows[k].force);
@@ -165,6 +165,14 @@ static void families(void **state)
     const char *sums = "x[i]'' = -sum(j = 1..3: if(x[i] > x[j], 1, 0)) for i = 1..3\nx[i](0) = i for i = 1..3\n"
                        "x[i]'(0) = -i for i = 1..3\nuntil 1.5\n";
     NEAR(located(sums, "rk4", 0.1).x, located(sums, "rk4", 0.01).x, 1e-13);
+}
+
+/* At rest on a switch, where the equation gives 0, the motion stays. */
+static void at_rest(void **state)
+{
+    (void)state;
+    NEAR(located("x'' = sign(x)\nx(0) = 0\nx'(0) = 0\nuntil 5\n", "rk4", 0.1).x, 0, 0);
+    NEAR(located("x'' = 1 - |x|\nx(0) = 0\nx'(0) = 0\nuntil 0.5\n", "kahan-li8", 0.1).x, 1 - cos(0.5), 1e-12);
 }
 
 /* Friction that sticks: both sides drive the motion back. */
@@ -270,6 +278,7 @@ int main(void)
         cmocka_unit_test(which_derivative_jumps),
         cmocka_unit_test(families),
         cmocka_unit_test(sliding),
+        cmocka_unit_test(at_rest),
         cmocka_unit_test(bits),
         cmocka_unit_test(times),
         cmocka_unit_test(a_step_longer_than_the_run),

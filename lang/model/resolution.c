@@ -9,6 +9,7 @@
 
 /* Scales, in units of the argument. */
 #define WIDE 1.0   /* of exp, sinh, cosh, tanh, erf, atan */
+#define WAVE 1.5   /* of sin, cos, tan: a quarter of a turn */
 #define FLAT -50.0 /* exp is nothing below this */
 #define EDGE 8.0   /* tanh, erf and atan hardly change beyond this */
 #define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
@@ -42,9 +43,13 @@ static size_t place_of(const model *m, const reference *r)
     return (size_t)at;
 }
 
-static bool hides(operation op)
+/* waves: sin, cos and tan count, since they may decide a switch. */
+static bool hides(operation op, bool waves)
 {
     switch (op) {
+    case OP_SIN:
+    case OP_COS:
+    case OP_TAN: return waves;
     case OP_EXP:
     case OP_SINH:
     case OP_COSH:
@@ -57,7 +62,7 @@ static bool hides(operation op)
     }
 }
 
-bool resolution_create(model *m, const output *outputs, size_t count, resolution **out)
+bool resolution_create(model *m, const output *outputs, size_t count, bool switched, resolution **out)
 {
     graph *g = m->graph;
     graph_walk w;
@@ -74,7 +79,7 @@ bool resolution_create(model *m, const output *outputs, size_t count, resolution
         const graph_node *n = &g->nodes[w.nodes[k]];
         scalar &= n->op != OP_SUM && n->op != OP_INDEX && !(n->deps & (DEP_LEVELS | DEP_A | DEP_D));
         const node varies = n->op == OP_DIV ? n->b : n->a;
-        any |= hides(n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
+        any |= hides(n->op, switched) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
     }
     if (any && scalar) {
         resolution *r = arena_take(m->arena, sizeof *r);
@@ -235,6 +240,9 @@ static bool hidden(operation op, interval a, interval b)
     case OP_TANH:
     case OP_ERF:
     case OP_ATAN: return wide && a.low < EDGE && a.high > -EDGE;
+    case OP_SIN:
+    case OP_COS:
+    case OP_TAN: return !(a.high - a.low <= WAVE);
     case OP_DIV: return changes(b);
     case OP_POW: return b.low < 1 && changes(a);
     default: return false;

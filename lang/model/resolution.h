@@ -16,9 +16,9 @@ typedef struct interval {
 
 typedef struct resolution resolution;
 
-/* For these outputs, which may read x and v alone. *out is NULL where no operation can hide anything, or where there
- * are families. Lives in the model's arena. False: no memory. */
-bool resolution_create(model *, const output *, size_t count, resolution **out);
+/* For these outputs, which may read x and v alone; switched: the model has switches. *out is NULL where no operation
+ * can hide anything, or where there are families. Lives in the model's arena. False: no memory. */
+bool resolution_create(model *, const output *, size_t count, bool switched, resolution **out);
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
 bool resolution_fits(resolution *, interval t, const interval *x, const interval *v, const double *pool);
 
