@@ -24,7 +24,9 @@ enum { CSV, PLOT, STATE, FILES };
 typedef struct job {
     const options *options;
     load model;
+    motus_run_def def;
     motus_run *run;
+    motus_error singular; /* its status is MOTUS_SINGULAR where the run has passed a singularity */
     stop_progress progress;
     double start, until;
     csv csv;
@@ -81,15 +83,15 @@ static motus_status begin(job *j, motus_error *err)
     if (!status) status = load_model(&j->model, o, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (status) return status;
-    motus_run_def def = motus_default_run();
-    def.method = o->method;
-    def.step = o->step;
-    def.until = o->until;
-    def.machine = o->machine;
-    def.threads = (int)o->threads;
-    def.progress = stop_progress_hook;
-    def.context = &j->progress;
-    status = motus_run_create(j->model.system, &def, &j->run, err);
+    j->def = motus_default_run();
+    j->def.method = o->method;
+    j->def.step = o->step;
+    j->def.until = o->until;
+    j->def.machine = o->machine;
+    j->def.threads = (int)o->threads;
+    j->def.progress = stop_progress_hook;
+    j->def.context = &j->progress;
+    status = motus_run_create(j->model.system, &j->def, &j->run, err);
     if (status) return status;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
@@ -147,7 +149,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
     if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
-    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds};
+    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds, j->singular.time};
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
@@ -177,7 +179,7 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
-    job j = {.options = o};
+    job j = {.options = o, .singular = motus_default_error()};
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
@@ -185,7 +187,10 @@ motus_status run_verb(const options *o, motus_error *err)
         status = go(&j, err);
         double seconds = stop_clock() - began;
         stop_progress_end(&j.progress);
+        if (!status && motus_run_singular(j.model.system, &j.def, &j.singular) == MOTUS_MEMORY)
+            *err = j.singular, status = MOTUS_MEMORY;
         if (!status) status = finish(&j, seconds, err);
+        if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
     }
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);

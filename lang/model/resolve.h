@@ -22,4 +22,9 @@ bool resolve_create(model *, const output *, size_t count, resolver **out);
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
 bool resolve_fits(resolver *, interval t, const interval *x, const interval *v, const double *pool);
 
+/* The same for poles: a divisor of 0, or the base of a negative power; log at 0, tan at odd multiples of π/2. Whether
+ * there may be one in the intervals. */
+bool resolve_create_poles(model *, const output *, size_t count, resolver **out);
+bool resolve_pole(resolver *, interval t, const interval *x, const interval *v, const double *pool);
+
 #endif
