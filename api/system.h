@@ -9,6 +9,7 @@
 
 #include "api/check.h"
 #include "base/modes.h"
+#include "lang/model/resolution.h"
 #include "machine/compiled.h"
 
 typedef struct column_range { /* the columns of one name */
@@ -31,6 +32,8 @@ struct motus_system {
     compiled *compiled;    /* NULL until a run asks for it */
     struct held *switches; /* NULL until a run asks for it, and where the model has none */
     bool switches_known;
+    resolution *poles; /* NULL until a run is asked for a singularity, and where the force has no poles */
+    bool poles_known;
     const char *switches_refused; /* why they cannot be located; NULL */
     double start;
     double *x0, *v0;

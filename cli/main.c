@@ -125,6 +125,7 @@ int main(int argc, char **argv)
     if (!status) return 0;
     err.status = status;
     if (!err.message[0]) fail(&err, status, "%s", motus_status_text(status));
-    /* with MOTUS_ORDER, converge has already printed its JSON object, which says which methods failed */
-    return complain_show(&err, as_json && status != MOTUS_ORDER);
+    /* converge and run have already printed their JSON objects, which say which methods failed, and where the run was
+     * singular */
+    return complain_show(&err, as_json && status != MOTUS_ORDER && status != MOTUS_SINGULAR);
 }

@@ -25,7 +25,9 @@ enum { CSV, PLOT, STATE, FILES };
 typedef struct job {
     const options *options;
     load model;
+    motus_run_def def;
     motus_run *run;
+    motus_error singular; /* its status is MOTUS_SINGULAR where the run has passed a singularity */
     stop_progress progress;
     double start, until;
     csv csv;
@@ -83,15 +85,15 @@ static motus_status begin(job *j, motus_error *err)
     if (!status) status = settle_timing(&j->model, o, SETTLE_STEP | SETTLE_UNTIL, o->method, err);
     if (!status && o->output) status = csv_plan(&j->csv, &j->model, o, err);
     if (status) return status;
-    motus_run_def def = motus_default_run();
-    def.method = o->method;
-    def.step = j->model.step;
-    def.until = j->model.until;
-    def.machine = o->machine;
-    def.threads = (int)o->threads;
-    def.progress = stop_progress_hook;
-    def.context = &j->progress;
-    status = motus_run_create(j->model.system, &def, &j->run, err);
+    j->def = motus_default_run();
+    j->def.method = o->method;
+    j->def.step = j->model.step;
+    j->def.until = j->model.until;
+    j->def.machine = o->machine;
+    j->def.threads = (int)o->threads;
+    j->def.progress = stop_progress_hook;
+    j->def.context = &j->progress;
+    status = motus_run_create(j->model.system, &j->def, &j->run, err);
     if (status) return status;
     if (motus_run_note(j->run)[0] && !o->quiet) complain_note("the interpreter runs this: %s", motus_run_note(j->run));
     j->start = motus_run_time(j->run);
@@ -149,7 +151,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
     if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
-    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds};
+    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds, j->singular.time};
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
@@ -179,7 +181,7 @@ motus_status run_verb(const options *o, motus_error *err)
 {
     if (o->emit_c) return emit(o, err);
     if (o->share) return share_verb(o, err);
-    job j = {.options = o};
+    job j = {.options = o, .singular = motus_default_error()};
     motus_status status = begin(&j, err);
     if (!status) {
         j.progress = stop_progress_begin("run", o->quiet);
@@ -187,7 +189,10 @@ motus_status run_verb(const options *o, motus_error *err)
         status = go(&j, err);
         double seconds = stop_clock() - began;
         stop_progress_end(&j.progress);
+        if (!status && motus_run_singular(j.model.system, &j.def, &j.singular) == MOTUS_MEMORY)
+            *err = j.singular, status = MOTUS_MEMORY;
         if (!status) status = finish(&j, seconds, err);
+        if (!status && j.singular.status) *err = j.singular, status = j.singular.status;
     }
     for (int i = 0; i < FILES; i++) file_drop(&j.files[i]);
     figure_free(&j.figure);

@@ -291,6 +291,7 @@ motus_status summary_json(const summary *s, motus_error *err)
         quantities_json(&j, s, quantities);
         invariants_json(&j, s);
         json_number(&j, "seconds", s->seconds);
+        json_number(&j, "singularity", s->singularity);
         json_end(&j);
     }
     free(state);

@@ -13,6 +13,7 @@ typedef struct summary {
     motus_run *run;
     const deviation *deviation;
     double start, seconds;
+    double singularity; /* where the run has passed one; NaN: nowhere */
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);

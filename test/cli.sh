@@ -120,7 +120,7 @@ that "an error object has these keys and no others" holds '(keys == ["error"]) a
 gives "run --json" 0 "$motus" run $oscillator --json
 that "... is JSON" json "$out"
 that "... prints nothing else" empty "$err"
-for key in model method machine step steps evaluations time state quantities invariants seconds; do
+for key in model method machine step steps evaluations time state quantities invariants seconds singularity; do
     that "run: key $key" holds "has(\"$key\")"
 done
 that "run: what it says of itself" holds ".model == \"$oscillator\" and .method == \"verlet\" and .step == 0.001 and .steps == 100000 and .time == 100"
@@ -285,6 +285,22 @@ that "... leaves the old file as it was" eval "[ \"\$(cat kept.csv)\" = precious
 that "... and makes no new one" eval "absent kept.state && absent kept.svg && nothing_left ."
 "$motus" run blow.motus --json >"$out" 2>"$err"
 that "... and its JSON names the kind" holds '.error.kind == "diverged"'
+cat >fall.motus <<'M'
+x'' = -1/x^2
+x(0) = 1
+x'(0) = 0
+step 0.001
+until 2
+M
+gives "a run that passes a singularity" 1 "$motus" run fall.motus -o fall.csv
+that "... says so, and when" grep -q "singularity of the force between t = 1.11 and t = 1.111" "$err"
+that "... and prints what it computed" says "t = 0 to 2"
+that "... also into its file" [ "$(grep -c '^[^#]' fall.csv)" = 2002 ]
+gives "... by any method" 1 "$motus" run fall.motus --method rk4 --json
+that "... its JSON is one object" json "$out"
+that "... that has the time" holds '.singularity == 1.11 and .steps == 2000'
+gives "... but not before it" 0 "$motus" run fall.motus --until 1.1 --json
+that "... whose JSON has none" holds '.singularity == null'
 printf "x'' = 1/(1 - t)\nx(0) = 0\nx'(0) = 0\nmethod rk4\nstep 0.25\nuntil 2\n" >pole.motus
 refuses "a division by zero on the way" 1 "t = " "$motus" run pole.motus -o pole.csv
 that "... leaves no file" absent pole.csv

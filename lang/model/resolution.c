@@ -13,6 +13,7 @@
 #define FLAT -50.0 /* exp is nothing below this */
 #define EDGE 8.0   /* tanh, erf and atan hardly change beyond this */
 #define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
+#define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
 
 typedef struct step {
     uint8_t op;
@@ -62,7 +63,13 @@ static bool hides(operation op, bool waves)
     }
 }
 
-bool resolution_create(model *m, const output *outputs, size_t count, bool switched, resolution **out)
+static bool hides_plain(operation op) { return hides(op, false); }
+static bool hides_waves(operation op) { return hides(op, true); }
+
+/* Whether an operation has poles. */
+static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
+
+static bool create(model *m, const output *outputs, size_t count, bool (*counts)(operation), resolution **out)
 {
     graph *g = m->graph;
     graph_walk w;
@@ -79,7 +86,7 @@ bool resolution_create(model *m, const output *outputs, size_t count, bool switc
         const graph_node *n = &g->nodes[w.nodes[k]];
         scalar &= n->op != OP_SUM && n->op != OP_INDEX && !(n->deps & (DEP_LEVELS | DEP_A | DEP_D));
         const node varies = n->op == OP_DIV ? n->b : n->a;
-        any |= hides(n->op, switched) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
+        any |= counts((operation)n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
     }
     if (any && scalar) {
         resolution *r = arena_take(m->arena, sizeof *r);
@@ -102,6 +109,16 @@ bool resolution_create(model *m, const output *outputs, size_t count, bool switc
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
+}
+
+bool resolution_create(model *m, const output *outputs, size_t count, bool switched, resolution **out)
+{
+    return create(m, outputs, count, switched ? hides_waves : hides_plain, out);
+}
+
+bool resolution_create_poles(model *m, const output *outputs, size_t count, resolution **out)
+{
+    return create(m, outputs, count, has_poles, out);
 }
 
 /* Intervals --------------------------------------------------------------------------------------------------- */
@@ -249,7 +266,28 @@ static bool hidden(operation op, interval a, interval b)
     }
 }
 
-bool resolution_fits(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
+/* Whether a may be 0, or so near to it as it is small beside its largest values. */
+static bool near_zero(interval a)
+{
+    const interval m = magnitude(a);
+    return !(m.low > POLE * m.high);
+}
+
+/* Whether an operation with these arguments may be at a pole. */
+static bool pole(operation op, interval a, interval b)
+{
+    switch (op) {
+    case OP_DIV: return near_zero(b);
+    case OP_POW: return b.low < 0 && near_zero(a);
+    case OP_LOG: return a.low <= 0 || near_zero(a);
+    case OP_TAN: return !(a.high - a.low < half_turn) || passes(a, half_turn / 2, half_turn);
+    default: return false;
+    }
+}
+
+/* Whether an operation is found with arguments in the intervals. */
+static bool finds(resolution *r, interval t, const interval *x, const interval *v, const double *pool,
+                  bool (*found)(operation, interval, interval))
 {
     for (uint32_t k = 0; k < r->count; k++) {
         const step *s = &r->steps[k];
@@ -268,8 +306,18 @@ bool resolution_fits(resolution *r, interval t, const interval *x, const interva
         const int arity = operation_at((operation)s->op)->arity;
         const interval a = r->values[s->operand[0]], b = arity > 1 ? r->values[s->operand[1]] : none,
                        c = arity > 2 ? r->values[s->operand[2]] : none;
-        if (hidden((operation)s->op, a, b)) return false;
+        if (found((operation)s->op, a, b)) return true;
         r->values[k] = value((operation)s->op, a, b, c, arity > 1 && s->operand[0] == s->operand[1]);
     }
-    return true;
+    return false;
+}
+
+bool resolution_fits(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
+{
+    return !finds(r, t, x, v, pool, hidden);
+}
+
+bool resolution_pole(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
+{
+    return finds(r, t, x, v, pool, pole);
 }

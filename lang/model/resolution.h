@@ -22,4 +22,9 @@ bool resolution_create(model *, const output *, size_t count, bool switched, res
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
 bool resolution_fits(resolution *, interval t, const interval *x, const interval *v, const double *pool);
 
+/* The same for poles: a divisor of 0, or the base of a negative power; log at 0, tan at odd multiples of π/2. Whether
+ * there may be one in the intervals. */
+bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
+bool resolution_pole(resolution *, interval t, const interval *x, const interval *v, const double *pool);
+
 #endif

@@ -1,0 +1,266 @@
+/* Whether a run passes a singularity of the force: motus_run_singular.
+ *
+ * Interval arithmetic over the states of a step tells where a divisor may be 0 (lang/model/resolution.h). Such a step
+ * is then taken once more from its start, by steps that error control chooses. Either they come to a halt, at a
+ * singularity; or they lead to another state than the run's step, which then has not resolved the force. Invariant: a
+ * step that agrees with the controlled ones is not accused, however near to a pole it leads.
+ */
+#include "api/run.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PIECES_MAX = 50000, STAGES = 4 }; /* controlled steps in all */
+#define TOLERANCE 1e-6                   /* of the motion's size, for a controlled step */
+#define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter stands before a singularity */
+#define APART 0.5     /* of the velocity, or of the way: another end than that of the controlled steps */
+
+typedef struct end {
+    double t, *x, *v, *a;
+} end;
+
+typedef struct judge {
+    motus_run *run;
+    const problem *problem;
+    end from, to, now, whole, half;
+    double *stage_x, *stage_v, *sum_x, *sum_v;
+    interval *box;     /* nx, then nv */
+    int pieces;        /* controlled steps so far */
+    double of_x, of_v; /* the sizes to which errors of controlled steps relate */
+} judge;
+
+static double largest(const double *y, size_t count)
+{
+    double most = 0;
+    for (size_t k = 0; k < count; k++)
+        if (!(fabs(y[k]) <= most)) most = fabs(y[k]);
+    return most;
+}
+
+static double apart(const double *y, const double *z, size_t count)
+{
+    double most = 0;
+    for (size_t k = 0; k < count; k++)
+        if (!(fabs(y[k] - z[k]) <= most)) most = fabs(y[k] - z[k]); /* NaN stays */
+    return most;
+}
+
+static void copy(const judge *j, end *to, const end *from)
+{
+    to->t = from->t;
+    memcpy(to->x, from->x, j->problem->nx * sizeof(double));
+    memcpy(to->v, from->v, j->problem->nv * sizeof(double));
+}
+
+static double least(double a, double b, double c, double d) { return fmin(fmin(a, b), fmin(c, d)); }
+static double most(double a, double b, double c, double d) { return fmax(fmax(a, b), fmax(c, d)); }
+
+/* What a number may be within a step of size h: between its ends and those of the tangents there. */
+static interval reach(double from, double rate, double to, double end_rate, double h)
+{
+    const double ahead = from + h * rate, back = to - h * end_rate;
+    return (interval){least(from, to, ahead, back), most(from, to, ahead, back)};
+}
+
+static bool may_meet_pole(const judge *j)
+{
+    const problem *p = j->problem;
+    const motus_system *s = j->run->system;
+    const end *a = &j->from, *b = &j->to;
+    const double h = b->t - a->t;
+    interval *x = j->box, *v = x + p->nx;
+    for (size_t k = 0; k < p->nx; k++) x[k] = reach(a->x[k], a->v[k], b->x[k], b->v[k], h);
+    for (size_t k = 0; k < p->nv; k++) v[k] = reach(a->v[k], a->a[k], b->v[k], b->a[k], h);
+    return resolution_pole(s->poles, (interval){fmin(a->t, b->t), fmax(a->t, b->t)}, x, v, s->model->pool);
+}
+
+/* Controlled steps ------------------------------------------------------------------------------------------------ */
+
+/* A step of the classical Runge-Kutta method. */
+static void step(const judge *j, const end *from, double h, end *to)
+{
+    static const double node_of[STAGES] = {0, 0.5, 0.5, 1}, weight[STAGES] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+    const problem *p = j->problem;
+    memcpy(j->stage_x, from->x, p->nx * sizeof(double));
+    memcpy(j->stage_v, from->v, p->nv * sizeof(double));
+    for (size_t k = 0; k < p->nv; k++) j->sum_x[k] = j->sum_v[k] = 0;
+    for (int s = 0; s < STAGES; s++) {
+        p->accel(p->ctx, from->t + node_of[s] * h, j->stage_x, j->stage_v, to->a);
+        const double next = s + 1 < STAGES ? node_of[s + 1] * h : 0;
+        for (size_t k = 0; k < p->nv; k++) {
+            const double velocity = j->stage_v[k];
+            j->sum_v[k] += weight[s] * to->a[k];
+            j->stage_v[k] = from->v[k] + next * to->a[k];
+            if (k >= p->nx) continue;
+            j->sum_x[k] += weight[s] * velocity;
+            j->stage_x[k] = from->x[k] + next * velocity;
+        }
+    }
+    for (size_t k = 0; k < p->nx; k++) to->x[k] = from->x[k] + h * j->sum_x[k];
+    for (size_t k = 0; k < p->nv; k++) to->v[k] = from->v[k] + h * j->sum_v[k];
+    to->t = from->t + h;
+}
+
+/* The error of a controlled step in units of the tolerance, by two half steps, which lead to `half`. */
+static double error_of(judge *j, double h)
+{
+    const problem *p = j->problem;
+    step(j, &j->now, h, &j->whole);
+    step(j, &j->now, h / 2, &j->half);
+    copy(j, &j->to, &j->half);
+    step(j, &j->to, h / 2, &j->half);
+    j->half.t = j->now.t + h;
+    const double x = apart(j->half.x, j->whole.x, p->nx), v = apart(j->half.v, j->whole.v, p->nv);
+    if (isnan(x) || isnan(v)) return NAN;
+    return fmax(x > 0 ? x / j->of_x : 0, v > 0 ? v / j->of_v : 0) / TOLERANCE;
+}
+
+/* Controlled steps from `from` to the time t; the state there is `now`. False: they come to a halt. */
+static bool arrives(judge *j, double t)
+{
+    const double whole = t - j->from.t, short_of = fmax(LEAST * fabs(whole), 8 * DBL_EPSILON * fabs(t));
+    double h = whole;
+    copy(j, &j->now, &j->from);
+    j->of_v = largest(j->from.v, j->problem->nv) + fabs(h) * largest(j->from.a, j->problem->nv);
+    j->of_x = largest(j->from.x, j->problem->nx) + fabs(h) * j->of_v;
+    while (j->pieces++ < PIECES_MAX) {
+        const double left = t - j->now.t;
+        const bool last = fabs(h) >= fabs(left);
+        if (last) h = left;
+        if (fabs(left) <= short_of) return true;
+        const double error = error_of(j, h);
+        if (error <= 1) {
+            copy(j, &j->now, &j->half);
+            j->of_v = fmax(j->of_v, largest(j->now.v, j->problem->nv));
+            if (last) return true;
+            h *= fmin(4, 0.9 * pow(fmax(error, 1e-4), -0.2));
+            continue;
+        }
+        h *= isfinite(error) ? fmax(0.1, fmin(0.5, 0.9 * pow(error, -0.2))) : 0.1;
+        if (fabs(h) < short_of) return false;
+    }
+    return true; /* long, but on its way */
+}
+
+/* Whether the step from `from` to the run's state has passed a singularity. `to` is lost. */
+static bool passes_pole(judge *j)
+{
+    const problem *p = j->problem;
+    const motus_run *r = j->run;
+    const double way = apart(j->to.x, j->from.x, p->nx);
+    if (!arrives(j, j->to.t)) return true;
+    const double x = fmax(way, apart(j->now.x, j->from.x, p->nx)),
+                 v = fmax(largest(j->from.v, p->nv), largest(j->now.v, p->nv));
+    return apart(j->now.x, r->x, p->nx) > APART * x || apart(j->now.v, r->v, p->nv) > APART * v;
+}
+
+/* The run ---------------------------------------------------------------------------------------------------------- */
+
+static motus_status observe(judge *j, end *at, motus_error *err)
+{
+    motus_run *r = j->run;
+    const problem *p = j->problem;
+    const motus_status status = run_sync(r, true, err);
+    if (status != MOTUS_OK) return status;
+    at->t = motus_run_time(r);
+    memcpy(at->x, r->x, p->nx * sizeof(double));
+    memcpy(at->v, r->v, p->nv * sizeof(double));
+    memcpy(at->a, r->a, p->nv * sizeof(double));
+    return MOTUS_OK;
+}
+
+static motus_status accuse(const judge *j, double from, motus_error *err)
+{
+    char a[DECIMAL_MAX], b[DECIMAL_MAX];
+    const double to = motus_run_time(j->run);
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(a, sizeof a, "%.*g", digits, from);
+        snprintf(b, sizeof b, "%.*g", digits, to);
+        if (strcmp(a, b) != 0) break;
+    }
+    fail(err, MOTUS_SINGULAR,
+         "the run passes a singularity of the force between t = %s and t = %s, which the step does not resolve; what "
+         "follows is not the motion",
+         a, b);
+    hint(err,
+         "let the run end before, `until = %s` of the definition; or take a smaller step, where the motion only comes "
+         "near to it",
+         a);
+    if (err) err->time = from;
+    return MOTUS_SINGULAR;
+}
+
+static motus_status walk(judge *j, motus_error *err)
+{
+    motus_run *r = j->run;
+    const model *m = r->system->model;
+    const double evaluations = r->card->evaluations ? r->card->evaluations : 4 * r->card->stages;
+    int64_t left = (int64_t)(MOTUS_SINGULAR_WORK / ((evaluations + 2) * (m->graph->count + 4.0 * (double)m->nv)));
+    motus_status status = observe(j, &j->from, NULL);
+    while (status == MOTUS_OK && left-- > 0 && j->pieces < PIECES_MAX && !motus_run_done(r)) {
+        status = motus_run_step(r, 1, NULL);
+        if (status == MOTUS_OK) status = observe(j, &j->to, NULL);
+        if (status != MOTUS_OK) break;
+        if (may_meet_pole(j)) {
+            const double from = j->from.t;
+            if (passes_pole(j)) return accuse(j, from, err);
+            observe(j, &j->to, NULL);
+        }
+        const end kept = j->from;
+        j->from = j->to;
+        j->to = kept;
+    }
+    return MOTUS_OK; /* where the run fails, it says so itself */
+}
+
+static motus_status look(motus_run *r, motus_error *err)
+{
+    const problem *p = &r->system->problem;
+    const size_t nx = p->nx, nv = p->nv;
+    judge j = {.run = r, .problem = p};
+    double *room = take(&r->allocator, 5 * (nx + 2 * nv) + 4 * nv + 2 * (nx + nv), sizeof *room);
+    if (!room) return fail(err, MOTUS_MEMORY, "no memory to look for singularities");
+    double *at = room;
+    end *const ends[] = {&j.from, &j.to, &j.now, &j.whole, &j.half};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++, at += nx + 2 * nv)
+        *ends[k] = (end){0, at, at + nx, at + nx + nv};
+    j.stage_x = at, j.stage_v = at + nv, j.sum_x = at + 2 * nv, j.sum_v = at + 3 * nv;
+    j.box = (interval *)(void *)(at + 4 * nv);
+    const motus_status status = walk(&j, err);
+    give(&r->allocator, room);
+    return status;
+}
+
+static motus_status find_poles(motus_system *s, motus_error *err)
+{
+    if (s->poles_known) return MOTUS_OK;
+    if (!resolution_create_poles(s->model, s->model->accel, s->model->accel_count, &s->poles))
+        return fail(err, MOTUS_MEMORY, "no memory to look for singularities");
+    s->poles_known = true;
+    return MOTUS_OK;
+}
+
+motus_status motus_run_singular(motus_system *s, const motus_run_def *given, motus_error *err)
+{
+    motus_run *r = NULL;
+    motus_run_def def;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s) return fail(err, MOTUS_ARGUMENT, "motus_run_singular needs a system");
+    motus_status status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (status != MOTUS_OK || !s->model) return status;
+    modes m = modes_enter();
+    status = find_poles(s, err);
+    if (status == MOTUS_OK && s->poles) {
+        def.machine = "interpreter";
+        def.progress = NULL;
+        def.observer = NULL;
+        def.switches = MOTUS_SWITCHES_STEP;
+        status = motus_run_create(s, &def, &r, err);
+        if (status == MOTUS_OK && strcmp(r->card->family, "exact") != 0) status = look(r, err);
+        motus_run_destroy(r);
+    }
+    modes_leave(m);
+    return status;
+}
