@@ -111,8 +111,9 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
     if (s->method.row->family != EXACT || p->traits.constant) return MOTUS_OK;
     if (!p->exact) return fail(err, MOTUS_METHOD, "exact does not admit this model: its exact motion is not known");
     const size_t nx = p->nx, all = p->nx + p->nv;
-    double *there = take(&s->allocator, 3 * all, sizeof *there), *size = there + all, *start = size + all;
+    double *there = take(&s->allocator, 3 * all, sizeof *there);
     if (!there) return fail(err, MOTUS_MEMORY, "out of memory");
+    double *size = there + all, *start = size + all;
     memcpy(start, x, nx * sizeof *x);
     memcpy(start + nx, v, p->nv * sizeof *v);
     memcpy(there, start, all * sizeof *there);

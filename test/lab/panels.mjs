@@ -63,6 +63,7 @@ for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 
       await figure.locator('details.figure-data > summary').click();
       await figure.locator('table').first().waitFor();
       const table = figure.locator('.figure-data table');
+      await table.locator('thead th').first().waitFor();
       same(`${name}: the table's head is the file's`, await table.locator('thead th').allTextContents(), head);
       const cells = await table.locator('tbody tr').evaluateAll((trs) => trs.map((tr) => [...tr.children].map((td) => td.textContent)));
       const stray = cells.find((row) => !rows.some((other) => row.every((cell, i) => agree(cell, other[i]))));
