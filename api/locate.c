@@ -268,21 +268,31 @@ static motus_status bracket(motus_run *r, double *h, bool *failed, motus_error *
 
 /* Which derivative jumps ------------------------------------------------------------------------------------------- */
 
-/* The difference of the accelerations on the old sides and on the new ones, at a distance `way` in time from `from`;
- * their size is noted in *size where it is larger. */
-static double difference(const locate *l, double way, double *size)
+/* The state at a distance `way` in time from `at`, by Taylor's formula. */
+static void follow(const problem *p, const place *at, double way, double *x, double *v)
 {
-    const problem *p = &l->problem;
-    const place *at = &l->from;
-    double *x = l->beyond.x, *v = l->beyond.v, *a = l->beyond.a, *b = l->to.a, most = 0;
     for (size_t k = 0; k < p->nv; k++) {
         if (k < p->nx) x[k] = at->x[k] + way * (at->v[k] + way / 2 * at->a[k]);
         v[k] = at->v[k] + way * at->a[k];
-        a[k] = b[k] = 0;
     }
-    if (!held_bind(l->held, l->old_side, false) || p->accel(p->ctx, at->t + way, x, v, a)) return NAN;
-    if (!held_bind(l->held, l->side, false) || p->accel(p->ctx, at->t + way, x, v, b)) return NAN;
-    for (size_t k = 0; k < p->nv; k++) {
+}
+
+/* The acceleration on these sides at a distance `way` in time from `from`. False: it cannot be evaluated. */
+static bool accelerate(const locate *l, const double *sides, double way, double *a)
+{
+    const problem *p = &l->problem;
+    follow(p, &l->from, way, l->beyond.x, l->beyond.v);
+    for (size_t k = 0; k < p->nv; k++) a[k] = 0;
+    return held_bind(l->held, sides, false) && p->accel(p->ctx, l->from.t + way, l->beyond.x, l->beyond.v, a) == 0;
+}
+
+/* The difference of the accelerations on the old sides, at a distance `before` in time from `from`, and on the new
+ * ones, at a distance `after`; their size is noted in *size where it is larger. NaN: one of them is not defined. */
+static double apart(const locate *l, double before, double after, double *size)
+{
+    double *a = l->beyond.a, *b = l->to.a, most = 0;
+    if (!accelerate(l, l->old_side, before, a) || !accelerate(l, l->side, after, b)) return NAN;
+    for (size_t k = 0; k < l->problem.nv; k++) {
         if (!isfinite(a[k]) || !isfinite(b[k])) return NAN;
         most = fmax(most, fabs(a[k] - b[k]));
         *size = fmax(*size, fmax(fabs(a[k]), fabs(b[k])));
@@ -290,34 +300,20 @@ static double difference(const locate *l, double way, double *size)
     return most;
 }
 
+static double difference(const locate *l, double way, double *size) { return apart(l, way, way, size); }
+
 static double either_side(const locate *l, double way, double *size)
 {
     const double after = difference(l, way, size), before = difference(l, -way, size);
     return isnan(after) || isnan(before) ? NAN : fmax(after, before);
 }
 
-/* The difference of the acceleration on the old sides before `from` and on the new ones after it: what remains where a
- * formula is not defined beyond its side. It goes to 0 with `way` where the force is continuous. */
+/* What remains where a formula is not defined beyond its side: the old sides before `from`, the new ones after it. It
+ * goes to 0 with `way` where the force is continuous. */
 static double one_sided(const locate *l, double way)
 {
-    const problem *p = &l->problem;
-    const place *at = &l->from;
-    double *x = l->beyond.x, *v = l->beyond.v, *a[2] = {l->beyond.a, l->to.a}, most = 0;
-    for (int side = 0; side < 2; side++) {
-        const double dt = side ? way : -way;
-        for (size_t k = 0; k < p->nv; k++) {
-            if (k < p->nx) x[k] = at->x[k] + dt * (at->v[k] + dt / 2 * at->a[k]);
-            v[k] = at->v[k] + dt * at->a[k];
-            a[side][k] = 0;
-        }
-        if (!held_bind(l->held, side ? l->side : l->old_side, false) || p->accel(p->ctx, at->t + dt, x, v, a[side]))
-            return NAN;
-    }
-    for (size_t k = 0; k < p->nv; k++) {
-        if (!isfinite(a[1][k] - a[0][k])) return NAN;
-        most = fmax(most, fabs(a[1][k] - a[0][k]));
-    }
-    return most;
+    double size = 0;
+    return apart(l, -way, way, &size);
 }
 
 /* Records the lowest derivative that jumps at `from`, near a step of size h. The difference grows as way^jump; where
@@ -534,10 +530,7 @@ motus_status locate_begin(motus_run *r, motus_error *err)
         if (pass == 0 && own->accel(own->ctx, at->t, at->x, at->v, at->a))
             return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", at->t);
         const double way = r->timing.h * 0x1p-20;
-        for (size_t k = 0; k < l->problem.nv; k++) {
-            if (k < l->problem.nx) x[k] = at->x[k] + way * (at->v[k] + way / 2 * at->a[k]);
-            v[k] = at->v[k] + way * at->a[k];
-        }
+        follow(&l->problem, at, way, x, v);
         held_arguments(l->held, at->t, at->x, at->v, u);
         held_arguments(l->held, at->t + way, x, v, later);
         for (size_t k = 0; k < l->count; k++)

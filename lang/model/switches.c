@@ -119,7 +119,8 @@ static bool is_switch(const graph *g, const graph_node *n)
     }
 }
 
-static node argument_of(graph *g, operation op, node a, node b)
+/* Whether the operation compares two operands: its argument is their difference, its side 1 or 0. */
+static bool compares(operation op)
 {
     switch (op) {
     case OP_MIN:
@@ -127,10 +128,15 @@ static node argument_of(graph *g, operation op, node a, node b)
     case OP_LT:
     case OP_LE:
     case OP_GT:
-    case OP_GE: return graph_op(g, OP_SUB, a, b, 0);
-    case OP_MOD: return graph_op(g, OP_DIV, a, b, 0);
-    default: return a;
+    case OP_GE: return true;
+    default: return false;
     }
+}
+
+static node argument_of(graph *g, operation op, node a, node b)
+{
+    if (compares(op)) return graph_op(g, OP_SUB, a, b, 0);
+    return op == OP_MOD ? graph_op(g, OP_DIV, a, b, 0) : a;
 }
 
 static node with_side(graph *g, operation op, node a, node b, node side)
@@ -314,13 +320,6 @@ double switches_gap_rate(operation op, double side, double u, double rate)
 double switches_beyond(operation op, double side, double u)
 {
     if (counts(op)) return u - side < side + 1 - u ? side - 1 : side + 1;
-    switch (op) {
-    case OP_MIN:
-    case OP_MAX:
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE: return 1 - side;
-    default: return side != 0 ? -side : u > 0 ? 1 : -1;
-    }
+    if (compares(op)) return 1 - side;
+    return side != 0 ? -side : u > 0 ? 1 : -1;
 }

@@ -226,19 +226,25 @@ static tree *parse_components(parser *p, tree *t)
     return t;
 }
 
-/* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
-tree *parse_applied(parser *p, tree *name)
+/* inside { "," inside } and the closing bracket, after the opening one, which is the present token */
+static tree *parse_items(parser *p, tree *t, char close, const char *where)
 {
-    tree *t = grow(p, TREE_APPLY, name->at);
-    add_item(p, t, name);
     do {
         advance(p);
         add_item(p, t, parse_inside(p));
         if (failed(p)) return t;
     } while (is(p, ','));
     t->at.to = p->token.at.to;
-    expect(p, ')', "at the end of the bracket");
+    expect(p, close, where);
     return t;
+}
+
+/* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
+tree *parse_applied(parser *p, tree *name)
+{
+    tree *t = grow(p, TREE_APPLY, name->at);
+    add_item(p, t, name);
+    return parse_items(p, t, ')', "at the end of the bracket");
 }
 
 /* name = NAME [ index ] [ primes ] [ applied ] components [4, 6] */
@@ -306,15 +312,7 @@ static tree *parse_bracket(parser *p)
 /* list = "[" inside { "," inside } "]" */
 static tree *parse_list(parser *p)
 {
-    tree *t = grow(p, TREE_LIST, p->token.at);
-    do {
-        advance(p);
-        add_item(p, t, parse_inside(p));
-        if (failed(p)) return t;
-    } while (is(p, ','));
-    t->at.to = p->token.at.to;
-    expect(p, ']', "or a comma, in the list");
-    return t;
+    return parse_items(p, grow(p, TREE_LIST, p->token.at), ']', "or a comma, in the list");
 }
 
 /* norm = "|" or "|" [7] */
