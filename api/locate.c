@@ -21,6 +21,7 @@
 enum {
     PIECES_MAX =
         20000, /* in one step: more are friction that sticks, or a motion that comes to rest by ever shorter bounces */
+    LOOK = 16, /* pieces between two looks at the clock */
     STILL_MAX = 64, /* sides changed one after the other while time hardly moves */
     HALVINGS_MAX = 200
 };
@@ -351,20 +352,36 @@ static motus_status slides(const locate *l, size_t k, motus_error *err)
     return MOTUS_SOLVE;
 }
 
-/* Changes the sides of all arguments that have left theirs at `to`; where none can (failed), of those that are about
- * to. Returns one of them, or `count`. */
-static size_t change_sides(locate *l, bool failed)
+/* Changes the sides of all arguments that have left theirs at `to`. Returns one of them, or `count`. */
+static size_t change_sides(locate *l)
 {
     size_t changed = l->count;
     memcpy(l->old_side, l->side, l->count * sizeof *l->side);
     for (size_t k = 0; k < l->count; k++) {
         const operation op = held_operation(l->held, k);
-        const double u = l->to.u[k];
-        if (gap(l, k, &l->to) < 0 || (failed && gap(l, k, &l->to) <= 1e-9 * l->size[k])) {
-            l->side[k] = switches_beyond(op, l->side[k], u);
+        if (gap(l, k, &l->to) < 0) {
+            l->side[k] = switches_beyond(op, l->side[k], l->to.u[k]);
             changed = k;
         }
-        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], u));
+        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], l->to.u[k]));
+    }
+    return changed;
+}
+
+/* Where no step leads on from `to`, because the force is not defined beyond a root: changes the sides of the arguments
+ * that reach their ends within the time `way`. Returns one of them, or `count`. */
+static size_t change_sides_ahead(locate *l, double way)
+{
+    size_t changed = l->count;
+    memcpy(l->old_side, l->side, l->count * sizeof *l->side);
+    held_rates(l->held, l->to.t, l->to.x, l->to.v, l->to.a, l->rate[1]);
+    for (size_t k = 0; k < l->count; k++) {
+        const operation op = held_operation(l->held, k);
+        const double ahead = way * switches_gap_rate(op, l->side[k], l->to.u[k], l->rate[1][k]);
+        if (!(gap(l, k, &l->to) + ahead <= 0)) continue;
+        l->side[k] = switches_beyond(op, l->side[k], l->to.u[k]);
+        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], l->to.u[k]));
+        changed = k;
     }
     return changed;
 }
@@ -455,12 +472,29 @@ static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *er
     }
 }
 
+/* Moves on from `from` to `to` by Taylor's formula, over a time so short that its error is far below rounding. False:
+ * the force is not defined there. */
+static bool nudge(locate *l, double way)
+{
+    const problem *p = &l->problem;
+    place *to = &l->to;
+    follow(p, &l->from, way, to->x, to->v);
+    to->t = l->from.t + way;
+    for (size_t k = 0; k < p->nv; k++) to->a[k] = 0;
+    if (p->accel(p->ctx, to->t, to->x, to->v, to->a)) return false;
+    for (size_t k = 0; k < p->nv; k++)
+        if (!isfinite(to->a[k])) return false;
+    held_values(l->held, to->t, to->x, to->v, to->u);
+    return true;
+}
+
 /* From `from` to the time `end`, which is ahead; the state there is then `from`. */
 static motus_status pieces(motus_run *r, double end, motus_error *err)
 {
     locate *l = r->locate;
     double next = INFINITY;
     for (int count = 0, still = 0; count < PIECES_MAX; count++) {
+        if (count % LOOK == LOOK - 1 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
         const double left = end - l->from.t;
         double h = fabs(next) < fabs(left) ? copysign(next, left) : left, part = 1;
         if (l->from.t + left == l->from.t) return MOTUS_OK;
@@ -486,7 +520,17 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
         const bool lost = failed;
         status = bracket(r, &h, &failed, err);
         if (status != MOTUS_OK) return status;
-        const size_t changed = change_sides(l, failed);
+        size_t changed = change_sides(l);
+        if (changed == l->count && failed) {
+            const bool moves = l->from.t + h != l->from.t;
+            const double late = copysign(0x1p-46 * fabs(l->to.t) + (moves ? 0 : 0x1p-10 * fabs(tried)), tried);
+            changed = change_sides_ahead(l, late);
+            /* A stage was beyond a root that is further ahead, or behind. */
+            if (changed == l->count && (moves || (still++ < STILL_MAX && nudge(l, late)))) {
+                place_swap(&l->from, &l->to);
+                continue;
+            }
+        }
         if (changed == l->count) {
             if (lost) return step_from(r, &l->from, tried, &l->to, err); /* the failure is another one */
             return fail(err, MOTUS_SOLVE, "a switch near t = %.17g was not found", l->from.t);

@@ -60,10 +60,11 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     const switches *s = &h->switches;
     *refused = s->refused;
     if (s->refused) return MOTUS_OK;
-    const size_t accels = m->accel_count, all = accels + s->kinds;
+    const size_t boundaries = m->boundary_count, accels = boundaries + m->accel_count, all = accels + s->kinds;
     output *reads = arena_room(m->arena, (all + 1) * sizeof *reads); /* what decides the motion */
     if (!reads) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
-    memcpy(reads, s->accel, accels * sizeof *reads);
+    if (boundaries) memcpy(reads, s->boundary, boundaries * sizeof *reads);
+    if (accels > boundaries) memcpy(reads + boundaries, s->accel, m->accel_count * sizeof *reads);
     if (s->kinds) memcpy(reads + accels, s->held, s->kinds * sizeof *reads);
     if (!resolution_create(m, reads, all, s->count > 0, &h->resolution))
         return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
@@ -124,7 +125,7 @@ void held_rates(held *h, double t, double *x, double *v, double *a, double *out)
 
 bool held_resolves(const held *h) { return h->resolution != NULL; }
 
-bool held_fits(held *h, interval t, const interval *x, const interval *v)
+bool held_fits(held *h, interval t, interval *x, interval *v)
 {
     return !h->resolution || resolution_fits(h->resolution, t, x, v, h->view.pool);
 }

@@ -29,6 +29,6 @@ void held_values(held *, double t, double *x, double *v, double *out);
 void held_rates(held *, double t, double *x, double *v, double *a, double *out);
 /* Whether a step over these times and states resolves the force: lang/model/resolution.h. */
 bool held_resolves(const held *); /* there is something to resolve */
-bool held_fits(held *, interval t, const interval *x, const interval *v);
+bool held_fits(held *, interval t, interval *x, interval *v);
 
 #endif

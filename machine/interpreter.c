@@ -1,6 +1,7 @@
 /* The interpreter, the portable machine: evaluates a model's programs as tapes, for the library's stepper. */
 #include "machine/machine.h"
 
+#include "lang/graph/graph_place.h"
 #include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
@@ -123,32 +124,21 @@ typedef struct structure {
     void *arg;
 } structure;
 
-static int64_t subscript_value(const model *m, const subscript *s, const int64_t *index)
+static size_t at_place(const structure *s, const reference *r)
 {
-    int64_t k = (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-    if (s->modulus < 0) return k;
-    int64_t n = m->ints[s->modulus];
-    return 1 + (k % n + n) % n;
-}
-
-static size_t element(const model *m, const reference *r, const int64_t *index)
-{
-    const array *a = &m->arrays[r->array];
-    int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++) at += (subscript_value(m, &r->at[d], index) - a->first[d]) * a->stride[d];
-    return (size_t)at;
+    return graph_element(s->model->arrays, r, s->index, s->model->ints);
 }
 
 /* Emits the entry for every combination of the loops' values from `level` on. */
 static void emit_loops(structure *s, const range *sums, int first_sum, int level, int levels, const reference *r)
 {
     if (level == levels) {
-        s->emit(s->arg, element(s->model, &s->output->to, s->index), element(s->model, r, s->index));
+        s->emit(s->arg, at_place(s, &s->output->to), at_place(s, r));
         return;
     }
     const range *loop = level < s->output->loops ? &s->output->loop[level] : &sums[level - first_sum];
-    int64_t first = subscript_value(s->model, &loop->first, s->index),
-            last = subscript_value(s->model, &loop->last, s->index);
+    int64_t first = graph_subscript(&loop->first, s->index, s->model->ints),
+            last = graph_subscript(&loop->last, s->index, s->model->ints);
     for (s->index[level] = first; s->index[level] <= last; s->index[level]++)
         emit_loops(s, sums, first_sum, level + 1, levels, r);
 }

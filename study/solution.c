@@ -23,6 +23,9 @@
 #define SOLUTION_SMALL 1e-6
 #define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
 #define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
+#define SOLUTION_FAR \
+    100 /* times the estimate of halvings: a second method that is further away says that they agree by luck */
+#define SOLUTION_ROUNDS 3 /* so often does the first method take shorter steps then */
 #define SOLUTION_UNEVEN 4 /* by how much an estimate is widened where steps cross jumps of the force */
 /* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
  * each step of the methods under study, if that is more. */
@@ -35,7 +38,14 @@ typedef struct candidate {
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
     double jump_time, jump_rounding;
+    bool over; /* a run was given up, since it took too long */
 } candidate;
+
+/* The work of the runs of one method: study_work. */
+typedef struct work {
+    double done, most; /* most: the bound */
+    double next;       /* what a run of half the step will cost */
+} work;
 
 study_grid solution_grid(const study *s, double step)
 {
@@ -108,29 +118,54 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
-/* Halves the step until only round-off is left, or the error is below `enough`, or the work is spent. *now and
- * *before are tables with room for the points (without the start); at the end *now holds the best run. */
-static motus_status refine(study *s, const study_grid *g, double budget, double enough, candidate *c, double **now,
-                           double **before)
+/* A walk of a reference run, which is given up where it costs more than `limit`. Its own failure is no failure of the
+ * study: it leaves NaN in the table. */
+static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
+                         double *table, study_cost *spent, work *w)
 {
-    double work = 0, cost = 0;
+    motus_error ignored = motus_default_error();
+    s->limit = fmax(1, limit / study_work(s, card, 0, 1));
+    const motus_status status = study_walk(s, card->name, g, per, table, spent, &ignored);
+    s->limit = 0;
+    if (study_fatal(status)) {
+        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+        return status;
+    }
+    /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
+     * but for what it costs to locate switches. */
+    const double steps = (double)g->intervals * (double)per, plain = study_work(s, card, steps, -1),
+                 cost = fmax(study_work(s, card, (double)spent->steps, (double)spent->evaluations), plain);
+    w->done += cost;
+    w->next = cost + plain;
+    return MOTUS_OK;
+}
+
+static void swap(double **p, double **q)
+{
+    double *kept = *p;
+    *p = *q;
+    *q = kept;
+}
+
+/* Halves the step, from 2^-level of an interval on, until only round-off is left, or the error is below `enough`, or
+ * the work is spent; the first run may take all that is left of `total`. *now and *before are tables with room for the
+ * points (without the start); at the end *now holds the best run. */
+static motus_status refine(study *s, const study_grid *g, double budget, double total, double enough, int level,
+                           candidate *c, double **now, double **before)
+{
+    work w = {0, budget, 0};
+    const int first = level;
     study_distance d = {NAN, NAN, NAN};
     bool have = false; /* *before is a complete, finite table */
-    for (int level = 0; level < SOLUTION_LEVELS && (level == 0 || work + 2 * cost <= budget); level++) {
+    for (; level < SOLUTION_LEVELS && (level == first || w.done + w.next <= w.most); level++) {
         int64_t per = (int64_t)1 << level;
         study_cost spent;
-        motus_error ignored = motus_default_error();
-        motus_status status = study_walk(s, c->card->name, g, per, *now, &spent, &ignored);
-        if (study_fatal(status)) {
-            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-            return status;
-        }
-        /* A run that failed early cost little; the next one may cost its full price. */
-        double steps = (double)g->intervals * (double)per;
-        cost = fmax(study_work(s, c->card, (double)spent.steps, (double)spent.evaluations),
-                    study_work(s, c->card, steps, -1));
-        work += cost;
-        if (status == MOTUS_OK && finite_rows(s, *now, g->points)) {
+        motus_status status = walk(s, c->card, g, per, level == first ? total : 2 * w.most - w.done, *now, &spent, &w);
+        if (status != MOTUS_OK) return status;
+        c->over = spent.over;
+        if (spent.over && level == first) study_scale(s, *now, g->points); /* of the part that was reached */
+        if (spent.over) break;
+        if (finite_rows(s, *now, g->points)) {
             study_scale(s, *now, g->points);
             c->jump = spent.jump;
             c->jump_time = spent.jump_time;
@@ -140,9 +175,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
             if (last.scaled < SOLUTION_SMALL && !(fall > SOLUTION_FALL)) {
                 estimate(c, last, 1, 2 * step);
-                double *swap = *now;
-                *now = *before;
-                *before = swap;
+                swap(now, before);
                 return MOTUS_OK;
             }
             if (have) {
@@ -158,13 +191,9 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             have = false;
             d = (study_distance){NAN, NAN, NAN};
         }
-        double *swap = *now;
-        *now = *before;
-        *before = swap;
+        swap(now, before);
     }
-    double *swap = *now; /* the loop has just moved the newest table to *before */
-    *now = *before;
-    *before = swap;
+    swap(now, before); /* *before holds the newest table that is complete */
     if (!have) c->scaled = NAN;
     return MOTUS_OK;
 }
@@ -207,39 +236,26 @@ static const motus_method *judge_of(study *s, const motus_method *best)
 /* The difference from a run of another method is a lower bound of the error: where both methods are far more accurate
  * than the difference of two halvings says, nothing changes. The other method's steps have no time in common with the
  * first one's within an interval, so that what falls between the steps of one falls into the steps of the other. It
- * takes more steps as long as that brings it nearer. False in *judged: no run of it reached the end. */
-static motus_status judge(study *s, const study_grid *g, double budget, const candidate *c, solution *r, double *room,
-                          bool *judged)
+ * takes more steps as long as that brings it nearer. NaN in *found: no run of it reached the end. */
+static motus_status judge(study *s, const study_grid *g, double budget, candidate *c, const solution *r, double *room,
+                          study_distance *found)
 {
     const motus_method *other = judge_of(s, c->card);
-    study_distance last = {NAN, NAN, NAN};
-    double work = 0;
-    *judged = false;
+    work w = {0, budget, 0};
+    bool nearer = true, agree = false;
+    *found = (study_distance){NAN, NAN, NAN};
     for (int64_t per = (int64_t)(1.5 * llround(g->interval / c->step)) | 1; per > 0; per = 2 * per + 1) {
         study_cost spent;
-        motus_error ignored = motus_default_error();
-        motus_status status = study_walk(s, other->name, g, per, room, &spent, &ignored);
-        if (study_fatal(status)) {
-            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-            return status;
-        }
-        const double steps = (double)g->intervals * (double)per,
-                     cost = fmax(study_work(s, other, (double)spent.steps, (double)spent.evaluations),
-                                 study_work(s, other, steps, -1));
-        work += cost;
+        motus_status status = walk(s, other, g, per, 2 * w.most - w.done, room, &spent, &w);
+        if (status != MOTUS_OK) return status;
+        c->over = spent.over;
         study_distance d = {NAN, NAN, NAN};
-        if (status == MOTUS_OK) d = apart(s, room, r->rows + s->numbers, g->points);
-        const bool nearer = isfinite(d.scaled) && !(d.scaled > last.scaled / SOLUTION_FALL);
-        if (isfinite(d.scaled) && !(d.scaled >= last.scaled)) {
-            last = d;
-            *judged = true;
-        }
-        const bool agree = last.scaled <= fmax(2 * r->scaled, 2 * s->noise);
-        if (agree || (*judged && !nearer) || work + 2 * cost > budget) break;
+        if (!spent.over) d = apart(s, room, r->rows + s->numbers, g->points);
+        nearer = isfinite(d.scaled) && !(d.scaled > found->scaled / SOLUTION_FALL);
+        if (isfinite(d.scaled) && !(d.scaled >= found->scaled)) *found = d;
+        agree = found->scaled <= fmax(2 * r->scaled, 2 * s->noise);
+        if (agree || (isfinite(found->scaled) && !nearer) || spent.over || w.done + w.next > w.most) break;
     }
-    if (!*judged) return MOTUS_OK;
-    r->error = fmax(r->error, fmax(last.x, last.v));
-    r->scaled = fmax(r->scaled, last.scaled);
     return MOTUS_OK;
 }
 
@@ -259,30 +275,16 @@ static motus_status unknown(solution *r, const char *why)
     return MOTUS_OK;
 }
 
-static motus_status find_reference(study *s, const study_grid *g, int64_t steps, double enough, solution *r,
-                                   double *kept, double *now, double *before)
+static const char *why_unknown(const candidate *list, size_t count)
 {
-    candidate list[SOLUTION_CANDIDATES + 1];
-    size_t count = candidates(s, list);
-    const candidate *best = NULL;
-    double *best_table = NULL;
-    double budget = count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
-    double base = s->base, span = s->span / (double)(count + 1);
-    for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
-        study_part(s, base + span * (double)k, span);
-        motus_status status = refine(s, g, budget / (double)count, enough, &list[k], &now, &before);
-        if (status != MOTUS_OK) return status;
-        if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
-            double *swap = kept;
-            kept = now;
-            now = swap;
-            best = &list[k];
-            best_table = kept;
-        }
-    }
-    study_part(s, base + span * (double)count, span);
-    if (study_broken(s) != MOTUS_OK) return study_broken(s);
-    if (!best) return unknown(r, "every method of high order failed before the end");
+    for (size_t k = 0; k < count; k++)
+        if (list[k].over) return "it would take too long, since the force changes its formula often or fast";
+    return "every method of high order failed before the end";
+}
+
+/* The solution is the run of `best` in `table`, with the error that its halvings tell. */
+static void adopt(study *s, const study_grid *g, const candidate *best, const double *table, solution *r)
+{
     r->known = true;
     r->order = best->card->order;
     r->step = best->step;
@@ -291,16 +293,68 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     snprintf(r->method, sizeof r->method, "%s", best->card->name);
     snprintf(r->text, sizeof r->text, "%s at step %.6g%s", best->card->name, best->step,
              best->jump >= 0 ? ", with steps that end where the force is not smooth" : "");
-    memcpy(r->rows + s->numbers, best_table, g->points * s->numbers * sizeof(double));
+    memcpy(r->rows + s->numbers, table, g->points * s->numbers * sizeof(double));
     study_scale(s, r->rows + s->numbers, g->points);
     r->error = fmax(best->x, best->v);
     r->scaled = best->scaled;
     own_rounding(s, g, best, r);
-    bool judged;
-    motus_status status = judge(s, g, budget, best, r, now, &judged);
+}
+
+/* Judges the solution by a second method. Halvings of the first one may agree because all of them miss the same; while
+ * the judge is far from what they tell, the first one takes shorter steps than these. */
+static motus_status agree(study *s, const study_grid *g, double budget, double enough, candidate *best, solution *r,
+                          double *now, double *before)
+{
+    for (int turn = 0;; turn++) {
+        study_distance d;
+        motus_status status = judge(s, g, budget, best, r, now, &d);
+        if (status != MOTUS_OK) return status;
+        if (isnan(d.scaled))
+            return unknown(r, best->over ? why_unknown(best, 1)
+                                         : "no second method of high order reached the end, to judge the first by");
+        const bool far = d.scaled > fmax(fmax(SOLUTION_FAR * r->scaled, 2 * s->noise), enough);
+        const double own = r->scaled;
+        r->error = fmax(r->error, fmax(d.x, d.v));
+        r->scaled = fmax(r->scaled, d.scaled);
+        if (!far || turn == SOLUTION_ROUNDS) return MOTUS_OK;
+        candidate again = {.card = best->card, .scaled = NAN, .jump = -1, .jump_time = NAN};
+        const int level = ilogb(round(g->interval / best->step)) + 1;
+        status = refine(s, g, budget, budget, enough, level, &again, &now, &before);
+        if (status != MOTUS_OK) return status;
+        if (!(again.step < best->step) || !(again.scaled <= fmax(own, d.scaled))) return MOTUS_OK;
+        *best = again;
+        adopt(s, g, best, now, r);
+    }
+}
+
+static motus_status find_reference(study *s, const study_grid *g, int64_t steps, double enough, solution *r,
+                                   double *kept, double *now, double *before)
+{
+    candidate list[SOLUTION_CANDIDATES + 1];
+    size_t count = candidates(s, list);
+    candidate *best = NULL;
+    double *best_table = NULL;
+    const double total =
+        count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
+    const double budget = total / (double)(count + (count == 0));
+    double base = s->base, span = s->span / (double)(count + 1);
+    for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
+        study_part(s, base + span * (double)k, span);
+        motus_status status = refine(s, g, budget, total, enough, 0, &list[k], &now, &before);
+        if (status != MOTUS_OK) return status;
+        if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
+            swap(&kept, &now);
+            best = &list[k];
+            best_table = kept;
+        }
+    }
+    study_part(s, base + span * (double)count, span);
+    if (study_broken(s) != MOTUS_OK) return study_broken(s);
+    if (!best) return unknown(r, why_unknown(list, count));
+    adopt(s, g, best, best_table, r);
+    motus_status status = agree(s, g, total, enough, best, r, now, before);
     study_part(s, base, span * (double)(count + 1));
-    if (status != MOTUS_OK) return status;
-    if (!judged) return unknown(r, "no second method of high order reached the end, to judge the first by");
+    if (status != MOTUS_OK || !r->known) return status;
     r->uneven = r->uneven && !(s->locate && s->locatable);
     if (r->uneven) widen(r);
     if (!(r->scaled < SOLUTION_LOST)) return unknown(r, "methods of high order end far from each other");

@@ -66,7 +66,17 @@ static motus_status tick(study *s, double fraction)
     return fail(s->err, MOTUS_CANCELLED, "%s", motus_status_text(MOTUS_CANCELLED));
 }
 
-static int hook(void *context, double fraction) { return tick(context, fraction) != MOTUS_OK; }
+/* Whether the present walk has cost more than its limit. */
+static bool over(const study *s)
+{
+    return s->limit > 0 && s->walking && (double)motus_run_evaluations(s->walking) > s->limit;
+}
+
+static int hook(void *context, double fraction)
+{
+    study *s = context;
+    return tick(s, fraction) != MOTUS_OK || over(s);
+}
 
 /* Opening -------------------------------------------------------------------------------------------------------- */
 
@@ -235,7 +245,7 @@ motus_status study_run(study *s, const char *method, double step, double start, 
         def.x = y;
         def.v = y + s->nx;
     }
-    if (s->progress) {
+    if (s->progress || s->limit > 0) {
         def.progress = hook;
         def.context = s;
     }
@@ -267,14 +277,19 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
     *cost = (study_cost){.jump = -1, .jump_time = NAN};
     motus_status status = tick(s, 0);
     if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
+    s->walking = run;
     for (; status == MOTUS_OK && done < g->points; done++) {
         double began = study_seconds();
         /* motus_run_finish makes the last time equal to `until` to the bit. */
         status = done + 1 == g->points ? motus_run_finish(run, err) : motus_run_step(run, per, err);
         cost->seconds += study_seconds() - began;
         if (status == MOTUS_OK) status = study_state(s, run, out + done * s->numbers, err);
+        if (status == MOTUS_OK && over(s)) status = MOTUS_CANCELLED;
         if (status != MOTUS_OK) break;
     }
+    cost->over = over(s); /* the same on every machine, whenever the hook was called */
+    s->walking = NULL;
+    if (cost->over && !s->cancelled) status = MOTUS_SOLVE;
     for (size_t k = done * s->numbers; k < g->points * s->numbers; k++) out[k] = NAN;
     if (run) {
         cost->steps = motus_run_steps(run);

@@ -40,6 +40,8 @@ typedef struct study {
     double reached, called; /* the fraction and the clock at the last call of progress */
     bool locate;            /* runs end their steps where the force changes its formula */
     bool locatable;         /* the last run could do so */
+    double limit;           /* evaluations after which a walk gives up; 0: none */
+    motus_run *walking;     /* the run of the present walk; NULL: none */
     bool cancelled;
     bool out_of_memory; /* in a call that could only answer "unknown" */
 } study;
@@ -55,6 +57,7 @@ typedef struct study_grid {
 typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
+    bool over;    /* the walk gave up at study.limit */
     int64_t jump; /* as in motus_statistics */
     double jump_time, jump_rounding;
 } study_cost;

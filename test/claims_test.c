@@ -50,7 +50,7 @@ static quad sine(quad x)
 
 /* Forces -------------------------------------------------------------------------------------------------------- */
 
-enum { NODES = 256, SWITCHES = 16, VARIABLES = 2, COLUMNS = 9 };
+enum { NODES = 256, SWITCHES = 16, VARIABLES = 2, CELLS = 2, COLUMNS = 9 };
 typedef enum op { NUMBER, TIME, PLACE, SPEED, ADD, MUL, DIV, SIN, EXP, ABS, SIGN, MAX, GREATER, IF, MOD } op;
 typedef struct node {
     op op;
@@ -63,6 +63,8 @@ typedef struct model {
     int count, force[VARIABLES], variables, switches;
     double x[VARIABLES], v[VARIABLES], until, step;
     double kick[4], width[4]; /* smooth kicks: their times and widths */
+    const char *index;        /* of a family of CELLS cells with the same force: as it is called there; NULL: none */
+    double cell_x, cell_v;    /* where its first cell starts; the others as x and v say */
     int kicks;
     int kind;
 } model;
@@ -85,12 +87,12 @@ static size_t print(const model *m, int n, char *out, size_t size)
     if (p->op == ADD || p->op == MUL || p->op == DIV || p->op == MAX || p->op == GREATER || p->op == IF || p->op == MOD)
         print(m, p->b, b, sizeof b);
     if (p->op == IF) print(m, p->c, c, sizeof c);
-    const char *name = p->value > 0 ? "y" : "x";
+    const char *name = p->value > 0 ? "y" : "x", *index = m->index ? m->index : "";
     switch (p->op) {
     case NUMBER: return (size_t)snprintf(out, size, "(%.17g)", p->value);
     case TIME: return (size_t)snprintf(out, size, "t");
-    case PLACE: return (size_t)snprintf(out, size, "%s", name);
-    case SPEED: return (size_t)snprintf(out, size, "%s'", name);
+    case PLACE: return (size_t)snprintf(out, size, "%s%s", name, index);
+    case SPEED: return (size_t)snprintf(out, size, "%s%s'", name, index);
     case ADD: return (size_t)snprintf(out, size, "(%s + %s)", a, b);
     case MUL: return (size_t)snprintf(out, size, "%s*%s", a, b);
     case DIV: return (size_t)snprintf(out, size, "(%s)/(%s)", a, b);
@@ -260,6 +262,9 @@ static void make(model *m, int k)
         m->x[i] = between(0.3, 1.2);
         m->v[i] = below(3) ? between(-1, 1) : 0;
     }
+    if (m->variables == 1 && below(4) == 0) m->index = below(2) ? "[i]" : "[j]"; /* of a sum with one term */
+    m->cell_x = between(-0.5, 0.2);
+    m->cell_v = between(-1, 1);
     if (m->kind == SINGULAR) {
         m->until = between(1, 4);
         singular_force(m);
@@ -279,7 +284,16 @@ static void text_of(const model *m, char *out, size_t size)
 {
     size_t n = 0;
     static const char *const names[] = {"x", "y"};
-    for (int i = 0; i < m->variables; i++) {
+    if (m->index) {
+        char f[4096];
+        print(m, m->force[0], f, sizeof f);
+        n = (size_t)snprintf(out, size, strcmp(m->index, "[j]") ? "x[i]'' = %s" : "x[i]'' = sum(j = 1..2, j == i: %s)",
+                             f);
+        n += (size_t)snprintf(out + n, size - n, " for i = 1..2\nx[1](0) = %.17g\nx[1]'(0) = %.17g\n", m->cell_x,
+                              m->cell_v);
+        n += (size_t)snprintf(out + n, size - n, "x[2](0) = %.17g\nx[2]'(0) = %.17g\n", m->x[0], m->v[0]);
+    }
+    for (int i = 0; i < m->variables && !m->index; i++) {
         char f[4096];
         print(m, m->force[i], f, sizeof f);
         n += (size_t)snprintf(out + n, size - n, "%s'' = %s\n%s(0) = %.17g\n%s'(0) = %.17g\n", names[i], f, names[i],
@@ -435,6 +449,31 @@ typedef enum outcome { TOO_SMALL, SMALL, CLOSE, LARGE, TOO_LARGE, SILENT, NO_TRU
 static const char *const outcomes[] = {"< 0.1", "0.1 to 1",     "1 to 10",  "10 to 100",
                                        "> 100", "none claimed", "no truth", "claimed without truth"};
 
+/* The largest error of the reference r (NULL: there is none) for the variables, or for this cell of a family. False:
+ * there is no truth. */
+static bool compare(const model *m, int cell, motus_reference *r, double *error)
+{
+    point at = {.t = 0};
+    for (int i = 0; i < m->variables; i++) at.x[i] = m->x[i], at.v[i] = m->v[i];
+    if (m->index && cell == 0) at.x[0] = m->cell_x, at.v[0] = m->cell_v;
+    const quad first = Q(0.1);
+    quad sides[SWITCHES], size = first;
+    start_sides(m, &at, sides);
+    for (int k = 1; k <= TIMES; k++) {
+        const double t = m->until * k / TIMES;
+        if (!go(m, &at, sides, t, &size)) return false;
+        double x[VARIABLES * CELLS], v[VARIABLES * CELLS];
+        motus_error err = motus_default_error();
+        if (r) must(motus_reference_at(r, &t, 1, x, v, &err), &err, "a state of the reference");
+        for (int i = 0; i < m->variables && r; i++) {
+            const int at_x = m->index ? cell : i;
+            *error = fmax(*error, (double)absolute(at.x[i] - x[at_x]));
+            *error = fmax(*error, (double)absolute(at.v[i] - v[at_x]));
+        }
+    }
+    return true;
+}
+
 static outcome judge(const model *m, bool told)
 {
     char text[16384];
@@ -446,23 +485,10 @@ static outcome judge(const model *m, bool told)
     motus_reference *r;
     const motus_status status = motus_reference_create(s, &def, &r, &err);
     if (status != MOTUS_OK && status != MOTUS_DIVERGED) fail_msg("%s\n%s", text, err.message);
-    point at = {.t = 0};
-    for (int i = 0; i < m->variables; i++) at.x[i] = m->x[i], at.v[i] = m->v[i];
-    const quad first = Q(0.1);
-    quad sides[SWITCHES], size = first;
-    start_sides(m, &at, sides);
-    double error = 0, most = 0;
+    double error = 0;
     bool truth = true;
-    for (int k = 1; k <= TIMES && truth; k++) {
-        const double t = m->until * k / TIMES;
-        truth = go(m, &at, sides, t, &size);
-        double x[VARIABLES], v[VARIABLES];
-        if (status == MOTUS_OK && truth) must(motus_reference_at(r, &t, 1, x, v, &err), &err, text);
-        for (int i = 0; i < m->variables && status == MOTUS_OK && truth; i++) {
-            error = fmax(error, fmax((double)absolute(at.x[i] - x[i]), (double)absolute(at.v[i] - v[i])));
-            most = fmax(most, fmax(fabs(x[i]), fabs(v[i])));
-        }
-    }
+    const int cells = m->index ? CELLS : 1;
+    for (int cell = 0; cell < cells && truth; cell++) truth = compare(m, cell, status == MOTUS_OK ? r : NULL, &error);
     const double claim = status == MOTUS_OK ? motus_reference_error(r) : NAN;
     if (told)
         printf("%s: claimed %.3g, true %.3g, truth %d\n", status == MOTUS_OK ? motus_reference_name(r) : err.message,

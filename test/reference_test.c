@@ -1,247 +1,169 @@
-/* Motions known to 22 digits and more, test/reference.txt, against the library's.
- *
- * The bound of each comparison is computed from the four errors of a computation:
- *   - shift: the numbers of the model are rounded to double precision; how far that alone moves the exact motion is in
- *     the file.
- *   - halving: the method's truncation and rounding, measured as the largest change of any position, and of any
- *     velocity, when the step is halved and halved again, here or at an earlier time of the same case. Truncation of
- *     order p >= 2 is at most 4/3 of it; rounding is of its size, being different at every step size.
- *   - unit: the rounding of the method's step and coefficients, which is the same at every step size, so that halving
- *     does not show it. It acts as if time and numbers were scaled by one part in 2^53, and moves y by
- *     (y + t y') 2^-53.
- *   - nudge: where neighbouring motions diverge, early rounding grows. Measured as the change of the result when every
- *     number of the start is moved by one part in 2^30 of the largest of its kind, scaled to one part in 2^53.
- * The bound is 4 (shift + halving + unit + nudge). `reference_test --write` measures halvings and nudges and writes
- * them into the file.
- */
+/* References and what they claim about themselves, on motions whose truth is known. */
 #include "test/given.h"
 
-enum { LINES_MAX = 1000, TEXT_ROOM = 4096, COLUMNS_MAX = 40, SETS_MAX = 8 };
-static const double FEW = 4;
+#define NEAR(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
-typedef struct block { /* the computation, as the lines of a case before its first `at` define it */
-    char label[64], model[64], method[32], text[TEXT_ROOM];
-    char set[SETS_MAX][64];
-    size_t set_count;
-    double step;
-} block;
-
-static char *lines[LINES_MAX];
-static int line_count;
-static char path[1024];
-
-static void read_lines(void)
+/* The state of the reference at a time; its claimed error. */
+static double reference_at(const char *text, double t, double *x, double *v)
 {
-    given_path(path, sizeof path, "test", "reference.txt");
-    char *text = given_file(path);
-    for (char *p = text; *p;) {
-        size_t n = strcspn(p, "\n");
-        assert_true(line_count < LINES_MAX);
-        lines[line_count] = calloc(1, n + 1);
-        assert_non_null(lines[line_count]);
-        memcpy(lines[line_count++], p, n);
-        p += n + (p[n] == '\n');
+    motus_system *s = given_text(text);
+    motus_reference *r = NULL;
+    motus_error e = motus_default_error();
+    must(motus_reference_create(s, NULL, &r, &e), &e, text);
+    must(motus_reference_at(r, &t, 1, x, v, &e), &e, text);
+    const double error = motus_reference_error(r);
+    motus_reference_destroy(r);
+    motus_system_destroy(s);
+    return error;
+}
+
+/* What the reference of a force that is not smooth claims about itself, at the end of the motion, where it is known. */
+static void references_of_forces_that_jump(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double until, x, v; /* x, v: to 17 digits */
+    } rows[] = {
+        {"x'' = -|x| x\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.078125\n", 5, -0.12403380220720711, 0.81571719623355746},
+        {"x'' = -sign(x)\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.078125\n", 5, 0.78427124746190098, 0.6568542494923802},
+        {"x'' = -x + if(t > 5.003, if(t < 5.0031, 1000, 0), 0)\nx(0) = 1\nx'(0) = 0\nuntil 10\nstep 0.1\n", 10,
+         -0.93505002731567308, 0.57209472603533875},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        motus_system *s = given_text(rows[k].text);
+        motus_reference *r = NULL;
+        motus_error e = motus_default_error();
+        double x, v;
+        assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_OK);
+        assert_int_equal(motus_reference_at(r, &rows[k].until, 1, &x, &v, &e), MOTUS_OK);
+        NEAR(x, rows[k].x, 1e-12);
+        NEAR(v, rows[k].v, 1e-12);
+        assert_true(motus_reference_error(r) >= 0.1 * fmax(fabs(x - rows[k].x), fabs(v - rows[k].v)));
+        assert_non_null(strstr(motus_reference_name(r), "where the force is not smooth"));
+        motus_reference_destroy(r);
+        motus_comparison *c = NULL;
+        must(motus_compare(s, NULL, &c, &e), &e, "compare");
+        assert_non_null(strstr(c->remarks, "The force is not smooth along the motion"));
+        motus_comparison_destroy(c);
+        motus_system_destroy(s);
     }
-    free(text);
 }
 
-/* The value of a line "word value"; NULL: another word. */
-static const char *after(const char *line, const char *word)
+static void a_pulse_at_rest_has_a_reference(void **state)
 {
-    size_t n = strlen(word);
-    return !strncmp(line, word, n) && line[n] == ' ' ? line + n + 1 : NULL;
-}
-
-static motus_system *open_block(const block *b)
-{
-    const char *set[SETS_MAX];
-    for (size_t i = 0; i < b->set_count; i++) set[i] = b->set[i];
-    return b->model[0] ? given_model(b->model, set, b->set_count) : given_text(b->text);
-}
-
-/* A run with a changed start: every number up or down, by `nudge` times the largest of its kind. */
-static motus_run *nudged(motus_system *s, const block *b, double until, double nudge)
-{
-    size_t nx = motus_positions(s), n = 0;
-    motus_run *r = given_run(s, b->method, b->step, until), *moved = NULL;
-    double *y = whole_state(s, r, &n), size[2] = {0};
-    for (size_t k = 0; k < n; k++) size[k >= nx] = fmax(size[k >= nx], fabs(y[k]));
-    for (size_t k = 0; k < n; k++)
-        y[k] += (k * k % 5 < 2 ? nudge : -nudge) * size[k >= nx]; /* signs that are not a translation */
-    motus_run_def def = motus_default_run();
-    motus_error err = motus_default_error();
-    def.method = b->method;
-    def.step = b->step;
-    def.until = until;
-    def.start = 0;
-    def.x = y;
-    def.v = y + nx;
-    must(motus_run_create(s, &def, &moved, &err), &err, b->label);
-    motus_run_destroy(r);
-    free(y);
-    return moved;
-}
-
-/* The columns at `until`, with the step divided by `parts`, from a start changed by `nudge`; if `rate` is given, also
- * their rate of change in the last step. */
-static void compute(const block *b, const char *const *names, size_t count, double until, int parts, double nudge,
-                    double *out, double *rate)
-{
-    motus_system *s = open_block(b);
-    motus_run *r = nudge == 0 ? given_run(s, b->method, b->step / parts, until) : nudged(s, b, until, nudge);
-    take_steps(r, motus_run_steps_total(r) - 1);
-    double before = motus_run_time(r);
-    for (size_t i = 0; rate && i < count; i++) rate[i] = value(s, r, names[i]);
-    finish(r);
-    for (size_t i = 0; i < count; i++) out[i] = value(s, r, names[i]);
-    for (size_t i = 0; rate && i < count; i++) rate[i] = fabs(out[i] - rate[i]) / (until - before);
-    motus_run_destroy(r);
+    (void)state;
+    motus_system *s = given_text("x'' = -x + exp(-((t-5)/0.1)^2)\nx(0) = 0\nx'(0) = 0\nuntil 10\nstep 0.1\n");
+    motus_reference *r = NULL;
+    motus_error e = motus_default_error();
+    const double end = 10;
+    double x;
+    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_OK);
+    assert_int_equal(motus_reference_at(r, &end, 1, &x, NULL, &e), MOTUS_OK);
+    NEAR(x, 0.1 * sqrt(acos(-1)) * exp(-0.0025) * sin(5), 1e-12); /* ∫ sin(10 - s) exp(-((s-5)/0.1)²) ds */
+    assert_true(motus_reference_error(r) < 1e-11);
+    motus_reference_destroy(r);
     motus_system_destroy(s);
 }
 
-static int is_velocity(const char *name) { return strchr(name, '\'') != NULL; }
-
-/* Largest changes, of positions and of velocities. */
-static void measure(const block *b, const char *const *names, size_t count, double until, double halving[2],
-                    double nudge[2])
+/* What cannot be resolved has no reference: a fall into the centre, friction that sticks. */
+static void no_reference(void **state)
 {
-    double y[4][COLUMNS_MAX];
-    for (int i = 0; i < 3; i++) compute(b, names, count, until, 1 << i, 0, y[i], NULL);
-    compute(b, names, count, until, 1, 0x1p-30, y[3], NULL);
-    halving[0] = halving[1] = nudge[0] = nudge[1] = 0;
-    for (size_t k = 0; k < count; k++) {
-        int v = is_velocity(names[k]);
-        halving[v] = fmax(halving[v], fmax(fabs(y[0][k] - y[1][k]), fabs(y[1][k] - y[2][k])));
-        nudge[v] = fmax(nudge[v], 0x1p-23 * fabs(y[3][k] - y[0][k]));
+    (void)state;
+    static const char *const texts[] = {"x'' = -1/x^2\nx(0) = 1\nx'(0) = 0\nuntil 2\nstep 0.001\n",
+                                        "x'' = -x - 0.3 sign(x')\nx(0) = 1\nx'(0) = 0\nuntil 20\nstep 0.01\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = given_text(texts[k]);
+        motus_reference *r = NULL;
+        motus_error e = motus_default_error();
+        assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);
+        assert_null(r);
+        motus_system_destroy(s);
     }
 }
 
-/* Reads a line into the block; false: it is not one of the block's. */
-static int describes(block *b, const char *line)
+/* Forces that two methods can miss together, in a family, in a sum, and on a driven boundary. */
+static void narrow_forces_in_families_are_seen(void **state)
 {
-    const char *v;
-    if ((v = after(line, "|"))) {
-        size_t n = strlen(b->text);
-        snprintf(b->text + n, sizeof b->text - n, "%s\n", v);
-        assert_true(strlen(b->text) < sizeof b->text - 1);
-    } else if ((v = after(line, "case"))) {
-        memset(b, 0, sizeof *b);
-        snprintf(b->label, sizeof b->label, "%s", v);
-    } else if ((v = after(line, "model")))
-        snprintf(b->model, sizeof b->model, "%s", v);
-    else if ((v = after(line, "method")))
-        snprintf(b->method, sizeof b->method, "%s", v);
-    else if ((v = after(line, "set"))) {
-        assert_true(b->set_count < SETS_MAX);
-        snprintf(b->set[b->set_count++], sizeof b->set[0], "%s", v);
-    } else if ((v = after(line, "step")))
-        b->step = strtod(v, NULL);
-    else
-        return line[0] == 0 || line[0] == '#';
-    return 1;
+    (void)state;
+    static const char *const bumps[] = {
+        "x[i]'' = 1e5*exp(-((x[i]-1.0317)/1e-4)^2) for i = 1..2\n",
+        "x[i]'' = sum(j = 1..2, j == i: 1e5*exp(-((x[j]-1.0317)/1e-4)^2)) for i = 1..2\n",
+    };
+    const double end = 5, area = 10 * sqrt(acos(-1)); /* of the force, which is the energy gained */
+    for (size_t k = 0; k < 2; k++) {
+        char text[512];
+        snprintf(text, sizeof text, "%sx[1](0) = 0\nx[2](0) = 0.5\nx[1]'(0) = 1\nx[2]'(0) = 0\nstep 0.1\nuntil 5\n",
+                 bumps[k]);
+        double x[2], v[2];
+        assert_true(reference_at(text, end, x, v) < 1e-8);
+        NEAR(v[0], sqrt(1 + 2 * area), 1e-9);
+        NEAR(x[1], 0.5, 0);
+    }
+    double y, w;
+    assert_true(reference_at("x[i]'' = x[i-1] - x[i] for i = 1..1\nx[0] = 1e4*exp(-((t-1.0317)/1e-4)^2)\n"
+                             "x[1](0) = 0\nx[1]'(0) = 0\nstep 0.1\nuntil 5\n",
+                             end, &y, &w) < 1e-7);
+    NEAR(y, sqrt(acos(-1)) * sin(end - 1.0317), 1e-8);
 }
 
-/* The values that follow line `at`, up to an empty one. */
-static size_t read_values(int at, char names[][32], const char **list, double *expected)
+/* Walls at 1 and -1 that push back by 1000 s^1.5: beyond them the force is not defined on the inner side's formula, and
+ * stages of a step lie beyond. The contact takes 2 d/v times the integral of (1 - z^2.5)^-1/2 from 0 to 1. */
+static void a_force_that_is_defined_on_one_side(void **state)
 {
-    size_t n = 0;
-    for (int i = at + 1; i < line_count && lines[i][0]; i++, n++) {
-        char digits[64];
-        assert_true(n < COLUMNS_MAX);
-        assert_int_equal(sscanf(lines[i], "%31s %63s", names[n], digits), 2);
-        expected[n] = strtod(digits, NULL);
-        list[n] = names[n];
-    }
-    assert_true(n > 0);
-    return n;
+    (void)state;
+    const double end = 20, depth = pow(0.00125, 0.4), pi = acos(-1),
+                 contact = 2 * depth * 0.4 * sqrt(pi) * tgamma(0.4) / tgamma(0.9);
+    const int contacts = (int)floor((end - 1) / (2 + contact));
+    const double flight = end - 1 - contacts * (2 + contact) - contact; /* since the last of them */
+    double x, v;
+    const double error = reference_at("x'' = -1000*max(x-1,0)^1.5 + 1000*max(-1-x,0)^1.5\nx(0) = 0\nx'(0) = 1\n"
+                                      "step 0.01\nuntil 20\n",
+                                      end, &x, &v);
+    assert_true(flight > 0 && contacts == 8 && error < 1e-9);
+    NEAR(x, 1 - flight, 10 * error);
+    NEAR(v, -1, 10 * error);
 }
 
-/* The largest so far in a case, of positions and of velocities. */
-typedef struct largest {
-    double halving[2], nudge[2], size[2], rate[2];
-} largest;
-
-static void judge(const block *b, int at, largest *most)
+/* Halvings of one method agree by the same last piece; another method does not agree. */
+static void a_second_method_makes_the_first_one_go_on(void **state)
 {
-    char names[COLUMNS_MAX][32], what[160];
-    const char *list[COLUMNS_MAX];
-    double until, shift, halving[2], nudge[2], expected[COLUMNS_MAX], got[COLUMNS_MAX], rate[COLUMNS_MAX];
-    if (sscanf(lines[at], "at %lf shift %lf halving %lf %lf nudge %lf %lf", &until, &shift, &halving[0], &halving[1],
-               &nudge[0], &nudge[1]) != 6)
-        fail_msg("reference.txt:%d: %s", at + 1, lines[at]);
-    size_t n = read_values(at, names, list, expected);
-    compute(b, list, n, until, 1, 0, got, rate);
-    for (size_t k = 0; k < n; k++) {
-        int v = is_velocity(list[k]);
-        most->halving[v] = fmax(most->halving[v], halving[v]);
-        most->nudge[v] = fmax(most->nudge[v], nudge[v]);
-        most->size[v] = fmax(most->size[v], fabs(expected[k]));
-        most->rate[v] = fmax(most->rate[v], rate[k]);
-    }
-    for (size_t k = 0; k < n; k++) {
-        int v = is_velocity(list[k]);
-        double unit = ROUNDING * (most->size[v] + until * most->rate[v]);
-        snprintf(what, sizeof what, "%s: %s at %.17g by %s", b->label, list[k], until, b->method);
-        near(got[k], expected[k], FEW * (shift + most->halving[v] + most->nudge[v] + unit), what);
-    }
+    (void)state;
+    motus_system *s = given_text("x'' = -9.81 + if(x < 0, -1e4*x, 0)\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 3\n");
+    motus_study_def def = motus_default_study();
+    motus_convergence *c = NULL;
+    motus_error e = motus_default_error();
+    const char *const methods[] = {"rk4"};
+    def.methods = methods;
+    def.method_count = 1;
+    must(motus_converge(s, &def, &c, &e), &e, "converge");
+    assert_true(c->reference_error < 1e-9);
+    motus_convergence_destroy(c);
+    motus_system_destroy(s);
 }
 
-/* One case of the file, from its `case` line on. */
-static void one_case(void **state)
+/* A force of 500 000 jumps: the work has a bound, and the message says so. */
+static void a_reference_does_not_take_for_ever(void **state)
 {
-    block b;
-    largest most = {0};
-    int judged = 0;
-    for (int i = *(int *)*state; i < line_count; i++) {
-        if (judged && after(lines[i], "case")) break;
-        if (after(lines[i], "at")) {
-            judge(&b, i, &most);
-            judged++;
-        } else if (!judged || !lines[i][0])
-            assert_true(describes(&b, lines[i]));
-    }
-    assert_true(judged > 0);
+    (void)state;
+    motus_system *s = given_text("x'' = -x + mod(1e5*t, 1)\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
+    motus_reference *r = NULL;
+    motus_error e = motus_default_error();
+    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);
+    assert_non_null(strstr(e.message, "too long"));
+    motus_system_destroy(s);
 }
 
-static int write_measures(void)
+int main(void)
 {
-    static block b;
-    FILE *f = fopen(path, "w");
-    if (!f) return 1;
-    for (int i = 0; i < line_count; i++) {
-        char names[COLUMNS_MAX][32], until[64], shift[32];
-        const char *list[COLUMNS_MAX];
-        double expected[COLUMNS_MAX], halving[2], nudge[2];
-        if (!after(lines[i], "at")) {
-            describes(&b, lines[i]);
-            fprintf(f, "%s\n", lines[i]);
-            continue;
-        }
-        if (sscanf(lines[i], "at %63s shift %31s", until, shift) != 2) return fclose(f), 1;
-        size_t n = read_values(i, names, list, expected);
-        measure(&b, list, n, strtod(until, NULL), halving, nudge);
-        fprintf(f, "at %s shift %s halving %.1e %.1e nudge %.1e %.1e\n", until, shift, halving[0], halving[1], nudge[0],
-                nudge[1]);
-    }
-    return fclose(f) != 0;
-}
-
-int main(int argc, char **argv)
-{
-    enum { CASES_MAX = 60 };
-    static struct CMUnitTest tests[CASES_MAX];
-    static int starts[CASES_MAX];
-    size_t count = 0;
-    read_lines();
-    if (argc > 1 && !strcmp(argv[1], "--write")) return write_measures();
-    for (int i = 0; i < line_count && count < CASES_MAX; i++)
-        if (after(lines[i], "case")) {
-            starts[count] = i;
-            tests[count] = (struct CMUnitTest){
-                .name = after(lines[i], "case"), .test_func = one_case, .initial_state = &starts[count]};
-            count++;
-        }
-    int failed = _cmocka_run_group_tests("reference values", tests, count, NULL, NULL);
-    for (int i = 0; i < line_count; i++) free(lines[i]);
-    return failed;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(references_of_forces_that_jump),
+        cmocka_unit_test(a_pulse_at_rest_has_a_reference),
+        cmocka_unit_test(no_reference),
+        cmocka_unit_test(narrow_forces_in_families_are_seen),
+        cmocka_unit_test(a_force_that_is_defined_on_one_side),
+        cmocka_unit_test(a_second_method_makes_the_first_one_go_on),
+        cmocka_unit_test(a_reference_does_not_take_for_ever),
+    };
+    return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static double *cell(plain *p, const reference *r)
     const array *a = &p->w->arrays[r->array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < r->dims; d++)
-        at += (subscript_value(&r->at[d], p->index, p->w->ints) - a->first[d]) * a->stride[d];
+        at += (graph_subscript(&r->at[d], p->index, p->w->ints) - a->first[d]) * a->stride[d];
     return (a->space == SPACE_POOL ? p->w->pool : p->w->base[a->space]) + at;
 }
 
@@ -31,8 +31,8 @@ static double plain_value(plain *p, node n)
     case OP_LOAD: return *cell(p, &p->g->references[m->a]);
     case OP_TOTAL: return p->total[m->level];
     case OP_SUM: {
-        int64_t first = subscript_value(&p->g->ranges[m->c].first, p->index, p->w->ints);
-        int64_t last = subscript_value(&p->g->ranges[m->c].last, p->index, p->w->ints), kept = p->index[m->level];
+        int64_t first = graph_subscript(&p->g->ranges[m->c].first, p->index, p->w->ints);
+        int64_t last = graph_subscript(&p->g->ranges[m->c].last, p->index, p->w->ints), kept = p->index[m->level];
         double part[8] = {0}, total = p->total[m->level];
         int parts = last - first + 1 <= 16 ? 1 : 8;
         for (int64_t k = first; k <= last; k++) {
@@ -63,8 +63,8 @@ static void plain_output(plain *p, const output *o, int d)
         *cell(p, &o->to) = plain_value(p, o->value);
         return;
     }
-    int64_t last = subscript_value(&o->loop[d].last, p->index, p->w->ints);
-    for (int64_t k = subscript_value(&o->loop[d].first, p->index, p->w->ints); k <= last; k++) {
+    int64_t last = graph_subscript(&o->loop[d].last, p->index, p->w->ints);
+    for (int64_t k = graph_subscript(&o->loop[d].first, p->index, p->w->ints); k <= last; k++) {
         p->index[d] = k;
         plain_output(p, o, d + 1);
     }

@@ -1,11 +1,12 @@
-/* See resolution.h. Interval arithmetic over the nodes of a graph, in their order. */
+/* See resolution.h. The nodes of a graph are evaluated in interval arithmetic, each when another one asks for it, so
+ * that a branch which is not taken and a term which is left out hide nothing.
+ */
 #include "lang/model/resolution.h"
 
-#include "lang/base/operation.h"
+#include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Scales, in units of the argument. */
 #define WIDE 1.0   /* of exp, sinh, cosh, tanh, erf, atan */
@@ -15,34 +16,35 @@
 #define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
 #define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
 
+#define NO_STEP UINT32_MAX
+
+/* A node. It is known while no loop variable that it depends on has changed since; the innermost of these changes
+ * whenever one further out does. */
 typedef struct step {
-    uint8_t op;
+    graph_node node;
     uint32_t operand[3]; /* earlier steps */
-    size_t at;           /* LOAD, PARAM: the place in its space */
-    space space;
-    double value;
+    int home;            /* 1 + the innermost level that it depends on, 0: none */
+    uint64_t known;      /* when the interval was computed */
+    interval interval;
 } step;
 
 struct resolution {
+    const model *model;
+    const output *outputs;
+    size_t count;
     step *steps;
-    interval *values;
-    uint32_t count;
+    uint32_t *root;  /* by output */
+    uint32_t *stack; /* of steps that wait for their operands */
+    uint32_t top;
+    int64_t index[MAX_LEVELS];
+    uint64_t now, changed[MAX_LEVELS + 1]; /* by home: when its loop variable changed */
+    bool (*found)(operation, interval, interval);
+    /* of the step that is looked at */
+    interval t, *x, *v;
+    const double *pool;
 };
 
 /* Making it -------------------------------------------------------------------------------------------------- */
-
-static size_t place_of(const model *m, const reference *r)
-{
-    const array *a = &m->arrays[r->array];
-    int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++) {
-        const subscript *s = &r->at[d];
-        int64_t k = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-        if (s->modulus >= 0) k = 1 + (k % m->ints[s->modulus] + m->ints[s->modulus]) % m->ints[s->modulus];
-        at += (k - a->first[d]) * a->stride[d];
-    }
-    return (size_t)at;
-}
 
 /* waves: sin, cos and tan count, since they may decide a switch. */
 static bool hides(operation op, bool waves)
@@ -69,6 +71,37 @@ static bool hides_waves(operation op) { return hides(op, true); }
 /* Whether an operation has poles. */
 static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
 
+/* Whether an operation that counts has an argument that moves. */
+static bool any_counts(const graph *g, const graph_walk *w, bool (*counts)(operation))
+{
+    for (uint32_t k = 0; k < w->count; k++) {
+        const graph_node *n = &g->nodes[w->nodes[k]];
+        const node varies = n->op == OP_DIV ? n->b : n->a;
+        if (counts((operation)n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE)) return true;
+    }
+    return false;
+}
+
+static int home_of(const graph_node *n)
+{
+    int home = 0;
+    for (int level = 0; level < MAX_LEVELS; level++)
+        if (n->deps >> level & 1) home = level + 1;
+    return home;
+}
+
+static void fill(resolution *r, graph *g, const graph_walk *w)
+{
+    for (uint32_t k = 0; k < w->count; k++) {
+        node operand[3] = {0};
+        step *s = &r->steps[k];
+        *s = (step){.node = g->nodes[w->nodes[k]]};
+        s->home = home_of(&s->node);
+        for (int j = graph_operands(&s->node, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
+    }
+    for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
+}
+
 static bool create(model *m, const output *outputs, size_t count, bool (*counts)(operation), resolution **out)
 {
     graph *g = m->graph;
@@ -76,36 +109,19 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
     *out = NULL;
     node *roots = arena_room(m->arena, (count + 1) * sizeof *roots);
     if (!roots) return false;
-    for (size_t i = 0; i < count; i++) {
-        roots[i] = outputs[i].value;
-        if (outputs[i].loops) return true;
-    }
-    if (!graph_order(g, roots, count, 0, false, &w)) return false;
-    bool any = false, scalar = true;
-    for (uint32_t k = 0; k < w.count; k++) {
-        const graph_node *n = &g->nodes[w.nodes[k]];
-        scalar &= n->op != OP_SUM && n->op != OP_INDEX && !(n->deps & (DEP_LEVELS | DEP_A | DEP_D));
-        const node varies = n->op == OP_DIV ? n->b : n->a;
-        any |= counts((operation)n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE);
-    }
-    if (any && scalar) {
+    for (size_t i = 0; i < count; i++) roots[i] = outputs[i].value;
+    if (!graph_order(g, roots, count, 0, true, &w)) return false;
+    if (any_counts(g, &w, counts)) {
         resolution *r = arena_take(m->arena, sizeof *r);
         step *steps = arena_room(m->arena, w.count * sizeof *steps);
-        interval *values = arena_room(m->arena, w.count * sizeof *values);
-        for (uint32_t k = 0; r && steps && values && k < w.count; k++) {
-            const graph_node *n = &g->nodes[w.nodes[k]];
-            node operand[3] = {0};
-            step *s = &steps[k];
-            *s = (step){.op = n->op, .value = n->value};
-            for (int j = graph_operands(n, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
-            if (n->op == OP_PARAM) s->space = SPACE_POOL, s->at = n->a;
-            if (n->op != OP_LOAD) continue;
-            const reference *ref = &g->references[n->a];
-            s->space = g->arrays[ref->array].space;
-            s->at = place_of(m, ref);
+        uint32_t *stack = arena_room(m->arena, (w.count + 1) * sizeof *stack);
+        uint32_t *root = arena_room(m->arena, (count + 1) * sizeof *root);
+        if (r && steps && stack && root) {
+            *r = (resolution){
+                .model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
+            fill(r, g, &w);
+            *out = r;
         }
-        if (r && steps && values) *r = (resolution){steps, values, w.count};
-        *out = m->arena->failed ? NULL : r;
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
@@ -121,128 +137,11 @@ bool resolution_create_poles(model *m, const output *outputs, size_t count, reso
     return create(m, outputs, count, has_poles, out);
 }
 
-/* Intervals --------------------------------------------------------------------------------------------------- */
-
-static interval hull(interval a, interval b) { return (interval){fmin(a.low, b.low), fmax(a.high, b.high)}; }
-static interval truth(bool may, bool must) { return (interval){must, may || must}; }
-
-static interval product(interval a, interval b)
-{
-    const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-    interval r = {INFINITY, -INFINITY};
-    for (int k = 0; k < 4; k++) {
-        const double q = isnan(p[k]) ? 0 : p[k]; /* 0 times infinity */
-        r = hull(r, (interval){q, q});
-    }
-    return r;
-}
-
-static interval magnitude(interval a)
-{
-    if (a.low >= 0) return a;
-    if (a.high <= 0) return (interval){-a.high, -a.low};
-    return (interval){0, fmax(-a.low, a.high)};
-}
-
-static interval even(operation op, interval a)
-{
-    const interval m = magnitude(a);
-    return (interval){operation_value(op, m.low, 0, 0), operation_value(op, m.high, 0, 0)};
-}
-
-static bool passes(interval a, double at, double period) /* whether a contains at + k period */
-{
-    return floor((a.high - at) / period) > floor((a.low - at) / period) || a.low == at;
-}
-
-static const double half_turn = 3.14159265358979323846;
-
-static interval wave(interval a, double top) /* 1 at top + 2πk, -1 between */
-{
-    if (!(a.high - a.low < 2 * half_turn)) return (interval){-1, 1};
-    const double p = operation_value(OP_COS, a.low - top, 0, 0), q = operation_value(OP_COS, a.high - top, 0, 0);
-    interval r = {fmin(p, q), fmax(p, q)};
-    if (passes(a, top, 2 * half_turn)) r.high = 1;
-    if (passes(a, top + half_turn, 2 * half_turn)) r.low = -1;
-    return r;
-}
-
-static const interval anything = {-INFINITY, INFINITY};
-
-static interval falling(operation op, interval a)
-{
-    return (interval){operation_value(op, a.high, 0, 0), operation_value(op, a.low, 0, 0)};
-}
-
-static interval rising(operation op, interval a)
-{
-    return (interval){operation_value(op, a.low, 0, 0), operation_value(op, a.high, 0, 0)};
-}
-
-static interval corners(operation op, interval a, interval b)
-{
-    interval r = {INFINITY, -INFINITY};
-    for (int k = 0; k < 4; k++) {
-        const double y = operation_value(op, k & 1 ? a.high : a.low, k & 2 ? b.high : b.low, 0);
-        if (isnan(y)) return anything;
-        r = hull(r, (interval){y, y});
-    }
-    return r;
-}
-
-/* The interval of one operation; same: both operands are the same node. */
-static interval value(operation op, interval a, interval b, interval c, bool same)
-{
-    switch (op) {
-    case OP_NEG: return (interval){-a.high, -a.low};
-    case OP_ADD: return (interval){a.low + b.low, a.high + b.high};
-    case OP_SUB: return (interval){a.low - b.high, a.high - b.low};
-    case OP_MUL: return same ? product(magnitude(a), magnitude(a)) : product(a, b);
-    case OP_DIV: return b.low > 0 || b.high < 0 ? product(a, (interval){1 / b.high, 1 / b.low}) : anything;
-    case OP_LT:
-    case OP_LE: return truth(a.low <= b.high, a.high < b.low);
-    case OP_GT:
-    case OP_GE: return truth(a.high >= b.low, a.low > b.high);
-    case OP_EQ: return truth(a.low <= b.high && b.low <= a.high, false);
-    case OP_NE: return truth(true, a.low > b.high || a.high < b.low);
-    case OP_AND: return truth(a.high != 0 && b.high != 0, a.low != 0 && b.low != 0);
-    case OP_OR: return truth(a.high != 0 || b.high != 0, a.low != 0 || b.low != 0);
-    case OP_NOT: return truth(a.low == 0, a.high == 0);
-    case OP_SELECT: return a.low > 0 || a.high < 0 ? b : a.low == 0 && a.high == 0 ? c : hull(b, c);
-    case OP_SIN: return wave(a, half_turn / 2);
-    case OP_COS: return wave(a, 0);
-    case OP_TAN: return a.high - a.low >= half_turn || passes(a, half_turn / 2, half_turn) ? anything : rising(op, a);
-    case OP_ACOS: return falling(op, a);
-    case OP_COSH:
-    case OP_ABS: return even(op, a);
-    case OP_LOG: return a.low > 0 ? rising(op, a) : anything;
-    case OP_SQRT: return a.low >= 0 ? rising(op, a) : anything;
-    case OP_POW: return a.low > 0 ? corners(op, a, b) : anything;
-    case OP_HYPOT: return corners(op, magnitude(a), magnitude(b));
-    case OP_ATAN2: return b.low > 0 ? corners(op, a, b) : (interval){-half_turn, half_turn};
-    case OP_MIN:
-    case OP_MAX: return corners(op, a, b);
-    case OP_MOD: {
-        const interval q = value(OP_DIV, a, b, c, false);
-        return floor(q.low) == floor(q.high) ? value(OP_SUB, a, product(b, rising(OP_FLOOR, q)), c, false)
-                                             : hull((interval){0, 0}, b);
-    }
-    case OP_ASIN:
-    case OP_ATAN:
-    case OP_SINH:
-    case OP_TANH:
-    case OP_EXP:
-    case OP_CBRT:
-    case OP_FLOOR:
-    case OP_SIGN:
-    case OP_ERF: return rising(op, a);
-    default: return anything;
-    }
-}
+/* What an operation may do ------------------------------------------------------------------------------------- */
 
 static bool changes(interval a)
 {
-    const interval m = magnitude(a);
+    const interval m = interval_magnitude(a);
     return !(m.low > 0 && m.high <= RATIO * m.low);
 }
 
@@ -269,7 +168,7 @@ static bool hidden(operation op, interval a, interval b)
 /* Whether a may be 0, or so near to it as it is small beside its largest values. */
 static bool near_zero(interval a)
 {
-    const interval m = magnitude(a);
+    const interval m = interval_magnitude(a);
     return !(m.low > POLE * m.high);
 }
 
@@ -280,44 +179,176 @@ static bool pole(operation op, interval a, interval b)
     case OP_DIV: return near_zero(b);
     case OP_POW: return b.low < 0 && near_zero(a);
     case OP_LOG: return a.low <= 0 || near_zero(a);
-    case OP_TAN: return !(a.high - a.low < half_turn) || passes(a, half_turn / 2, half_turn);
+    case OP_TAN: return isinf(interval_value(op, a, b, b, false).low);
     default: return false;
     }
 }
 
+/* Evaluating --------------------------------------------------------------------------------------------------- */
+
+static bool is_zero(interval a) { return a.low == 0 && a.high == 0; }
+static bool may_be_zero(interval a) { return a.low <= 0 && a.high >= 0; }
+
+static bool known(const resolution *r, uint32_t k) { return r->steps[k].known >= r->changed[r->steps[k].home]; }
+
+static void set_index(resolution *r, int level, int64_t value)
+{
+    r->index[level] = value;
+    r->changed[level + 1] = ++r->now;
+}
+
+/* The operand that a step must have next; NO_STEP: it has all that it takes. */
+static uint32_t lacks(const resolution *r, const step *s)
+{
+    const operation op = (operation)s->node.op;
+    const int arity = op == OP_SUM ? 0 : operation_at(op)->arity;
+    for (int j = 0; j < arity; j++) {
+        if (op == OP_SELECT && j > 0) {
+            const interval c = r->steps[s->operand[0]].interval;
+            if (j == 1 ? is_zero(c) : !may_be_zero(c)) continue;
+        }
+        if (!known(r, s->operand[j])) return s->operand[j];
+    }
+    return NO_STEP;
+}
+
+static interval number(double value) { return (interval){value, value}; }
+
+static interval place_in(const interval *of, size_t at) { return of ? of[at] : (interval){-INFINITY, INFINITY}; }
+
+static interval load(const resolution *r, const graph_node *n)
+{
+    const reference *ref = &r->model->graph->references[n->a];
+    const array *arrays = r->model->arrays;
+    const size_t at = graph_element(arrays, ref, r->index, r->model->ints);
+    switch (arrays[ref->array].space) {
+    case SPACE_X: return place_in(r->x, at);
+    case SPACE_V: return place_in(r->v, at);
+    case SPACE_POOL: return number(r->pool[at]);
+    default: return place_in(NULL, at);
+    }
+}
+
+static bool evaluate(resolution *, uint32_t root);
+
+/* The operands of a sum are its body and, if it has one, the condition on its terms. */
+static bool sum(resolution *r, step *s)
+{
+    const graph_node *n = &s->node;
+    const range *over = &r->model->graph->ranges[n->c];
+    const int64_t *ints = r->model->ints;
+    const int64_t last = graph_subscript(&over->last, r->index, ints);
+    interval total = {0, 0};
+    for (int64_t i = graph_subscript(&over->first, r->index, ints); i <= last; i++) {
+        interval condition = {1, 1};
+        set_index(r, n->level, i);
+        if (n->b) {
+            if (!evaluate(r, s->operand[1])) return false;
+            condition = r->steps[s->operand[1]].interval;
+        }
+        if (is_zero(condition)) continue;
+        if (!evaluate(r, s->operand[0])) return false;
+        interval term = r->steps[s->operand[0]].interval;
+        if (may_be_zero(condition)) term = interval_hull(term, number(0));
+        total = interval_value(OP_ADD, total, term, total, false);
+    }
+    s->interval = total;
+    return true;
+}
+
+/* Computes a step whose operands are known. False: what is looked for was found. */
+static bool compute(resolution *r, step *s)
+{
+    const graph_node *n = &s->node;
+    const operation op = (operation)n->op;
+    const int arity = operation_at(op)->arity;
+    switch (op) {
+    case OP_CONST: s->interval = number(n->value); return true;
+    case OP_TIME: s->interval = r->t; return true;
+    case OP_PARAM: s->interval = number(r->pool[n->a]); return true;
+    case OP_INDEX: s->interval = number((double)r->index[n->level]); return true;
+    case OP_LOAD: s->interval = load(r, n); return true;
+    case OP_SUM: return sum(r, s);
+    default: break;
+    }
+    const interval none = {0, 0}, a = r->steps[s->operand[0]].interval,
+                   b = arity > 1 ? r->steps[s->operand[1]].interval : none,
+                   c = arity > 2 ? r->steps[s->operand[2]].interval : none;
+    if (r->found(op, a, b)) return false;
+    s->interval = interval_value(op, a, b, c, arity > 1 && s->operand[0] == s->operand[1]);
+    return true;
+}
+
+/* Makes a step known, and all that it needs. False: what is looked for was found. The stack has room for every path
+ * through the graph. */
+static bool evaluate(resolution *r, uint32_t root)
+{
+    const uint32_t base = r->top;
+    r->stack[r->top++] = root;
+    while (r->top > base) {
+        step *s = &r->steps[r->stack[r->top - 1]];
+        const bool done = s->known >= r->changed[s->home];
+        const uint32_t next = done ? NO_STEP : lacks(r, s);
+        if (next != NO_STEP) {
+            r->stack[r->top++] = next;
+            continue;
+        }
+        if (!done && !compute(r, s)) return false;
+        s->known = r->now;
+        r->top--;
+    }
+    return true;
+}
+
+/* The cells of a boundary that is driven may go further within the step than its ends show. */
+static void widen(const resolution *r, const output *o, interval value)
+{
+    const array *arrays = r->model->arrays;
+    const space space = arrays[o->to.array].space;
+    if (space != SPACE_X && space != SPACE_V) return;
+    interval *place = (space == SPACE_X ? r->x : r->v) + graph_element(arrays, &o->to, r->index, r->model->ints);
+    *place = interval_hull(*place, value);
+}
+
+/* All cells of an output, from loop `level` on. */
+static bool cells(resolution *r, size_t k, int level)
+{
+    const output *o = &r->outputs[k];
+    if (level == o->loops) {
+        if (!evaluate(r, r->root[k])) return false;
+        widen(r, o, r->steps[r->root[k]].interval);
+        return true;
+    }
+    const int64_t *ints = r->model->ints, last = graph_subscript(&o->loop[level].last, r->index, ints);
+    for (int64_t i = graph_subscript(&o->loop[level].first, r->index, ints); i <= last; i++) {
+        set_index(r, level, i);
+        if (!cells(r, k, level + 1)) return false;
+    }
+    return true;
+}
+
 /* Whether an operation is found with arguments in the intervals. */
-static bool finds(resolution *r, interval t, const interval *x, const interval *v, const double *pool,
+static bool finds(resolution *r, interval t, interval *x, interval *v, const double *pool,
                   bool (*found)(operation, interval, interval))
 {
-    for (uint32_t k = 0; k < r->count; k++) {
-        const step *s = &r->steps[k];
-        const interval none = {0, 0};
-        switch ((operation)s->op) {
-        case OP_CONST: r->values[k] = (interval){s->value, s->value}; continue;
-        case OP_TIME: r->values[k] = t; continue;
-        case OP_PARAM: r->values[k] = (interval){pool[s->at], pool[s->at]}; continue;
-        case OP_LOAD:
-            r->values[k] = s->space == SPACE_X   ? x[s->at]
-                           : s->space == SPACE_V ? v[s->at]
-                                                 : (interval){pool[s->at], pool[s->at]};
-            continue;
-        default: break;
-        }
-        const int arity = operation_at((operation)s->op)->arity;
-        const interval a = r->values[s->operand[0]], b = arity > 1 ? r->values[s->operand[1]] : none,
-                       c = arity > 2 ? r->values[s->operand[2]] : none;
-        if (found((operation)s->op, a, b)) return true;
-        r->values[k] = value((operation)s->op, a, b, c, arity > 1 && s->operand[0] == s->operand[1]);
-    }
+    r->t = t;
+    r->x = x;
+    r->v = v;
+    r->pool = pool;
+    r->found = found;
+    r->top = 0;
+    r->changed[0] = ++r->now;
+    for (size_t k = 0; k < r->count; k++)
+        if (!cells(r, k, 0)) return true;
     return false;
 }
 
-bool resolution_fits(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
+bool resolution_fits(resolution *r, interval t, interval *x, interval *v, const double *pool)
 {
     return !finds(r, t, x, v, pool, hidden);
 }
 
-bool resolution_pole(resolution *r, interval t, const interval *x, const interval *v, const double *pool)
+bool resolution_pole(resolution *r, interval t, interval *x, interval *v, const double *pool)
 {
     return finds(r, t, x, v, pool, pole);
 }

@@ -8,23 +8,21 @@
 #ifndef LANG_MODEL_RESOLUTION_H
 #define LANG_MODEL_RESOLUTION_H
 
+#include "lang/base/interval.h"
 #include "lang/model/model.h"
-
-typedef struct interval {
-    double low, high;
-} interval;
 
 typedef struct resolution resolution;
 
-/* For these outputs, which may read x and v alone; switched: the model has switches. *out is NULL where no operation
- * can hide anything, or where there are families. Lives in the model's arena. False: no memory. */
+/* For these outputs, which may read x and v alone, and of which those into X and V, if any, come first: they are cells
+ * whose interval becomes wider where the output says so. switched: the model has switches. *out is NULL where no
+ * operation can hide anything. Lives in the model's arena. False: no memory. */
 bool resolution_create(model *, const output *, size_t count, bool switched, resolution **out);
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
-bool resolution_fits(resolution *, interval t, const interval *x, const interval *v, const double *pool);
+bool resolution_fits(resolution *, interval t, interval *x, interval *v, const double *pool);
 
 /* The same for poles: a divisor of 0, or the base of a negative power; log at 0, tan at odd multiples of π/2. Whether
  * there may be one in the intervals. */
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
-bool resolution_pole(resolution *, interval t, const interval *x, const interval *v, const double *pool);
+bool resolution_pole(resolution *, interval t, interval *x, interval *v, const double *pool);
 
 #endif

@@ -108,7 +108,7 @@ static int64_t most_lanes(const code *c, const binding *b)
         if (l->kind == LOOP_SERIAL) continue;
         if (l->range.first.level >= 0 || l->range.last.level >= 0) return INT64_MAX;
         int64_t lanes =
-            subscript_value(&l->range.last, NULL, b->ints) - subscript_value(&l->range.first, NULL, b->ints) + 1;
+            graph_subscript(&l->range.last, NULL, b->ints) - graph_subscript(&l->range.first, NULL, b->ints) + 1;
         if (lanes > most) most = lanes;
     }
     return most;

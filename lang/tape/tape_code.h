@@ -7,6 +7,7 @@
 #ifndef LANG_TAPE_TAPE_CODE_H
 #define LANG_TAPE_TAPE_CODE_H
 
+#include "lang/graph/graph_place.h"
 #include "lang/graph/plan.h"
 #include "lang/tape/tape.h"
 
@@ -130,17 +131,5 @@ typedef struct tape_choice {
 tape *tape_create_as(arena *, const program *, const tape_choice *);
 /* Machine k that this processor can run, best first; NULL past the last. */
 const tape_machine *tape_machine_at(int k);
-
-static inline int64_t subscript_value(const subscript *s, const int64_t *index, const int64_t *ints)
-{
-    int64_t v = s->literal;
-    if (s->level >= 0) v += index[s->level];
-    if (s->slot >= 0) v += ints[s->slot];
-    if (s->modulus >= 0) {
-        int64_t m = ints[s->modulus] > 0 ? ints[s->modulus] : 1;
-        v = 1 + (v % m + m) % m;
-    }
-    return v;
-}
 
 #endif

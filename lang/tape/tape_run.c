@@ -154,8 +154,8 @@ static const instruction *enter(frame *f, const loop *l)
 {
     const instruction *text = f->code->instructions;
     const total *totals = f->code->totals + l->first_total;
-    int64_t first = subscript_value(&l->range.first, f->index, f->binding->ints);
-    int64_t last = subscript_value(&l->range.last, f->index, f->binding->ints);
+    int64_t first = graph_subscript(&l->range.first, f->index, f->binding->ints);
+    int64_t last = graph_subscript(&l->range.last, f->index, f->binding->ints);
     if (last < first) {
         for (uint32_t k = 0; k < l->total_count; k++) clear(f, &totals[k], 1);
         return text + l->end + 1;

@@ -1,0 +1,124 @@
+/* See interval.h. */
+#include "lang/base/interval.h"
+
+#include <math.h>
+
+interval interval_hull(interval a, interval b) { return (interval){fmin(a.low, b.low), fmax(a.high, b.high)}; }
+static interval truth(bool may, bool must) { return (interval){must, may || must}; }
+
+static bool single(interval a) { return a.low == a.high; }
+static bool meet(interval a, interval b) { return a.low <= b.high && b.low <= a.high; }
+
+static interval product(interval a, interval b)
+{
+    const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    interval r = {INFINITY, -INFINITY};
+    for (int k = 0; k < 4; k++) {
+        const double q = isnan(p[k]) ? 0 : p[k]; /* 0 times infinity */
+        r = interval_hull(r, (interval){q, q});
+    }
+    return r;
+}
+
+interval interval_magnitude(interval a)
+{
+    if (a.low >= 0) return a;
+    if (a.high <= 0) return (interval){-a.high, -a.low};
+    return (interval){0, fmax(-a.low, a.high)};
+}
+
+static interval even(operation op, interval a)
+{
+    const interval m = interval_magnitude(a);
+    return (interval){operation_value(op, m.low, 0, 0), operation_value(op, m.high, 0, 0)};
+}
+
+/* Whether a contains at + k period for an integer k. */
+static bool passes(interval a, double at, double period)
+{
+    return floor((a.high - at) / period) > floor((a.low - at) / period) || a.low == at;
+}
+
+static const double half_turn = 3.14159265358979323846;
+
+static interval wave(interval a, double top) /* 1 at top + 2πk, -1 between */
+{
+    if (!(a.high - a.low < 2 * half_turn)) return (interval){-1, 1};
+    const double p = operation_value(OP_COS, a.low - top, 0, 0), q = operation_value(OP_COS, a.high - top, 0, 0);
+    interval r = {fmin(p, q), fmax(p, q)};
+    if (passes(a, top, 2 * half_turn)) r.high = 1;
+    if (passes(a, top + half_turn, 2 * half_turn)) r.low = -1;
+    return r;
+}
+
+static const interval anything = {-INFINITY, INFINITY};
+
+static interval falling(operation op, interval a)
+{
+    return (interval){operation_value(op, a.high, 0, 0), operation_value(op, a.low, 0, 0)};
+}
+
+static interval rising(operation op, interval a)
+{
+    return (interval){operation_value(op, a.low, 0, 0), operation_value(op, a.high, 0, 0)};
+}
+
+static interval corners(operation op, interval a, interval b)
+{
+    interval r = {INFINITY, -INFINITY};
+    for (int k = 0; k < 4; k++) {
+        const double y = operation_value(op, k & 1 ? a.high : a.low, k & 2 ? b.high : b.low, 0);
+        if (isnan(y)) return anything;
+        r = interval_hull(r, (interval){y, y});
+    }
+    return r;
+}
+
+interval interval_value(operation op, interval a, interval b, interval c, bool same)
+{
+    switch (op) {
+    case OP_NEG: return (interval){-a.high, -a.low};
+    case OP_ADD: return (interval){a.low + b.low, a.high + b.high};
+    case OP_SUB: return (interval){a.low - b.high, a.high - b.low};
+    case OP_MUL: return same ? product(interval_magnitude(a), interval_magnitude(a)) : product(a, b);
+    case OP_DIV: return b.low > 0 || b.high < 0 ? product(a, (interval){1 / b.high, 1 / b.low}) : anything;
+    case OP_LT:
+    case OP_LE: return truth(a.low <= b.high, a.high < b.low);
+    case OP_GT:
+    case OP_GE: return truth(a.high >= b.low, a.low > b.high);
+    case OP_EQ: return truth(meet(a, b), single(a) && single(b) && meet(a, b));
+    case OP_NE: return truth(!(single(a) && single(b) && meet(a, b)), !meet(a, b));
+    case OP_AND: return truth(a.high != 0 && b.high != 0, a.low != 0 && b.low != 0);
+    case OP_OR: return truth(a.high != 0 || b.high != 0, a.low != 0 || b.low != 0);
+    case OP_NOT: return truth(a.low == 0, a.high == 0);
+    case OP_SELECT: return a.low > 0 || a.high < 0 ? b : a.low == 0 && a.high == 0 ? c : interval_hull(b, c);
+    case OP_SIN: return wave(a, half_turn / 2);
+    case OP_COS: return wave(a, 0);
+    case OP_TAN: return a.high - a.low >= half_turn || passes(a, half_turn / 2, half_turn) ? anything : rising(op, a);
+    case OP_ACOS: return falling(op, a);
+    case OP_COSH:
+    case OP_ABS: return even(op, a);
+    case OP_LOG: return a.low > 0 ? rising(op, a) : anything;
+    case OP_SQRT: return a.low >= 0 ? rising(op, a) : anything;
+    case OP_POW: return a.low > 0 ? corners(op, a, b) : anything;
+    case OP_HYPOT: return corners(op, interval_magnitude(a), interval_magnitude(b));
+    case OP_ATAN2: return b.low > 0 ? corners(op, a, b) : (interval){-half_turn, half_turn};
+    case OP_MIN:
+    case OP_MAX: return corners(op, a, b);
+    case OP_MOD: {
+        const interval q = interval_value(OP_DIV, a, b, c, false);
+        return floor(q.low) == floor(q.high) ? interval_value(OP_SUB, a, product(b, rising(OP_FLOOR, q)), c, false)
+                                             : interval_hull((interval){0, 0}, b);
+    }
+    case OP_ASIN:
+    case OP_ATAN:
+    case OP_SINH:
+    case OP_TANH:
+    case OP_EXP:
+    case OP_CBRT:
+    case OP_FLOOR:
+    case OP_SIGN:
+    case OP_ERF: return rising(op, a);
+    default: return anything;
+    }
+}
