@@ -10,12 +10,16 @@
 bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, double *const base[SPACES])
 {
     if (source_failed(&m->source)) return false;
-    program *p = program_create(m->graph, outputs, count);
-    tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(m->arena, p);
-    binding b = {m->arrays, m->ints, m->pool};
-    if (!tp || source_failed(&m->source) || !tape_bind(tp, &b)) return false;
-    tape_run(tp, t, base);
-    return true;
+    arena once; /* a program for every constant would stay as long as the model */
+    arena_init(&once, &m->arena->allocator);
+    program *p = program_create_in(&once, m->graph, outputs, count);
+    tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(&once, p);
+    const binding b = {m->arrays, m->ints, m->pool};
+    const bool bound = tp && !once.failed && tape_bind(tp, &b);
+    if (bound) tape_run(tp, t, base);
+    if (once.failed) m->arena->failed = true;
+    arena_release(&once);
+    return bound;
 }
 
 bool evaluate_into_pool(model *m, const output *target, const node *values, int parts, size_t base,

@@ -6,7 +6,7 @@ static vary_entry *new_entry(model *m)
     vary_log *log = &m->log;
     if (log->count == log->room) {
         uint32_t room = log->room ? 2 * log->room : 16;
-        vary_entry *more = arena_grow(m->arena, log->entries, log->room * sizeof *more, room * sizeof *more);
+        vary_entry *more = arena_replace(m->arena, log->entries, log->room * sizeof *more, room * sizeof *more);
         if (!more) return NULL;
         log->entries = more;
         log->room = room;
@@ -56,7 +56,7 @@ void vary_freeze(model *m, node n, const char *what)
     if (log->frozen_count == log->frozen_room) {
         uint32_t room = log->frozen_room ? 2 * log->frozen_room : 16;
         struct vary_frozen *more =
-            arena_grow(m->arena, log->frozen, log->frozen_room * sizeof *more, room * sizeof *more);
+            arena_replace(m->arena, log->frozen, log->frozen_room * sizeof *more, room * sizeof *more);
         if (!more) return;
         log->frozen = more;
         log->frozen_room = room;

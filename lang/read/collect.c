@@ -168,8 +168,8 @@ static bool replace(model *m, uint32_t text)
     m->statements.count = kept;
     if (found) return true;
     if (one->kind == STATEMENT_START) {
-        statement *item = arena_grow(m->arena, m->statements.item, m->statements.count * sizeof *item,
-                                     (m->statements.count + 1) * sizeof *item);
+        statement *item = arena_replace(m->arena, m->statements.item, m->statements.count * sizeof *item,
+                                        (m->statements.count + 1) * sizeof *item);
         if (!item) return false;
         item[m->statements.count] = *one;
         m->statements.item = item;

@@ -18,7 +18,7 @@ static bool add(model *m, outputs *o, const output *one)
 {
     if (*o->count == o->room) {
         size_t room = o->room ? 2 * o->room : 16;
-        output *more = arena_grow(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
+        output *more = arena_replace(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
         if (!more) return false;
         *o->item = more;
         o->room = room;

@@ -303,7 +303,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
         }
         if (all->count == all->capacity) {
             uint32_t room = all->capacity ? 2 * all->capacity : 32;
-            statement *more = arena_grow(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
+            statement *more = arena_replace(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
             if (!more) return false;
             all->item = more;
             all->capacity = room;
