@@ -546,7 +546,12 @@ static void the_arena_keeps_its_promises(void **state)
     for (size_t bytes = 1; bytes < 5000; bytes = bytes * 3 + 1) {
         unsigned char *p = arena_take(&a, bytes);
         assert_non_null(p);
-        assert_int_equal((uintptr_t)p % (bytes >= 512 ? 64 : bytes % 16 ? 8 : 16), 0);
+        assert_int_equal((uintptr_t)p % (bytes >= 512      ? 64
+                                         : bytes % 16 == 0 ? 16
+                                         : bytes % 8 == 0  ? 8
+                                         : bytes % 4 == 0  ? 4
+                                                           : 1),
+                         0);
         for (size_t k = 0; k < bytes; k++) assert_int_equal(p[k], 0);
         memset(p, 0xA5, bytes);
     }

@@ -58,7 +58,7 @@ static void *none(arena *a, size_t bytes)
 
 void *arena_take(arena *a, size_t bytes)
 {
-    size_t align = bytes >= ARRAY ? LINE : bytes % 16 ? 8 : 16;
+    size_t align = bytes >= ARRAY ? LINE : bytes % 16 == 0 ? 16 : bytes % 8 == 0 ? 8 : bytes % 4 == 0 ? 4 : 1;
     if (a->blocks && !a->blocks->alone && bytes < SMALLEST_ALONE) {
         char *p = carve(a->blocks, bytes, align);
         if (p) return p;

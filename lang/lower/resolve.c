@@ -43,10 +43,17 @@ static bool resolve_plain(model *m, model_definition *d)
     double *out = arena_room(m->arena, (size_t)n * sizeof *out);
     if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
     memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
+    for (int k = 0; k < n; k++) m->slot_owner[d->slot + (uint32_t)k] = (uint32_t)(d - m->definitions) + 1;
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
     m->scalar_used += (uint32_t)n;
     return true;
+}
+
+static void own_arrays(model *m, model_definition *d, uint16_t first, int parts)
+{
+    d->array = first;
+    for (int k = 0; k < parts; k++) m->array_owner[first + k] = (uint32_t)(d - m->definitions) + 1;
 }
 
 /* m = [1, 2, 3] or [(1, 0), (0, 1)]: places 1 … n */
@@ -67,6 +74,7 @@ static bool resolve_list(model *m, model_definition *d)
             return false;
         }
     }
+    if (!model_take_extent(m, d)) return false;
     d->list = true;
     d->dims = 1;
     d->components = item[0].count;
@@ -76,7 +84,7 @@ static bool resolve_list(model *m, model_definition *d)
     size_t base;
     uint16_t at;
     if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
-    d->array = at;
+    own_arrays(m, d, at, parts);
     node *column = arena_room(m->arena, (size_t)n * sizeof *column);
     if (!column) return false;
     for (int k = 0; k < parts; k++) {
@@ -105,8 +113,9 @@ static bool resolve_family(model *m, model_definition *d)
         source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
         return false;
     }
+    if (!model_take_extent(m, d)) return false;
     lower_extent(m, &l, &o, d->first, d->last);
-    d->dims = o.to.dims;
+    d->dims = (uint8_t)o.to.dims;
     if (d->kind != DEFINED_PARAMETER) return true; /* each use lowers its expression (lower_name.c) */
     value v = lower_expression(&l, d->statement->value);
     if (failed(m)) return false;
@@ -122,7 +131,7 @@ static bool resolve_family(model *m, model_definition *d)
     }
     uint16_t at;
     if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
-    d->array = at;
+    own_arrays(m, d, at, parts);
     for (int k = 0; k < parts; k++)
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
     return evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) &&

@@ -34,8 +34,10 @@ static void mark_nodes(const vary *v, uint8_t *changed)
     }
 }
 
-static bool entry_changes(const vary_entry *e, const uint8_t *changed)
+static bool line_changes(const struct vary_line *line, const uint8_t *changed)
 {
+    const vary_entry *e = line->entry;
+    if (!e) return changed[line->value];
     for (int k = 0; k < e->parts; k++)
         if (changed[e->outputs[k].value]) return true;
     return false;
@@ -53,9 +55,11 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
     return (size_t)at;
 }
 
-static void mark_places(vary *v, const vary_entry *e)
+static void mark_places(vary *v, const struct vary_line *line)
 {
-    for (int k = 0; k < e->parts; k++)
+    const vary_entry *e = line->entry;
+    if (!e) v->affected[line->slot] = 1;
+    for (int k = 0; e && k < e->parts; k++)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
 }
 
@@ -63,6 +67,11 @@ static void mark_places(vary *v, const vary_entry *e)
 static bool overridden(const model *m, const vary_entry *e)
 {
     return m->overridden && m->overridden[place_of(m, e, 0)];
+}
+
+static bool line_overridden(const model *m, const struct vary_line *line)
+{
+    return line->entry ? overridden(m, line->entry) : m->overridden && m->overridden[line->slot];
 }
 
 bool vary_override(model *m, size_t first, size_t count, bool yes)
@@ -80,10 +89,11 @@ static void follow(vary *v, uint8_t *changed)
     const vary_log *log = &v->model->log;
     mark_nodes(v, changed);
     for (uint32_t k = 0; k < log->count; k++) {
-        if (overridden(v->model, &log->entries[k]) || !entry_changes(&log->entries[k], changed)) continue;
-        mark_places(v, &log->entries[k]);
+        const struct vary_line *line = &log->lines[k];
+        if (line_overridden(v->model, line) || !line_changes(line, changed)) continue;
+        mark_places(v, line);
         mark_nodes(v, changed);
-        if (v->active) v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
+        if (v->active) v->active[v->active_count++] = (vary_active){.entry = vary_record_entry(v->model, line)};
     }
 }
 
@@ -154,6 +164,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
         v->affected[places[k]] = 1;
     }
     follow(v, changed);
+    if (a->failed) return fail(err, MOTUS_MEMORY, "no memory for what varies");
     size_t largest = 0;
     for (uint32_t k = 0; k < v->active_count; k++) {
         const vary_entry *e = v->active[k].entry;

@@ -112,7 +112,8 @@ static bool looked_at(model *m, model_definition *d)
     }
     int parts = v.count ? v.count : 1;
     d->components = v.count;
-    d->dims = o.loops;
+    d->dims = (uint8_t)o.loops;
+    if (o.loops && !model_take_extent(m, d)) return false;
     size_t hull = 1;
     array shape = {.space = SPACE_OUT, .dims = o.loops};
     for (int k = o.loops - 1; k >= 0; k--) {

@@ -16,7 +16,8 @@ static bool constants(model *m)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
             m->scalar_slots += m->source.texts[t].bytes[i] == ',' ? 2 : 0;
     size_t first;
-    if (!model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
+    m->slot_owner = arena_room(m->arena, m->scalar_slots * sizeof *m->slot_owner);
+    if (!m->slot_owner || !model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (!resolve_definition(m, &m->definitions[i])) return false;
     for (uint32_t i = 0; i < m->state_count; i++)

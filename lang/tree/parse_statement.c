@@ -171,7 +171,7 @@ static void parse_left(parser *p, statement *s)
     }
     if (failed(p)) return;
     if (p->token.kind == TOKEN_PRIMES) {
-        s->primes = p->token.primes;
+        s->primes = (uint8_t)p->token.primes;
         if (s->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
             HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
@@ -302,7 +302,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
             return false;
         }
         if (all->count == all->capacity) {
-            uint32_t room = all->capacity ? 2 * all->capacity : 32;
+            const uint32_t room = all->capacity + all->capacity / 2 + 32;
             statement *more = arena_replace(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
             if (!more) return false;
             all->item = more;

@@ -34,19 +34,23 @@ typedef struct loop {
     span at;
 } loop;
 
+/* There is one for every number, name and operator of the text, so it is kept small. */
 typedef struct tree {
-    tree_kind kind;
+    uint8_t kind;           /* tree_kind */
+    bool bracketed : 1;     /* stood in ( ) of its own */
+    bool blank_product : 1; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
+    bool divisor : 1;       /* APPLY: something is divided by it, a/f(x) */
+    uint8_t primes, loop_count;
+    int16_t operation;
+    uint16_t index_count;
+    uint32_t count;
     span at;
-    const char *name;
-    double number;
-    int primes, operation;
-    bool bracketed;     /* stood in ( ) of its own */
-    bool blank_product; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
-    bool divisor;       /* APPLY: something is divided by it, a/f(x) */
-    uint32_t count, index_count;
+    union {
+        const char *name; /* NAME, CALL */
+        double number;    /* NUMBER */
+        loop *loops;      /* SUM */
+    };
     struct tree **item;
-    loop *loops;
-    uint32_t loop_count;
 } tree;
 
 typedef enum statement_kind {
@@ -64,26 +68,26 @@ typedef enum statement_kind {
 } statement_kind;
 
 typedef struct statement {
-    statement_kind kind;
+    uint8_t kind; /* statement_kind */
+    uint8_t loop_count;
+    uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
+    bool steps;       /* EVERY: every n steps */
+    uint16_t index_count;
+    uint8_t primes;
     span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
     const char *name;
     tree **index;
-    uint32_t index_count;
-    int primes;
     tree *applied;    /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
     tree *value;      /* the right side, or the setting's expression */
-    bool steps;       /* every n steps */
     const char *text; /* METHOD */
     loop *loops;
-    uint32_t loop_count;
-    tree *replaced;   /* by --set: the model's expression that it replaces, */
-    span stood;       /*   and the place of that statement */
-    uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    uint32_t next;    /* 1 + number of the next line about the same state; 0: none */
+    tree *replaced; /* by --set: the model's expression that it replaces, */
+    span stood;     /*   and the place of that statement */
+    uint32_t next;  /* 1 + number of the next line about the same state; 0: none */
 } statement;
 
 typedef struct statements {
-    statement *item;
+    statement *item; /* it moves when there are more */
     uint32_t count, capacity;
 } statements;
 
