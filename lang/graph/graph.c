@@ -90,13 +90,18 @@ static bool same_node(const graph *g, const graph_node *n, const graph_node *m, 
 static bool grow_nodes(graph *g)
 {
     if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
-    uint32_t capacity = g->capacity * 2, size = capacity * 2;
+    uint32_t capacity = g->capacity + g->capacity / 2;
+    if (capacity > GRAPH_NODES_MAX) capacity = GRAPH_NODES_MAX;
+    uint32_t size = g->table_size;
+    while (size < capacity + capacity / 2) size *= 2;
     graph_node *nodes = arena_replace(g->arena, g->nodes, g->capacity * sizeof *nodes, capacity * sizeof *nodes);
     if (!nodes) return false;
     g->nodes = nodes;
     uint32_t *place = arena_replace(g->arena, g->place, g->capacity * sizeof *place, capacity * sizeof *place);
     if (!place) return false;
     g->place = place;
+    g->capacity = capacity;
+    if (size == g->table_size) return true;
     arena_drop(g->arena, g->table, g->table_size * sizeof *g->table);
     node *table = g->table = arena_room(g->arena, size * sizeof *table);
     if (!table) return false;
@@ -108,7 +113,6 @@ static bool grow_nodes(graph *g)
         table[h & (size - 1)] = k;
     }
     g->table_size = size;
-    g->capacity = capacity;
     return true;
 }
 

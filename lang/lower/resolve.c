@@ -22,6 +22,17 @@ static bool finite_values(model *m, const model_definition *d, const double *v, 
     return true;
 }
 
+/* Evaluates numbers into the pool from `first` on, where they must be finite. */
+static bool evaluate_numbers(model *m, const model_definition *d, const node *nodes, int n, size_t first)
+{
+    double *out = take(&m->arena->allocator, (size_t)n, sizeof *out); /* the pool may move meanwhile */
+    if (!out) return m->arena->failed = true, false;
+    const bool ok = evaluate_nodes(m, nodes, n, out) && finite_values(m, d, out, (size_t)n);
+    if (ok) memcpy(m->pool + first, out, (size_t)n * sizeof *out);
+    give(&m->arena->allocator, out);
+    return ok;
+}
+
 static bool resolve_plain(model *m, model_definition *d)
 {
     lowering l;
@@ -40,9 +51,7 @@ static bool resolve_plain(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "the parameters have too many components");
         return false;
     }
-    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-    if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
-    memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
+    if (!evaluate_numbers(m, d, v.item, n, d->slot)) return false;
     for (int k = 0; k < n; k++) m->slot_owner[d->slot + (uint32_t)k] = (uint32_t)(d - m->definitions) + 1;
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
@@ -90,9 +99,7 @@ static bool resolve_list(model *m, model_definition *d)
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++) column[i] = item[i].item[k];
-        double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-        if (!out || !evaluate_nodes(m, column, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
-        memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);
+        if (!evaluate_numbers(m, d, column, n, base + (size_t)k * (size_t)n)) return false;
     }
     for (int i = 0; i < n; i++) {
         const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
