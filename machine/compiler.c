@@ -97,9 +97,27 @@ bool compiler_find(compiler *c)
     return false;
 }
 
-/* In the child: only calls that are safe after fork. */
-static void become_compiler(char *const *arguments, const char *path, int log, pid_t parent)
+extern char **environ;
+enum { VARIABLES_MAX = 1024 };
+
+/* The environment with the object's folder for temporary files, which then go with the folder; as it is where it has
+ * too many variables. */
+static char **with_folder(char *folder, char *own[VARIABLES_MAX])
 {
+    int n = 0;
+    own[n++] = folder;
+    for (char **one = environ; *one; one++) {
+        if (n + 1 == VARIABLES_MAX) return environ;
+        if (strncmp(*one, "TMPDIR=", 7) != 0) own[n++] = *one;
+    }
+    own[n] = NULL;
+    return own;
+}
+
+/* In the child: only calls that are safe after fork. */
+static void become_compiler(char *const *arguments, const char *path, char *folder, int log, pid_t parent)
+{
+    char *own[VARIABLES_MAX];
     struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
                   memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
     setrlimit(RLIMIT_CPU, &time);
@@ -115,7 +133,7 @@ static void become_compiler(char *const *arguments, const char *path, int log, p
     if (none >= 0) dup2(none, 0);
     dup2(log, 1);
     dup2(log, 2);
-    execv(path, arguments);
+    execve(path, arguments, with_folder(folder, own));
     _exit(127);
 }
 
@@ -164,8 +182,11 @@ bool compiler_run(const compiler *c, const char *source, const char *object, boo
     arguments[n++] = (char *)object;
     for (int i = 0; i < LIBRARIES; i++) arguments[n++] = (char *)libraries[i];
     arguments[n] = NULL;
+    char folder[PATH_MAX];
+    const char *slash = strrchr(object, '/');
+    snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - object : 1), slash ? object : ".");
     pid_t parent = getpid(), child = fork();
-    if (child == 0) become_compiler(arguments, c->path, log, parent);
+    if (child == 0) become_compiler(arguments, c->path, folder, log, parent);
     bool ok = child > 0 && wait_for(child);
     if (!ok) first_line(log, why, size);
     close(log);

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { FIRST_NODES = 64, FIRST_REFERENCES = 16 };
+enum { FIRST_NODES = 64, MANY_NODES = 1 << 15, FIRST_REFERENCES = 16 };
 
 graph *graph_create(arena *a)
 {
@@ -87,13 +87,12 @@ static bool same_node(const graph *g, const graph_node *n, const graph_node *m, 
     return n->c == m->c;
 }
 
-static bool grow_nodes(graph *g)
+bool graph_reserve(graph *g, uint32_t capacity)
 {
-    if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
-    uint32_t capacity = g->capacity + g->capacity / 2;
     if (capacity > GRAPH_NODES_MAX) capacity = GRAPH_NODES_MAX;
+    if (capacity <= g->capacity) return true;
     uint32_t size = g->table_size;
-    while (size < capacity + capacity / 2) size *= 2;
+    while (size < capacity + capacity / 4) size *= 2;
     graph_node *nodes = arena_replace(g->arena, g->nodes, g->capacity * sizeof *nodes, capacity * sizeof *nodes);
     if (!nodes) return false;
     g->nodes = nodes;
@@ -114,6 +113,13 @@ static bool grow_nodes(graph *g)
     }
     g->table_size = size;
     return true;
+}
+
+/* By an eighth where it is large, because the old copy and the new one are there together. */
+static bool grow_nodes(graph *g)
+{
+    if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
+    return graph_reserve(g, g->capacity + g->capacity / (g->capacity < MANY_NODES ? 2 : 8));
 }
 
 /* Growing tables of references and ranges: capacities are the powers of two, so the count tells when to grow. */

@@ -96,6 +96,8 @@ typedef struct graph {
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
 graph *graph_create(arena *);
+/* Room for so many nodes, so that the graph need not grow: its old copy and the new one would be there together. */
+bool graph_reserve(graph *, uint32_t nodes);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);

@@ -35,7 +35,7 @@ static node of_parameter(differential *d, uint32_t slot)
         d->line = arena_room(m->arena, m->scalar_slots * sizeof *d->line);
         if (m->arena->failed) return 0;
         for (uint32_t k = m->log.count; k-- > 0;)
-            if (!m->log.lines[k].entry) d->line[m->log.lines[k].slot] = k + 1;
+            if (m->log.lines[k].value != VARY_ENTRY) d->line[m->log.lines[k].slot] = k + 1;
     }
     if (d->of_slot[slot]) return d->of_slot[slot] - 1;
     if (!d->line[slot]) return 0;

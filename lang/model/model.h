@@ -52,13 +52,15 @@ typedef struct model_state {
 } model_state;
 
 /* What was computed from parameters while the model was read: see vary_record.h. */
+#define VARY_ENTRY UINT32_MAX
 typedef struct vary_log {
     struct vary_line {
-        node value;               /* of a number in a scalar slot, */
-        uint32_t slot;            /*   and this slot; */
-        struct vary_entry *entry; /*   or NULL, and the outputs */
+        node value;    /* of a number in a scalar slot; VARY_ENTRY: it is an entry */
+        uint32_t slot; /* this slot, or the number of the entry */
     } * lines;
     uint32_t count, room;
+    struct vary_entry *entries;
+    uint32_t entry_count, entry_room;
     struct vary_frozen {
         node n;
         const char *what;
@@ -84,8 +86,8 @@ typedef struct model_definition {
     int components;        /* 0: scalar */
     int64_t *first, *last; /* MAX_DIMS of each; those without indices share one array of zeros */
     uint16_t log_array;    /* vary_record.h: 1 + its array over the pool, 0 none */
-    uint32_t slot;         /* parameter without indices: its first pool slot */
     uint16_t array;        /* list: POOL array of component 0; quantity or invariant: OUT array */
+    uint32_t slot;         /* parameter without indices: its first pool slot */
     struct value **known;  /* quantity without indices: its nodes, by kind of place and level of its use */
     output *outputs;
     size_t output_count; /* quantity, invariant: into OUT from 0 */

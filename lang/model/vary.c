@@ -34,9 +34,15 @@ static void mark_nodes(const vary *v, uint8_t *changed)
     }
 }
 
-static bool line_changes(const struct vary_line *line, const uint8_t *changed)
+/* NULL: a number in a scalar slot. */
+static const vary_entry *entry_of(const model *m, const struct vary_line *line)
 {
-    const vary_entry *e = line->entry;
+    return line->value == VARY_ENTRY ? &m->log.entries[line->slot] : NULL;
+}
+
+static bool line_changes(const model *m, const struct vary_line *line, const uint8_t *changed)
+{
+    const vary_entry *e = entry_of(m, line);
     if (!e) return changed[line->value];
     for (int k = 0; k < e->parts; k++)
         if (changed[e->outputs[k].value]) return true;
@@ -57,7 +63,7 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
 
 static void mark_places(vary *v, const struct vary_line *line)
 {
-    const vary_entry *e = line->entry;
+    const vary_entry *e = entry_of(v->model, line);
     if (!e) v->affected[line->slot] = 1;
     for (int k = 0; e && k < e->parts; k++)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
@@ -71,7 +77,8 @@ static bool overridden(const model *m, const vary_entry *e)
 
 static bool line_overridden(const model *m, const struct vary_line *line)
 {
-    return line->entry ? overridden(m, line->entry) : m->overridden && m->overridden[line->slot];
+    const vary_entry *e = entry_of(m, line);
+    return e ? overridden(m, e) : m->overridden && m->overridden[line->slot];
 }
 
 bool vary_override(model *m, size_t first, size_t count, bool yes)
@@ -90,7 +97,7 @@ static void follow(vary *v, uint8_t *changed)
     mark_nodes(v, changed);
     for (uint32_t k = 0; k < log->count; k++) {
         const struct vary_line *line = &log->lines[k];
-        if (line_overridden(v->model, line) || !line_changes(line, changed)) continue;
+        if (line_overridden(v->model, line) || !line_changes(v->model, line, changed)) continue;
         mark_places(v, line);
         mark_nodes(v, changed);
         if (v->active) v->active[v->active_count++] = (vary_active){.entry = vary_record_entry(v->model, line)};

@@ -1,7 +1,7 @@
 /* Entries of a model's log. See vary_record.h. */
 #include "lang/model/vary_record.h"
 
-static bool add_line(model *m, node value, uint32_t slot, vary_entry *entry)
+static bool add_line(model *m, node value, uint32_t slot)
 {
     vary_log *log = &m->log;
     if (log->count == log->room) {
@@ -11,8 +11,21 @@ static bool add_line(model *m, node value, uint32_t slot, vary_entry *entry)
         log->lines = more;
         log->room = room;
     }
-    log->lines[log->count++] = (struct vary_line){value, slot, entry};
+    log->lines[log->count++] = (struct vary_line){value, slot};
     return true;
+}
+
+static vary_entry *new_entry(model *m)
+{
+    vary_log *log = &m->log;
+    if (log->entry_count == log->entry_room) {
+        const uint32_t room = log->entry_room + log->entry_room / 2 + 16;
+        vary_entry *more = arena_replace(m->arena, log->entries, log->entry_room * sizeof *more, room * sizeof *more);
+        if (!more) return NULL;
+        log->entries = more;
+        log->entry_room = room;
+    }
+    return &log->entries[log->entry_count];
 }
 
 bool vary_record(model *m, const output *target, const node *values, int parts, size_t base, int dims,
@@ -28,7 +41,7 @@ bool vary_record(model *m, const output *target, const node *values, int parts, 
             graph_shape(&m->arrays[*array + k], SPACE_OUT, base + (size_t)k * hull, dims, first, last);
         ++*array;
     }
-    vary_entry *e = arena_room(m->arena, sizeof *e);
+    vary_entry *e = new_entry(m);
     output *o = e ? arena_room(m->arena, (size_t)parts * sizeof *o) : NULL;
     if (!o) return false;
     for (int k = 0; k < parts; k++) {
@@ -38,7 +51,7 @@ bool vary_record(model *m, const output *target, const node *values, int parts, 
     }
     *e = (vary_entry){
         .outputs = o, .parts = parts, .base = base, .hull = hull, .map = target->loops ? map : NULL, .rank = rank};
-    return add_line(m, 0, 0, e);
+    return add_line(m, VARY_ENTRY, m->log.entry_count++);
 }
 
 bool vary_record_scalar(model *m, node n, uint32_t slot)
@@ -49,12 +62,12 @@ bool vary_record_scalar(model *m, node n, uint32_t slot)
         if (!model_take_arrays(m, 1, &m->log.scalars)) return false;
         graph_shape(&m->arrays[m->log.scalars++], SPACE_OUT, 0, 1, &first, &last);
     }
-    return add_line(m, n, slot, NULL);
+    return add_line(m, n, slot);
 }
 
 const vary_entry *vary_record_entry(model *m, const struct vary_line *line)
 {
-    if (line->entry) return line->entry;
+    if (line->value == VARY_ENTRY) return &m->log.entries[line->slot];
     vary_entry *e = arena_room(m->arena, sizeof *e);
     output *o = arena_room(m->arena, sizeof *o);
     if (!e || !o) return NULL;

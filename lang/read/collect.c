@@ -169,11 +169,10 @@ static bool replace(model *m, uint32_t text)
             same = same && old->index_count == one->index_count;
         if (same && found++) continue; /* it replaces the first and removes the others */
         if (same) {
-            tree *replaced = old->replaced ? old->replaced : old->value;
-            span stood = old->replaced ? old->stood : old->at;
+            replaced *own = arena_take(m->arena, sizeof *own);
+            *own = old->replaced ? *old->replaced : (replaced){old->value, old->at};
             *old = *one;
-            old->replaced = replaced;
-            old->stood = stood;
+            old->replaced = own;
         }
         m->statements.item[kept++] = *old;
     }
@@ -222,7 +221,7 @@ bool collect_all(model *m, const motus_text_def *def)
         definitions += kind == STATEMENT_DEFINITION || kind == STATEMENT_INVARIANT;
     }
     m->symbol_size = 16;
-    while (m->symbol_size < 2 * n) m->symbol_size *= 2;
+    while (m->symbol_size < n + n / 4) m->symbol_size *= 2;
     m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
     m->definitions = arena_room(m->arena, (definitions + 1) * sizeof *m->definitions);
     m->functions = arena_room(m->arena, (brackets + 1) * sizeof *m->functions);

@@ -27,7 +27,8 @@ static bool constants(model *m)
 
 static motus_status build(model *m, const motus_text_def *def, read_method method)
 {
-    if (collect_all(m, def) && classify_all(m) && names_all(m) && constants(m) && settings_all(m, method) &&
+    if (collect_all(m, def) && classify_all(m) && names_all(m) &&
+        graph_reserve(m->graph, m->statements.operations + 64) && constants(m) && settings_all(m, method) &&
         layout_all(m) && equations_all(m))
         analysis_all(m);
     if (m->source.failed) return m->source.status;

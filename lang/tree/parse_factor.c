@@ -246,6 +246,8 @@ static tree *parse_name(parser *p)
 {
     tree *t = grow(p, TREE_NAME, p->token.at);
     t->name = copy_name(p, p->token.at);
+    p->operations += !p->known[p->name].counted;
+    p->known[p->name].counted = true;
     advance(p);
     if (is(p, '[') && !p->token.blank) parse_index(p, t);
     if (failed(p)) return t;

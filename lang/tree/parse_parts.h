@@ -20,7 +20,12 @@ typedef struct parser {
     token token, last; /* the one to be read, and the one before it */
     int bars;          /* | opened in the present bracket and not yet closed [7] */
     int depth;
-    const char *known[NAMES_KNOWN]; /* names read before, by their hash: a name that comes again is not copied */
+    struct {
+        const char *name;
+        bool counted;
+    } known[NAMES_KNOWN]; /* names read before, by their hash: a name that comes again is not copied */
+    uint32_t name;        /* the one of these that was read last */
+    uint32_t operations;  /* see statements */
 } parser;
 
 static inline bool failed(const parser *p) { return source_failed(p->source); }
@@ -54,18 +59,20 @@ static inline const char *copy_name(parser *p, span at)
     if (length == 2 && !memcmp(bytes, "π", 2)) return "pi";
     uint32_t hash = 0;
     for (size_t i = 0; i < length; i++) hash = hash * 31 + (unsigned char)bytes[i];
-    const char **known = &p->known[hash % NAMES_KNOWN];
-    if (!*known || strncmp(*known, bytes, length) != 0 || (*known)[length]) {
-        const char *copy = arena_text(p->arena, bytes, length);
-        if (failed(p)) return copy;
-        *known = copy;
-    }
-    return *known;
+    p->name = hash % NAMES_KNOWN;
+    const char *known = p->known[p->name].name;
+    if (known && strncmp(known, bytes, length) == 0 && !known[length]) return known;
+    const char *copy = arena_text(p->arena, bytes, length);
+    if (failed(p)) return copy;
+    p->known[p->name].name = copy;
+    p->known[p->name].counted = false;
+    return copy;
 }
 
 static inline tree *grow(parser *p, tree_kind kind, span at)
 {
     tree *t = arena_take(p->arena, sizeof *t);
+    p->operations += kind != TREE_NAME && kind != TREE_APPLY && kind != TREE_LIST && kind != TREE_VECTOR;
     t->kind = (uint8_t)kind;
     t->at = at;
     return t;
@@ -91,6 +98,7 @@ static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
         tree *item[2];
     } *both = arena_take(p->arena, sizeof *both); /* in one piece: most trees have two items */
     tree *t = &both->tree;
+    p->operations++;
     t->kind = (uint8_t)kind;
     t->at = (span){a->at.text, a->at.from, b->at.to};
     if (failed(p)) return t;

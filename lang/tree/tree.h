@@ -67,28 +67,36 @@ typedef enum statement_kind {
     STATEMENT_EVERY
 } statement_kind;
 
+/* What --set has put another expression in the place of: the model's own, and the place of that statement. */
+typedef struct replaced {
+    tree *value;
+    span at;
+} replaced;
+
+/* There is one for every line, so it is kept small. */
 typedef struct statement {
     uint8_t kind; /* statement_kind */
-    uint8_t loop_count;
+    uint8_t primes, loop_count;
     uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
     bool steps;       /* EVERY: every n steps */
     uint16_t index_count;
-    uint8_t primes;
     span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
+    uint32_t next;              /* 1 + number of the next line about the same state; 0: none */
     const char *name;
-    tree **index;
-    tree *applied;    /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
-    tree *value;      /* the right side, or the setting's expression */
-    const char *text; /* METHOD */
+    union {
+        tree **index;
+        const char *text; /* METHOD */
+    };
+    tree *applied; /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
+    tree *value;   /* the right side, or the setting's expression */
     loop *loops;
-    tree *replaced; /* by --set: the model's expression that it replaces, */
-    span stood;     /*   and the place of that statement */
-    uint32_t next;  /* 1 + number of the next line about the same state; 0: none */
+    const replaced *replaced; /* NULL: it is the model's own */
 } statement;
 
 typedef struct statements {
     statement *item; /* it moves when there are more */
     uint32_t count, capacity;
+    uint32_t operations; /* numbers, operators and different names in the trees, more or less */
 } statements;
 
 /* Parses text number `text` and appends its statements. False: complained or no memory. */
