@@ -549,11 +549,11 @@ static void memory_for_the_text(void **unused)
         {"functions", functions, 100000, 28},
         {"comments", comments, 100000, 3},
         {"a list", list_of_numbers, 100000, 28},
-        {"a sum", terms, 300000, 80},
-        {"a product", factors, 100000, 92},
-        {"calls", calls, 50000, 165},
+        {"a sum", terms, 300000, 70},
+        {"a product", factors, 100000, 80},
+        {"calls", calls, 50000, 140},
         {"parameters in a sum", parameters_in_a_sum, 100000, 42},
-        {"cells", cells, 20000, 70},
+        {"cells", cells, 20000, 62},
         {"quantities", quantities, 20000, 72},
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
