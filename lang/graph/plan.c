@@ -6,10 +6,14 @@
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
 
+enum { MANY = 1 << 14 };
+
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
 {
     if (count < *capacity || p->failed) return at;
-    uint32_t wanted = *capacity ? *capacity * 2 : 32;
+    const uint32_t more =
+        *capacity < MANY ? *capacity : *capacity / 4; /* the old list and the new are there together */
+    const uint32_t wanted = *capacity ? *capacity + more : 32;
     void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
         p->failed = true;
@@ -19,15 +23,22 @@ void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t si
     return grown;
 }
 
+#define DROP(p, part) (give((p)->hooks, part), (part) = NULL)
+
+void plan_release_items(plan *p)
+{
+    DROP(p, p->items.at);
+    DROP(p, p->order);
+    DROP(p, p->table);
+}
+
 void plan_release(plan *p)
 {
-    give(p->hooks, p->regions.at);
-    give(p->hooks, p->items.at);
-    give(p->hooks, p->stack.at);
-    give(p->hooks, p->order);
-    give(p->hooks, p->rank);
-    give(p->hooks, p->next_output);
-    give(p->hooks, p->table);
+    plan_release_items(p);
+    DROP(p, p->regions.at);
+    DROP(p, p->stack.at);
+    DROP(p, p->rank);
+    DROP(p, p->next_output);
 }
 
 /* Regions --------------------------------------------------------------------------------------------------------- */
@@ -315,6 +326,8 @@ bool plan_create(plan *p, arena *a, const program *program, bool blocks)
     p->next_output = take(p->hooks, program->count, sizeof *p->next_output);
     bool ok = p->next_output && rank_nodes(p) && new_region(p, NONE, -1) != NONE && new_region(p, AT_BIND, -1) != NONE;
     for (size_t k = 0; ok && k < program->count; k++) ok = place_output(p, (uint32_t)k);
+    DROP(p, p->stack.at);
+    DROP(p, p->rank);
     ok = ok && !p->failed && sort_items(p);
     if (ok)
         choose_lanes(p);

@@ -66,6 +66,7 @@ void *plan_room(plan *, void *at, uint32_t count, uint32_t *capacity, size_t siz
 
 bool plan_create(plan *, arena *, const program *, bool blocks);
 void plan_release(plan *);
+void plan_release_items(plan *); /* all but the regions, once everything is written */
 /* The region in which something with these dependences is computed when `region` needs it. */
 uint32_t plan_home(const plan *, unsigned deps, uint32_t region);
 uint32_t plan_find(const plan *, node, uint32_t home); /* the item, or NONE */

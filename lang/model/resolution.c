@@ -96,7 +96,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
             const graph_node *n = &g->nodes[w.nodes[k]];
             node operand[3] = {0};
             step *s = &steps[k];
-            *s = (step){.op = n->op, .value = n->value};
+            *s = (step){.op = n->op, .value = n->op == OP_CONST ? n->value : 0};
             for (int j = graph_operands(n, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
             if (n->op == OP_PARAM) s->space = SPACE_POOL, s->at = n->a;
             if (n->op != OP_LOAD) continue;

@@ -17,7 +17,8 @@ static bool constants(model *m)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
             m->scalar_slots += m->source.texts[t].bytes[i] == ',' ? 2 : 0;
     size_t first;
-    if (!model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
+    m->slot_owner = arena_room(m->arena, m->scalar_slots * sizeof *m->slot_owner);
+    if (!m->slot_owner || !model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (!resolve_definition(m, &m->definitions[i])) return false;
     for (uint32_t i = 0; i < m->state_count; i++)
@@ -27,7 +28,8 @@ static bool constants(model *m)
 
 static motus_status build(model *m, const motus_text_def *def, read_method method)
 {
-    if (collect_all(m, def) && classify_all(m) && names_all(m) && constants(m) && settings_all(m, method) &&
+    if (collect_all(m, def) && classify_all(m) && names_all(m) &&
+        graph_reserve(m->graph, m->statements.operations + 64) && constants(m) && settings_all(m, method) &&
         layout_all(m) && equations_all(m))
         analysis_all(m);
     if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;

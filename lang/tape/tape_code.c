@@ -379,6 +379,7 @@ code *tape_code_create(arena *a, const program *program, bool with_blocks)
         w.bind_count = w.text.count;
         write_region(&w, AT_RUN);
         put(&w, CODE_END, 0, (instruction){0}, 0);
+        plan_release_items(&w.plan);
         c = finish(&w, a);
     }
     give(w.plan.hooks, w.registers.at);

@@ -171,7 +171,7 @@ static void parse_left(parser *p, statement *s)
     }
     if (failed(p)) return;
     if (p->token.kind == TOKEN_PRIMES) {
-        s->primes = p->token.primes;
+        s->primes = (uint8_t)p->token.primes;
         if (s->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
             HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
@@ -289,6 +289,19 @@ static void parse_statement(parser *p, statement *s)
     parse_value(p, s);
 }
 
+/* How many statements there will be, more or less: one for each = that stands alone. */
+static uint32_t statements_ahead(const struct source_text *t)
+{
+    uint32_t count = 1;
+    bool comment = false;
+    for (uint32_t i = 0; i < t->length && count < SOURCE_STATEMENTS_MAX; i++) {
+        const char c = t->bytes[i];
+        comment = c == '#' || (comment && c != '\n');
+        count += !comment && c == '=' && i > 0 && !strchr("=<>!", t->bytes[i - 1]);
+    }
+    return count;
+}
+
 bool parse_text(source *s, uint32_t text, statements *all)
 {
     parser p = {.source = s, .arena = s->arena};
@@ -302,8 +315,9 @@ bool parse_text(source *s, uint32_t text, statements *all)
             return false;
         }
         if (all->count == all->capacity) {
-            uint32_t room = all->capacity ? 2 * all->capacity : 32;
-            statement *more = arena_grow(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
+            const uint32_t room =
+                all->capacity ? all->capacity + all->capacity / 2 + 32 : statements_ahead(&s->texts[text]);
+            statement *more = arena_replace(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
             if (!more) return false;
             all->item = more;
             all->capacity = room;
@@ -313,6 +327,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
         parse_statement(&p, one);
         if (failed(&p)) return false;
         all->count++;
+        all->operations = p.operations;
         if (p.token.kind != TOKEN_NEWLINE && p.token.kind != TOKEN_END) {
             unexpected(&p, "the end of the line");
             return false;
