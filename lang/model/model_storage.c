@@ -30,8 +30,7 @@ bool model_take_arrays(model *m, int count, uint16_t *first)
         uint32_t room = need + 64 + m->array_capacity / 2;
         array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
         if (!more) return false;
-        uint32_t *owner =
-            arena_replace(m->arena, m->array_owner, m->array_capacity * sizeof *owner, room * sizeof *owner);
+        uint32_t *owner = arena_grow(m->arena, m->array_owner, m->array_capacity * sizeof *owner, room * sizeof *owner);
         if (!owner) return false;
         m->array_owner = owner;
         m->arrays = more;
