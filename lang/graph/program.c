@@ -131,6 +131,9 @@ static bool run(forming *f, const node *roots, output *outputs, size_t count)
     if (f->uses && f->image && f->absorbed) {
         count_uses(f, roots, count);
         choose(f);
+        uint32_t formed = 1;
+        for (uint32_t k = 0; k < f->w.count; k++) formed += !f->absorbed[k];
+        (void)graph_reserve(f->to, formed + formed / 8); /* sums and negated factors take more */
         for (uint32_t k = 0; k < f->w.count; k++)
             if (!f->absorbed[k]) f->image[k] = form(f, f->w.nodes[k]);
         for (size_t r = 0; r < count; r++) outputs[r].value = image(f, roots[r]);
