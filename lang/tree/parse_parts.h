@@ -62,7 +62,7 @@ static inline const char *copy_name(parser *p, span at)
     p->name = hash % NAMES_KNOWN;
     const char *known = p->known[p->name].name;
     if (known && strncmp(known, bytes, length) == 0 && !known[length]) return known;
-    const char *copy = arena_text(p->arena, bytes, length);
+    const char *copy = arena_text(p->source->arena, bytes, length);
     if (failed(p)) return copy;
     p->known[p->name].name = copy;
     p->known[p->name].counted = false;

@@ -96,7 +96,7 @@ static void parse_method(parser *p, statement *s)
         source_complain(p->source, MOTUS_LIMIT, s->at, "the name of a method has at most %d bytes", MOTUS_NAME_MAX - 1);
         return;
     }
-    s->text = arena_text(p->arena, text->bytes + from, end - from);
+    s->text = arena_text(p->source->arena, text->bytes + from, end - from);
     p->lexer.at = to;
     p->lexer.depth = 0;
     advance(p);
@@ -304,7 +304,7 @@ static uint32_t statements_ahead(const struct source_text *t)
 
 bool parse_text(source *s, uint32_t text, statements *all)
 {
-    parser p = {.source = s, .arena = s->arena};
+    parser p = {.source = s, .arena = s->trees};
     lex_start(&p.lexer, s, text);
     advance(&p);
     for (;;) {
@@ -333,4 +333,20 @@ bool parse_text(source *s, uint32_t text, statements *all)
             return false;
         }
     }
+}
+
+bool parse_again(const source *s, const statement *of, arena *a, statement *out)
+{
+    source silent = *s; /* the text has no error */
+    silent.error = NULL;
+    silent.failed = false;
+    silent.arena = silent.trees = a;
+    parser p = {.source = &silent, .arena = a};
+    lex_start(&p.lexer, &silent, of->at.text);
+    p.lexer.at = of->at.from;
+    advance(&p);
+    *out = (statement){0};
+    parse_statement(&p, out);
+    out->kind = of->kind;
+    return !failed(&p);
 }

@@ -1,4 +1,6 @@
-/* The tree of a model's text, as the parser makes it; names are not resolved yet. */
+/* The tree of a model's text, as the parser makes it; names are not resolved yet. It takes more memory than all else
+ * that is read, so trees live while the model is read: afterwards a statement keeps its names and places alone, and its
+ * trees can be parsed again. */
 #ifndef LANG_TREE_TREE_H
 #define LANG_TREE_TREE_H
 
@@ -90,7 +92,7 @@ typedef struct statement {
     tree *applied; /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
     tree *value;   /* the right side, or the setting's expression */
     loop *loops;
-    const replaced *replaced; /* NULL: it is the model's own */
+    replaced *replaced; /* NULL: it is the model's own */
 } statement;
 
 typedef struct statements {
@@ -101,5 +103,8 @@ typedef struct statements {
 
 /* Parses text number `text` and appends its statements. False: complained or no memory. */
 bool parse_text(source *, uint32_t text, statements *);
+/* A statement of a model that has been read, with its trees, in an arena that the caller releases; not of a METHOD,
+ * which has none. False: no memory. */
+bool parse_again(const source *, const statement *, arena *, statement *);
 
 #endif
