@@ -40,7 +40,10 @@ static void add_states(motus_system *s, motus_column_kind kind, bool exact, bool
 
 bool system_number_columns(motus_system *s)
 {
-    s->ranges = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + s->definition_count) * sizeof *s->ranges);
+    size_t named = 0; /* parameters are no columns, and there may be one in every line */
+    for (uint32_t i = 0; i < s->definition_count; i++)
+        named += s->definitions[i].kind == DEFINED_QUANTITY || s->definitions[i].kind == DEFINED_INVARIANT;
+    s->ranges = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + named) * sizeof *s->ranges);
     if (!s->ranges) return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
@@ -49,7 +52,8 @@ bool system_number_columns(motus_system *s)
     add_states(s, MOTUS_COLUMN_FIRST_ORDER, false, false);
     s->velocities = s->column_count - 1 - s->positions;
     size_t largest = 1;
-    for (int pass = 0; pass < 2; pass++)
+    for (int pass = 0; pass < 2; pass++) {
+        s->named[pass] = s->range_count;
         for (uint32_t i = 0; i < s->definition_count; i++) {
             const model_definition *d = &s->definitions[i];
             if (d->kind != (pass ? DEFINED_INVARIANT : DEFINED_QUANTITY)) continue;
@@ -57,6 +61,8 @@ bool system_number_columns(motus_system *s)
             const size_t room = s->model ? d->numbers : d->slot + d->numbers;
             largest = room > largest ? room : largest;
         }
+        s->named_count[pass] = s->range_count - s->named[pass];
+    }
     if (s->problem.traits.has_exact) {
         add_states(s, MOTUS_COLUMN_POSITION, true, false);
         add_states(s, MOTUS_COLUMN_VELOCITY, true, true);
@@ -360,20 +366,16 @@ motus_status motus_column_of(const motus_system *s, const motus_column *given, s
 
 static const char *definition_name(const motus_system *s, definition_kind kind, size_t k, size_t *numbers)
 {
-    for (uint32_t i = 0; s && i < s->definition_count; i++) {
-        const model_definition *d = &s->definitions[i];
-        if (d->kind != kind || k-- > 0) continue;
-        if (numbers) *numbers = d->numbers;
-        return d->name;
-    }
-    return NULL;
+    const int which = kind == DEFINED_INVARIANT;
+    if (!s || k >= s->named_count[which]) return NULL;
+    const model_definition *d = definition(s, &s->ranges[s->named[which] + k]);
+    if (numbers) *numbers = d->numbers;
+    return d->name;
 }
 
 static size_t definition_count(const motus_system *s, definition_kind kind)
 {
-    size_t n = 0;
-    for (uint32_t i = 0; s && i < s->definition_count; i++) n += s->definitions[i].kind == kind;
-    return n;
+    return s ? s->named_count[kind == DEFINED_INVARIANT] : 0;
 }
 
 size_t motus_quantity_count(const motus_system *s) { return definition_count(s, DEFINED_QUANTITY); }

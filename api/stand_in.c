@@ -61,6 +61,8 @@ static void add_definition(motus_system *s, const char *name, definition_kind ki
 {
     model_definition *d = &s->definitions[s->definition_count++];
     *d = (model_definition){.name = name, .kind = kind, .dims = count > 1, .numbers = count, .slot = (uint32_t)first};
+    d->first = arena_take(&s->arena, 2 * MAX_DIMS * sizeof *d->first);
+    d->last = d->first + MAX_DIMS;
     d->first[0] = count > 1;
     d->last[0] = count > 1 ? (int64_t)count : 0;
 }

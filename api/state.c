@@ -73,8 +73,10 @@ static uint64_t fingerprint(const motus_system *s)
     for (size_t i = 0; i < m->accel_count; i++) last = m->accel[i].value > last ? m->accel[i].value : last;
     for (node n = 0; n <= last; n++) {
         const graph_node *g = graph_at(m->graph, n);
-        uint32_t parts[4] = {g->op, g->a, g->b, g->c};
-        h = mix(mix(h, parts, sizeof parts), &g->value, sizeof g->value);
+        const bool number = g->op == OP_CONST;
+        const uint32_t parts[4] = {g->op, g->a, number ? 0 : g->b, number ? 0 : g->c};
+        const double value = number ? g->value : 0;
+        h = mix(mix(h, parts, sizeof parts), &value, sizeof value);
         if (g->op == OP_LOAD) h = mix_reference(h, m, &m->graph->references[g->a]);
         if (g->op == OP_SUM) h = mix_range(h, &m->graph->ranges[g->c]);
     }

@@ -44,6 +44,7 @@ struct motus_system {
     size_t positions, velocities;
     column_range *ranges;
     size_t range_count, column_count;
+    size_t named[2], named_count[2]; /* the ranges of quantities, and of invariants */
     double *observed; /* room for one quantity or invariant; of a callback, for all quantities or all invariants */
     double *exact_x, *exact_v;
     bool sampled_gyroscopic, sampled_gradient;

@@ -1,9 +1,12 @@
 /* Files: read up to a bound, written completely or not at all.
  *
  * Invariant: the file that the user named is complete and on the disk, or what it was before. The temporary file lies
- * in the same folder, because a rename is atomic only within a file system.
+ * in the same folder, because a rename is atomic only within a file system. On Linux it has no name until it is
+ * complete: a file that is killed with the program is gone.
  */
-#define _XOPEN_SOURCE 700
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* O_TMPFILE */
+#endif
 #include "cli/file.h"
 
 #include "base/error.h"
@@ -116,17 +119,56 @@ static motus_status cannot_write(file_out *f, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
-/* A temporary file beside f->path with the access rights the final one would have. */
-static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
+/* Where a file without a name can be linked from. */
+static const char *descriptor_path(int fd, char out[40])
+{
+    snprintf(out, 40, "/proc/self/fd/%d", fd);
+    return out;
+}
+
+/* A file without a name beside f->path; -1: the system has none, or could not name it later. */
+static int open_nameless(file_out *f)
+{
+#ifdef O_TMPFILE
+    char *folder = strdup(f->path), from[40];
+    if (!folder) return -1;
+    char *slash = strrchr(folder, '/');
+    if (slash) slash[1] = 0;
+    int fd = open(slash ? folder : ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+    free(folder);
+    if (fd < 0) return -1;
+    const int kept = access(descriptor_path(fd, from), F_OK) == 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1;
+    if (kept >= 0) {
+        f->nameless = kept + 1;
+        return fd;
+    }
+    close(fd);
+#else
+    (void)f;
+#endif
+    return -1;
+}
+
+static bool name_temporary(file_out *f)
 {
     static const char name[] = ".motus-XXXXXX";
     const char *slash = strrchr(f->path, '/');
-    size_t folder = slash ? (size_t)(slash - f->path) + 1 : 0;
+    const size_t folder = slash ? (size_t)(slash - f->path) + 1 : 0;
     f->temporary = malloc(folder + sizeof name);
-    if (!f->temporary) return complain_memory(err);
+    if (!f->temporary) return false;
     memcpy(f->temporary, f->path, folder);
     memcpy(f->temporary + folder, name, sizeof name);
-    int fd = mkstemp(f->temporary);
+    return true;
+}
+
+/* A temporary file beside f->path with the access rights the final one would have. */
+static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
+{
+    int fd = open_nameless(f);
+    if (fd < 0) {
+        if (!name_temporary(f)) return complain_memory(err);
+        fd = mkstemp(f->temporary);
+    }
     if (fd < 0) {
         f->code = errno;
         free(f->temporary);
@@ -153,6 +195,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
     f->path = exists && S_ISREG(about.st_mode) ? realpath(path, NULL) : NULL;
     if (!f->path) f->path = strdup(path);
     if (!f->path) return complain_memory(err);
+    f->direct = output || (exists && !S_ISREG(about.st_mode));
     if (output) {
         f->stream = stdout;
         return MOTUS_OK;
@@ -195,7 +238,7 @@ motus_status file_finish(file_out *f, motus_error *err)
     if (!f->stream) return MOTUS_OK;
     if (f->code == 0 && (fflush(f->stream) != 0 || ferror(f->stream))) f->code = errno ? errno : EIO;
     /* not every file system can synchronise; a real failure to write reports EIO, ENOSPC or EDQUOT */
-    if (f->code == 0 && f->temporary && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP &&
+    if (f->code == 0 && !f->direct && fsync(fileno(f->stream)) != 0 && errno != EINVAL && errno != ENOTSUP &&
         errno != EINTR)
         f->code = errno;
     if (f->stream != stdout && fclose(f->stream) != 0 && f->code == 0) f->code = errno;
@@ -218,8 +261,41 @@ static void synchronise_folder(const char *path)
     free(folder);
 }
 
+/* Gives a file without a name f->path or, where a file has that name, one that is free, to be renamed. False: errno
+ * says why. */
+static bool link_nameless(file_out *f)
+{
+    char from[40];
+    const int fd = f->nameless - 1;
+    bool linked = linkat(AT_FDCWD, descriptor_path(fd, from), AT_FDCWD, f->path, AT_SYMLINK_FOLLOW) == 0;
+    for (int tries = 0; !linked && errno == EEXIST && tries < 100; tries++) {
+        free(f->temporary);
+        if (!name_temporary(f)) break;
+        const int free_name = mkstemp(f->temporary); /* only to have a name that is free */
+        if (free_name < 0) break;
+        close(free_name);
+        unlink(f->temporary);
+        linked = linkat(AT_FDCWD, from, AT_FDCWD, f->temporary, AT_SYMLINK_FOLLOW) == 0;
+    }
+    const int code = errno;
+    if (!linked) {
+        free(f->temporary);
+        f->temporary = NULL;
+    }
+    close(fd);
+    f->nameless = 0;
+    errno = code;
+    return linked;
+}
+
 motus_status file_keep(file_out *f, motus_error *err)
 {
+    const bool nameless = f->nameless != 0;
+    if (nameless && !link_nameless(f)) {
+        f->code = errno;
+        return cannot_write(f, err);
+    }
+    if (nameless && !f->temporary) synchronise_folder(f->path);
     if (!f->temporary) return MOTUS_OK;
     if (rename(f->temporary, f->path) != 0) {
         f->code = errno;
@@ -234,6 +310,7 @@ motus_status file_keep(file_out *f, motus_error *err)
 void file_drop(file_out *f)
 {
     if (f->stream && f->stream != stdout) fclose(f->stream);
+    if (f->nameless) close(f->nameless - 1);
     if (f->temporary) unlink(f->temporary);
     free(f->temporary);
     free(f->path);

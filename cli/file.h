@@ -17,11 +17,14 @@ bool file_same(const char *a, const char *b); /* whether both name one file, als
 /* Finds a program in PATH. */
 bool file_program(const char *name, char *path, size_t size);
 
-/* A file being written. Until file_keep() it has a temporary name in the same folder. A device, a pipe or "-" is
- * written directly. */
+/* A file being written. Until file_keep() it has no name, so that a killed program leaves nothing behind; where the
+ * file system knows no such files, it has a temporary name in the same folder. A device, a pipe or "-" is written
+ * directly. */
 typedef struct file_out {
     FILE *stream;
-    char *path, *temporary; /* temporary: NULL when written directly */
+    bool direct;
+    int nameless;           /* 1 + the descriptor of a file without a name; 0: there is none */
+    char *path, *temporary; /* temporary: NULL when written directly, or without a name */
     int code;               /* errno of the first failure */
 } file_out;
 

@@ -105,7 +105,7 @@ static motus_status write_page(job *j, motus_error *err)
     if (!status) status = file_finish(&j->file, err);
     if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     if (!status) status = print_path(j, err);
-    bool regular = j->file.temporary != NULL; /* not a device or pipe */
+    bool regular = !j->file.direct; /* not a device or pipe */
     if (!status) status = file_keep(&j->file, err);
     if (!status && regular && !j->options->no_open) show(j);
     return status;

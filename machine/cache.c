@@ -21,6 +21,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 typedef struct hash {
@@ -179,6 +180,42 @@ static bool put_seal(const char *path)
     return ok;
 }
 
+/* ---- folders that a killed process has left ---- */
+
+enum { ABANDONED_SECONDS = 10 * COMPILER_SECONDS_MAX };
+
+/* Removes the folder if it is old and holds nothing but files of a compilation. */
+static void remove_folder(int parent, const char *name)
+{
+    struct stat s;
+    int fd = openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    bool ours = fd >= 0 && !fstat(fd, &s) && s.st_uid == geteuid() && time(NULL) - s.st_mtime > ABANDONED_SECONDS;
+    DIR *d = ours ? fdopendir(fd) : NULL;
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (!strncmp(e->d_name, "model", 5) || !strncmp(e->d_name, "cc", 2)) /* ours, and the compiler's own */
+            (void)unlinkat(fd, e->d_name, 0);
+    if (d)
+        closedir(d);
+    else if (fd >= 0)
+        close(fd);
+    if (d) (void)unlinkat(parent, name, AT_REMOVEDIR);
+}
+
+/* A compiler writes files by name, so a process that is killed meanwhile leaves its folder; the next that compiles
+ * removes it. `pattern`: the name that mkdtemp was given. */
+static void remove_abandoned(const char *pattern)
+{
+    char parent[PATH_MAX + 80];
+    snprintf(parent, sizeof parent, "%s", pattern);
+    char *name = strrchr(parent, '/');
+    *name++ = 0;
+    const size_t n = strlen(name), fixed = n - strlen("XXXXXX");
+    DIR *d = opendir(parent);
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (strlen(e->d_name) == n && !strncmp(e->d_name, name, fixed)) remove_folder(dirfd(d), e->d_name);
+    if (d) closedir(d);
+}
+
 /* Links, seals and loads what was compiled. The seal is not synchronised: after a power cut a damaged entry is found by
  * it, and compiled again. */
 static void *link_and_load(const compiler *c, const char *object, const char *library, bool alone, char *why,
@@ -205,9 +242,10 @@ static void *build(const compiler *c, const char *text, size_t length, int how, 
         strcat(folder, "/build-XXXXXX");
     } else {
         const char *tmp = getenv("TMPDIR");
-        snprintf(folder, sizeof folder, "%s/motus-XXXXXX",
+        snprintf(folder, sizeof folder, "%s/motus-build-XXXXXX",
                  !privileged() && tmp && tmp[0] == '/' && strlen(tmp) < 512 ? tmp : "/tmp");
     }
+    remove_abandoned(folder);
     if (!mkdtemp(folder)) {
         snprintf(why, size, "%s: %s", folder, strerror(errno));
         return NULL;

@@ -110,8 +110,25 @@ bool compiler_find(compiler *c, char *why, size_t size)
     return false;
 }
 
+extern char **environ;
+enum { VARIABLES_MAX = 1024 };
+
+/* The environment with the object's folder for temporary files, which then go with the folder; as it is where it has
+ * too many variables. */
+static char **with_folder(char *folder, char *own[VARIABLES_MAX])
+{
+    int n = 0;
+    own[n++] = folder;
+    for (char **one = environ; *one; one++) {
+        if (n + 1 == VARIABLES_MAX) return environ;
+        if (strncmp(*one, "TMPDIR=", 7) != 0) own[n++] = *one;
+    }
+    own[n] = NULL;
+    return own;
+}
+
 /* In the child: only calls that are safe after fork. */
-static void become(char *const *arguments, const char *path, int log, pid_t parent)
+static void become(char *const *arguments, const char *path, char *const *environment, int log, pid_t parent)
 {
     struct rlimit time = {COMPILER_SECONDS_MAX, COMPILER_SECONDS_MAX},
                   memory = {COMPILER_MEMORY_MAX, COMPILER_MEMORY_MAX}, core = {0, 0};
@@ -128,7 +145,7 @@ static void become(char *const *arguments, const char *path, int log, pid_t pare
     if (none >= 0) dup2(none, 0);
     dup2(log, 1);
     dup2(log, 2);
-    execv(path, arguments);
+    execve(path, arguments, environment);
     _exit(127);
 }
 
@@ -169,8 +186,12 @@ static bool run(const char *path, char *const *arguments, const char *object, ch
         return false;
     }
     unlink(log_name);
+    char folder[PATH_MAX], *own[VARIABLES_MAX];
+    const char *slash = strrchr(object, '/');
+    snprintf(folder, sizeof folder, "TMPDIR=%.*s", (int)(slash ? slash - object : 1), slash ? object : ".");
+    char **environment = with_folder(folder, own);
     pid_t parent = getpid(), child = FORK();
-    if (child == 0) become(arguments, path, log, parent);
+    if (child == 0) become(arguments, path, environment, log, parent);
     bool ok = child > 0 && wait_for(child);
     if (!ok) first_line(log, why, size);
     close(log);

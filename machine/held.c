@@ -19,12 +19,6 @@ struct held {
     bool bound;
 };
 
-static tape *tape_of(model *m, const output *outputs, size_t count)
-{
-    program *p = program_create(m->graph, outputs, count);
-    return p && !m->arena->failed ? tape_create(m->arena, p) : NULL;
-}
-
 static bool make_view(held *h, model *m)
 {
     model *view = &h->view;
@@ -77,9 +71,9 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
         *out = h;
         return MOTUS_OK;
     }
-    h->argument = tape_of(m, s->argument, s->kinds);
-    h->held = tape_of(m, s->held, s->kinds);
-    h->rate = tape_of(m, s->rate, s->kinds);
+    h->argument = tape_of(m->arena, m->graph, s->argument, s->kinds);
+    h->held = tape_of(m->arena, m->graph, s->held, s->kinds);
+    h->rate = tape_of(m->arena, m->graph, s->rate, s->kinds);
     if (!h->argument || !h->held || !h->rate) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     *out = h;
     return MOTUS_OK;

@@ -17,8 +17,7 @@ struct interpreter {
 
 static tape *make(model *m, const output *outputs, size_t count)
 {
-    program *p = program_create(m->graph, outputs, count);
-    tape *t = p && !m->arena->failed ? tape_create(m->arena, p) : NULL;
+    tape *t = tape_of(m->arena, m->graph, outputs, count);
     binding b = {m->arrays, m->ints, m->pool};
     return t && !m->arena->failed && tape_bind(t, &b) ? t : NULL;
 }

@@ -432,6 +432,148 @@ static void large_family(void **unused)
     answer(t, "constants of 1e10 terms together", MOTUS_LIMIT, "terms", 1, 50);
 }
 
+/* ---- memory for the length of the text ---- */
+
+typedef void shape(text *, int n);
+
+static void chain_of_parameters(text *t, int n)
+{
+    say(t, "x'' = -x%sp1 = 1\n", start);
+    for (int i = 2; i <= n; i++) say(t, "p%d = %d + p%d\n", i, i, i - 1);
+}
+
+static void parameters_alone(text *t, int n)
+{
+    say(t, "x'' = -x%s", start);
+    for (int i = 1; i <= n; i++) say(t, "p%d = %d\n", i, i);
+}
+
+static void formulas(text *t, int n)
+{
+    say(t, "x'' = -x%s", start);
+    for (int i = 1; i <= n; i++) say(t, "p%d = 2 sin(%d)\n", i, i);
+}
+
+static void functions(text *t, int n)
+{
+    say(t, "x'' = -x%s", start);
+    for (int i = 1; i <= n; i++) say(t, "f%d(y) = %d y\n", i, i);
+}
+
+static void comments(text *t, int n)
+{
+    say(t, "x'' = -x%s", start);
+    for (int i = 1; i <= n; i++) say(t, "# line %d\n", i);
+}
+
+static void list_of_numbers(text *t, int n)
+{
+    say(t, "x'' = -m[1] x%sm = [1", start);
+    for (int i = 2; i <= n; i++) say(t, ", %d", i);
+    say(t, "]\n");
+}
+
+static void terms(text *t, int n)
+{
+    say(t, "x'' = -x");
+    for (int i = 1; i <= n; i++) say(t, " + %d x", i);
+    say(t, "%s", start);
+}
+
+static void factors(text *t, int n)
+{
+    say(t, "x'' = -x");
+    for (int i = 1; i <= n; i++) say(t, " (x + %d)", i);
+    say(t, "%s", start);
+}
+
+static void calls(text *t, int n)
+{
+    say(t, "V(q) = q^2/2 + q^4\nx'' = -x");
+    for (int i = 1; i <= n; i++) say(t, " + V(%d x)", i);
+    say(t, "%s", start);
+}
+
+static void parameters_in_a_sum(text *t, int n)
+{
+    say(t, "x'' = -x");
+    for (int i = 1; i <= n; i++) say(t, " + p%d x", i);
+    say(t, "%s", start);
+    for (int i = 1; i <= n; i++) say(t, "p%d = %d\n", i, i);
+}
+
+static void cells(text *t, int n)
+{
+    for (int i = 1; i <= n; i++) say(t, "u[%d]'' = -u[%d]\nu[%d](0) = %d\nu[%d]'(0) = 0\n", i, i, i, i, i);
+}
+
+static void quantities(text *t, int n)
+{
+    say(t, "x'' = -x%s", start);
+    for (int i = 1; i <= n; i++) say(t, "q%d = %d x\n", i, i);
+}
+
+/* Reads a model of n lines, terms or cells; the text's length and what reading it took. */
+static size_t read_shape(shape *write, int n, ledger *l)
+{
+    text t = make((size_t)n * 100 + 1000);
+    write(&t, n);
+    motus_text_def def = motus_default_text();
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    def.text = t.bytes;
+    def.length = t.length;
+    def.allocator = (motus_allocator){take_counted, release_counted, l};
+    must(motus_system_from_text(&def, &s, &err), &err, "a long model");
+    motus_system_destroy(s);
+    free(t.bytes);
+    assert_int_equal(l->blocks, 0);
+    return t.length;
+}
+
+/* What a model takes while it is read, in bytes for each byte of its text, is bounded for each shape of text, and does
+ * not grow with its length; nor does the number of allocations. The margin from n to 4 n is the last doubling of the
+ * tables. */
+static void memory_for_the_text(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        shape *write;
+        int n;
+        size_t times;
+    } shapes[] = {
+        {"a chain of parameters", chain_of_parameters, 300000, 20},
+        {"parameters", parameters_alone, 100000, 22},
+        {"formulas", formulas, 100000, 28},
+        {"functions", functions, 100000, 28},
+        {"comments", comments, 100000, 3},
+        {"a list", list_of_numbers, 100000, 28},
+        {"a sum", terms, 300000, 70},
+        {"a product", factors, 100000, 80},
+        {"calls", calls, 50000, 140},
+        {"parameters in a sum", parameters_in_a_sum, 100000, 42},
+        {"cells", cells, 20000, 62},
+        {"quantities", quantities, 20000, 72},
+    };
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        const int n = shapes[i].n / FEWER;
+        ledger small = {0}, large = {0};
+        const double few = (double)read_shape(shapes[i].write, n / 4, &small),
+                     many = (double)read_shape(shapes[i].write, n, &large);
+        print_message("%s: %.1f bytes for a byte of %.1f MB, %.1f for a fourth; %.2f allocations for each of %d\n",
+                      shapes[i].name, (double)large.peak / many, many / 1e6, (double)small.peak / few,
+                      (double)large.calls / n, n);
+        if ((double)large.peak > (double)shapes[i].times * many && FEWER == 1)
+            fail_msg("%s take %.1f times their text, not %zu", shapes[i].name, (double)large.peak / many,
+                     shapes[i].times);
+        if ((double)large.peak / many > 1.5 * (double)small.peak / few)
+            fail_msg("%s: memory for a byte of the text grows with it", shapes[i].name);
+        if ((double)large.calls > 5.0 * (double)small.calls + 100)
+            fail_msg("%s: %ld allocations, and %ld for a fourth of it", shapes[i].name, large.calls, small.calls);
+    }
+}
+
 /* ---- out of memory ---- */
 
 static const char rich[] =
@@ -514,10 +656,19 @@ int main(int count, char **arguments)
 {
     if (count > 1) cmocka_set_test_filter(arguments[1]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_bytes),     cmocka_unit_test(long_remark),  cmocka_unit_test(too_long),
-        cmocka_unit_test(long_expressions), cmocka_unit_test(many_sums),    cmocka_unit_test(nesting),
-        cmocka_unit_test(chains),           cmocka_unit_test(deep_chains),  cmocka_unit_test(many_names),
-        cmocka_unit_test(many_lines),       cmocka_unit_test(large_family), cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(random_bytes),
+        cmocka_unit_test(long_remark),
+        cmocka_unit_test(too_long),
+        cmocka_unit_test(long_expressions),
+        cmocka_unit_test(many_sums),
+        cmocka_unit_test(nesting),
+        cmocka_unit_test(chains),
+        cmocka_unit_test(deep_chains),
+        cmocka_unit_test(many_names),
+        cmocka_unit_test(many_lines),
+        cmocka_unit_test(large_family),
+        cmocka_unit_test(memory_for_the_text),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

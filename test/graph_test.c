@@ -546,7 +546,12 @@ static void the_arena_keeps_its_promises(void **state)
     for (size_t bytes = 1; bytes < 5000; bytes = bytes * 3 + 1) {
         unsigned char *p = arena_take(&a, bytes);
         assert_non_null(p);
-        assert_int_equal((uintptr_t)p % (bytes >= 64 ? 64 : 16), 0);
+        assert_int_equal((uintptr_t)p % (bytes >= 512      ? 64
+                                         : bytes % 16 == 0 ? 16
+                                         : bytes % 8 == 0  ? 8
+                                         : bytes % 4 == 0  ? 4
+                                                           : 1),
+                         0);
         for (size_t k = 0; k < bytes; k++) assert_int_equal(p[k], 0);
         memset(p, 0xA5, bytes);
     }
@@ -555,6 +560,12 @@ static void the_arena_keeps_its_promises(void **state)
     char *longer = arena_grow(&a, text, 4, 100000);
     assert_string_equal(longer, "mom");
     assert_int_equal(longer[99999], 0);
+    const int before = m.live;
+    m.left++;
+    longer = arena_replace(&a, longer, 100000, 200000); /* the old block goes back to the hooks */
+    assert_string_equal(longer, "mom");
+    assert_int_equal(longer[199999], 0);
+    assert_int_equal(m.live, before);
     m.left = 0;
     while (!a.failed) /* a small expression can always be printed, a large one is refused */
         memset(arena_take(&a, ARENA_SPARE), 1, ARENA_SPARE);

@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -244,6 +245,50 @@ static int entries(char *one, size_t size)
     return n;
 }
 
+/* The folder of a compilation, as a process that was killed `seconds` ago has left it, with one file. */
+static void leave_folder(const char *name, const char *file, time_t seconds, char *path, size_t size)
+{
+    char inside[900];
+    snprintf(path, size, "%s/motus/%s", given_cache, name);
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(inside, sizeof inside, "%s/%s", path, file);
+    FILE *f = fopen(inside, "w");
+    assert_non_null(f);
+    fclose(f);
+    const struct timespec then[2] = {{.tv_sec = time(NULL) - seconds}, {.tv_sec = time(NULL) - seconds}};
+    assert_int_equal(utimensat(AT_FDCWD, path, then, 0), 0);
+}
+
+static void remove_left(const char *path, const char *file)
+{
+    char inside[900];
+    snprintf(inside, sizeof inside, "%s/%s", path, file);
+    unlink(inside);
+    rmdir(path);
+}
+
+/* What a killed process has left of a compilation goes with the next one; what may be another process's stays. */
+static void abandoned_folders_are_removed(void **state)
+{
+    (void)state;
+    char old[600], young[600], foreign[600];
+    motus_system *s = open_text("x'' = -x - 0.25 x^3\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 1\n", NULL);
+    same_bits(s, "abandoned", "leapfrog");
+    motus_cache_clear();
+    leave_folder("build-abcdef", "model.c", 3600, old, sizeof old);
+    leave_folder("build-ghijkl", "model.c", 30, young, sizeof young);
+    leave_folder("build-mnopqr", "thesis", 3600, foreign, sizeof foreign);
+    motus_system_destroy(s);
+    s = open_text("x'' = -x - 0.125 x^3\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 1\n", NULL);
+    same_bits(s, "abandoned", "leapfrog");
+    motus_system_destroy(s);
+    assert_int_not_equal(access(old, F_OK), 0);
+    assert_int_equal(access(young, F_OK), 0);
+    assert_int_equal(access(foreign, F_OK), 0);
+    remove_left(young, "model.c");
+    remove_left(foreign, "thesis");
+}
+
 /* One text serves every N and every parameter. */
 static void one_object_for_all_sizes(void **state)
 {
@@ -373,6 +418,7 @@ int main(void)
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),
+                                       cmocka_unit_test(abandoned_folders_are_removed),
                                        cmocka_unit_test(shared_directory_is_not_trusted),
                                        cmocka_unit_test(without_a_compiler),
                                        cmocka_unit_test(no_text_of_the_model_is_compiled)};

@@ -9,9 +9,16 @@
 typedef struct arena_block {
     struct arena_block *next;
     size_t used, size; /* bytes after this header */
+    bool alone;        /* one piece has it to itself */
 } arena_block;
 
-enum { FIRST_BLOCK = 16 << 10, LARGEST_BLOCK = 1 << 20, LINE = 64 };
+enum {
+    FIRST_BLOCK = 16 << 10,
+    LARGEST_BLOCK = 1 << 20,
+    SMALLEST_ALONE = 16 << 10, /* bytes of a piece with a block of its own */
+    LINE = 64,                 /* bytes of a cache line */
+    ARRAY = 512                /* bytes from which on a piece begins at a line: objects are smaller, and lie closely */
+};
 
 void arena_init(arena *a, const motus_allocator *allocator)
 {
@@ -51,19 +58,21 @@ static void *none(arena *a, size_t bytes)
 
 void *arena_take(arena *a, size_t bytes)
 {
-    size_t align = bytes >= LINE ? LINE : 16;
-    if (a->blocks) {
+    size_t align = bytes >= ARRAY ? LINE : bytes % 16 == 0 ? 16 : bytes % 8 == 0 ? 8 : bytes % 4 == 0 ? 4 : 1;
+    if (a->blocks && !a->blocks->alone && bytes < SMALLEST_ALONE) {
         char *p = carve(a->blocks, bytes, align);
         if (p) return p;
     }
     if (bytes > SIZE_MAX / 4) return none(a, bytes);
     size_t size = a->blocks ? a->blocks->size * 2 : FIRST_BLOCK;
     if (size > LARGEST_BLOCK) size = LARGEST_BLOCK;
-    bool alone = bytes > size / 2; /* a large piece gets a block of its own; the open block stays open */
+    /* a large piece gets a block of its own, so that it can be given back; the open block stays open */
+    bool alone = bytes >= SMALLEST_ALONE || bytes > size / 2;
     if (alone) size = bytes + LINE;
     arena_block *b = take(&a->allocator, 1, sizeof *b + size);
     if (!b) return none(a, bytes);
     b->size = size;
+    b->alone = alone;
     if (alone && a->blocks) {
         b->next = a->blocks->next;
         a->blocks->next = b;
@@ -84,6 +93,33 @@ void *arena_grow(arena *a, void *old, size_t old_bytes, size_t new_bytes)
 {
     void *p = arena_room(a, new_bytes);
     if (p && old_bytes) memcpy(p, old, old_bytes < new_bytes ? old_bytes : new_bytes);
+    return p;
+}
+
+/* Where the memory of a piece that has a block to itself is, as a link that leads to it; else NULL. */
+static arena_block **alone(arena *a, const void *piece)
+{
+    for (arena_block **link = &a->blocks; *link; link = &(*link)->next) {
+        const char *start = (const char *)(*link + 1);
+        if ((const char *)piece >= start && (const char *)piece < start + (*link)->size)
+            return (*link)->alone ? link : NULL;
+    }
+    return NULL;
+}
+
+void arena_drop(arena *a, const void *piece, size_t bytes)
+{
+    arena_block **link = piece && bytes >= SMALLEST_ALONE ? alone(a, piece) : NULL;
+    if (!link) return;
+    arena_block *done = *link;
+    *link = done->next;
+    give(&a->allocator, done);
+}
+
+void *arena_replace(arena *a, void *old, size_t old_bytes, size_t new_bytes)
+{
+    void *p = arena_grow(a, old, old_bytes, new_bytes);
+    if (p) arena_drop(a, old, old_bytes);
     return p;
 }
 

@@ -11,7 +11,7 @@
 /* Adds a term to a partial sum of the name `partial`: "s7[k]". */
 static void write_update(writer *w, const plan_item *update, const char *partial)
 {
-    node whole = w->plan.items.at[update->sum].n;
+    node whole = w->plan.items.at[plan_updates(&w->plan, update)].n;
     const graph_node *sum = &w->plan.g->nodes[whole], *how = &w->plan.g->nodes[sum->a];
     char p[48], q[48], c[48], next[160];
     bool fused = how->op != OP_ADD;
@@ -32,7 +32,7 @@ static void write_update(writer *w, const plan_item *update, const char *partial
     }
 }
 
-#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.items.at[k].next_sum)
+#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
 
 /* Of more than 16 terms, eight at a time: to the partial sums s or, in lanes, to v, which is then copied to s. */
 static void write_eights(writer *w, uint32_t region)
@@ -155,10 +155,11 @@ void emit_region(writer *w, uint32_t region)
         uint32_t item = w->plan.order[r->items + k];
         plan_item *i = &w->plan.items.at[item];
         if (!belongs(w, i, region)) continue;
-        if (i->inside != NONE && i->reg == NONE) write_loop(w, i->inside);
+        const uint32_t inside = plan_inside(&w->plan, i), total = plan_updates(&w->plan, i);
+        if (inside != NONE && i->reg == NONE) write_loop(w, inside);
         w->region = region;
-        if (i->sum != NONE) {
-            snprintf(partial, sizeof partial, w->along < 0 ? "s%u[k]" : "v%u[k]", i->sum);
+        if (total != NONE) {
+            snprintf(partial, sizeof partial, w->along < 0 ? "s%u[k]" : "v%u[k]", total);
             write_update(w, i, partial);
         } else {
             emit_item(w, item);

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { FIRST_NODES = 256, FIRST_REFERENCES = 16 };
+enum { FIRST_NODES = 64, MANY_NODES = 1 << 15, FIRST_REFERENCES = 16 };
 
 graph *graph_create(arena *a)
 {
@@ -66,7 +66,8 @@ static uint64_t hash_node(const graph_node *n, const reference *ref, const range
         for (int d = 0; d < ref->dims; d++) h = hash_subscript(h, &ref->at[d]);
         return h;
     }
-    h = mix(mix(h, (uint64_t)n->a << 32 | n->b), bits_of(n->value));
+    if (n->op == OP_CONST) return mix(h, bits_of(n->value));
+    h = mix(h, (uint64_t)n->a << 32 | n->b);
     return r ? hash_subscript(hash_subscript(h, &r->first), &r->last) : mix(h, n->c);
 }
 
@@ -80,19 +81,20 @@ static bool same_node(const graph *g, const graph_node *n, const graph_node *m, 
             if (!same_subscript(&q->at[d], &ref->at[d])) return false;
         return true;
     }
-    if (n->a != m->a || n->b != m->b || bits_of(n->value) != bits_of(m->value)) return false;
+    if (n->op == OP_CONST) return bits_of(n->value) == bits_of(m->value);
+    if (n->a != m->a || n->b != m->b) return false;
     if (r) return same_subscript(&r->first, &g->ranges[m->c].first) && same_subscript(&r->last, &g->ranges[m->c].last);
     return n->c == m->c;
 }
 
-static void fill_table(const graph *g, const graph_node *nodes, node *table, uint32_t size)
+static void fill_table(const graph *g)
 {
     for (uint32_t k = 1; k < g->count; k++) {
-        const graph_node *n = &nodes[k];
+        const graph_node *n = &g->nodes[k];
         uint64_t h =
             hash_node(n, n->op == OP_LOAD ? &g->references[n->a] : NULL, n->op == OP_SUM ? &g->ranges[n->c] : NULL);
-        while (table[h & (size - 1)]) h++;
-        table[h & (size - 1)] = k;
+        while (g->table[h & (g->table_size - 1)]) h++;
+        g->table[h & (g->table_size - 1)] = k;
     }
 }
 
@@ -100,31 +102,43 @@ void graph_cut(graph *g, uint32_t count)
 {
     g->count = count;
     memset(g->table, 0, g->table_size * sizeof *g->table);
-    fill_table(g, g->nodes, g->table, g->table_size);
+    fill_table(g);
 }
 
+bool graph_reserve(graph *g, uint32_t capacity)
+{
+    if (capacity > GRAPH_NODES_MAX) capacity = GRAPH_NODES_MAX;
+    if (capacity <= g->capacity) return true;
+    uint32_t size = g->table_size;
+    while (size < capacity + capacity / 4) size *= 2;
+    graph_node *nodes = arena_replace(g->arena, g->nodes, g->capacity * sizeof *nodes, capacity * sizeof *nodes);
+    if (!nodes) return false;
+    g->nodes = nodes;
+    uint32_t *place = arena_replace(g->arena, g->place, g->capacity * sizeof *place, capacity * sizeof *place);
+    if (!place) return false;
+    g->place = place;
+    g->capacity = capacity;
+    if (size == g->table_size) return true;
+    arena_drop(g->arena, g->table, g->table_size * sizeof *g->table);
+    g->table = arena_room(g->arena, size * sizeof *g->table);
+    if (!g->table) return false;
+    g->table_size = size;
+    fill_table(g);
+    return true;
+}
+
+/* By an eighth where it is large, because the old copy and the new one are there together. */
 static bool grow_nodes(graph *g)
 {
     if (g->count >= GRAPH_NODES_MAX) return g->too_large = true, false;
-    uint32_t capacity = g->capacity * 2, size = capacity * 2;
-    graph_node *nodes = arena_grow(g->arena, g->nodes, g->count * sizeof *nodes, capacity * sizeof *nodes);
-    uint32_t *place = nodes ? arena_room(g->arena, capacity * sizeof *place) : NULL;
-    node *table = place ? arena_room(g->arena, size * sizeof *table) : NULL;
-    if (!table) return false;
-    fill_table(g, nodes, table, size);
-    g->nodes = nodes;
-    g->place = place;
-    g->table = table;
-    g->table_size = size;
-    g->capacity = capacity;
-    return true;
+    return graph_reserve(g, g->capacity + g->capacity / (g->capacity < MANY_NODES ? 2 : 8));
 }
 
 /* Growing tables of references and ranges: capacities are the powers of two, so the count tells when to grow. */
 static void *grow_rows(graph *g, void *rows, uint32_t count, size_t size)
 {
     if (count && (count < FIRST_REFERENCES || (count & (count - 1)))) return rows;
-    return arena_grow(g->arena, rows, count * size, (count ? 2 * (size_t)count : FIRST_REFERENCES) * size);
+    return arena_replace(g->arena, rows, count * size, (count ? 2 * (size_t)count : FIRST_REFERENCES) * size);
 }
 
 static node share(graph *g, graph_node n, const reference *ref, const range *r)
@@ -186,8 +200,9 @@ static unsigned subscript_deps(const subscript *s)
     return (s->level >= 0 ? 1u << s->level : 0) | (s->slot >= 0 || s->modulus >= 0 ? (unsigned)DEP_PARAM : 0);
 }
 
-node graph_load(graph *g, const reference *ref)
+node graph_load(graph *g, const reference *of)
 {
+    const reference copy = *of, *ref = &copy; /* the graph's own references move when there are more */
     static const uint16_t of_space[SPACES] = {
         [SPACE_X] = DEP_X,  [SPACE_V] = DEP_V,        [SPACE_A] = DEP_A,  [SPACE_DX] = DEP_D,
         [SPACE_DV] = DEP_D, [SPACE_POOL] = DEP_PARAM, [SPACE_OUT] = DEP_A};
@@ -299,7 +314,8 @@ node graph_sum(graph *g, int level, const range *r, node condition, node body)
     deps &= ~(1u << level);
     deps |= subscript_deps(&r->first) | subscript_deps(&r->last);
     graph_node n = {.op = OP_SUM, .level = (uint8_t)level, .deps = (uint16_t)deps, .a = body, .b = condition};
-    return share(g, n, NULL, r);
+    const range copy = *r; /* the graph's own ranges move when there are more */
+    return share(g, n, NULL, &copy);
 }
 
 enum { IN_ORDER = 16, PARTIALS = 8 };

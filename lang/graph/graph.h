@@ -68,8 +68,13 @@ typedef struct graph_node {
     uint16_t deps;
     /* operands. LOAD: a is the reference's number. PARAM: a is the pool slot. SUM: a body, b condition (0: none),
      * c the range's number */
-    node a, b, c;
-    double value; /* CONST */
+    node a;
+    union {
+        struct {
+            node b, c;
+        };
+        double value; /* CONST */
+    };
 } graph_node;
 
 typedef struct graph {
@@ -83,7 +88,7 @@ typedef struct graph {
     const array *arrays; /* owned by the model; index = reference.array */
     node *table;
     uint32_t table_size; /* hash-consing */
-    uint32_t *place;     /* scratch of graph_order */
+    uint32_t *place;     /* scratch of graph_order; it stays when the graph grows */
     bool simplify;       /* x+0, 1*x, 0*x, x-x: on while derivatives are built, off otherwise */
     bool tidy;           /* like terms and powers are joined: on while the user's derivatives are built */
     bool too_large;      /* more than GRAPH_NODES_MAX: constructors return node 0 */
@@ -91,6 +96,8 @@ typedef struct graph {
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
 graph *graph_create(arena *);
+/* Room for so many nodes, so that the graph need not grow: its old copy and the new one would be there together. */
+bool graph_reserve(graph *, uint32_t nodes);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);
@@ -166,5 +173,7 @@ typedef struct program {
 /* A copy in normal form, in the same arena. In it a SUM's body a is the update of its running total: ADD(TOTAL, body),
  * FMA(p, q, TOTAL) or FNMA(p, q, TOTAL). NULL: the arena failed or the graph is too large. */
 program *program_create(graph *, const output *, size_t count);
+/* The same in an arena of its own, for a program that is run once. Where that has no memory, the graph's fails too. */
+program *program_create_in(arena *, graph *, const output *, size_t count);
 
 #endif

@@ -63,21 +63,18 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     }
     bool before = g->simplify;
     g->simplify = true;
-    /* The graph may have grown, and `place` with it. */
     graph_order_again(g, &w);
     for (uint32_t k = 0; d && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         node operand[3], dn[3] = {0, 0, 0};
         int arity = graph_operands(&n, operand);
         if (!arity) continue;
-        uint32_t *place = g->place;
         for (int j = 0; j < arity; j++) dn[j] = slope(g, d, &w, operand[j]);
         if (n.op == OP_SUM)
             d[k] = dn[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, dn[0]) : 0;
         else if (dn[0] || dn[1] || dn[2])
             if (!g->tidy || !graph_tidy_slope(g, &n, w.nodes[k], dn[0], dn[1], &d[k]))
                 d[k] = graph_derivative_rule(g, &n, w.nodes[k], dn);
-        if (g->place != place) graph_order_again(g, &w);
     }
     g->simplify = before;
     node result = d && w.count ? d[w.count - 1] : 0;

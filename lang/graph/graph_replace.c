@@ -50,9 +50,7 @@ static node replaced(graph *g, node root, int level, const replacing *how)
             same &= operand[j] == was;
         }
         if (same) continue;
-        const uint32_t *place = g->place;
         as[k] = graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
-        if (g->place != place) graph_order_again(g, &w);
     }
     const node result = as && w.count ? as[w.count - 1] : 0;
     give(&g->arena->allocator, as);

@@ -69,14 +69,11 @@ node graph_rounding(graph *g, node root, graph_seed leaf, void *ctx)
     node *e = take(&g->arena->allocator, w.count, sizeof *e);
     if (!e) g->arena->failed = true;
     const bool before = g->simplify;
-    const uint32_t *place = g->place;
     g->simplify = true;
     for (uint32_t k = 0; e && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         node operand[3], error[3] = {0, 0, 0};
         const int arity = graph_operands(&n, operand);
-        if (g->place != place) graph_order_again(g, &w); /* the graph has grown */
-        place = g->place;
         for (int j = 0; j < arity; j++) error[j] = e[g->place[operand[j]]];
         e[k] = arity              ? of_operation(g, w.nodes[k], error)
                : n.op == OP_CONST ? of_constant(g, n.value)

@@ -6,10 +6,14 @@
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
 
+enum { MANY = 1 << 14 };
+
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
 {
     if (count < *capacity || p->failed) return at;
-    uint32_t wanted = *capacity ? *capacity * 2 : 32;
+    const uint32_t more =
+        *capacity < MANY ? *capacity : *capacity / 4; /* the old list and the new are there together */
+    const uint32_t wanted = *capacity ? *capacity + more : 32;
     void *grown = wanted > *capacity ? take_more(p->hooks, at, count, wanted, size) : NULL;
     if (!grown) {
         p->failed = true;
@@ -19,15 +23,33 @@ void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t si
     return grown;
 }
 
+void *plan_reserve(plan *p, size_t wanted, uint32_t *capacity, size_t size)
+{
+    void *room = wanted && wanted < NONE && !p->failed ? take(p->hooks, wanted, size) : NULL;
+    if (room)
+        *capacity = (uint32_t)wanted;
+    else if (wanted)
+        p->failed = true;
+    return room;
+}
+
+#define DROP(p, part) (give((p)->hooks, part), (part) = NULL)
+
+void plan_release_items(plan *p)
+{
+    DROP(p, p->items.at);
+    DROP(p, p->sums.at);
+    DROP(p, p->order);
+    DROP(p, p->table);
+}
+
 void plan_release(plan *p)
 {
-    give(p->hooks, p->regions.at);
-    give(p->hooks, p->items.at);
-    give(p->hooks, p->stack.at);
-    give(p->hooks, p->order);
-    give(p->hooks, p->rank);
-    give(p->hooks, p->next_output);
-    give(p->hooks, p->table);
+    plan_release_items(p);
+    DROP(p, p->regions.at);
+    DROP(p, p->stack.at);
+    DROP(p, p->rank);
+    DROP(p, p->next_output);
 }
 
 /* Regions --------------------------------------------------------------------------------------------------------- */
@@ -152,17 +174,19 @@ static uint32_t new_item(plan *p, node n, uint32_t region)
 {
     if (!ROOM(p, p->items)) return NONE;
     uint32_t k = p->items.count++;
-    p->items.at[k] = (plan_item){.n = n,
-                                 .region = region,
-                                 .key = n,
-                                 .rank = p->rank[n],
-                                 .sum = NONE,
-                                 .inside = NONE,
-                                 .next_sum = NONE,
-                                 .outputs = NONE,
-                                 .reg = NONE,
-                                 .total = NONE};
+    p->items.at[k] = (plan_item){.n = n, .region = region, .outputs = NONE, .reg = NONE, .sum = NONE};
     return k;
+}
+
+/* A SUM, or the update of the total of the SUM `updates`. */
+static plan_sum *new_sum(plan *p, uint32_t item, uint32_t updates)
+{
+    if (!ROOM(p, p->sums)) return NULL;
+    plan_item *i = &p->items.at[item];
+    i->sum = p->sums.count++;
+    p->sums.at[i->sum] =
+        (plan_sum){.updates = updates, .inside = NONE, .next = NONE, .total = NONE, .key = i->n, .rank = p->rank[i->n]};
+    return &p->sums.at[i->sum];
 }
 
 static void need(plan *p, node n, uint32_t region)
@@ -177,15 +201,16 @@ static void need(plan *p, node n, uint32_t region)
 static void enter_sum(plan *p, uint32_t item)
 {
     graph_node n = p->g->nodes[p->items.at[item].n];
-    uint32_t inside = loop_of(p, &n, p->items.at[item].rank, p->items.at[item].region);
-    uint32_t update = inside == NONE ? NONE : new_item(p, n.a, inside);
-    if (update == NONE) return;
-    p->items.at[item].inside = inside;
-    p->items.at[item].next_sum = p->regions.at[inside].sums;
+    uint32_t inside = loop_of(p, &n, p->rank[p->items.at[item].n], p->items.at[item].region);
+    plan_sum *s = inside == NONE ? NULL : new_sum(p, item, NONE);
+    if (!s) return;
+    s->inside = inside;
+    s->next = p->regions.at[inside].sums;
+    const uint32_t update = new_item(p, n.a, inside);
+    plan_sum *u = update == NONE ? NULL : new_sum(p, update, item);
+    if (!u) return;
     p->regions.at[inside].sums = item;
-    p->items.at[update].sum = item;
     if (n.b) {
-        plan_item *u = &p->items.at[update];
         u->key = n.a > n.b ? n.a : n.b;
         u->rank = p->rank[n.a] > p->rank[n.b] ? p->rank[n.a] : p->rank[n.b];
         need(p, n.b, inside);
@@ -202,7 +227,7 @@ static void gather(plan *p)
         node n = p->stack.at[p->stack.count - 2];
         p->stack.count -= 2;
         uint32_t home = plan_home(p, p->g->nodes[n].deps, region);
-        if (p->items.count * 2 >= p->table_size && !grow_table(p)) return;
+        if (p->items.count + p->items.count / 4 >= p->table_size && !grow_table(p)) return;
         uint32_t slot = slot_of(p, n, home);
         if (p->table[slot]) continue;
         uint32_t item = new_item(p, n, home);
@@ -240,11 +265,15 @@ static bool before(const plan *p, uint32_t i, uint32_t j)
 {
     const plan_item *a = &p->items.at[i], *b = &p->items.at[j];
     if (a->region != b->region) return a->region < b->region;
-    if (a->rank != b->rank) return a->rank < b->rank;
-    bool sum_a = a->inside != NONE, sum_b = b->inside != NONE;
+    const plan_sum own_a = {.rank = p->rank[a->n], .key = a->n, .inside = NONE, .updates = NONE},
+                   own_b = {.rank = p->rank[b->n], .key = b->n, .inside = NONE, .updates = NONE},
+                   *s = a->sum == NONE ? &own_a : &p->sums.at[a->sum],
+                   *t = b->sum == NONE ? &own_b : &p->sums.at[b->sum];
+    if (s->rank != t->rank) return s->rank < t->rank;
+    bool sum_a = s->inside != NONE, sum_b = t->inside != NONE;
     if (sum_a != sum_b) return sum_a;
-    if (a->key != b->key) return a->key < b->key;
-    if ((a->sum != NONE) != (b->sum != NONE)) return a->sum == NONE;
+    if (s->key != t->key) return s->key < t->key;
+    if ((s->updates != NONE) != (t->updates != NONE)) return s->updates == NONE;
     return i < j;
 }
 
@@ -314,8 +343,11 @@ bool plan_create(plan *p, arena *a, const program *program, bool blocks)
     *p = (plan){.hooks = &a->allocator, .g = program->graph, .program = program, .blocks = blocks};
     p->next_output = take(p->hooks, program->count, sizeof *p->next_output);
     bool ok = p->next_output && rank_nodes(p) && new_region(p, NONE, -1) != NONE && new_region(p, AT_BIND, -1) != NONE;
+    RESERVE(p, p->items, p->g->count); /* without loops, each node is computed in one place */
     for (size_t k = 0; ok && k < program->count; k++) ok = place_output(p, (uint32_t)k);
+    DROP(p, p->stack.at);
     ok = ok && !p->failed && sort_items(p);
+    DROP(p, p->rank);
     if (ok)
         choose_lanes(p);
     else

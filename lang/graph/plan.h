@@ -31,17 +31,23 @@ typedef struct plan_region {
     uint32_t begin, end;        /* tape_code.c: its instructions LOOP and NEXT */
 } plan_region;
 
+/* There is one for every operation, so it is kept small. */
 typedef struct plan_item {
     node n;
     uint32_t region;
-    uint32_t key;        /* order within a rank: the node's number, raised above those of the items that it needs */
-    uint32_t rank;       /* the number of sums, one after the other, that must be finished before it */
-    uint32_t sum;        /* NONE, or the item of the SUM whose total this one updates */
-    uint32_t inside;     /* SUM: the region of its loop */
-    uint32_t next_sum;   /* SUM: the next one in the same loop */
-    uint32_t outputs;    /* outputs written as soon as it is known */
-    uint32_t reg, total; /* of lang/tape/ and lang/emit/; of a SUM, reg is NONE until its loop is written */
+    uint32_t outputs; /* outputs written as soon as it is known */
+    uint32_t reg;     /* of lang/tape/ and lang/emit/; of a SUM, NONE until its loop is written */
+    uint32_t sum;     /* its place in plan.sums, if it is a SUM or updates the total of one; else NONE */
 } plan_item;
+
+typedef struct plan_sum {
+    uint32_t updates; /* NONE, or the item of the SUM whose total this one updates; then it is no SUM itself */
+    uint32_t inside;  /* SUM: the region of its loop */
+    uint32_t next;    /* SUM: the next item of a SUM in the same loop */
+    uint32_t total;   /* SUM: of lang/tape/ */
+    uint32_t key;     /* as plan_key; of an update raised above those of the items that it needs */
+    uint32_t rank;    /* the number of sums, one after the other, that must be finished before it */
+} plan_sum;
 
 typedef struct plan {
     const motus_allocator *hooks;
@@ -50,6 +56,7 @@ typedef struct plan {
     bool blocks, failed;
     LIST(plan_region) regions;
     LIST(plan_item) items;
+    LIST(plan_sum) sums;
     LIST(uint32_t) stack; /* pairs: node, region */
     uint32_t *order;      /* items by region, rank, key */
     uint32_t *rank;       /* by node */
@@ -63,12 +70,26 @@ typedef struct plan {
     ((list).at = plan_room(p, (list).at, (list).count, &(list).capacity, sizeof *(list).at), \
      (list).count < (list).capacity)
 void *plan_room(plan *, void *at, uint32_t count, uint32_t *capacity, size_t size);
+/* Room for so many elements in a list that has none, where their number is nearly known. */
+#define RESERVE(p, list, wanted) ((list).at = plan_reserve(p, wanted, &(list).capacity, sizeof *(list).at))
+void *plan_reserve(plan *, size_t wanted, uint32_t *capacity, size_t size);
 
 bool plan_create(plan *, arena *, const program *, bool blocks);
 void plan_release(plan *);
+void plan_release_items(plan *); /* all but the regions, once everything is written */
 /* The region in which something with these dependences is computed when `region` needs it. */
 uint32_t plan_home(const plan *, unsigned deps, uint32_t region);
 uint32_t plan_find(const plan *, node, uint32_t home); /* the item, or NONE */
 bool plan_is_block(const plan *, node, uint32_t home);
+
+/* The loop of an item that is a SUM, and the SUM whose total an item updates; else NONE. */
+static inline uint32_t plan_inside(const plan *p, const plan_item *i)
+{
+    return i->sum == NONE ? NONE : p->sums.at[i->sum].inside;
+}
+static inline uint32_t plan_updates(const plan *p, const plan_item *i)
+{
+    return i->sum == NONE ? NONE : p->sums.at[i->sum].updates;
+}
 
 #endif

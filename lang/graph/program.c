@@ -131,6 +131,9 @@ static bool run(forming *f, const node *roots, output *outputs, size_t count)
     if (f->uses && f->image && f->absorbed) {
         count_uses(f, roots, count);
         choose(f);
+        uint32_t formed = 1;
+        for (uint32_t k = 0; k < f->w.count; k++) formed += !f->absorbed[k];
+        (void)graph_reserve(f->to, formed + formed / 8); /* sums and negated factors take more */
         for (uint32_t k = 0; k < f->w.count; k++)
             if (!f->absorbed[k]) f->image[k] = form(f, f->w.nodes[k]);
         for (size_t r = 0; r < count; r++) outputs[r].value = image(f, roots[r]);
@@ -144,14 +147,14 @@ static bool run(forming *f, const node *roots, output *outputs, size_t count)
     return !f->from->arena->failed && !f->to->too_large;
 }
 
-program *program_create(graph *g, const output *outputs, size_t count)
+program *program_create_in(arena *a, graph *g, const output *outputs, size_t count)
 {
     if (count > SIZE_MAX / sizeof(output)) return g->arena->failed = true, NULL;
-    program *p = arena_take(g->arena, sizeof *p);
-    output *copy = arena_room(g->arena, (count + !count) * sizeof *copy);
-    forming f = {.from = g, .to = graph_create(g->arena)};
+    program *p = arena_take(a, sizeof *p);
+    output *copy = arena_room(a, (count + !count) * sizeof *copy);
+    forming f = {.from = g, .to = graph_create(a)};
     node *roots = take(&g->arena->allocator, count, sizeof *roots);
-    if (!roots) g->arena->failed = true;
+    if (!roots || a->failed) g->arena->failed = true;
     bool ok = !g->arena->failed && !g->too_large;
     if (ok) {
         f.to->arrays = g->arrays;
@@ -160,9 +163,15 @@ program *program_create(graph *g, const output *outputs, size_t count)
             roots[r] = outputs[r].value;
         }
         ok = run(&f, roots, copy, count);
+        if (a->failed) g->arena->failed = true;
     }
     give(&g->arena->allocator, roots);
-    if (!ok) return NULL;
+    if (!ok || g->arena->failed) return NULL;
     *p = (program){f.to, copy, count};
     return p;
+}
+
+program *program_create(graph *g, const output *outputs, size_t count)
+{
+    return program_create_in(g->arena, g, outputs, count);
 }

@@ -469,12 +469,13 @@ static value lower_chain(lowering *l, const tree *t)
     size_t depth = 0;
     const tree *leaf = t;
     for (; operator_kind(leaf->kind); leaf = leaf->item[0]) depth++;
-    const tree **chain = arena_room(l->model->arena, depth * sizeof *chain);
-    if (!chain) return wrong(l);
+    const tree **chain = take(&l->model->arena->allocator, depth, sizeof *chain);
+    if (!chain) return l->model->arena->failed = true, wrong(l);
     size_t n = depth;
     for (const tree *c = t; n > 0; c = c->item[0]) chain[--n] = c;
     value v = lower_factor(l, leaf);
     for (size_t i = 0; i < depth && !failed(l); i++) v = lower_right(l, chain[i], v);
+    give(&l->model->arena->allocator, chain);
     return v;
 }
 

@@ -31,15 +31,25 @@ static node of_parameter(differential *d, uint32_t slot)
 {
     model *m = d->l->model;
     if (!d->of_slot) {
-        d->of_slot = arena_take(m->arena, (m->scalar_slots + 1) * sizeof *d->of_slot);
+        d->of_slot = arena_room(m->arena, m->scalar_slots * sizeof *d->of_slot);
+        d->line = arena_room(m->arena, m->scalar_slots * sizeof *d->line);
         if (m->arena->failed) return 0;
+        for (uint32_t k = m->log.count; k-- > 0;)
+            if (m->log.lines[k].value != VARY_ENTRY) d->line[m->log.lines[k].slot] = k + 1;
     }
-    for (uint32_t k = 0; k < m->log.count && !d->of_slot[slot]; k++) {
-        const output *o = &m->log.entries[k].outputs[0];
-        if (m->log.scalars && o->to.array == m->log.scalars - 1 && o->to.at[0].literal == (int32_t)slot)
-            d->of_slot[slot] = 1 + graph_derivative(m->graph, o->value, seed, d);
+    if (d->of_slot[slot]) return d->of_slot[slot] - 1;
+    if (!d->line[slot]) return 0;
+    if (d->chain == MODEL_CHAIN_MAX) {
+        source_complain(&m->source, MOTUS_LIMIT, d->call->at,
+                        "between this expression and what it is differentiated by are more than %d parameters, each of "
+                        "which uses the next",
+                        MODEL_CHAIN_MAX);
+        return 0;
     }
-    return d->of_slot[slot] ? d->of_slot[slot] - 1 : 0;
+    d->chain++;
+    d->of_slot[slot] = 1 + graph_derivative(m->graph, m->log.lines[d->line[slot] - 1].value, seed, d);
+    d->chain--;
+    return d->of_slot[slot] - 1;
 }
 
 /* Lists, families of parameters and initial values are not followed back to what they were computed from. */
@@ -95,6 +105,8 @@ static value derivative(lowering *l, const tree *call, value of, value by)
         v.item[k] = graph_derivative(g, of.item[of.count ? k : 0], seed, &d);
         if (d.cell_count && !failed(l)) v.item[k] = lower_cells(&d, v.item[k]);
         lower_tidy(l, false);
+        arena_drop(l->model->arena, d.of_slot, l->model->scalar_slots * sizeof *d.of_slot);
+        arena_drop(l->model->arena, d.line, l->model->scalar_slots * sizeof *d.line);
     }
     return failed(l) ? wrong(l) : v;
 }

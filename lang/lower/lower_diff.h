@@ -18,6 +18,8 @@ typedef struct differential {
     uint32_t cell_count, cell_room;
     int32_t first_leaf;
     node *of_slot;     /* of a parameter's slot: 1 + its derivative, 0 not known yet; NULL: not needed yet */
+    uint32_t *line;    /* 1 + the line of the log that computed the parameter in a slot, 0 none */
+    int chain;         /* parameters being differentiated, one within the other */
     uint8_t *affected; /* by place of the pool: whether it follows from the variable; NULL: not needed yet */
 } differential;
 

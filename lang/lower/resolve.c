@@ -23,6 +23,17 @@ static bool finite_values(model *m, const model_definition *d, const double *v, 
     return true;
 }
 
+/* Evaluates numbers into the pool from `first` on, where they must be finite. */
+static bool evaluate_numbers(model *m, const model_definition *d, const node *nodes, int n, size_t first)
+{
+    double *out = take(&m->arena->allocator, (size_t)n, sizeof *out); /* the pool may move meanwhile */
+    if (!out) return m->arena->failed = true, false;
+    const bool ok = evaluate_nodes(m, nodes, n, out) && finite_values(m, d, out, (size_t)n);
+    if (ok) memcpy(m->pool + first, out, (size_t)n * sizeof *out);
+    give(&m->arena->allocator, out);
+    return ok;
+}
+
 static bool resolve_plain(model *m, model_definition *d)
 {
     lowering l;
@@ -41,13 +52,18 @@ static bool resolve_plain(model *m, model_definition *d)
         source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "the parameters have too many components");
         return false;
     }
-    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-    if (!out || !evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
-    memcpy(m->pool + d->slot, out, (size_t)n * sizeof *out);
+    if (!evaluate_numbers(m, d, v.item, n, d->slot)) return false;
+    for (int k = 0; k < n; k++) m->slot_owner[d->slot + (uint32_t)k] = (uint32_t)(d - m->definitions) + 1;
     for (int k = 0; k < n; k++)
         if (!vary_record_scalar(m, v.item[k], d->slot + (uint32_t)k)) return false;
     m->scalar_used += (uint32_t)n;
     return true;
+}
+
+static void own_arrays(model *m, model_definition *d, uint16_t first, int parts)
+{
+    d->array = first;
+    for (int k = 0; k < parts; k++) m->array_owner[first + k] = (uint32_t)(d - m->definitions) + 1;
 }
 
 /* K = [[2, -1], [-1, 2]]: places [row, column], each from 1 */
@@ -58,6 +74,7 @@ static bool resolve_matrix(model *m, model_definition *d)
     value v = lower_matrix(&l, d->statement->value);
     if (failed(m)) return false;
     const int n = v.rows * v.count;
+    if (!model_take_extent(m, d)) return false;
     d->list = true;
     d->dims = 2;
     d->components = 0;
@@ -65,11 +82,11 @@ static bool resolve_matrix(model *m, model_definition *d)
     d->last[0] = v.rows;
     d->last[1] = v.count;
     size_t base;
-    double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-    if (!out || !model_take_numbers(m, (size_t)n, &base) || !model_take_arrays(m, 1, &d->array)) return false;
-    graph_shape(&m->arrays[d->array], SPACE_POOL, base, 2, d->first, d->last);
-    if (!evaluate_nodes(m, v.item, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
-    memcpy(m->pool + base, out, (size_t)n * sizeof *out);
+    uint16_t at;
+    if (!model_take_numbers(m, (size_t)n, &base) || !model_take_arrays(m, 1, &at)) return false;
+    own_arrays(m, d, at, 1);
+    graph_shape(&m->arrays[at], SPACE_POOL, base, 2, d->first, d->last);
+    if (!evaluate_numbers(m, d, v.item, n, base)) return false;
     for (int k = 0; k < n; k++) {
         output place = {.to = {.dims = 2}};
         place.to.at[0] = (subscript){.level = -1, .slot = -1, .modulus = -1, .literal = 1 + k / v.count};
@@ -99,6 +116,7 @@ static bool resolve_list(model *m, model_definition *d)
             return false;
         }
     }
+    if (!model_take_extent(m, d)) return false;
     d->list = true;
     d->dims = 1;
     d->components = item[0].count;
@@ -108,15 +126,13 @@ static bool resolve_list(model *m, model_definition *d)
     size_t base;
     uint16_t at;
     if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
-    d->array = at;
+    own_arrays(m, d, at, parts);
     node *column = arena_room(m->arena, (size_t)n * sizeof *column);
     if (!column) return false;
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++) column[i] = item[i].item[k];
-        double *out = arena_room(m->arena, (size_t)n * sizeof *out);
-        if (!out || !evaluate_nodes(m, column, n, out) || !finite_values(m, d, out, (size_t)n)) return false;
-        memcpy(m->pool + base + (size_t)k * (size_t)n, out, (size_t)n * sizeof *out);
+        if (!evaluate_numbers(m, d, column, n, base + (size_t)k * (size_t)n)) return false;
     }
     for (int i = 0; i < n; i++) {
         const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
@@ -146,6 +162,7 @@ static bool open_line(model *m, const model_definition *d, const statement *line
 /* The places of all lines. */
 static bool family_extent(model *m, model_definition *d)
 {
+    if (!model_take_extent(m, d)) return false;
     EACH_LINE(m, d, line)
     {
         lowering l;
@@ -158,7 +175,7 @@ static bool family_extent(model *m, model_definition *d)
             return false;
         }
         lower_extent(m, &l, &o, first, last);
-        d->dims = o.to.dims;
+        d->dims = (uint8_t)o.to.dims;
         for (int k = 0; k < d->dims; k++) {
             if (line == d->statement || first[k] < d->first[k]) d->first[k] = first[k];
             if (line == d->statement || last[k] > d->last[k]) d->last[k] = last[k];
@@ -283,7 +300,7 @@ static bool resolve_family(model *m, model_definition *d)
     }
     uint16_t at;
     if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
-    d->array = at;
+    own_arrays(m, d, at, parts);
     for (int k = 0; k < parts; k++)
         graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
     uint8_t *map;

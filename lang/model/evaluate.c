@@ -10,12 +10,25 @@
 bool evaluate_outputs(model *m, const output *outputs, size_t count, double t, double *const base[SPACES])
 {
     if (source_failed(&m->source)) return false;
-    program *p = program_create(m->graph, outputs, count);
-    tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(m->arena, p);
-    binding b = {m->arrays, m->ints, m->pool};
-    if (!tp || source_failed(&m->source) || !tape_bind(tp, &b)) return false;
-    tape_run(tp, t, base);
-    return true;
+    arena once; /* a program for every constant would stay as long as the model */
+    arena_init(&once, &m->arena->allocator);
+    program *p = program_create_in(&once, m->graph, outputs, count);
+    tape *tp = source_failed(&m->source) || !p ? NULL : tape_create(&once, p);
+    const binding b = {m->arrays, m->ints, m->pool};
+    const bool bound = tp && !once.failed && tape_bind(tp, &b);
+    if (bound) tape_run(tp, t, base);
+    if (once.failed) m->arena->failed = true;
+    arena_release(&once);
+    return bound;
+}
+
+/* Room for outputs, to be given back, and an array for each. */
+static output *outputs_for(model *m, int count, uint16_t *first)
+{
+    if (!model_take_arrays(m, count, first)) return NULL;
+    output *o = take(&m->arena->allocator, (size_t)count, sizeof *o);
+    if (!o) m->arena->failed = true;
+    return o;
 }
 
 bool evaluate_into_pool(model *m, const output *target, const node *values, int parts, size_t base,
@@ -23,8 +36,8 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
 {
     uint32_t arrays = m->array_count;
     uint16_t at;
-    output *o = arena_room(m->arena, (size_t)parts * sizeof *o);
-    if (!o || !model_take_arrays(m, parts, &at)) return false;
+    output *o = outputs_for(m, parts, &at);
+    if (!o) return false;
     for (int k = 0; k < parts; k++) {
         graph_shape(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
         o[k] = *target;
@@ -34,6 +47,7 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     double *spaces[SPACES] = {[SPACE_OUT] = m->pool};
     bool ok = evaluate_outputs(m, o, (size_t)parts, 0, spaces);
     m->array_count = arrays; /* only this call needs them */
+    give(&m->arena->allocator, o);
     return ok;
 }
 
@@ -47,8 +61,8 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     }
     uint32_t arrays = m->array_count;
     uint16_t first;
-    output *o = arena_room(m->arena, (size_t)count * sizeof *o);
-    if (!o || !model_take_arrays(m, count, &first)) return false;
+    output *o = outputs_for(m, count, &first);
+    if (!o) return false;
     for (int k = 0; k < count; k++) {
         graph_shape(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
         o[k] = (output){.value = nodes[k], .to = {.array = (uint16_t)(first + k)}};
@@ -56,6 +70,7 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     double *base[SPACES] = {[SPACE_OUT] = out};
     bool ok = evaluate_outputs(m, o, (size_t)count, 0, base);
     m->array_count = arrays; /* only this call needs them */
+    give(&m->arena->allocator, o);
     return ok;
 }
 

@@ -56,19 +56,16 @@ static size_t name_index(const model *m, const subscript *s, char *out, size_t s
 
 static void name_parameter(const model *m, uint32_t slot, char *out, size_t size)
 {
-    snprintf(out, size, "?");
-    for (uint32_t i = 0; i < m->definition_count; i++) {
-        const model_definition *d = &m->definitions[i];
-        int parts = d->components ? d->components : 1;
-        if (d->kind != DEFINED_PARAMETER || d->list || slot < d->slot || slot >= d->slot + (uint32_t)parts) continue;
-        if (!d->components)
-            snprintf(out, size, "%s", d->name);
-        else if (d->components <= 3)
-            snprintf(out, size, "%s.%c", d->name, "xyz"[slot - d->slot]);
-        else
-            snprintf(out, size, "%s[%u]", d->name, slot - d->slot + 1);
-        return;
-    }
+    const uint32_t owner = slot < m->scalar_slots ? m->slot_owner[slot] : 0;
+    const model_definition *d = owner ? &m->definitions[owner - 1] : NULL;
+    if (!d)
+        snprintf(out, size, "?");
+    else if (!d->components)
+        snprintf(out, size, "%s", d->name);
+    else if (d->components <= 3)
+        snprintf(out, size, "%s.%c", d->name, "xyz"[slot - d->slot]);
+    else
+        snprintf(out, size, "%s[%u]", d->name, slot - d->slot + 1);
 }
 
 static void name_reference(const model *m, const reference *r, char *out, size_t size)
@@ -97,12 +94,10 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
             tail = "(0)";
         }
     }
-    for (uint32_t i = 0; i < m->definition_count; i++) {
-        const model_definition *d = &m->definitions[i];
-        int k = (int)r->array - d->array, parts = d->components ? d->components : 1;
-        if (!d->list || k < 0 || k >= parts) continue;
+    if (m->array_owner[r->array]) {
+        const model_definition *d = &m->definitions[m->array_owner[r->array] - 1];
         name = d->name;
-        component = k;
+        component = (int)r->array - d->array;
         components = d->components;
     }
     size_t n_ = (size_t)snprintf(out, size, "%s", name);

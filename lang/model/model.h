@@ -68,10 +68,15 @@ typedef struct model_state {
 } model_state;
 
 /* What was computed from parameters while the model was read: see vary_record.h. */
-typedef struct vary_entry vary_entry;
+#define VARY_ENTRY UINT32_MAX
 typedef struct vary_log {
-    vary_entry *entries;
+    struct vary_line {
+        node value;    /* of a number in a scalar slot; VARY_ENTRY: it is an entry */
+        uint32_t slot; /* this slot, or the number of the entry */
+    } * lines;
     uint32_t count, room;
+    struct vary_entry *entries;
+    uint32_t entry_count, entry_room;
     struct vary_frozen {
         node n;
         const char *what;
@@ -90,18 +95,18 @@ typedef enum definition_kind {
 typedef struct model_definition {
     const char *name;
     const statement *statement;
-    definition_kind kind;
-    uint8_t progress;   /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    uint32_t last_line; /* 1 + number of its last line: a family may have several, each naming the next */
-    int components;     /* 0: scalar */
-    uint8_t reads;      /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
-    bool list;          /* list or family: an array over indices */
-    int dims;
-    int64_t first[MAX_DIMS], last[MAX_DIMS];
-    uint16_t log_array;   /* vary_record.h: 1 + its array over the pool, 0 none */
-    uint32_t slot;        /* parameter without indices: its first pool slot */
-    uint16_t array;       /* list: POOL array of component 0; quantity or invariant: OUT array */
-    struct value **known; /* quantity without indices: its nodes, by kind of place and level of its use */
+    uint8_t kind;     /* definition_kind */
+    uint8_t progress; /* 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
+    uint8_t reads;    /* lower_ghost.c: 0 unknown, 1 it reads no state, 2 it does */
+    bool list;        /* list or family: an array over indices */
+    uint8_t dims;
+    int components;        /* 0: scalar */
+    uint32_t last_line;    /* 1 + number of its last line: a family may have several, each naming the next */
+    uint32_t slot;         /* parameter without indices: its first pool slot */
+    uint16_t log_array;    /* vary_record.h: 1 + its array over the pool, 0 none */
+    uint16_t array;        /* list: POOL array of component 0; quantity or invariant: OUT array */
+    int64_t *first, *last; /* MAX_DIMS of each; those without indices share one array of zeros */
+    struct value **known;  /* quantity without indices: its nodes, by kind of place and level of its use */
     output *outputs;
     size_t output_count; /* quantity, invariant: into OUT from 0 */
     size_t numbers;
@@ -132,6 +137,9 @@ typedef struct model {
     double *pool;
     size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
+    /* 1 + the number of the definition that a scalar slot, or an array of the pool, belongs to; 0: none */
+    uint32_t *slot_owner, *array_owner;
+    int64_t no_extent[MAX_DIMS];
 
     vary_log log;
     uint8_t *overridden;   /* vary.h: by place of the pool, 1: set by motus_system_set; NULL: none is */
@@ -185,6 +193,8 @@ void model_print(const model *, node, char *out, size_t size);
  * memory, or complained. */
 bool model_take_numbers(model *, size_t count, size_t *first);
 bool model_take_arrays(model *, int count, uint16_t *first);
+/* Room of its own for the ranges of a definition's indices. */
+bool model_take_extent(model *, model_definition *);
 /* Copies the initial values from the pool into x0 and v0; due after every change of them. */
 void model_start_state(model *);
 

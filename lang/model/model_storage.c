@@ -30,13 +30,27 @@ bool model_take_arrays(model *m, int count, uint16_t *first)
         uint32_t room = need + 64 + m->array_capacity / 2;
         array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
         if (!more) return false;
+        uint32_t *owner = arena_grow(m->arena, m->array_owner, m->array_capacity * sizeof *owner, room * sizeof *owner);
+        if (!owner) return false;
+        m->array_owner = owner;
         m->arrays = more;
         m->array_capacity = room;
     }
     *first = (uint16_t)m->array_count;
     memset(&m->arrays[m->array_count], 0, (size_t)count * sizeof *m->arrays);
+    memset(&m->array_owner[m->array_count], 0, (size_t)count * sizeof *m->array_owner);
     m->array_count = need;
     m->graph->arrays = m->arrays;
+    return true;
+}
+
+bool model_take_extent(model *m, model_definition *d)
+{
+    if (d->first != m->no_extent) return true;
+    int64_t *both = arena_room(m->arena, 2 * MAX_DIMS * sizeof *both);
+    if (!both) return false;
+    d->first = both;
+    d->last = both + MAX_DIMS;
     return true;
 }
 

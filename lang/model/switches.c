@@ -19,6 +19,7 @@ typedef struct kind {
     node n; /* the operation in the model's graph */
     nest around;
     node side;
+    uint32_t before; /* 1 + the number of another kind of the same operation, 0: none */
 } kind;
 
 typedef struct builder {
@@ -26,6 +27,7 @@ typedef struct builder {
     switches *s;
     kind *kinds;
     uint32_t room;
+    uint32_t *last; /* by node of the model: 1 + the number of the last kind of this operation, 0: none */
 } builder;
 
 static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph->too_large; }
@@ -172,18 +174,18 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     switches *s = b->s;
     const graph_node original = g->nodes[n];
     const unsigned levels = original.deps & DEP_LEVELS;
-    for (uint32_t k = 0; k < s->kinds; k++)
-        if (b->kinds[k].n == n && same_nest(&b->kinds[k].around, around, levels)) return k;
+    for (uint32_t k = b->last[n]; k; k = b->kinds[k - 1].before)
+        if (same_nest(&b->kinds[k - 1].around, around, levels)) return k - 1;
     reference side, value;
     if (!place(b, around, levels, &side, &value)) return UINT32_MAX;
     if (s->kinds == b->room) {
         const uint32_t room = b->room ? 2 * b->room : 16;
         arena *m = b->m->arena;
-        b->kinds = arena_grow(m, b->kinds, b->room * sizeof *b->kinds, room * sizeof *b->kinds);
-        s->argument = arena_grow(m, s->argument, b->room * sizeof *s->argument, room * sizeof *s->argument);
-        s->held = arena_grow(m, s->held, b->room * sizeof *s->held, room * sizeof *s->held);
-        s->rate = arena_grow(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
-        s->first = arena_grow(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
+        b->kinds = arena_replace(m, b->kinds, b->room * sizeof *b->kinds, room * sizeof *b->kinds);
+        s->argument = arena_replace(m, s->argument, b->room * sizeof *s->argument, room * sizeof *s->argument);
+        s->held = arena_replace(m, s->held, b->room * sizeof *s->held, room * sizeof *s->held);
+        s->rate = arena_replace(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
+        s->first = arena_replace(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
         if (broken(b)) return UINT32_MAX;
         b->room = room;
     }
@@ -192,7 +194,8 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     for (int k = 0; k < o.loops; k++) o.loop[k] = around->at[k];
     const uint32_t k = (uint32_t)s->kinds++;
     graph_shift shift = {b->m->block_size, b->m->block_size};
-    b->kinds[k] = (kind){n, *around, graph_load(g, &side)};
+    b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
+    b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
     s->argument[k].value = argument_of(g, original.op, original.a, original.b);
@@ -203,31 +206,60 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
 
 /* Equations ---------------------------------------------------------------------------------------------------- */
 
+/* The places of each node's operands in a walk, which other walks overwrite in the graph: 1 + the place, 0: none. */
+typedef struct operands {
+    uint32_t at[3];
+} operands;
+
+static operands *places_of(graph *g, const graph_walk *w)
+{
+    operands *all = take(&g->arena->allocator, w->count, sizeof *all);
+    if (!all) g->arena->failed = true;
+    for (uint32_t k = 0; all && k < w->count; k++) {
+        node operand[3];
+        for (int j = graph_operands(&g->nodes[w->nodes[k]], operand); j-- > 0;)
+            all[k].at[j] = graph_reached(g, w, operand[j]) ? g->place[operand[j]] + 1 : 0;
+    }
+    return all;
+}
+
+static node rewrite(builder *b, node root, const nest *around);
+
+static node rewrite_sum(builder *b, node sum, const nest *around)
+{
+    graph *g = b->m->graph;
+    const graph_node n = g->nodes[sum];
+    nest inner = *around;
+    while (inner.count < n.level) inner.at[inner.count++] = (range){{-1, -1, -1, 0}, {-1, -1, -1, 0}};
+    inner.at[n.level] = g->ranges[n.c];
+    inner.count = n.level + 1;
+    const node body = rewrite(b, n.a, &inner), condition = n.b ? rewrite(b, n.b, &inner) : 0;
+    if (body == n.a && condition == n.b) return sum;
+    return graph_sum(g, n.level, &inner.at[n.level], condition, body);
+}
+
 /* The node with sides in place of switches. */
 static node rewrite(builder *b, node root, const nest *around)
 {
     graph *g = b->m->graph;
     graph_walk w;
     if (b->s->refused || !(graph_deps(g, root) & MOVING) || !graph_order(g, &root, 1, MOVING, false, &w)) return root;
+    operands *operands_of = places_of(g, &w);
     node *map = take(&g->arena->allocator, w.count, sizeof *map);
     if (!map) g->arena->failed = true;
     for (uint32_t k = 0; k < w.count && !broken(b) && !b->s->refused; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
-        node operand[3], to[3] = {0, 0, 0};
-        const int arity = graph_operands(&n, operand);
+        node to[3] = {0, 0, 0};
+        const int arity = graph_operands(&n, to);
         map[k] = w.nodes[k];
         if (n.op == OP_SUM) {
-            nest inner = *around;
-            while (inner.count < n.level) inner.at[inner.count++] = (range){{-1, -1, -1, 0}, {-1, -1, -1, 0}};
-            inner.at[n.level] = g->ranges[n.c];
-            inner.count = n.level + 1;
-            const node body = rewrite(b, n.a, &inner), condition = n.b ? rewrite(b, n.b, &inner) : 0;
-            if (body != n.a || condition != n.b) map[k] = graph_sum(g, n.level, &inner.at[n.level], condition, body);
+            map[k] = rewrite_sum(b, w.nodes[k], around);
         } else if (arity) {
             bool changed = false;
             for (int j = 0; j < arity; j++) {
-                to[j] = graph_reached(g, &w, operand[j]) ? map[g->place[operand[j]]] : operand[j];
-                changed |= to[j] != operand[j];
+                const node was = to[j];
+                if (operands_of[k].at[j]) to[j] = map[operands_of[k].at[j] - 1];
+                changed |= to[j] != was;
             }
             if (is_switch(g, &n)) {
                 const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
@@ -236,10 +268,10 @@ static node rewrite(builder *b, node root, const nest *around)
                 map[k] = graph_op(g, n.op, to[0], to[1], to[2]);
             }
         }
-        graph_order_again(g, &w); /* other walks overwrite `place`, and it moves when the graph grows */
     }
     const node result = map && w.count ? map[w.count - 1] : root;
     give(&g->arena->allocator, map);
+    give(&g->arena->allocator, operands_of);
     give(&g->arena->allocator, w.nodes);
     return result;
 }
@@ -259,10 +291,12 @@ static output *rewrite_all(builder *b, const output *from, size_t count)
 bool switches_find(model *m, switches *s)
 {
     *s = (switches){.slot = m->pool_count};
-    builder b = {.m = m, .s = s};
+    builder b = {.m = m, .s = s, .last = take(&m->arena->allocator, m->graph->count, sizeof *b.last)};
+    if (!b.last) return m->arena->failed = true, false;
     s->accel = rewrite_all(&b, m->accel, m->accel_count);
     s->boundary = rewrite_all(&b, m->boundary, m->boundary_count);
     s->op = arena_room(m->arena, s->count + 1);
+    give(&m->arena->allocator, b.last);
     if (broken(&b) || !s->op) return false;
     for (size_t k = 0; k < s->kinds; k++) {
         const size_t end = k + 1 < s->kinds ? s->first[k + 1] : s->count;

@@ -16,11 +16,12 @@ struct vary {
 
 /* ---- what is affected ---- */
 
-/* Marks every node whose value changes, in one pass, because operands come before the nodes that use them. */
-static void mark_nodes(const vary *v, uint8_t *changed)
+/* Marks those of the nodes [from, to) whose value changes, in one pass, because operands come before the nodes that use
+ * them. */
+static void mark_nodes(const vary *v, uint8_t *changed, node from, node to)
 {
     const graph *g = v->model->graph;
-    for (node n = 0; n < g->count; n++) {
+    for (node n = from; n < to; n++) {
         const graph_node *m = &g->nodes[n];
         int arity = operation_at(m->op)->arity;
         changed[n] = 0;
@@ -34,8 +35,16 @@ static void mark_nodes(const vary *v, uint8_t *changed)
     }
 }
 
-static bool entry_changes(const vary_entry *e, const uint8_t *changed)
+/* NULL: a number in a scalar slot. */
+static const vary_entry *entry_of(const model *m, const struct vary_line *line)
 {
+    return line->value == VARY_ENTRY ? &m->log.entries[line->slot] : NULL;
+}
+
+static bool line_changes(const model *m, const struct vary_line *line, const uint8_t *changed)
+{
+    const vary_entry *e = entry_of(m, line);
+    if (!e) return changed[line->value];
     for (int k = 0; k < e->parts; k++)
         if (changed[e->outputs[k].value]) return true;
     return false;
@@ -53,9 +62,11 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
     return (size_t)at;
 }
 
-static void mark_places(vary *v, const vary_entry *e)
+static void mark_places(vary *v, const struct vary_line *line)
 {
-    for (int k = 0; k < e->parts; k++)
+    const vary_entry *e = entry_of(v->model, line);
+    if (!e) v->affected[line->slot] = 1;
+    for (int k = 0; e && k < e->parts; k++)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
 }
 
@@ -63,6 +74,12 @@ static void mark_places(vary *v, const vary_entry *e)
 static bool overridden(const model *m, const vary_entry *e)
 {
     return m->overridden && m->overridden[place_of(m, e, 0)];
+}
+
+static bool line_overridden(const model *m, const struct vary_line *line)
+{
+    const vary_entry *e = entry_of(m, line);
+    return e ? overridden(m, e) : m->overridden && m->overridden[line->slot];
 }
 
 bool vary_override(model *m, size_t first, size_t count, bool yes)
@@ -73,18 +90,45 @@ bool vary_override(model *m, size_t first, size_t count, bool yes)
     return true;
 }
 
+/* The largest node that a line computes. */
+static node last_node(const model *m, const struct vary_line *line)
+{
+    const vary_entry *e = entry_of(m, line);
+    node last = e ? 0 : line->value;
+    for (int k = 0; e && k < e->parts; k++)
+        if (e->outputs[k].value > last) last = e->outputs[k].value;
+    return last;
+}
+
+/* Whether one of the places of an entry's array is marked: then those of its loads are that exist. */
+static bool array_marked(const vary *v, const vary_entry *e)
+{
+    bool all = true;
+    for (int k = 0; k < e->parts; k++) all &= graph_marked(&v->model->arrays[e->outputs[k].to.array], v->affected);
+    return all;
+}
+
 /* Extends `affected` to all places that depend on those marked so far, and collects the entries that compute them in
- * `active`, if it is not NULL. */
+ * `active`, if it is not NULL. A parameter's node is younger than the line that computes it, so nodes are marked once,
+ * as far as each line needs them; but loads of an array's cells may be older than the line of another cell. */
 static void follow(vary *v, uint8_t *changed)
 {
-    const vary_log *log = &v->model->log;
-    mark_nodes(v, changed);
+    const model *m = v->model;
+    const vary_log *log = &m->log;
+    node upto = 0;
     for (uint32_t k = 0; k < log->count; k++) {
-        if (overridden(v->model, &log->entries[k]) || !entry_changes(&log->entries[k], changed)) continue;
-        mark_places(v, &log->entries[k]);
-        mark_nodes(v, changed);
-        if (v->active) v->active[v->active_count++] = (vary_active){.entry = &log->entries[k]};
+        const struct vary_line *line = &log->lines[k];
+        const vary_entry *e = entry_of(m, line);
+        const node need = last_node(m, line) + 1;
+        if (need > upto) mark_nodes(v, changed, upto, need);
+        upto = need > upto ? need : upto;
+        if (line_overridden(m, line) || !line_changes(m, line, changed)) continue;
+        const bool again = e && !array_marked(v, e);
+        mark_places(v, line);
+        if (again) mark_nodes(v, changed, 0, upto);
+        if (v->active) v->active[v->active_count++] = (vary_active){.entry = vary_record_entry(v->model, line)};
     }
+    mark_nodes(v, changed, upto, m->graph->count);
 }
 
 static const char *decision(const struct vary_frozen *f) { return f->what ? f->what : "a size or an index"; }
@@ -154,6 +198,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
         v->affected[places[k]] = 1;
     }
     follow(v, changed);
+    if (a->failed) return fail(err, MOTUS_MEMORY, "no memory for what varies");
     size_t largest = 0;
     for (uint32_t k = 0; k < v->active_count; k++) {
         const vary_entry *e = v->active[k].entry;

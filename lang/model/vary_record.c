@@ -1,17 +1,31 @@
 /* Entries of a model's log. See vary_record.h. */
 #include "lang/model/vary_record.h"
 
-static vary_entry *new_entry(model *m)
+static bool add_line(model *m, node value, uint32_t slot)
 {
     vary_log *log = &m->log;
     if (log->count == log->room) {
-        uint32_t room = log->room ? 2 * log->room : 16;
-        vary_entry *more = arena_grow(m->arena, log->entries, log->room * sizeof *more, room * sizeof *more);
-        if (!more) return NULL;
-        log->entries = more;
+        const uint32_t room = log->room + log->room / 2 + 16;
+        struct vary_line *more = arena_replace(m->arena, log->lines, log->room * sizeof *more, room * sizeof *more);
+        if (!more) return false;
+        log->lines = more;
         log->room = room;
     }
-    return &log->entries[log->count];
+    log->lines[log->count++] = (struct vary_line){value, slot};
+    return true;
+}
+
+static vary_entry *new_entry(model *m)
+{
+    vary_log *log = &m->log;
+    if (log->entry_count == log->entry_room) {
+        const uint32_t room = log->entry_room + log->entry_room / 2 + 16;
+        vary_entry *more = arena_replace(m->arena, log->entries, log->entry_room * sizeof *more, room * sizeof *more);
+        if (!more) return NULL;
+        log->entries = more;
+        log->entry_room = room;
+    }
+    return &log->entries[log->entry_count];
 }
 
 bool vary_record(model *m, const output *target, const node *values, int parts, size_t base, int dims,
@@ -37,16 +51,32 @@ bool vary_record(model *m, const output *target, const node *values, int parts, 
     }
     *e = (vary_entry){
         .outputs = o, .parts = parts, .base = base, .hull = hull, .map = target->loops ? map : NULL, .rank = rank};
-    m->log.count++;
-    return true;
+    return add_line(m, VARY_ENTRY, m->log.entry_count++);
 }
 
 bool vary_record_scalar(model *m, node n, uint32_t slot)
 {
-    const int64_t first = 0, last = (int64_t)m->scalar_slots - 1;
-    const output target = {
-        .to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = (int32_t)slot}}}};
-    return vary_record(m, &target, &n, 1, 0, 1, &first, &last, m->scalar_slots, NULL, 0, &m->log.scalars);
+    if (!(graph_deps(m->graph, n) & DEP_PARAM)) return true;
+    if (!m->log.scalars) {
+        const int64_t first = 0, last = (int64_t)m->scalar_slots - 1;
+        if (!model_take_arrays(m, 1, &m->log.scalars)) return false;
+        graph_shape(&m->arrays[m->log.scalars++], SPACE_OUT, 0, 1, &first, &last);
+    }
+    return add_line(m, n, slot);
+}
+
+const vary_entry *vary_record_entry(model *m, const struct vary_line *line)
+{
+    if (line->value == VARY_ENTRY) return &m->log.entries[line->slot];
+    vary_entry *e = arena_room(m->arena, sizeof *e);
+    output *o = arena_room(m->arena, sizeof *o);
+    if (!e || !o) return NULL;
+    *o = (output){.value = line->value,
+                  .to = {.array = (uint16_t)(m->log.scalars - 1),
+                         .dims = 1,
+                         .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = (int32_t)line->slot}}}};
+    *e = (vary_entry){.outputs = o, .parts = 1, .hull = m->scalar_slots};
+    return e;
 }
 
 void vary_freeze(model *m, node n, const char *what)
@@ -56,7 +86,7 @@ void vary_freeze(model *m, node n, const char *what)
     if (log->frozen_count == log->frozen_room) {
         uint32_t room = log->frozen_room ? 2 * log->frozen_room : 16;
         struct vary_frozen *more =
-            arena_grow(m->arena, log->frozen, log->frozen_room * sizeof *more, room * sizeof *more);
+            arena_replace(m->arena, log->frozen, log->frozen_room * sizeof *more, room * sizeof *more);
         if (!more) return;
         log->frozen = more;
         log->frozen_room = room;

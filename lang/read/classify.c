@@ -142,7 +142,7 @@ static bool classify_definitions(model *m)
         d->progress = 0;
         yes = false;
         if (!d->statement->replaced) continue;
-        if (!moves(m, d->statement->replaced, NULL, &yes)) return false;
+        if (!moves(m, d->statement->replaced->value, NULL, &yes)) return false;
         if (yes) {
             source_complain(&m->source, MOTUS_ARGUMENT, d->statement->name_at,
                             "%s is a quantity and follows from the motion", d->name);

@@ -14,10 +14,20 @@ static void twice(model *m, const statement *s, span earlier)
     source_hint(&m->source, "remove one of them, or give it another name");
 }
 
+/* Room for twice as many states, due where their number is a power of two. */
+static bool more_states(model *m)
+{
+    const size_t count = m->state_count, room = count ? 2 * count : 1;
+    model_state *more = arena_replace(m->arena, m->states, count * sizeof *more, room * sizeof *more);
+    if (more) m->states = more;
+    return more != NULL;
+}
+
 static bool add_state(model *m, const statement *s)
 {
     model_state *state = symbols_find(m, s->name).state;
     if (!state) {
+        if (!(m->state_count & (m->state_count - 1)) && !more_states(m)) return false;
         state = &m->states[m->state_count++];
         *state = (model_state){.name = s->name, .at = s->name_at, .order = s->primes, .dims = (int)s->index_count};
         symbols_enter(m, s->name, (symbol){.state = state});
@@ -63,7 +73,9 @@ static bool add_definition(model *m, const statement *s)
     *d = (model_definition){.name = s->name,
                             .statement = s,
                             .last_line = number,
-                            .dims = (int)s->index_count,
+                            .dims = (uint8_t)s->index_count,
+                            .first = m->no_extent,
+                            .last = m->no_extent,
                             .kind = s->kind == STATEMENT_INVARIANT ? DEFINED_INVARIANT : DEFINED_UNKNOWN};
     symbols_enter(m, s->name, (symbol){.definition = d});
     return true;
@@ -193,19 +205,18 @@ static bool replace(model *m, uint32_t text)
         same = same && !cell;
         if (same && found++) continue; /* it replaces the first and removes the others */
         if (same) {
-            tree *replaced = old->replaced ? old->replaced : old->value;
-            span stood = old->replaced ? old->stood : old->at;
+            replaced *own = arena_take(m->arena, sizeof *own);
+            *own = old->replaced ? *old->replaced : (replaced){old->value, old->at};
             *old = *one;
-            old->replaced = replaced;
-            old->stood = stood;
+            old->replaced = own;
         }
         m->statements.item[kept++] = *old;
     }
     m->statements.count = kept;
     if (found) return true;
     if (one->kind == STATEMENT_START || families) {
-        statement *item = arena_grow(m->arena, m->statements.item, m->statements.count * sizeof *item,
-                                     (m->statements.count + 1) * sizeof *item);
+        statement *item = arena_replace(m->arena, m->statements.item, m->statements.count * sizeof *item,
+                                        (m->statements.count + 1) * sizeof *item);
         if (!item) return false;
         item[m->statements.count] = *one;
         m->statements.item = item;
@@ -239,16 +250,18 @@ bool collect_all(model *m, const motus_text_def *def)
     for (uint32_t i = 0; i < def->set_count; i++)
         if (!replace(m, i + 1)) return false;
     uint32_t n = m->statements.count;
+    uint32_t brackets = 0, definitions = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const int kind = m->statements.item[i].kind;
+        brackets += kind == STATEMENT_START;
+        definitions += kind == STATEMENT_DEFINITION || kind == STATEMENT_INVARIANT;
+    }
     m->symbol_size = 16;
-    while (m->symbol_size < 4 * n) m->symbol_size *= 2;
+    while (m->symbol_size < n + n / 4) m->symbol_size *= 2;
     m->symbols = arena_room(m->arena, m->symbol_size * sizeof *m->symbols);
-    m->states = arena_room(m->arena, (n + 1) * sizeof *m->states);
-    m->definitions = arena_room(m->arena, (n + 1) * sizeof *m->definitions);
-    uint32_t brackets = 0;
-    for (uint32_t i = 0; i < n; i++) brackets += m->statements.item[i].kind == STATEMENT_START;
+    m->definitions = arena_room(m->arena, (definitions + 1) * sizeof *m->definitions);
     m->functions = arena_room(m->arena, (brackets + 1) * sizeof *m->functions);
-    if (!m->symbols || !m->states || !m->definitions || !m->functions) return false;
-    memset(m->symbols, 0, m->symbol_size * sizeof *m->symbols);
+    if (!m->symbols || !m->definitions || !m->functions) return false;
     for (uint32_t i = 0; i < n; i++)
         if (m->statements.item[i].kind == STATEMENT_EQUATION && !add_state(m, &m->statements.item[i])) return false;
     for (uint32_t i = 0; i < n; i++) {

@@ -18,7 +18,7 @@ static bool add(model *m, outputs *o, const output *one)
 {
     if (*o->count == o->room) {
         size_t room = o->room ? 2 * o->room : o->least;
-        output *more = arena_grow(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
+        output *more = arena_replace(m->arena, *o->item, o->room * sizeof *more, room * sizeof *more);
         if (!more) return false;
         *o->item = more;
         o->room = room;
@@ -152,7 +152,8 @@ static bool looked_at(model *m, model_definition *d)
     if (!values(m, d, &l, o, &into, &d->components)) return false;
     d->progress = 2;
     const int parts = d->components ? d->components : 1;
-    d->dims = o.loops;
+    d->dims = (uint8_t)o.loops;
+    if (o.loops && !model_take_extent(m, d)) return false;
     size_t hull = 1;
     array shape = {.space = SPACE_OUT, .dims = o.loops};
     for (int k = o.loops - 1; k >= 0; k--) {

@@ -17,7 +17,8 @@ static bool constants(model *m)
         for (uint32_t i = 0; i < m->source.texts[t].length; i++)
             m->scalar_slots += m->source.texts[t].bytes[i] == ',' ? 2 : 0;
     size_t first;
-    if (!model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
+    m->slot_owner = arena_room(m->arena, m->scalar_slots * sizeof *m->slot_owner);
+    if (!m->slot_owner || !model_take_numbers(m, m->scalar_slots, &first) || !resolve_start_time(m)) return false;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (!resolve_definition(m, &m->definitions[i])) return false;
     for (uint32_t i = 0; i < m->state_count; i++)
@@ -27,16 +28,31 @@ static bool constants(model *m)
 
 static motus_status build(model *m, const motus_text_def *def, read_method method)
 {
-    if (collect_all(m, def) && classify_all(m) && names_all(m) && constants(m) && settings_all(m, method) &&
+    if (collect_all(m, def) && classify_all(m) && names_all(m) &&
+        graph_reserve(m->graph, m->statements.operations + 64) && constants(m) && settings_all(m, method) &&
         layout_all(m) && equations_all(m))
         analysis_all(m);
     if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
     if (m->source.failed) return m->source.status;
-    if (m->arena->failed) return MOTUS_MEMORY;
+    if (m->arena->failed || m->source.trees->failed) return MOTUS_MEMORY;
     if (m->graph->too_large)
         return fail(m->source.error, MOTUS_LIMIT, "the model's expressions are too large: more than %d operations",
                     GRAPH_NODES_MAX);
     return MOTUS_OK;
+}
+
+/* Nothing is lowered any more: what the trees took is more than all else that was read. */
+static void forget_trees(model *m)
+{
+    arena_release(m->source.trees);
+    m->source.trees = NULL;
+    for (uint32_t i = 0; i < m->statements.count; i++) {
+        statement *s = &m->statements.item[i];
+        s->value = s->applied = NULL;
+        s->loops = NULL;
+        if (s->replaced) s->replaced->value = NULL;
+        if (s->kind != STATEMENT_METHOD) s->index = NULL;
+    }
 }
 
 motus_status read_model(arena *a, const motus_text_def *def, read_method method, model **out, motus_error *err)
@@ -61,7 +77,11 @@ motus_status read_model(arena *a, const motus_text_def *def, read_method method,
             return fail(err, MOTUS_LIMIT, "a setting has %zu bytes; at most %d are read", n, SOURCE_BYTES_MAX);
         m->source.texts[i + 1] = (struct source_text){def->set[i], (uint32_t)n, "motus_text_def.set"};
     }
+    arena trees;
+    arena_init(&trees, &a->allocator);
+    m->source.trees = &trees;
     motus_status status = build(m, def, method);
+    forget_trees(m);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
     m->source.error = NULL; /* it is the caller's and does not outlive this call */
     *out = m;

@@ -11,8 +11,7 @@
 
 tape *verify_tape(model *m, const output *outputs, size_t count)
 {
-    program *p = source_failed(&m->source) || !outputs ? NULL : program_create(m->graph, outputs, count);
-    return p && !source_failed(&m->source) ? tape_create(m->arena, p) : NULL;
+    return source_failed(&m->source) || !outputs ? NULL : tape_of(m->arena, m->graph, outputs, count);
 }
 
 bool verify_bind(const model *m, tape *const tapes[], size_t count)

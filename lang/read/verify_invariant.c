@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum {
-    STEPS = 64,      /* at most, of the run with whole steps */
+    STEPS = 24,      /* at most, of the run with whole steps */
     KINKED_LEAST = 3 /* of a formula with kinks, as many rates must differ: a state may lie on one */
 };
 #define STEP 0.1     /* of the reciprocal of the fastest rate */
@@ -101,18 +101,18 @@ typedef struct runs {
     model *model;
     double t, h;
     double *x[2], *v[2]; /* with whole steps, with half steps */
-    double *a, *of_a;    /* the acceleration, and its rounding */
+    double *a[2], *of_a; /* the accelerations, and the rounding of the second */
     double *stage_x, *stage_v, *sum_x, *sum_v;
     double *rate[2], *of_rate; /* of one invariant */
     double *apart;             /* definition_count: the largest difference of the runs' rates so far */
     uint32_t *off;             /* definition_count: how many rates were not zero */
 } runs;
 
-static void accelerate(const runs *r, double t, double *x, double *v)
+static void accelerate(const runs *r, double t, double *x, double *v, double *a)
 {
     const model *m = r->model;
-    verify_force(m, t, x, v, r->a);
-    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = r->a};
+    verify_force(m, t, x, v, a);
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a};
     if (m->verify->boundary_second) tape_run(m->verify->boundary_second, t, base);
 }
 
@@ -125,12 +125,13 @@ static void step(const runs *r, double t, double h, double *x, double *v)
     memcpy(r->stage_v, v, m->nv * sizeof *v);
     for (size_t k = 0; k < m->nv; k++) r->sum_x[k] = r->sum_v[k] = 0;
     for (int s = 0; s < 4; s++) {
-        accelerate(r, t + node_of[s] * h, r->stage_x, r->stage_v);
+        double *a = r->a[0];
+        accelerate(r, t + node_of[s] * h, r->stage_x, r->stage_v, a);
         const double next = s < 3 ? node_of[s + 1] * h : 0;
         for (size_t k = 0; k < m->nv; k++) {
             const double velocity = r->stage_v[k];
-            r->sum_v[k] += weight[s] * r->a[k];
-            r->stage_v[k] = v[k] + next * r->a[k];
+            r->sum_v[k] += weight[s] * a[k];
+            r->stage_v[k] = v[k] + next * a[k];
             if (k >= m->nx) continue;
             r->sum_x[k] += weight[s] * velocity;
             r->stage_x[k] = x[k] + next * velocity;
@@ -140,25 +141,30 @@ static void step(const runs *r, double t, double h, double *x, double *v)
     for (size_t k = 0; k < m->nx; k++) x[k] += h * r->sum_x[k];
 }
 
-/* The rates of an invariant at both runs' states, and their rounding. */
-static void rates(const runs *r, uint32_t i)
+/* The accelerations at both runs' states, and the rounding of the second. */
+static void accelerate_both(const runs *r)
 {
     const model *m = r->model;
-    const verify *c = m->verify;
+    for (int k = 0; k < 2; k++) accelerate(r, r->t, r->x[k], r->v[k], r->a[k]);
+    double *x = r->x[1], *v = r->v[1], *none = r->stage_x;
+    memset(r->of_a, 0, m->nv * sizeof *r->of_a);
+    memset(none, 0, m->nv * sizeof *none);
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = r->of_a, [SPACE_DX] = none, [SPACE_DV] = none};
+    tape_run(m->verify->force_rounding, r->t, base);
+}
+
+/* The rates of an invariant at both runs' states, and the rounding of the second. */
+static void rates(const runs *r, uint32_t i)
+{
+    const verify *c = r->model->verify;
     for (int k = 0; k < 2; k++) {
-        double *base[SPACES] = {
-            [SPACE_X] = r->x[k], [SPACE_V] = r->v[k], [SPACE_A] = r->a, [SPACE_DV] = r->of_a, [SPACE_OUT] = r->rate[k]};
-        accelerate(r, r->t, r->x[k], r->v[k]);
+        double *base[SPACES] = {[SPACE_X] = r->x[k],
+                                [SPACE_V] = r->v[k],
+                                [SPACE_A] = r->a[k],
+                                [SPACE_DV] = r->of_a,
+                                [SPACE_OUT] = r->rate[k]};
         tape_run(c->rate[i], r->t, base);
         if (k == 0) continue;
-        memset(r->of_a, 0, m->nv * sizeof *r->of_a);
-        memset(r->stage_x, 0, m->nv * sizeof *r->stage_x);
-        double *force[SPACES] = {[SPACE_X] = r->x[k],
-                                 [SPACE_V] = r->v[k],
-                                 [SPACE_A] = r->of_a,
-                                 [SPACE_DX] = r->stage_x,
-                                 [SPACE_DV] = r->stage_x};
-        tape_run(c->force_rounding, r->t, force);
         base[SPACE_OUT] = r->of_rate;
         tape_run(c->rate_rounding[i], r->t, base);
     }
@@ -203,6 +209,7 @@ static motus_status judge(runs *r, uint32_t i, bool at_start)
 static motus_status judge_all(runs *r, bool at_start)
 {
     motus_status status = MOTUS_OK;
+    accelerate_both(r);
     for (uint32_t i = 0; i < r->model->definition_count && status == MOTUS_OK; i++)
         if (r->model->verify->rate[i]) status = judge(r, i, at_start);
     return status;
@@ -229,7 +236,7 @@ static motus_status go(runs *r)
     const double rate = verify_fastest(m, m->start, r->x[0], r->v[0], r->stage_x); /* stage_x … sum_x: 3 nv */
     const double work = fmax(m->terms, (double)m->nv) * (1 + (double)m->verify->nodes) * 20;
     const int steps = work * STEPS <= WORK_MAX ? STEPS : (int)(WORK_MAX / work);
-    const double most = way / STEPS, least = rate > 0 ? STEP / rate : fabs(most);
+    const double most = way / STEPS, least = rate > 0 ? STEP / rate : STEP * fabs(most);
     r->h = copysign(fmin(fabs(most), least), way);
     motus_status status = judge_all(r, true);
     for (int n = 0; n < steps && status == MOTUS_OK; n++) {
@@ -252,12 +259,12 @@ motus_status verify_invariants(model *m)
         !verify_bind(m, c->rate_rounding, m->definition_count))
         return MOTUS_MEMORY;
     const size_t n = m->nv + 1, definitions = m->definition_count;
-    double *room = take(&m->arena->allocator, 10 * n + 3 * c->numbers + definitions, sizeof *room);
+    double *room = take(&m->arena->allocator, 11 * n + 3 * c->numbers + definitions, sizeof *room);
     uint32_t *off = take(&m->arena->allocator, definitions + 1, sizeof *off);
     motus_status status = room && off ? MOTUS_OK : MOTUS_MEMORY;
     if (status == MOTUS_OK) {
         runs r = {.model = m, .t = m->start, .off = off};
-        double *at = room, **arrays[] = {&r.x[0], &r.x[1],    &r.v[0],    &r.v[1],  &r.a,
+        double *at = room, **arrays[] = {&r.x[0], &r.x[1],    &r.v[0],    &r.v[1],  &r.a[0], &r.a[1],
                                          &r.of_a, &r.stage_x, &r.stage_v, &r.sum_x, &r.sum_v};
         for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) *arrays[k] = at, at += n;
         r.rate[0] = at, r.rate[1] = at + c->numbers, r.of_rate = at + 2 * c->numbers, r.apart = at + 3 * c->numbers;

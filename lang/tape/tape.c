@@ -72,6 +72,19 @@ tape *tape_create_as(arena *a, const program *program, const tape_choice *choice
 
 tape *tape_create(arena *a, const program *program) { return tape_create_as(a, program, &(tape_choice){.blocks = -1}); }
 
+tape *tape_of(arena *a, graph *g, const output *outputs, size_t count)
+{
+    arena once;
+    arena_init(&once, &a->allocator);
+    const program *p = a->failed ? NULL : program_create_in(&once, g, outputs, count);
+    tape *t = p ? tape_create(a, p) : NULL;
+    const code *c = t ? t->with_blocks : NULL;
+    if (t) t->program = c->blocks + c->pointers ? program_create(g, outputs, count) : NULL; /* tape_bind may write it */
+    if (once.failed) a->failed = true;
+    arena_release(&once);
+    return t && !a->failed ? t : NULL;
+}
+
 /* Binding --------------------------------------------------------------------------------------------------------- */
 
 static void bind_site(site *s, const binding *b)

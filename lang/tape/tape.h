@@ -15,6 +15,8 @@ typedef struct binding { /* run-time numbers; the arrays must outlive the tape's
 } binding;
 
 tape *tape_create(arena *, const program *); /* NULL: arena failed */
+/* The tape of these outputs, for callers that need no program: it is kept only where the tape needs it later. */
+tape *tape_of(arena *, graph *, const output *, size_t count);
 /* Takes the run-time numbers, chooses the width, takes scratch memory (from the arena), and computes everything that
  * depends on parameters alone. Call it again after parameters have changed. False: no memory. */
 bool tape_bind(tape *, const binding *);

@@ -31,8 +31,7 @@ static uint32_t fresh(writer *w, register_kind kind)
     w->registers.at[w->registers.count] = (virtual_register){.kind = (uint8_t)kind,
                                                              .first = w->text.count,
                                                              .last = w->text.count,
-                                                             .region = w->region,
-                                                             .until = NONE,
+                                                             .made = {w->region, NONE},
                                                              .memory = NONE};
     return w->registers.count++;
 }
@@ -44,7 +43,7 @@ static void reads(writer *w, uint32_t reg)
     if (w->plan.failed) return;
     virtual_register *v = &w->registers.at[reg];
     v->last = w->text.count;
-    for (uint32_t up = w->region; up != v->region; up = w->plan.regions.at[up].parent) v->until = up;
+    for (uint32_t up = w->region; up != v->made.region; up = w->plan.regions.at[up].parent) v->made.until = up;
     if (v->memory != NONE) reads(w, v->memory);
 }
 
@@ -213,21 +212,22 @@ static void write_item(writer *w, uint32_t k)
 /* Adds the term of this pass, or the lanes of terms, to the total. */
 static void write_update(writer *w, const plan_item *update)
 {
-    const plan_item *item = &w->plan.items.at[update->sum];
+    const plan_item *item = &w->plan.items.at[plan_updates(&w->plan, update)];
+    const uint32_t number = w->plan.sums.at[item->sum].total;
     const graph_node *sum = &w->plan.g->nodes[item->n], *how = &w->plan.g->nodes[sum->a];
     bool fused = how->op != OP_ADD;
     uint32_t p = operand(w, fused ? how->a : how->b), q = fused ? operand(w, how->b) : 0;
     uint32_t condition = sum->b ? operand(w, sum->b) : NONE;
     if (w->plan.failed) return;
     if (w->plan.regions.at[w->region].wide) {
-        instruction i = {.r = item->total,
+        instruction i = {.r = number,
                          .a = in_lanes(w, p),
                          .b = fused ? in_lanes(w, q) : NONE,
                          .c = condition == NONE ? NONE : in_lanes(w, condition)};
         put(w, CODE_TERMS, how->op, i, A | (fused ? B : 0) | (condition == NONE ? 0 : C));
         return;
     }
-    total t = w->totals.at[item->total];
+    total t = w->totals.at[number];
     uint32_t from[3] = {fused ? p : t.current, fused ? q : p, fused ? t.current : 0};
     uint32_t r = t.current;
     if (condition != NONE) r = fresh(w, t.block || is_block(w, condition) ? BLOCK_REGISTER : SCALAR_REGISTER);
@@ -239,7 +239,8 @@ static void new_total(writer *w, plan_item *item, bool terms)
 {
     bool block = plan_is_block(&w->plan, item->n, item->region);
     register_kind kind = block ? BLOCK_REGISTER : SCALAR_REGISTER;
-    uint32_t inside = item->inside;
+    plan_sum *sum = &w->plan.sums.at[item->sum];
+    uint32_t inside = sum->inside;
     total t = {.block = block, .current = NONE};
     item->reg = t.part[0] = fresh(w, kind);
     uint32_t made[PARTS + 1] = {t.part[0]}, count = 1;
@@ -248,8 +249,8 @@ static void new_total(writer *w, plan_item *item, bool terms)
     if (!terms) made[count++] = t.current = fresh(w, block ? POINTER_REGISTER : SCALAR_REGISTER);
     w->region = item->region;
     if (w->plan.failed || !ROOM(&w->plan, w->totals)) return;
-    for (uint32_t k = 0; k < count; k++) w->registers.at[made[k]].until = inside;
-    item->total = w->totals.count;
+    for (uint32_t k = 0; k < count; k++) w->registers.at[made[k]].made.until = inside;
+    sum->total = w->totals.count;
     w->totals.at[w->totals.count++] = t;
 }
 
@@ -264,7 +265,7 @@ static void write_loop(writer *w, uint32_t region)
               .level = (uint8_t)r->level,
               .range = r->range,
               .first_total = w->totals.count};
-    for (uint32_t k = r->sums; k != NONE; k = w->plan.items.at[k].next_sum)
+    for (uint32_t k = r->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
         new_total(w, &w->plan.items.at[k], l.kind == LOOP_TERMS);
     if (w->plan.failed || !ROOM(&w->plan, w->loops)) return;
     uint32_t number = w->loops.count++, around = w->region;
@@ -288,8 +289,9 @@ static void write_region(writer *w, uint32_t region)
     for (uint32_t k = 0; k < r->item_count && !w->plan.failed; k++) {
         uint32_t item = w->plan.order[r->items + k];
         const plan_item *i = &w->plan.items.at[item];
-        if (i->inside != NONE && i->reg == NONE) write_loop(w, i->inside);
-        if (i->sum != NONE)
+        const uint32_t inside = plan_inside(&w->plan, i);
+        if (inside != NONE && i->reg == NONE) write_loop(w, inside);
+        if (plan_updates(&w->plan, i) != NONE)
             write_update(w, i);
         else
             write_item(w, item);
@@ -304,9 +306,9 @@ static uint32_t numbered(const writer *w, const uint32_t counts[REGISTER_KINDS],
 {
     const virtual_register *v = &w->registers.at[reg];
     switch (v->kind) {
-    case SCALAR_REGISTER: return v->number;
-    case BLOCK_REGISTER: return v->number | BLOCK_BIT;
-    default: return (counts[BLOCK_REGISTER] + v->number) | BLOCK_BIT;
+    case SCALAR_REGISTER: return v->given.number;
+    case BLOCK_REGISTER: return v->given.number | BLOCK_BIT;
+    default: return (counts[BLOCK_REGISTER] + v->given.number) | BLOCK_BIT;
     }
 }
 
@@ -331,10 +333,10 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
 {
     for (uint32_t k = 0; k < w->registers.count; k++) {
         virtual_register *v = &w->registers.at[k];
-        if (v->until == AT_RUN)
+        if (v->made.until == AT_RUN)
             v->last = w->text.count + 1; /* written at bind, read at every evaluation: it lives to the end */
-        else if (v->until != NONE && w->plan.regions.at[v->until].end > v->last)
-            v->last = w->plan.regions.at[v->until].end;
+        else if (v->made.until != NONE && w->plan.regions.at[v->made.until].end > v->last)
+            v->last = w->plan.regions.at[v->made.until].end;
     }
     return tape_registers_assign(w->plan.hooks, w->registers.at, w->registers.count, w->text.count, counts);
 }
@@ -352,6 +354,10 @@ static code *finish(writer *w, arena *a)
     uint32_t counts[REGISTER_KINDS];
     if (w->plan.failed || !assign(w, counts)) return a->failed = true, NULL;
     number_all(w, counts);
+    give(w->plan.hooks, w->registers.at);
+    give(w->plan.hooks, w->fields.at);
+    w->registers.at = NULL;
+    w->fields.at = NULL;
     code *c = arena_take(a, sizeof *c);
     *c = (code){.count = w->text.count,
                 .bind_count = w->bind_count,
@@ -374,11 +380,16 @@ code *tape_code_create(arena *a, const program *program, bool with_blocks)
     writer w = {.region = AT_BIND};
     code *c = NULL;
     if (plan_create(&w.plan, a, program, with_blocks)) {
+        const size_t most = (size_t)w.plan.items.count + program->count + 2; /* without loops */
+        RESERVE(&w.plan, w.registers, w.plan.items.count + 1);
+        RESERVE(&w.plan, w.text, most);
+        RESERVE(&w.plan, w.fields, most);
         write_region(&w, AT_BIND);
         put(&w, CODE_END, 0, (instruction){0}, 0);
         w.bind_count = w.text.count;
         write_region(&w, AT_RUN);
         put(&w, CODE_END, 0, (instruction){0}, 0);
+        plan_release_items(&w.plan);
         c = finish(&w, a);
     }
     give(w.plan.hooks, w.registers.at);

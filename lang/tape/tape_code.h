@@ -110,13 +110,21 @@ typedef struct tape_machine {
 /* tape_code.c: the code of a program; with_blocks false: scalars alone. NULL: the arena failed. */
 code *tape_code_create(arena *, const program *, bool with_blocks);
 
-/* tape_registers.c: a virtual register lives from instruction `first` to `last`; number is what it is given. */
+/* tape_registers.c: a virtual register lives from instruction `first` to `last`. There is one for every operation, so
+ * it is kept small. */
 typedef enum register_kind { SCALAR_REGISTER, BLOCK_REGISTER, POINTER_REGISTER, REGISTER_KINDS } register_kind;
 typedef struct virtual_register {
     uint8_t kind;
-    uint32_t first, last, number, next;
-    /* tape_code.c: where it is made; the loop it must outlive; the block behind a view */
-    uint32_t region, until, memory;
+    uint32_t first, last;
+    union {
+        struct {
+            uint32_t region, until; /* tape_code.c: where it is made; the loop it must outlive */
+        } made;
+        struct {
+            uint32_t number, next; /* what it is given; another one that ends where it does */
+        } given;
+    };
+    uint32_t memory; /* tape_code.c: the block behind a view */
 } virtual_register;
 /* Numbers all registers, given in the order of `first`; counts[kind] is how many there must be. False: no memory. */
 bool tape_registers_assign(const motus_allocator *, virtual_register *, uint32_t count, uint32_t instructions,

@@ -12,21 +12,25 @@ bool tape_registers_assign(const motus_allocator *hooks, virtual_register *v, ui
     /* ending[k]: the list of registers whose last reader is instruction k; idle[kind]: the numbers that are free,
      * last freed first, because that one is still in the cache. */
     uint32_t *ending = take(hooks, (size_t)instructions + 2, sizeof *ending);
-    uint32_t *idle = take(hooks, (size_t)REGISTER_KINDS * count, sizeof *idle);
-    uint32_t idle_count[REGISTER_KINDS] = {0};
+    uint32_t *idle = take(hooks, count, sizeof *idle);
+    uint32_t idle_count[REGISTER_KINDS] = {0}, begin[REGISTER_KINDS + 1] = {0};
     bool ok = ending && idle;
-    for (int kind = 0; kind < REGISTER_KINDS; kind++) counts[kind] = 0;
+    for (uint32_t i = 0; i < count; i++) begin[v[i].kind + 1]++;
+    for (int kind = 0; kind < REGISTER_KINDS; kind++) {
+        begin[kind + 1] += begin[kind];
+        counts[kind] = 0;
+    }
     for (uint32_t k = 0; ok && k < instructions + 2; k++) ending[k] = NONE;
     uint32_t released = 0;
     for (uint32_t i = 0; ok && i < count; i++) {
         for (; released <= v[i].first; released++)
-            for (uint32_t j = ending[released]; j != NONE; j = v[j].next)
-                idle[v[j].kind * count + idle_count[v[j].kind]++] = v[j].number;
+            for (uint32_t j = ending[released]; j != NONE; j = v[j].given.next)
+                idle[begin[v[j].kind] + idle_count[v[j].kind]++] = v[j].given.number;
         uint32_t kind = v[i].kind;
-        v[i].number = idle_count[kind] ? idle[kind * count + --idle_count[kind]] : counts[kind]++;
+        v[i].given.number = idle_count[kind] ? idle[begin[kind] + --idle_count[kind]] : counts[kind]++;
         if (v[i].last <= v[i].first) v[i].last = v[i].first + 1; /* never read, but it is written */
         if (v[i].last <= instructions) {
-            v[i].next = ending[v[i].last];
+            v[i].given.next = ending[v[i].last];
             ending[v[i].last] = i;
         }
     }

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-bool source_failed(const source *s) { return s->failed || s->arena->failed; }
+bool source_failed(const source *s) { return s->failed || s->arena->failed || (s->trees && s->trees->failed); }
 
 static bool continues(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 

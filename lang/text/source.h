@@ -20,7 +20,8 @@ typedef struct span {
 
 /* The model's text is text 0; each --set is a text of its own. */
 typedef struct source {
-    arena *arena;
+    arena *arena; /* names, and what lives as long as the model */
+    arena *trees; /* what lives while the model is read; NULL: it is read */
     motus_error *error;
     struct source_text {
         const char *bytes;

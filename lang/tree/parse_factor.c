@@ -49,7 +49,7 @@ bool parse_loop(parser *p, loop *l)
     return !failed(p);
 }
 
-void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l)
+void parse_add_loop(parser *p, loop **loops, uint8_t *count, const loop *l)
 {
     loop *more = arena_grow(p->arena, *loops, *count * sizeof *more, (*count + 1) * sizeof *more);
     if (!more) return;
@@ -150,7 +150,7 @@ static tree *parse_call(parser *p, span name)
     }
     if (!strcmp(text, "sum")) return parse_sum(p, name);
     tree *t = grow(p, TREE_CALL, name);
-    t->operation = operation;
+    t->operation = (int16_t)operation;
     t->name = text;
     do {
         advance(p);
@@ -177,7 +177,7 @@ void parse_index(parser *p, tree *t)
         add_item(p, t, parse_inside(p));
         if (failed(p)) return;
     } while (is(p, ','));
-    t->index_count = t->count;
+    t->index_count = (uint16_t)(t->count < UINT16_MAX ? t->count : UINT16_MAX);
     t->at.to = p->token.at.to;
     expect(p, ']', "after the index");
     if (t->index_count > MAX_DIMS) source_complain(p->source, MOTUS_LIMIT, t->at, "at most %d indices", MAX_DIMS);
@@ -252,11 +252,13 @@ static tree *parse_name(parser *p)
 {
     tree *t = grow(p, TREE_NAME, p->token.at);
     t->name = copy_name(p, p->token.at);
+    p->operations += !p->known[p->name].counted;
+    p->known[p->name].counted = true;
     advance(p);
     if (is(p, '[') && !p->token.blank) parse_index(p, t);
     if (failed(p)) return t;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
-        t->primes = p->token.primes;
+        t->primes = (uint8_t)p->token.primes;
         t->at.to = p->token.at.to;
         if (t->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", t->primes);

@@ -11,6 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { DEPTH_MAX = 2 * SOURCE_NESTING_MAX, ITEMS_FIRST = 2, NAMES_KNOWN = 256 };
+
 typedef struct parser {
     lexer lexer;
     source *source;
@@ -18,9 +20,13 @@ typedef struct parser {
     token token, last; /* the one to be read, and the one before it */
     int bars;          /* | opened in the present bracket and not yet closed [7] */
     int depth;
+    struct {
+        const char *name;
+        bool counted;
+    } known[NAMES_KNOWN]; /* names read before, by their hash: a name that comes again is not copied */
+    uint32_t name;        /* the one of these that was read last */
+    uint32_t operations;  /* see statements */
 } parser;
-
-enum { DEPTH_MAX = 2 * SOURCE_NESTING_MAX, ITEMS_FIRST = 4 };
 
 static inline bool failed(const parser *p) { return source_failed(p->source); }
 
@@ -48,14 +54,26 @@ static inline bool word(const parser *p, const char *text) { return spelled(p, &
 /* π is pi. */
 static inline const char *copy_name(parser *p, span at)
 {
-    if (at.to - at.from == 2 && !memcmp(p->source->texts[at.text].bytes + at.from, "π", 2)) return "pi";
-    return arena_text(p->arena, p->source->texts[at.text].bytes + at.from, at.to - at.from);
+    const char *bytes = p->source->texts[at.text].bytes + at.from;
+    const size_t length = at.to - at.from;
+    if (length == 2 && !memcmp(bytes, "π", 2)) return "pi";
+    uint32_t hash = 0;
+    for (size_t i = 0; i < length; i++) hash = hash * 31 + (unsigned char)bytes[i];
+    p->name = hash % NAMES_KNOWN;
+    const char *known = p->known[p->name].name;
+    if (known && strncmp(known, bytes, length) == 0 && !known[length]) return known;
+    const char *copy = arena_text(p->source->arena, bytes, length);
+    if (failed(p)) return copy;
+    p->known[p->name].name = copy;
+    p->known[p->name].counted = false;
+    return copy;
 }
 
 static inline tree *grow(parser *p, tree_kind kind, span at)
 {
     tree *t = arena_take(p->arena, sizeof *t);
-    t->kind = kind;
+    p->operations += kind != TREE_NAME && kind != TREE_APPLY && kind != TREE_LIST && kind != TREE_VECTOR;
+    t->kind = (uint8_t)kind;
     t->at = at;
     return t;
 }
@@ -63,10 +81,10 @@ static inline tree *grow(parser *p, tree_kind kind, span at)
 static inline void add_item(parser *p, tree *t, tree *item)
 {
     if (failed(p)) return;
-    bool power_of_two = t->count >= ITEMS_FIRST && (t->count & (t->count - 1)) == 0;
+    const bool power_of_two = t->count >= ITEMS_FIRST && (t->count & (t->count - 1)) == 0;
     if (t->count == 0 || power_of_two) {
         size_t room = t->count == 0 ? ITEMS_FIRST : 2 * (size_t)t->count;
-        tree **more = arena_grow(p->arena, t->item, t->count * sizeof *more, room * sizeof *more);
+        tree **more = arena_replace(p->arena, t->item, t->count * sizeof *more, room * sizeof *more);
         if (!more) return;
         t->item = more;
     }
@@ -75,9 +93,19 @@ static inline void add_item(parser *p, tree *t, tree *item)
 
 static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
 {
-    tree *t = grow(p, kind, (span){a->at.text, a->at.from, b->at.to});
-    add_item(p, t, a);
-    add_item(p, t, b);
+    struct pair {
+        tree tree;
+        tree *item[2];
+    } *both = arena_take(p->arena, sizeof *both); /* in one piece: most trees have two items */
+    tree *t = &both->tree;
+    p->operations++;
+    t->kind = (uint8_t)kind;
+    t->at = (span){a->at.text, a->at.from, b->at.to};
+    if (failed(p)) return t;
+    t->item = both->item;
+    t->item[0] = a;
+    t->item[1] = b;
+    t->count = 2;
     return t;
 }
 
@@ -145,7 +173,7 @@ static inline bool expect(parser *p, char c, const char *where)
 /* parse_factor.c */
 tree *parse_inside(parser *p);
 bool parse_loop(parser *p, loop *l);
-void parse_add_loop(parser *p, loop **loops, uint32_t *count, const loop *l);
+void parse_add_loop(parser *p, loop **loops, uint8_t *count, const loop *l);
 void parse_index(parser *p, tree *t);
 tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);

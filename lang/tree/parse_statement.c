@@ -96,7 +96,7 @@ static void parse_method(parser *p, statement *s)
         source_complain(p->source, MOTUS_LIMIT, s->at, "the name of a method has at most %d bytes", MOTUS_NAME_MAX - 1);
         return;
     }
-    s->text = arena_text(p->arena, text->bytes + from, end - from);
+    s->text = arena_text(p->source->arena, text->bytes + from, end - from);
     p->lexer.at = to;
     p->lexer.depth = 0;
     advance(p);
@@ -171,7 +171,7 @@ static void parse_left(parser *p, statement *s)
     }
     if (failed(p)) return;
     if (p->token.kind == TOKEN_PRIMES) {
-        s->primes = p->token.primes;
+        s->primes = (uint8_t)p->token.primes;
         if (s->primes > 2) {
             COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
             HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
@@ -289,9 +289,22 @@ static void parse_statement(parser *p, statement *s)
     parse_value(p, s);
 }
 
+/* How many statements there will be, more or less: one for each = that stands alone. */
+static uint32_t statements_ahead(const struct source_text *t)
+{
+    uint32_t count = 1;
+    bool comment = false;
+    for (uint32_t i = 0; i < t->length && count < SOURCE_STATEMENTS_MAX; i++) {
+        const char c = t->bytes[i];
+        comment = c == '#' || (comment && c != '\n');
+        count += !comment && c == '=' && i > 0 && !strchr("=<>!", t->bytes[i - 1]);
+    }
+    return count;
+}
+
 bool parse_text(source *s, uint32_t text, statements *all)
 {
-    parser p = {.source = s, .arena = s->arena};
+    parser p = {.source = s, .arena = s->trees};
     lex_start(&p.lexer, s, text);
     advance(&p);
     for (;;) {
@@ -302,8 +315,9 @@ bool parse_text(source *s, uint32_t text, statements *all)
             return false;
         }
         if (all->count == all->capacity) {
-            uint32_t room = all->capacity ? 2 * all->capacity : 32;
-            statement *more = arena_grow(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
+            const uint32_t room =
+                all->capacity ? all->capacity + all->capacity / 2 + 32 : statements_ahead(&s->texts[text]);
+            statement *more = arena_replace(s->arena, all->item, all->capacity * sizeof *more, room * sizeof *more);
             if (!more) return false;
             all->item = more;
             all->capacity = room;
@@ -313,9 +327,26 @@ bool parse_text(source *s, uint32_t text, statements *all)
         parse_statement(&p, one);
         if (failed(&p)) return false;
         all->count++;
+        all->operations = p.operations;
         if (p.token.kind != TOKEN_NEWLINE && p.token.kind != TOKEN_END) {
             unexpected(&p, "the end of the line");
             return false;
         }
     }
+}
+
+bool parse_again(const source *s, const statement *of, arena *a, statement *out)
+{
+    source silent = *s; /* the text has no error */
+    silent.error = NULL;
+    silent.failed = false;
+    silent.arena = silent.trees = a;
+    parser p = {.source = &silent, .arena = a};
+    lex_start(&p.lexer, &silent, of->at.text);
+    p.lexer.at = of->at.from;
+    advance(&p);
+    *out = (statement){0};
+    parse_statement(&p, out);
+    out->kind = of->kind;
+    return !failed(&p);
 }

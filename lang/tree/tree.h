@@ -1,4 +1,6 @@
-/* The tree of a model's text, as the parser makes it; names are not resolved yet. */
+/* The tree of a model's text, as the parser makes it; names are not resolved yet. It takes more memory than all else
+ * that is read, so trees live while the model is read: afterwards a statement keeps its names and places alone, and its
+ * trees can be parsed again. */
 #ifndef LANG_TREE_TREE_H
 #define LANG_TREE_TREE_H
 
@@ -34,19 +36,23 @@ typedef struct loop {
     span at;
 } loop;
 
+/* There is one for every number, name and operator of the text, so it is kept small. */
 typedef struct tree {
-    tree_kind kind;
+    uint8_t kind;           /* tree_kind */
+    bool bracketed : 1;     /* stood in ( ) of its own */
+    bool blank_product : 1; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
+    bool divisor : 1;       /* APPLY: something is divided by it, a/f(x) */
+    uint8_t primes, loop_count;
+    int16_t operation;
+    uint16_t index_count;
+    uint32_t count;
     span at;
-    const char *name;
-    double number;
-    int primes, operation;
-    bool bracketed;     /* stood in ( ) of its own */
-    bool blank_product; /* MULTIPLY: a name and a bracket with a blank between, f (x) */
-    bool divisor;       /* APPLY: something is divided by it, a/f(x) */
-    uint32_t count, index_count;
+    union {
+        const char *name; /* NAME, CALL */
+        double number;    /* NUMBER */
+        loop *loops;      /* SUM */
+    };
     struct tree **item;
-    loop *loops;
-    uint32_t loop_count;
 } tree;
 
 typedef enum statement_kind {
@@ -63,31 +69,42 @@ typedef enum statement_kind {
     STATEMENT_EVERY
 } statement_kind;
 
+/* What --set has put another expression in the place of: the model's own, and the place of that statement. */
+typedef struct replaced {
+    tree *value;
+    span at;
+} replaced;
+
+/* There is one for every line, so it is kept small. */
 typedef struct statement {
-    statement_kind kind;
-    span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
-    const char *name;
-    tree **index;
-    uint32_t index_count;
-    int primes;
-    tree *applied;    /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
-    tree *value;      /* the right side, or the setting's expression */
-    bool steps;       /* every n steps */
-    const char *text; /* METHOD */
-    loop *loops;
-    uint32_t loop_count;
-    tree *replaced;   /* by --set: the model's expression that it replaces, */
-    span stood;       /*   and the place of that statement */
+    uint8_t kind; /* statement_kind */
+    uint8_t primes, loop_count;
     uint8_t progress; /* START: 0 not computed, 1 being computed (needed now, it depends on itself), 2 done */
-    uint32_t next;    /* 1 + number of the next line about the same state or family; 0: none */
+    bool steps;       /* EVERY: every n steps */
+    uint16_t index_count;
+    span at, name_at, value_at; /* value_at: the right side, without the indices' ranges */
+    uint32_t next;              /* 1 + number of the next line about the same state or family; 0: none */
+    const char *name;
+    union {
+        tree **index;
+        const char *text; /* METHOD */
+    };
+    tree *applied; /* START, FUNCTION: the left side as an APPLY, x(c) or V(a, b) */
+    tree *value;   /* the right side, or the setting's expression */
+    loop *loops;
+    replaced *replaced; /* NULL: it is the model's own */
 } statement;
 
 typedef struct statements {
-    statement *item;
+    statement *item; /* it moves when there are more */
     uint32_t count, capacity;
+    uint32_t operations; /* numbers, operators and different names in the trees, more or less */
 } statements;
 
 /* Parses text number `text` and appends its statements. False: complained or no memory. */
 bool parse_text(source *, uint32_t text, statements *);
+/* A statement of a model that has been read, with its trees, in an arena that the caller releases; not of a METHOD,
+ * which has none. False: no memory. */
+bool parse_again(const source *, const statement *, arena *, statement *);
 
 #endif

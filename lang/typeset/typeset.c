@@ -54,10 +54,8 @@ static void setting(typesetter *p, const statement *s)
     if (s->steps) typeset_sign(p, "<mtext>&#xA0;steps</mtext>");
 }
 
-char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
+static char *write_statement(typesetter *p, const statement *s)
 {
-    typesetter p = {.model = m, .allocator = a};
-    const statement *s = &m->statements.item[k];
     /* The left side is an expression as well: a name, its value at a time, which of an exact motion is t, or a
      * function of its arguments. */
     tree name = {.kind = TREE_NAME,
@@ -68,21 +66,32 @@ char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
                  .index_count = s->index_count};
     tree time = {.kind = TREE_NAME, .name = "t"};
     tree exact = {.kind = TREE_APPLY, .item = (tree *[]){&name, &time}, .count = 2};
-    typeset_put(&p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
+    typeset_put(p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
     if (s->kind >= STATEMENT_METHOD) {
-        setting(&p, s);
+        setting(p, s);
     } else {
-        typeset_then(&p, s->kind == STATEMENT_EXACT ? &exact : s->applied ? s->applied : &name, 0);
-        typeset_tag(&p, "<mo>=</mo>");
-        typeset_then(&p, s->value, 0);
-        ranges(&p, s);
+        typeset_then(p, s->kind == STATEMENT_EXACT ? &exact : s->applied ? s->applied : &name, 0);
+        typeset_tag(p, "<mo>=</mo>");
+        typeset_then(p, s->value, 0);
+        ranges(p, s);
     }
-    typeset_tag(&p, "</math>");
-    do_all(&p);
-    give(a, p.tasks);
-    if (p.failed) {
-        give(a, p.text);
-        return NULL;
-    }
-    return p.text;
+    typeset_tag(p, "</math>");
+    do_all(p);
+    give(p->allocator, p->tasks);
+    if (!p->failed) return p->text;
+    give(p->allocator, p->text);
+    return NULL;
+}
+
+char *typeset_statement(const model *m, const motus_allocator *a, size_t k)
+{
+    typesetter p = {.model = m, .allocator = a};
+    const statement *s = &m->statements.item[k];
+    if (s->kind == STATEMENT_METHOD) return write_statement(&p, s);
+    arena trees;
+    arena_init(&trees, a);
+    statement again;
+    char *text = parse_again(&m->source, s, &trees, &again) ? write_statement(&p, &again) : NULL;
+    arena_release(&trees);
+    return text;
 }
