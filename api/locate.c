@@ -45,6 +45,7 @@ struct locate {
     place found;            /* where an argument is beyond in the middle of a step */
     interval *box;          /* nx, then nv */
     bool resolves;          /* pieces must resolve the force */
+    double next;            /* the size of the next piece to try; INFINITY: all that is left of the step */
     double *start_side;
     bool known;    /* `from` is the stepper's state */
     bool away;     /* the stepper was used for trials, and is not on the run's leg */
@@ -99,7 +100,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     const size_t count = held_count(h), numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + p->nv);
     locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
     if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    *l = (locate){.held = h, .problem = *p, .count = count, .jump = -1, .jump_time = NAN};
+    *l = (locate){.held = h, .problem = *p, .count = count, .next = INFINITY, .jump = -1, .jump_time = NAN};
     l->problem.traits.gyroscopic = s->problem.traits.gyroscopic;
     double *at = (double *)(l + 1);
     l->side = at, l->old_side = l->side + count;
@@ -492,11 +493,10 @@ static bool nudge(locate *l, double way)
 static motus_status pieces(motus_run *r, double end, motus_error *err)
 {
     locate *l = r->locate;
-    double next = INFINITY;
     for (int count = 0, still = 0; count < PIECES_MAX; count++) {
         if (count % LOOK == LOOK - 1 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
         const double left = end - l->from.t;
-        double h = fabs(next) < fabs(left) ? copysign(next, left) : left, part = 1;
+        double h = fabs(l->next) < fabs(left) ? copysign(l->next, left) : left, part = 1;
         if (l->from.t + left == l->from.t) return MOTUS_OK;
         bool failed;
         motus_status status = piece(r, &h, &failed, err);
@@ -506,12 +506,10 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
             if (status != MOTUS_OK) return status;
             if (part == 1) {
                 place_swap(&l->from, &l->to);
-                if (h == left) {
-                    l->from.t = end;
-                    return MOTUS_OK;
-                }
-                next = l->resolves ? 2 * h : INFINITY;
-                continue;
+                if (l->resolves && (h != left || fabs(2 * h) > fabs(l->next))) l->next = 2 * h;
+                if (h != left) continue;
+                l->from.t = end;
+                return MOTUS_OK;
             }
             h *= part;
             place_swap(&l->to, &l->found);
@@ -535,7 +533,7 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
             if (lost) return step_from(r, &l->from, tried, &l->to, err); /* the failure is another one */
             return fail(err, MOTUS_SOLVE, "a switch near t = %.17g was not found", l->from.t);
         }
-        if (l->resolves) next = tried;
+        if (l->resolves) l->next = tried;
         l->located++;
         still = fabs(h) <= NEAR * fabs(r->timing.h) ? still + 1 : 0;
         place_swap(&l->from, &l->to);

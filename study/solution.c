@@ -38,7 +38,8 @@ typedef struct candidate {
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
     double jump_time, jump_rounding;
-    bool over; /* a run was given up, since it took too long */
+    bool over;   /* a run was given up, since it took too long */
+    double work; /* of all its runs */
 } candidate;
 
 /* The work of the runs of one method: study_work. */
@@ -148,7 +149,7 @@ static void swap(double **p, double **q)
 }
 
 /* Halves the step, from 2^-level of an interval on, until only round-off is left, or the error is below `enough`, or
- * the work is spent; the first run may take all that is left of `total`. *now and *before are tables with room for the
+ * the work is spent; the first two runs, without which nothing is known, may take `total` each. *now and *before are tables with room for the
  * points (without the start); at the end *now holds the best run. */
 static motus_status refine(study *s, const study_grid *g, double budget, double total, double enough, int level,
                            candidate *c, double **now, double **before)
@@ -157,11 +158,14 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
     const int first = level;
     study_distance d = {NAN, NAN, NAN};
     bool have = false; /* *before is a complete, finite table */
-    for (; level < SOLUTION_LEVELS && (level == first || w.done + w.next <= w.most); level++) {
+    for (; level < SOLUTION_LEVELS; level++) {
+        const double left = level <= first + 1 ? total : w.most - w.done;
+        if (level > first && w.next > left) break;
         int64_t per = (int64_t)1 << level;
         study_cost spent;
-        motus_status status = walk(s, c->card, g, per, level == first ? total : 2 * w.most - w.done, *now, &spent, &w);
+        motus_status status = walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, *now, &spent, &w);
         if (status != MOTUS_OK) return status;
+        c->work = w.done;
         c->over = spent.over;
         if (spent.over && level == first) study_scale(s, *now, g->points); /* of the part that was reached */
         if (spent.over) break;
@@ -217,8 +221,15 @@ static void own_rounding(const study *s, const study_grid *g, const candidate *c
 
 /* Judging by another method ---------------------------------------------------------------------------------------- */
 
-/* The method that judges `best`: of another family if one has nearly its order, else another row, else itself. */
-static const motus_method *judge_of(study *s, const motus_method *best)
+/* Whether a run of so many steps costs more than `most`, without the cost of switches. */
+static bool too_dear(const study *s, const motus_method *m, double steps, double most)
+{
+    return study_work(s, m, steps, -1) > most;
+}
+
+/* The method that judges `best`: of another family if one has nearly its order, else another row, else itself; one that
+ * can take so many steps. */
+static const motus_method *judge_of(study *s, const motus_method *best, double steps, double most)
 {
     const motus_method *judge = best;
     int rank = 0;
@@ -226,7 +237,8 @@ static const motus_method *judge_of(study *s, const motus_method *best)
         const motus_method *m = motus_method_at(k);
         if (m == best || strcmp(m->family, "exact") == 0 || m->order < best->order - SOLUTION_ORDERS_BELOW) continue;
         const int other = strcmp(m->family, best->family) != 0 ? 2 : 1;
-        if (rank > other || (rank == other && judge->order >= m->order) || !study_admits(s, m->name)) continue;
+        if (rank > other || (rank == other && judge->order >= m->order)) continue;
+        if (too_dear(s, m, steps, most) || !study_admits(s, m->name)) continue;
         judge = m;
         rank = other;
     }
@@ -240,11 +252,12 @@ static const motus_method *judge_of(study *s, const motus_method *best)
 static motus_status judge(study *s, const study_grid *g, double budget, candidate *c, const solution *r, double *room,
                           study_distance *found)
 {
-    const motus_method *other = judge_of(s, c->card);
+    const int64_t first = (int64_t)(1.5 * (double)llround(g->interval / c->step)) | 1;
+    const motus_method *other = judge_of(s, c->card, (double)g->intervals * (double)first, budget);
     work w = {0, budget, 0};
     bool nearer = true, agree = false;
     *found = (study_distance){NAN, NAN, NAN};
-    for (int64_t per = (int64_t)(1.5 * llround(g->interval / c->step)) | 1; per > 0; per = 2 * per + 1) {
+    for (int64_t per = first; per > 0; per = 2 * per + 1) {
         study_cost spent;
         motus_status status = walk(s, other, g, per, 2 * w.most - w.done, room, &spent, &w);
         if (status != MOTUS_OK) return status;
@@ -337,11 +350,13 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     const double total =
         count ? fmax(SOLUTION_WORK, study_work(s, list[0].card, 0, SOLUTION_PASSES * (double)steps)) : 0;
     const double budget = total / (double)(count + (count == 0));
-    double base = s->base, span = s->span / (double)(count + 1);
+    double base = s->base, span = s->span / (double)(count + 1), work = 0;
     for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
         study_part(s, base + span * (double)k, span);
+        if (best && (work > total || too_dear(s, list[k].card, (double)g->intervals, total))) continue;
         motus_status status = refine(s, g, budget, total, enough, 0, &list[k], &now, &before);
         if (status != MOTUS_OK) return status;
+        work += list[k].work;
         if (isfinite(list[k].scaled) && (!best || list[k].scaled < best->scaled)) {
             swap(&kept, &now);
             best = &list[k];

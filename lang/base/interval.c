@@ -3,21 +3,22 @@
 
 #include <math.h>
 
-interval interval_hull(interval a, interval b) { return (interval){fmin(a.low, b.low), fmax(a.high, b.high)}; }
+static double less(double a, double b) { return a < b ? a : b; }
+static double more(double a, double b) { return a > b ? a : b; }
+
+interval interval_hull(interval a, interval b) { return (interval){less(a.low, b.low), more(a.high, b.high)}; }
 static interval truth(bool may, bool must) { return (interval){must, may || must}; }
 
 static bool single(interval a) { return a.low == a.high; }
 static bool meet(interval a, interval b) { return a.low <= b.high && b.low <= a.high; }
 
+static double times(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; } /* 0 times infinity is 0 */
+
 static interval product(interval a, interval b)
 {
-    const double p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-    interval r = {INFINITY, -INFINITY};
-    for (int k = 0; k < 4; k++) {
-        const double q = isnan(p[k]) ? 0 : p[k]; /* 0 times infinity */
-        r = interval_hull(r, (interval){q, q});
-    }
-    return r;
+    if (a.low >= 0 && b.low >= 0) return (interval){times(a.low, b.low), times(a.high, b.high)};
+    const double p = times(a.low, b.low), q = times(a.low, b.high), r = times(a.high, b.low), s = times(a.high, b.high);
+    return (interval){less(less(p, q), less(r, s)), more(more(p, q), more(r, s))};
 }
 
 interval interval_magnitude(interval a)

@@ -23,6 +23,8 @@
 typedef struct step {
     graph_node node;
     uint32_t operand[3]; /* earlier steps */
+    uint8_t arity;       /* a sum has none: it asks for its operands itself */
+    bool counts;         /* it may be what is looked for */
     int home;            /* 1 + the innermost level that it depends on, 0: none */
     uint64_t known;      /* when the interval was computed */
     interval interval;
@@ -90,13 +92,15 @@ static int home_of(const graph_node *n)
     return home;
 }
 
-static void fill(resolution *r, graph *g, const graph_walk *w)
+static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(operation))
 {
     for (uint32_t k = 0; k < w->count; k++) {
         node operand[3] = {0};
         step *s = &r->steps[k];
         *s = (step){.node = g->nodes[w->nodes[k]]};
         s->home = home_of(&s->node);
+        s->counts = counts((operation)s->node.op);
+        s->arity = s->node.op == OP_SUM ? 0 : operation_at((operation)s->node.op)->arity;
         for (int j = graph_operands(&s->node, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
     }
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
@@ -119,7 +123,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
         if (r && steps && stack && root) {
             *r = (resolution){
                 .model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
-            fill(r, g, &w);
+            fill(r, g, &w, counts);
             *out = r;
         }
     }
@@ -201,8 +205,7 @@ static void set_index(resolution *r, int level, int64_t value)
 static uint32_t lacks(const resolution *r, const step *s)
 {
     const operation op = (operation)s->node.op;
-    const int arity = op == OP_SUM ? 0 : operation_at(op)->arity;
-    for (int j = 0; j < arity; j++) {
+    for (int j = 0; j < s->arity; j++) {
         if (op == OP_SELECT && j > 0) {
             const interval c = r->steps[s->operand[0]].interval;
             if (j == 1 ? is_zero(c) : !may_be_zero(c)) continue;
@@ -261,7 +264,6 @@ static bool compute(resolution *r, step *s)
 {
     const graph_node *n = &s->node;
     const operation op = (operation)n->op;
-    const int arity = operation_at(op)->arity;
     switch (op) {
     case OP_CONST: s->interval = number(n->value); return true;
     case OP_TIME: s->interval = r->t; return true;
@@ -272,10 +274,10 @@ static bool compute(resolution *r, step *s)
     default: break;
     }
     const interval none = {0, 0}, a = r->steps[s->operand[0]].interval,
-                   b = arity > 1 ? r->steps[s->operand[1]].interval : none,
-                   c = arity > 2 ? r->steps[s->operand[2]].interval : none;
-    if (r->found(op, a, b)) return false;
-    s->interval = interval_value(op, a, b, c, arity > 1 && s->operand[0] == s->operand[1]);
+                   b = s->arity > 1 ? r->steps[s->operand[1]].interval : none,
+                   c = s->arity > 2 ? r->steps[s->operand[2]].interval : none;
+    if (s->counts && r->found(op, a, b)) return false;
+    s->interval = interval_value(op, a, b, c, s->arity > 1 && s->operand[0] == s->operand[1]);
     return true;
 }
 
