@@ -22,6 +22,7 @@
 /* a difference that stops falling is round-off if it is below this, else the motion is not yet resolved */
 #define SOLUTION_SMALL 1e-6
 #define SOLUTION_FALL 1.5 /* the smallest factor per halving that counts as a fall */
+#define SOLUTION_GOOD 64  /* times the rounding of the motion's size: dearer methods are not tried then */
 #define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
 #define SOLUTION_FAR \
     100 /* times the estimate of halvings: a second method that is further away says that they agree by luck */
@@ -40,12 +41,14 @@ typedef struct candidate {
     double jump_time, jump_rounding;
     bool over;   /* a run was given up, since it took too long */
     double work; /* of all its runs */
+    double more; /* what its last run cost, in units of what its steps alone would have cost */
 } candidate;
 
 /* The work of the runs of one method: study_work. */
 typedef struct work {
     double done, most; /* most: the bound */
     double next;       /* what a run of half the step will cost */
+    double more;       /* as in candidate, of the last run */
 } work;
 
 study_grid solution_grid(const study *s, double step)
@@ -125,7 +128,9 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
                          double *table, study_cost *spent, work *w)
 {
     motus_error ignored = motus_default_error();
-    s->limit = fmax(1, limit / study_work(s, card, 0, 1));
+    const double steps = (double)g->intervals * (double)per, plain = study_work(s, card, steps, -1),
+                 each = plain / study_evaluations(card, steps);
+    s->limit = fmax(1, limit / each);
     const motus_status status = study_walk(s, card->name, g, per, table, spent, &ignored);
     s->limit = 0;
     if (study_fatal(status)) {
@@ -134,10 +139,10 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     }
     /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
      * but for what it costs to locate switches. */
-    const double steps = (double)g->intervals * (double)per, plain = study_work(s, card, steps, -1),
-                 cost = fmax(study_work(s, card, (double)spent->steps, (double)spent->evaluations), plain);
+    const double cost = fmax(each * (double)spent->evaluations, plain);
     w->done += cost;
     w->next = cost + plain;
+    w->more = cost / plain;
     return MOTUS_OK;
 }
 
@@ -154,7 +159,7 @@ static void swap(double **p, double **q)
 static motus_status refine(study *s, const study_grid *g, double budget, double total, double enough, int level,
                            candidate *c, double **now, double **before)
 {
-    work w = {0, budget, 0};
+    work w = {.most = budget};
     const int first = level;
     study_distance d = {NAN, NAN, NAN};
     bool have = false; /* *before is a complete, finite table */
@@ -166,6 +171,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         motus_status status = walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, *now, &spent, &w);
         if (status != MOTUS_OK) return status;
         c->work = w.done;
+        c->more = w.more;
         c->over = spent.over;
         if (spent.over && level == first) study_scale(s, *now, g->points); /* of the part that was reached */
         if (spent.over) break;
@@ -253,8 +259,8 @@ static motus_status judge(study *s, const study_grid *g, double budget, candidat
                           study_distance *found)
 {
     const int64_t first = (int64_t)(1.5 * (double)llround(g->interval / c->step)) | 1;
-    const motus_method *other = judge_of(s, c->card, (double)g->intervals * (double)first, budget);
-    work w = {0, budget, 0};
+    const motus_method *other = judge_of(s, c->card, (double)g->intervals * (double)first * c->more, budget);
+    work w = {.most = budget};
     bool nearer = true, agree = false;
     *found = (study_distance){NAN, NAN, NAN};
     for (int64_t per = first; per > 0; per = 2 * per + 1) {
@@ -353,7 +359,8 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     double base = s->base, span = s->span / (double)(count + 1), work = 0;
     for (size_t k = 0; k < count && !(best && best->scaled <= enough); k++) {
         study_part(s, base + span * (double)k, span);
-        if (best && (work > total || too_dear(s, list[k].card, (double)g->intervals, total))) continue;
+        const double most = best && best->scaled <= SOLUTION_GOOD * s->noise ? work : total;
+        if (best && (work > total || too_dear(s, list[k].card, (double)g->intervals, most))) continue;
         motus_status status = refine(s, g, budget, total, enough, 0, &list[k], &now, &before);
         if (status != MOTUS_OK) return status;
         work += list[k].work;

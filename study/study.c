@@ -24,10 +24,15 @@ double study_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double study_evaluations(const motus_method *m, double steps)
+{
+    return steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
+}
+
 double study_work(const study *s, const motus_method *m, double steps, double evaluations)
 {
     double numbers = (double)s->numbers, unknowns = numbers * m->stages;
-    if (evaluations < 0) evaluations = steps * (m->evaluations > 0 ? m->evaluations : SOLVE_PASSES * m->stages);
+    if (evaluations < 0) evaluations = study_evaluations(m, steps);
     /* A solve needs a Jacobian, one evaluation a column, and its elimination. */
     if (m->evaluations == 0) evaluations += steps * (numbers + unknowns * unknowns * unknowns / SOLVE_FLOPS);
     return evaluations * (numbers + EVALUATION_OVERHEAD);

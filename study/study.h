@@ -98,7 +98,8 @@ motus_status study_walk(study *, const char *method, const study_grid *, int64_t
 /* An estimate of the cost of so many steps and evaluations, the same on every machine; its unit is one number of one
  * evaluation. evaluations < 0: not known yet. */
 double study_work(const study *, const motus_method *, double steps, double evaluations);
-double study_seconds(void); /* a monotonic clock */
+double study_evaluations(const motus_method *, double steps); /* as far as they are known beforehand */
+double study_seconds(void);                                   /* a monotonic clock */
 
 /* Sets scale to how far each number's group moves over the start and the rows; for a group at rest, to the size of its
  * values, or 1. Sets noise and magnitude. */
