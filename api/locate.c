@@ -86,11 +86,8 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
     r->locating = true;
     if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
-    if (!s->switches_known) {
-        motus_status status = held_create(s->model, &s->switches, &s->switches_refused, err);
-        if (status != MOTUS_OK) return status;
-        s->switches_known = true;
-    }
+    const motus_status status = system_switches(s, err);
+    if (status != MOTUS_OK) return status;
     held *h = s->switches;
     const bool resolves = h && switches == MOTUS_SWITCHES_RESOLVE && held_resolves(h);
     if (!h || (!held_count(h) && !resolves)) return MOTUS_OK;

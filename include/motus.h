@@ -360,9 +360,12 @@ typedef struct motus_analysis {
     uint32_t size; /* by motus_default_analysis() */
     int velocity_dependent, linear_in_velocity, time_dependent, affine, constant;
     int gyroscopic;       /* a = E(x, t) + v × B(x, t): the velocity term does no work */
-    int gradient;         /* the force is the gradient of a potential */
+    int gradient;         /* the force is the gradient of a potential, near every state */
     int smooth;           /* 1: no abs, min, max, floor, mod, sign, if */
     int exact_recognised; /* the exact motion is known without an exact line */
+    /* The formulas did not prove it: `gyroscopic`, `gradient` hold as far as sampled, at random states of many sizes. */
+    int sampled_gyroscopic, sampled_gradient;
+    int energy; /* an energy is proved to exist: a gradient without time, whose potential has one value everywhere */
 } motus_analysis;
 MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
 /* The same in words, one sentence a line, with the coefficients of the velocity. Owned by the system. "": there was no

@@ -187,8 +187,9 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
     if (n && !v->analysis.time_dependent)
         say(out,
             "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "
-            "conserves a modified energy.",
-            name, list, largest_drift(v, stays, i));
+            "conserves a modified energy%s.",
+            name, list, largest_drift(v, stays, i),
+            v->analysis.sampled_gradient ? "; that the force is a gradient holds as far as sampled" : "");
     n = names(v, drifts, i, list, sizeof list);
     if (n)
         say(out, "%.80s: with %s it has a trend that its oscillation does not explain; the largest change is %.3g.",
