@@ -278,9 +278,9 @@ static void reference(const remarks_view *v, sheet *out)
         return;
     }
     char why[LINE_MAX_BYTES / 2];
-    const int order = solution_allows(v->reference, why, sizeof why);
-    if (order)
-        say(out, "The force is not smooth along the motion: %s. No method of fixed step has more than order %d here.",
+    const double order = solution_allows(v->s, v->reference, why, sizeof why);
+    if (order > 0)
+        say(out, "The force is not smooth along the motion: %s. No method of fixed step has more than order %.3g here.",
             why, order);
     size_t n = v->reference->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
     if (n)

@@ -10,6 +10,7 @@
  * methods agree on.
  */
 #include "solution.h"
+#include "base/decimal.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -34,7 +35,7 @@ typedef struct candidate {
     double step;
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
-    double jump_time, jump_rounding;
+    double jump_time, jump_rounding, jump_power;
 } candidate;
 
 study_grid solution_grid(const study *s, double step)
@@ -65,7 +66,7 @@ static size_t candidates(study *s, candidate *out)
             if (at >= SOLUTION_CANDIDATES) continue;
             count = count < SOLUTION_CANDIDATES ? count + 1 : count;
             memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
-            out[at] = (candidate){.card = m, .scaled = NAN, .jump = -1, .jump_time = NAN};
+            out[at] = (candidate){.card = m, .scaled = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN};
         }
     return count;
 }
@@ -135,6 +136,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             c->jump = spent.jump;
             c->jump_time = spent.jump_time;
             c->jump_rounding = spent.jump_rounding;
+            c->jump_power = spent.jump_power;
             const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
@@ -288,6 +290,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     r->step = best->step;
     r->jump = best->jump;
     r->jump_time = best->jump_time;
+    r->jump_power = best->jump_power;
     snprintf(r->method, sizeof r->method, "%s", best->card->name);
     snprintf(r->text, sizeof r->text, "%s at step %.6g%s", best->card->name, best->step,
              best->jump >= 0 ? ", with steps that end where the force is not smooth" : "");
@@ -332,7 +335,7 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     r->jump = -1;
     r->jump_time = NAN;
-    if (analysis.smooth || !candidates(s, list)) return study_broken(s);
+    if (!candidates(s, list)) return study_broken(s);
     double *room = take(s->allocator, g->points * s->numbers, sizeof(double));
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
     study_cost cost;
@@ -342,9 +345,10 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     s->locate = false;
     give(s->allocator, room);
     if (study_fatal(status)) return status;
-    r->uneven = status != MOTUS_OK || !s->locatable;
+    r->uneven = !analysis.smooth && (status != MOTUS_OK || !s->locatable);
     r->jump = cost.jump;
     r->jump_time = cost.jump_time;
+    r->jump_power = cost.jump_power;
     return MOTUS_OK;
 }
 
@@ -383,21 +387,25 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
     return status;
 }
 
-int solution_allows(const solution *r, char *why, size_t size)
+double solution_allows(const study *s, const solution *r, char *why, size_t size)
 {
+    char t[DECIMAL_MAX];
     why[0] = 0;
     if (r->uneven) {
         snprintf(why, size, "the force is not smooth, and where it jumps could not be found");
         return 1;
     }
     if (r->jump < 0) return 0;
+    const bool infinite = r->jump_power != (double)r->jump;
+    decimal_time(r->jump_time, s->until - s->from, t);
     if (r->jump == 0)
-        snprintf(why, size, "the force jumps at t = %.6g", r->jump_time);
+        snprintf(why, size, "the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
     else if (r->jump == 1)
-        snprintf(why, size, "the slope of the force jumps at t = %.6g", r->jump_time);
+        snprintf(why, size, "the slope of the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
     else
-        snprintf(why, size, "derivative %d of the force jumps at t = %.6g", (int)r->jump, r->jump_time);
-    return (int)r->jump + 1;
+        snprintf(why, size, "derivative %d of the force %s at t = %s", (int)r->jump, infinite ? "is infinite" : "jumps",
+                 t);
+    return fmax(r->jump_power + 1, 0.01);
 }
 
 const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }

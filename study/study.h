@@ -56,7 +56,7 @@ typedef struct study_cost {
     int64_t steps, evaluations;
     double seconds;
     int64_t jump; /* as in motus_statistics */
-    double jump_time, jump_rounding;
+    double jump_time, jump_rounding, jump_power;
 } study_cost;
 
 /* The definition in this version's layout, checked. */
