@@ -41,9 +41,10 @@ static const layout layouts[] = {
                             &(const motus_settings){.step = NAN, .from = NAN, .until = NAN, .every_time = NAN}},
     [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
     [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
-    [MOTUS_DEF_STATISTICS] = {"motus_statistics", "statistics", SIZES(motus_statistics),
-                              &(const motus_statistics){
-                                  .first_step = NAN, .last_step = NAN, .jump = -1, .jump_time = NAN}},
+    [MOTUS_DEF_STATISTICS] =
+        {"motus_statistics", "statistics", SIZES(motus_statistics),
+         &(const motus_statistics){
+             .first_step = NAN, .last_step = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN}},
 };
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }

@@ -61,7 +61,7 @@ static void put_back(motus_ensemble *e, const double *room)
     compiled_rebind(e->system->compiled);
     memcpy(m->x0, room + m->pool_count, m->nx * sizeof *room);
     memcpy(m->v0, room + m->pool_count + m->nx, m->nv * sizeof *room);
-    e->system->sampled_gyroscopic = false;
+    e->system->judged_gyroscopic = false;
 }
 
 /* ---- a trajectory ---- */
@@ -76,9 +76,9 @@ static motus_status start(trajectory *s, const double *const *values, size_t k, 
         if (!vary_apply(s->w->vary, s->now) || !interpreter_rebind(y->interpreter))
             return fail(err, MOTUS_MEMORY, "no memory for a trajectory");
         compiled_rebind(y->compiled);
-        /* whether the velocity term does no work is sampled for these parameters */
+        /* whether the velocity term does no work is judged for these parameters */
         if (e->chosen.row->gyroscopic) {
-            y->sampled_gyroscopic = false;
+            y->judged_gyroscopic = false;
             if (!symmetry_gyroscopic(y)) return fail(err, MOTUS_MEMORY, "no memory to examine the velocity term");
             motus_status status = row_admits(&e->chosen, &y->problem.traits, err);
             if (status != MOTUS_OK) return status;

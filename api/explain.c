@@ -21,7 +21,10 @@ motus_status motus_analysis_of(const motus_system *given, motus_analysis *out)
                                  .gyroscopic = t->gyroscopic,
                                  .gradient = t->gradient,
                                  .smooth = t->smooth,
-                                 .exact_recognised = s->model && s->model->exact_recognised};
+                                 .exact_recognised = s->model && s->model->exact_recognised,
+                                 .sampled_gyroscopic = s->sampled_gyroscopic && t->gyroscopic,
+                                 .sampled_gradient = s->sampled_gradient && t->gradient,
+                                 .energy = s->energy && t->gradient};
     motus_struct_write(MOTUS_DEF_ANALYSIS, &ours, out);
     return MOTUS_OK;
 }
@@ -114,6 +117,20 @@ static void say_variables(words *w, const motus_system *s)
     }
 }
 
+#define SAMPLED ", as far as sampled at random states of many sizes, since the formulas were not proof"
+
+static void say_gradient(words *w, const motus_system *s)
+{
+    const traits *t = &s->problem.traits;
+    say(w, "the force is a gradient%s: its derivative is symmetric, with constant masses%s%s\n",
+        t->time ? " at every time" : "", s->sampled_gradient ? SAMPLED : "",
+        t->time     ? ""
+        : s->energy ? ", so an energy exists"
+        : s->sampled_gradient
+            ? ""
+            : ", so an energy exists, though it may change on a way round a singularity of the force");
+}
+
 static void say_forces(words *w, const motus_system *s)
 {
     const traits *t = &s->problem.traits;
@@ -133,21 +150,22 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the velocity enters linearly: the implicit velocity term is solved in closed form%s\n",
             t->constant_jv ? ", with constant coefficients" : "");
         say_coefficients(w, s->model);
-        if (t->gyroscopic) say(w, "the velocity term does no work (v × B): the Boris rotation applies\n");
+        if (t->gyroscopic)
+            say(w, "the velocity term does no work (v × B)%s: the Boris rotation applies\n",
+                s->sampled_gyroscopic ? SAMPLED : "");
     } else if (t->velocity) {
         say(w, "the velocity enters nonlinearly: implicit velocity terms are solved by Newton's method with the "
                "derived Jacobian\n");
     }
     if (t->affine && !t->constant) say(w, "the equations are linear\n");
-    if (t->gradient && !t->constant)
-        say(w, "the force is a gradient%s: its derivative is symmetric, with constant masses (tested at %d states)%s\n",
-            t->time ? " at every time" : "", SYMMETRY_STATES, t->time ? "" : ", so an energy exists");
+    if (t->gradient && !t->constant) say_gradient(w, s);
     if (!t->smooth)
         say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
                "orders lose their order where these switch\n");
     if (t->has_exact)
-        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
-                                          : "the exact motion is given, and was checked against the equation\n");
+        say(w, s->model->exact_recognised
+                   ? "the exact motion is known: constant acceleration\n"
+                   : "the exact motion is given, and was checked against the equation at times of the run\n");
 }
 
 const char *motus_explain(motus_system *s)
@@ -156,7 +174,9 @@ const char *motus_explain(motus_system *s)
     if (!s->model) return "the acceleration is a callback: its form is not known\n";
     if (!symmetry_gyroscopic(s) || !symmetry_gradient(s)) return "";
     const traits *t = &s->problem.traits;
-    const char **kept = &s->explanation[t->gyroscopic][t->gradient];
+    const char **kept = &s->explanation[t->gyroscopic + s->sampled_gyroscopic][t->gradient + (s->sampled_gradient ? 1
+                                                                                              : s->energy         ? 2
+                                                                                                                  : 0)];
     if (*kept) return *kept;
     modes m = modes_enter();
     words w = {.arena = &s->arena};

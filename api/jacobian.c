@@ -21,7 +21,8 @@ typedef struct jacobian {
 
 static motus_status failed(const jacobian *j, motus_error *err)
 {
-    return fail(err, MOTUS_CALLBACK, "the derivative callback reported a failure at t = %g", j->t);
+    char t[DECIMAL_MAX];
+    return fail(err, MOTUS_CALLBACK, "the derivative callback reported a failure at t = %s", decimal(j->t, t));
 }
 
 /* image = the derivative with respect to number `at` of v (in_v) or of x. */

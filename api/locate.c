@@ -12,6 +12,7 @@
  */
 #include "api/locate.h"
 
+#include "api/jump.h"
 #include "machine/held.h"
 
 #include <float.h>
@@ -26,6 +27,9 @@ enum {
     HALVINGS_MAX = 200
 };
 #define NEAR 0x1p-32 /* of a step: a piece shorter than this hardly moves */
+#define TOUCHED 1e-7 /* of an argument at the ends of a step: where it is least, this is 0 */
+#define ALIKE 0.05   /* powers of a jump this near to one another are the same */
+#define EDGE 0x1p-20 /* of a step: a touch nearer than this to its end is there */
 
 typedef struct place {
     double t;
@@ -46,12 +50,14 @@ struct locate {
     interval *box;          /* nx, then nv */
     bool resolves;          /* pieces must resolve the force */
     double next;            /* the size of the next piece to try; INFINITY: all that is left of the step */
+    size_t touches;         /* that pieces must end at; the arguments at both ends of a step, and their rates */
+    double *touch[2], *touch_rate[2], *room;
     double *start_side;
     bool known;    /* `from` is the stepper's state */
     bool away;     /* the stepper was used for trials, and is not on the run's leg */
     int64_t steps; /* of the run's leg, before the stepper's present one */
     int64_t located;
-    int jump; /* the lowest derivative that jumped; -1: none */
+    double jump; /* the lowest power with which the force departed from a smooth one: jump.h; NaN: none */
     double jump_time;
     double rounding; /* of times at which the force changes fast: what it may have changed a velocity by, added up */
 };
@@ -88,19 +94,19 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
     r->locating = true;
     if (!s->model || !strcmp(r->card->family, "exact")) return MOTUS_OK;
-    if (!s->switches_known) {
-        motus_status status = held_create(s->model, &s->switches, &s->switches_refused, err);
-        if (status != MOTUS_OK) return status;
-        s->switches_known = true;
-    }
+    const motus_status status = system_switches(s, err);
+    if (status != MOTUS_OK) return status;
     held *h = s->switches;
     const bool resolves = h && switches == MOTUS_SWITCHES_RESOLVE && held_resolves(h);
-    if (!h || (!held_count(h) && !resolves)) return MOTUS_OK;
+    const size_t touches = h && switches == MOTUS_SWITCHES_RESOLVE ? held_touches(h) : 0;
+    if (!h || (!held_count(h) && !resolves && !touches)) return MOTUS_OK;
     const problem *p = held_problem(h);
-    const size_t count = held_count(h), numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + p->nv);
+    const size_t count = held_count(h),
+                 numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + p->nv) + 4 * touches + 3 * p->nv;
     locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
     if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    *l = (locate){.held = h, .problem = *p, .count = count, .next = INFINITY, .jump = -1, .jump_time = NAN};
+    *l = (locate){
+        .held = h, .problem = *p, .count = count, .touches = touches, .next = INFINITY, .jump = NAN, .jump_time = NAN};
     l->problem.traits.gyroscopic = s->problem.traits.gyroscopic;
     double *at = (double *)(l + 1);
     l->side = at, l->old_side = l->side + count;
@@ -114,6 +120,10 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     at = place_memory(&l->twice, p, count, at);
     at = place_memory(&l->found, p, count, at);
     l->box = (interval *)(void *)at;
+    at += 2 * (p->nx + p->nv);
+    l->touch[0] = at, l->touch[1] = at + touches;
+    l->touch_rate[0] = at + 2 * touches, l->touch_rate[1] = at + 3 * touches;
+    l->room = at + 4 * touches;
     l->resolves = resolves;
     for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
     r->locate = l;
@@ -135,7 +145,8 @@ void locate_statistics(const motus_run *r, motus_statistics *out)
     const motus_system *s = r->system;
     const bool none = s->switches_known && !s->switches_refused && !(s->switches && held_count(s->switches));
     out->switches = l ? l->located : r->locating && none ? 0 : -1;
-    out->jump = l ? l->jump : -1;
+    out->jump = !l || isnan(l->jump) ? -1 : l->jump > 0 ? (int64_t)ceil(l->jump) : 0;
+    out->jump_power = l ? l->jump : NAN;
     out->jump_time = l ? l->jump_time : NAN;
     out->jump_rounding = l ? l->rounding : 0;
 }
@@ -279,76 +290,141 @@ static void follow(const problem *p, const place *at, double way, double *x, dou
     }
 }
 
-/* The acceleration on these sides at a distance `way` in time from `from`. False: it cannot be evaluated. */
-static bool accelerate(const locate *l, const double *sides, double way, double *a)
+/* The acceleration on these sides at `from`. False: it cannot be evaluated. */
+static bool accelerate(const locate *l, const double *sides, double *a)
 {
     const problem *p = &l->problem;
-    follow(p, &l->from, way, l->beyond.x, l->beyond.v);
+    memcpy(l->beyond.x, l->from.x, p->nx * sizeof(double));
+    memcpy(l->beyond.v, l->from.v, p->nv * sizeof(double));
     for (size_t k = 0; k < p->nv; k++) a[k] = 0;
-    return held_bind(l->held, sides, false) && p->accel(p->ctx, l->from.t + way, l->beyond.x, l->beyond.v, a) == 0;
+    return held_bind(l->held, sides, false) && p->accel(p->ctx, l->from.t, l->beyond.x, l->beyond.v, a) == 0;
 }
 
-/* The difference of the accelerations on the old sides, at a distance `before` in time from `from`, and on the new
- * ones, at a distance `after`; their size is noted in *size where it is larger. NaN: one of them is not defined. */
-static double apart(const locate *l, double before, double after, double *size)
+/* The largest difference of the accelerations on the old and the new sides; 0 where one is not defined. */
+static double leap(const locate *l)
 {
     double *a = l->beyond.a, *b = l->to.a, most = 0;
-    if (!accelerate(l, l->old_side, before, a) || !accelerate(l, l->side, after, b)) return NAN;
-    for (size_t k = 0; k < l->problem.nv; k++) {
-        if (!isfinite(a[k]) || !isfinite(b[k])) return NAN;
-        most = fmax(most, fabs(a[k] - b[k]));
-        *size = fmax(*size, fmax(fabs(a[k]), fabs(b[k])));
+    if (!accelerate(l, l->old_side, a) || !accelerate(l, l->side, b)) return 0;
+    for (size_t k = 0; k < l->problem.nv; k++) most = fmax(most, fabs(a[k] - b[k]));
+    return most <= DBL_MAX ? most : 0;
+}
+
+typedef struct near {
+    const motus_run *run;
+    const place *at;
+} near;
+
+/* The acceleration of the model itself, whose switches choose their sides. */
+static bool force_near(void *ctx, double way, double *a)
+{
+    const near *n = ctx;
+    const problem *p = &n->run->system->problem;
+    place *beyond = &n->run->locate->beyond;
+    follow(p, n->at, way, beyond->x, beyond->v);
+    for (size_t k = 0; k < p->nv; k++) a[k] = 0;
+    return p->accel(p->ctx, n->at->t + way, beyond->x, beyond->v, a) == 0;
+}
+
+/* Records with which power of the time the force departs from a smooth one at a place, near a step of size h. */
+static void note_jump(motus_run *r, const place *at, double h)
+{
+    locate *l = r->locate;
+    near n = {r, at};
+    if (l->jump <= 0) return;
+    const problem *p = &l->problem;
+    double rounding = fabs(at->t);
+    rounding *= 0x1p-52;
+    for (size_t k = 0; k < p->nx; k++) { /* the time in which x moves by its rounding */
+        const double off = 0x1p-52 * fabs(at->x[k]), late = fmin(off / fabs(at->v[k]), sqrt(off / fabs(at->a[k])));
+        if (late > rounding && late <= DBL_MAX) rounding = late;
     }
-    return most;
+    const double power = jump_power(force_near, &n, p->nv, h, rounding, l->room);
+    if (isnan(power) || power >= l->jump - ALIKE) return; /* false where there was none */
+    l->jump = power;
+    l->jump_time = at->t;
 }
 
-static double difference(const locate *l, double way, double *size) { return apart(l, way, way, size); }
+/* Touches ---------------------------------------------------------------------------------------------------------- */
 
-static double either_side(const locate *l, double way, double *size)
+/* The rate of touch k after a part of the step, whose end is `beyond`; NaN: it cannot be computed. */
+static double touch_rate(motus_run *r, size_t k, double h, double part, motus_status *status, motus_error *err)
 {
-    const double after = difference(l, way, size), before = difference(l, -way, size);
-    return isnan(after) || isnan(before) ? NAN : fmax(after, before);
+    locate *l = r->locate;
+    *status = step_from(r, &l->from, part * h, &l->beyond, err);
+    if (*status != MOTUS_OK) return NAN;
+    held_touch_rates(l->held, l->beyond.t, l->beyond.x, l->beyond.v, l->beyond.a, l->touch_rate[1]);
+    return h * l->touch_rate[1][k];
 }
 
-/* What remains where a formula is not defined beyond its side: the old sides before `from`, the new ones after it. It
- * goes to 0 with `way` where the force is continuous. */
-static double one_sided(const locate *l, double way)
+/* The part of the step at which the argument of touch k is least, with the state there in `beyond`. Rates: at both
+ * ends. */
+static motus_status least_of(motus_run *r, size_t k, double h, double rate0, double rate1, double *part,
+                             motus_error *err)
 {
-    double size = 0;
-    return apart(l, -way, way, &size);
+    double low = 0, high = 1;
+    motus_status status = MOTUS_OK;
+    *part = 1;
+    for (int turn = 0, moved = 0; turn < HALVINGS_MAX && high - low > 0x1p-51 && status == MOTUS_OK; turn++) {
+        double z = low + (high - low) * rate0 / (rate0 - rate1);
+        if (turn % 4 == 3 || !(z > low && z < high)) z = 0.5 * (low + high);
+        if (r->locate->from.t + z * h == r->locate->from.t) break;
+        const double rate = touch_rate(r, k, h, *part = z, &status, err);
+        if (rate == 0) break;
+        if (rate < 0) {
+            low = z, rate0 = rate;
+            if (moved < 0) rate1 /= 2;
+            moved = -1;
+        } else {
+            high = z, rate1 = rate;
+            if (moved > 0) rate0 /= 2;
+            moved = 1;
+        }
+    }
+    return status;
 }
 
-/* Records the lowest derivative that jumps at `from`, near a step of size h. The difference grows as way^jump; where
- * one formula is not defined beyond the root, the force itself alone can be compared. The slope of cbrt is infinite. */
-static void note_jump(locate *l, double h, operation changed)
+/* As find_dip, for the first touch in the step: the force is not smooth there, although no argument changes its
+ * side. */
+static motus_status find_touch(motus_run *r, double h, double *fraction, motus_error *err)
 {
-    enum { JUMP_MOST = 6 };
-    double size = 0;
-    const double far = either_side(l, h / 8, &size), near = either_side(l, h / 32, &size),
-                 here = difference(l, 0, &size), noise = 64 * 0x1p-52 * size;
-    int jump = -1;
-    if (here <= DBL_MAX) l->rounding += here * 0x1p-52 * fabs(l->from.t);
-    if (isnan(here) ? one_sided(l, h / 512) >= one_sided(l, h / 8) / 2 : here > noise && !(here <= near / 4))
-        jump = 0;
-    else if (changed == OP_CBRT || isnan(far) || isnan(near))
-        jump = 1;
-    else if (far > noise)
-        jump = near > noise ? (int)fmin(fmax(1, floor(log2(far / near) / 2 + 0.5)), JUMP_MOST) : JUMP_MOST;
-    if (jump < 0 || (l->jump >= 0 && jump >= l->jump)) return;
-    l->jump = jump;
-    l->jump_time = l->from.t;
+    locate *l = r->locate;
+    *fraction = 1;
+    if (!l->touches) return MOTUS_OK;
+    held_touch(l->held, l->from.t, l->from.x, l->from.v, l->touch[0]);
+    held_touch(l->held, l->to.t, l->to.x, l->to.v, l->touch[1]);
+    held_touch_rates(l->held, l->from.t, l->from.x, l->from.v, l->from.a, l->touch_rate[0]);
+    for (size_t k = 0; k < l->touches; k++) {
+        held_touch_rates(l->held, l->to.t, l->to.x, l->to.v, l->to.a, l->touch_rate[1]);
+        const double u0 = l->touch[0][k], u1 = l->touch[1][k], s0 = h * l->touch_rate[0][k],
+                     s1 = h * l->touch_rate[1][k], meet = (u1 - s1 - u0) / (s0 - s1);
+        if (!(s0 < 0 && s1 >= 0 && u0 + s0 * meet < 0.25 * fmin(u0, u1))) continue; /* the tangents meet above 0 */
+        double part;
+        const motus_status status = least_of(r, k, h, s0, s1, &part, err);
+        if (status == MOTUS_MEMORY) return status;
+        if (status != MOTUS_OK) continue;
+        double *u = l->touch_rate[1];
+        held_touch(l->held, l->beyond.t, l->beyond.x, l->beyond.v, u);
+        if (!(fabs(u[k]) <= TOUCHED * fmax(u0, u1))) continue;
+        place_copy(&l->twice, &l->beyond, &l->problem, l->count);
+        note_jump(r, &l->twice, r->timing.h);
+        if (!(part > EDGE && part < 1 - EDGE && part < *fraction)) continue;
+        *fraction = part;
+        place_copy(&l->found, &l->twice, &l->problem, l->count);
+    }
+    return MOTUS_OK;
 }
 
 /* Pieces ----------------------------------------------------------------------------------------------------------- */
 
-static motus_status slides(const locate *l, size_t k, motus_error *err)
+static motus_status slides(const motus_run *r, size_t k, motus_error *err)
 {
-    char name[128];
+    const locate *l = r->locate;
+    char name[128], t[DECIMAL_MAX];
     held_name(l->held, k, name, sizeof name);
     fail(err, MOTUS_SOLVE,
-         "from t = %.9g on the motion slides along %s = 0: the force drives it there from both sides, as dry friction "
+         "from t = %s on the motion slides along %s = 0: the force drives it there from both sides, as dry friction "
          "that sticks",
-         l->from.t, name);
+         run_time_text(r, l->from.t, t), name);
     hint(err, "locate no switches in this model");
     return MOTUS_SOLVE;
 }
@@ -457,8 +533,9 @@ static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *er
         const bool resolved = !*failed && fits(l, &l->from, &l->to);
         if (fabs(*h) < 2 * least && (resolved || *failed)) return MOTUS_OK;
         if (fabs(*h) < 2 * least) {
-            fail(err, MOTUS_SOLVE, "the force changes too fast to be resolved at t = %.9g; it may be singular there",
-                 l->from.t);
+            char t[DECIMAL_MAX];
+            fail(err, MOTUS_SOLVE, "the force changes too fast to be resolved at t = %s; it may be singular there",
+                 run_time_text(r, l->from.t, t));
             return MOTUS_SOLVE;
         }
         bool good = false;
@@ -493,21 +570,28 @@ static bool nudge(locate *l, double way)
 static motus_status pieces(motus_run *r, double end, motus_error *err)
 {
     locate *l = r->locate;
+    char t[DECIMAL_MAX];
     for (int count = 0, still = 0; count < PIECES_MAX; count++) {
         if (count % LOOK == LOOK - 1 && r->pace.tell && r->pace.tell(r->pace.ctx, pace_now())) return MOTUS_CANCELLED;
         const double left = end - l->from.t;
         double h = fabs(l->next) < fabs(left) ? copysign(l->next, left) : left, part = 1;
         if (l->from.t + left == l->from.t) return MOTUS_OK;
-        bool failed;
+        bool failed, touched = false;
         motus_status status = piece(r, &h, &failed, err);
         if (status != MOTUS_OK) return status;
         if (!failed && !(least_gap(l, &l->to, NULL) < 0)) {
             status = find_dip(r, h, &part, err);
             if (status != MOTUS_OK) return status;
             if (part == 1) {
+                status = find_touch(r, h, &part, err);
+                if (status != MOTUS_OK) return status;
+                touched = part < 1;
+            }
+            if (touched) place_swap(&l->to, &l->found);
+            if (part == 1 || touched) {
                 place_swap(&l->from, &l->to);
-                if (l->resolves && (h != left || fabs(2 * h) > fabs(l->next))) l->next = 2 * h;
-                if (h != left) continue;
+                if (l->resolves && (h != left || touched || fabs(2 * h) > fabs(l->next))) l->next = 2 * h * part;
+                if (h != left || touched) continue;
                 l->from.t = end;
                 return MOTUS_OK;
             }
@@ -531,22 +615,24 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
         }
         if (changed == l->count) {
             if (lost) return step_from(r, &l->from, tried, &l->to, err); /* the failure is another one */
-            return fail(err, MOTUS_SOLVE, "a switch near t = %.17g was not found", l->from.t);
+            return fail(err, MOTUS_SOLVE, "a switch near t = %s was not found", run_time_text(r, l->from.t, t));
         }
         if (l->resolves) l->next = tried;
         l->located++;
         still = fabs(h) <= NEAR * fabs(r->timing.h) ? still + 1 : 0;
         place_swap(&l->from, &l->to);
-        if (still > STILL_MAX) return slides(l, changed, err);
-        note_jump(l, r->timing.h, held_operation(l->held, changed));
+        if (still > STILL_MAX) return slides(r, changed, err);
+        l->rounding += leap(l) * 0x1p-52 * fabs(l->from.t);
         if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
         if (l->problem.accel(l->problem.ctx, l->from.t, l->from.x, l->from.v, l->from.a))
-            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", l->from.t);
+            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s",
+                        run_time_text(r, l->from.t, t));
         held_values(l->held, l->from.t, l->from.x, l->from.v, l->from.u);
+        note_jump(r, &l->from, r->timing.h);
     }
     return fail(err, MOTUS_SOLVE,
-                "one step has more than %d pieces, since the force changes so often or so fast at t = %.9g", PIECES_MAX,
-                l->from.t);
+                "one step has more than %d pieces, since the force changes so often or so fast at t = %s", PIECES_MAX,
+                run_time_text(r, l->from.t, t));
 }
 
 /* Steps ------------------------------------------------------------------------------------------------------------ */
@@ -557,6 +643,7 @@ motus_status locate_begin(motus_run *r, motus_error *err)
     place *at = &l->from;
     double *u = l->to.u, *later = l->beyond.u, *x = l->beyond.x, *v = l->beyond.v;
     motus_status status = MOTUS_OK;
+    char t[DECIMAL_MAX];
     l->steps = 0;
     l->known = false;
     for (size_t k = 0; k < l->count; k++) l->slack[k] = 0;
@@ -570,7 +657,8 @@ motus_status locate_begin(motus_run *r, motus_error *err)
         if (status != MOTUS_OK) break;
         const problem *own = &r->system->problem;
         if (pass == 0 && own->accel(own->ctx, at->t, at->x, at->v, at->a))
-            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %g", at->t);
+            return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s",
+                        run_time_text(r, at->t, t));
         const double way = r->timing.h * 0x1p-20;
         follow(&l->problem, at, way, x, v);
         held_arguments(l->held, at->t, at->x, at->v, u);
@@ -611,6 +699,7 @@ motus_status locate_step(motus_run *r, stepper_stop *why, motus_error *err)
     place_copy(&l->start, &l->from, &l->problem, l->count);
     memcpy(l->start_side, l->side, l->count * sizeof *l->side);
     if (!tried && (status = find_dip(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
+    if (!tried && part == 1 && (status = find_touch(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
     if (!tried && part == 1) {
         place_swap(&l->from, &l->to);
         l->known = true;

@@ -40,9 +40,10 @@ motus_status run_timing(const motus_system *s, const chosen *chosen, double step
         hint(err, "take a larger step or an earlier end");
         return MOTUS_LIMIT;
     }
+    char t[DECIMAL_MAX];
     out->h = out->until < out->t0 ? -h : h;
     if (q > 0 && out->t0 + out->h == out->t0)
-        return fail(err, MOTUS_ARGUMENT, "the step %g is lost beside the time %g", h, out->t0);
+        return fail(err, MOTUS_ARGUMENT, "the step %g is lost beside the time %s", h, decimal(out->t0, t));
     const stepper_way way = stepper_way_of(out->t0, out->h, out->until);
     out->whole = way.whole;
     out->last = way.last;
@@ -138,7 +139,9 @@ static motus_status advance(motus_run *r, int64_t n, motus_error *err)
                                                    : stepper_advance(r->stepper, limit, &why, err);
     r->arrived = why == STOP_UNTIL;
     if (isnan(r->first_step) && motus_run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
-    return status == MOTUS_CANCELLED ? fail(err, status, "cancelled at t = %g", stepper_time(r->stepper)) : status;
+    if (status != MOTUS_CANCELLED) return status;
+    char t[DECIMAL_MAX];
+    return fail(err, status, "cancelled at t = %s", run_time_text(r, stepper_time(r->stepper), t));
 }
 
 static motus_status observe(motus_run *r, motus_error *err)
@@ -146,7 +149,9 @@ static motus_status observe(motus_run *r, motus_error *err)
     r->observing = true;
     const int enough = r->observer(r->context, r);
     r->observing = false;
-    return enough ? fail(err, MOTUS_CANCELLED, "stopped by the observer at t = %g", stepper_time(r->stepper))
+    char t[DECIMAL_MAX];
+    return enough ? fail(err, MOTUS_CANCELLED, "stopped by the observer at t = %s",
+                         run_time_text(r, stepper_time(r->stepper), t))
                   : MOTUS_OK;
 }
 
@@ -282,6 +287,11 @@ const char *motus_run_machine(const motus_run *r) { return r ? r->machine.name :
 
 /* ---- observing ---- */
 
+char *run_time_text(const motus_run *r, double t, char out[DECIMAL_MAX])
+{
+    return decimal_time(t, r->timing.until - r->timing.t0, out);
+}
+
 motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
 {
     if (r->synchronised && (r->with_a || !with_a)) return MOTUS_OK;
@@ -351,10 +361,12 @@ static motus_status sample(motus_run *r, const double *times, size_t n, const si
                            double *out, motus_error *err)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
+    char a[DECIMAL_MAX], b[DECIMAL_MAX];
     for (size_t i = 0; i < n; i++, out += count) {
         const double t = times[i];
         if (!isfinite(t) || way * (t - r->timing.until) > 0)
-            return fail(err, MOTUS_ARGUMENT, "the time %g lies beyond the end of the run, %g", t, r->timing.until);
+            return fail(err, MOTUS_ARGUMENT, "the time %s lies beyond the end of the run, %s", decimal(t, a),
+                        decimal(r->timing.until, b));
         motus_status status = go_to(r, t, err);
         const bool here = stepper_time(r->stepper) == t;
         if (status == MOTUS_OK)

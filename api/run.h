@@ -16,6 +16,10 @@ typedef struct timing {
     int64_t whole, total; /* whole steps up to `until`, and all, with the shorter one */
 } timing;
 
+struct motus_run;
+/* A time for a message, with the digits that tell it from the ends of the run. Returns out. */
+char *run_time_text(const struct motus_run *, double t, char out[DECIMAL_MAX]);
+
 struct motus_run {
     motus_system *system;
     machine machine;

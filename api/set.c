@@ -121,7 +121,7 @@ static motus_status set_model(motus_system *s, const char *name, const parameter
         status = fail(err, MOTUS_MEMORY, "no memory to set %s", name);
     }
     if (status == MOTUS_OK)
-        s->sampled_gyroscopic = s->sampled_gradient = false; /* the samples were of other numbers */
+        s->judged_gyroscopic = s->judged_gradient = false; /* of other numbers */
     else
         put_back(s, own);
     if (status != MOTUS_OK && !before) vary_override(m, t->first, t->span, false);
@@ -204,8 +204,11 @@ motus_status motus_system_clone(const motus_system *s, motus_system **out, motus
         return status;
     }
     made->problem.traits = s->problem.traits; /* with the results of sampling */
+    made->judged_gyroscopic = s->judged_gyroscopic;
+    made->judged_gradient = s->judged_gradient;
     made->sampled_gyroscopic = s->sampled_gyroscopic;
     made->sampled_gradient = s->sampled_gradient;
+    made->energy = s->energy;
     *out = made;
     return MOTUS_OK;
 }

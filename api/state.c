@@ -252,12 +252,13 @@ static motus_status restore(motus_run *r, const char *text, size_t length, motus
     for (int64_t k = 0; k < n && ok; k++) ok = read_hex(&in.at, in.end, &carry[k]) && word(&in, "\n");
     motus_status status = MOTUS_OK;
     const stepper_count then = {.steps = steps, .evaluations = evaluations, .iterations = iterations};
+    char a[DECIMAL_MAX], b[DECIMAL_MAX];
     const double t = stepper_time_saved(r->stepper, then, carry);
     if (!ok || in.at != in.end)
         status = unreadable(err);
     else if (row_adaptive(&r->chosen) ? (t - r->timing.until) * r->timing.h > 0 : steps > r->timing.whole)
-        status = fail(err, MOTUS_STATE, "the restart state is at t = %.10g, beyond the end of this run, %.10g", t,
-                      r->timing.until);
+        status = fail(err, MOTUS_STATE, "the restart state is at t = %s, beyond the end of this run, %s", decimal(t, a),
+                      decimal(r->timing.until, b));
     else
         status = stepper_load(r->stepper, then, carry, err);
     give(&r->allocator, carry);

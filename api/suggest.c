@@ -233,8 +233,9 @@ static motus_status measure(scales *s, double duration, motus_error *err)
         s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
     give(&s->system->allocator, room);
     if (s->no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
-    if (s->failed) return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %g", s->t);
-    return MOTUS_OK;
+    if (!s->failed) return MOTUS_OK;
+    char t[DECIMAL_MAX];
+    return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s", decimal(s->t, t));
 }
 
 /* ---- round numbers ---- */

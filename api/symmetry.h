@@ -1,10 +1,10 @@
-/* Traits of a system that are found by sampling, once, when the answer is needed. */
+/* Traits of a system that are proved or sampled, once, when the answer is needed. */
 #ifndef API_SYMMETRY_H
 #define API_SYMMETRY_H
 
 #include "api/system.h"
 
-enum { SYMMETRY_STATES = 6 };
+enum { SYMMETRY_STATES = 32, SYMMETRY_LEAST = 6 }; /* at which a symmetry is sampled; of large systems fewer */
 
 /* Whether the velocity term does no work, and whether the force is a gradient, with constant masses: into the traits.
  * False: there was no memory for the test. */

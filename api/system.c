@@ -1,6 +1,7 @@
 /* Systems: made from a text or from a callback, described, and destroyed. */
 #include "api/stand_in.h"
 #include "lang/read/read.h"
+#include "machine/held.h"
 
 #include <math.h>
 #include <string.h>
@@ -148,6 +149,14 @@ size_t motus_positions(const motus_system *s) { return s ? s->positions : 0; }
 size_t motus_velocities(const motus_system *s) { return s ? s->velocities : 0; }
 size_t motus_variable_count(const motus_system *s) { return s ? s->state_count : 0; }
 int motus_has_exact(const motus_system *s) { return s && s->problem.traits.has_exact; }
+
+motus_status system_switches(motus_system *s, motus_error *err)
+{
+    if (s->switches_known) return MOTUS_OK;
+    const motus_status status = held_create(s->model, &s->switches, &s->switches_refused, err);
+    s->switches_known = status == MOTUS_OK;
+    return status;
+}
 
 motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *v)
 {

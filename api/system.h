@@ -47,10 +47,12 @@ struct motus_system {
     size_t named[2], named_count[2]; /* the ranges of quantities, and of invariants */
     double *observed; /* room for one quantity or invariant; of a callback, for all quantities or all invariants */
     double *exact_x, *exact_v;
-    bool sampled_gyroscopic, sampled_gradient;
-    size_t held; /* how many runs, ensembles and references use it: set.c */
+    bool judged_gyroscopic, judged_gradient;   /* the traits are known */
+    bool sampled_gyroscopic, sampled_gradient; /* they hold as far as sampled, and are not proved */
+    bool energy;                               /* the potential is proved to have one value everywhere */
+    size_t held;                               /* how many runs, ensembles and references use it: set.c */
     struct setting *settings;
-    const char *explanation[2][2]; /* for each result of sampling: gyroscopic, gradient */
+    const char *explanation[3][4]; /* for each answer: gyroscopic, gradient */
     char *equation;
     char *mathml; /* of the statement typeset last, from the hooks */
 };
@@ -64,6 +66,8 @@ void system_inside(const motus_system *, const double *in_x, const double *in_v,
 /* Values of columns at a state in the inside order, whose driven boundary cells are refreshed. */
 motus_status system_values(motus_system *, double t, double *x, double *v, const size_t *columns, size_t count,
                            double *out, motus_error *);
+/* Finds the switches of the model, once: `switches`, or why they cannot be held. */
+motus_status system_switches(motus_system *, motus_error *);
 bool system_number_columns(motus_system *);
 /* The place in x, or in v, of column 1 + outer. */
 size_t system_number(const motus_system *, size_t outer, bool of_v);

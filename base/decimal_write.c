@@ -275,6 +275,14 @@ size_t decimal_write(double value, char out[DECIMAL_MAX])
     return length ? length : decimal_write_plain(value, out);
 }
 
+char *decimal_time(double t, double span, char out[DECIMAL_MAX])
+{
+    if (!(fabs(span) > 0) || !isfinite(span) || !isfinite(t)) return decimal(t, out);
+    const double digits = 1 + ceil(log10(fabs(t) / (1e-5 * fabs(span))));
+    snprintf(out, DECIMAL_MAX, "%.*g", digits > 17 ? 17 : digits > 6 ? (int)digits : 6, t);
+    return out;
+}
+
 char *decimal(double value, char out[DECIMAL_MAX])
 {
     decimal_write(value, out);

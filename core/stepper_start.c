@@ -58,7 +58,9 @@ static motus_status check_start(stepper *s, double t0, double h, const double *x
 {
     char name[MOTUS_NAME_MAX];
     if (!isfinite(t0) || !isfinite(h) || h == 0 || t0 + h == t0) {
-        fail(err, MOTUS_ARGUMENT, "the step %g from t = %g must be finite, and large enough to change t", h, t0);
+        char t[DECIMAL_MAX];
+        fail(err, MOTUS_ARGUMENT, "the step %g from t = %s must be finite, and large enough to change t", h,
+             decimal(t0, t));
         hint(err, "take a larger step");
         return MOTUS_ARGUMENT;
     }
@@ -96,10 +98,10 @@ static bool exact_size(const problem *p, double t0, double h, const double *star
 static motus_status refuse_start(const stepper *s, double t0, size_t k, bool in_v, double exact, double start,
                                  motus_error *err)
 {
-    char name[MOTUS_NAME_MAX], is[DECIMAL_MAX], due[DECIMAL_MAX];
+    char name[MOTUS_NAME_MAX], is[DECIMAL_MAX], due[DECIMAL_MAX], t[DECIMAL_MAX];
     fail(err, MOTUS_METHOD,
-         "exact does not admit this start: the exact motion has another state at t = %g: %s is %s, not %s", t0,
-         name_of(s, in_v, k, name), decimal(exact, is), decimal(start, due));
+         "exact does not admit this start: the exact motion has another state at t = %s: %s is %s, not %s",
+         decimal(t0, t), name_of(s, in_v, k, name), decimal(exact, is), decimal(start, due));
     hint(err, "start on the exact motion, or choose another method");
     return MOTUS_METHOD;
 }

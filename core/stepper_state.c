@@ -159,8 +159,9 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
         marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
     if (status) return status;
     if (!marked(s, t)) {
-        fail(err, MOTUS_ARGUMENT, "the time %g lies before the last step of the run, which is at %g", t,
-             stepper_time(s));
+        char a[DECIMAL_MAX], b[DECIMAL_MAX];
+        fail(err, MOTUS_ARGUMENT, "the time %s lies before the last step of the run, which is at %s", decimal(t, a),
+             decimal(stepper_time(s), b));
         hint(err, "give times within the last step or after it");
         return MOTUS_ARGUMENT;
     }

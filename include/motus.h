@@ -360,9 +360,13 @@ typedef struct motus_analysis {
     uint32_t size; /* by motus_default_analysis() */
     int velocity_dependent, linear_in_velocity, time_dependent, affine, constant;
     int gyroscopic;       /* a = E(x, t) + v × B(x, t): the velocity term does no work */
-    int gradient;         /* the force is the gradient of a potential */
+    int gradient;         /* the force is the gradient of a potential, near every state */
     int smooth;           /* 1: no abs, min, max, floor, mod, sign, if */
     int exact_recognised; /* the exact motion is known without an exact line */
+    /* The formulas did not prove it: `gyroscopic`, `gradient` hold as far as sampled, at random states of many sizes.
+     */
+    int sampled_gyroscopic, sampled_gradient;
+    int energy; /* an energy is proved to exist: a gradient without time, whose potential has one value everywhere */
 } motus_analysis;
 MOTUS_API motus_status motus_analysis_of(const motus_system *, motus_analysis *);
 /* The same in words, one sentence a line, with the coefficients of the velocity. Owned by the system. "": there was no
@@ -540,12 +544,13 @@ typedef struct motus_statistics {
     int64_t iterations;           /* of Newton's method, by both */
     double first_step, last_step; /* sizes of the first and of the latest step taken, > 0; NaN before the first */
     /* Of a run that locates switches. How many it has passed; -1: it cannot locate them, or was not asked to. The
-     * lowest derivative of the acceleration along the motion that jumped at one of them: 0 the acceleration itself; -1:
-     * none. The time of the first such jump; NaN: there was none. By how much velocities may
+     * lowest derivative of the acceleration along the motion that jumped at one of them, or became infinite: 0 the
+     * acceleration itself; -1: none. The time of the first such jump; NaN: there was none. By how much velocities may
      * be off because times are rounded: the sum of the jumps, and of fast changes that were resolved, times the
-     * rounding of their times. */
+     * rounding of their times. The power of the time with which the acceleration departs there from a smooth one: the
+     * number of the derivative that jumps; where one is infinite less, as 1/3 of cbrt; NaN: there was none. */
     int64_t switches, jump;
-    double jump_time, jump_rounding;
+    double jump_time, jump_rounding, jump_power;
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite

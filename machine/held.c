@@ -13,9 +13,9 @@ struct held {
     interpreter *interpreter;
     problem problem;
     switches switches;
-    tape *argument, *held, *rate;
-    resolution *resolution; /* NULL: nothing to resolve */
-    double *sides;          /* that are bound: the last numbers of view.pool */
+    tape *argument, *held, *rate, *touch, *touch_rate; /* NULL: there are none */
+    resolution *resolution;                            /* NULL: nothing to resolve */
+    double *sides;                                     /* that are bound: the last numbers of view.pool */
     bool bound;
 };
 
@@ -62,25 +62,32 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
     if (s->kinds) memcpy(reads + accels, s->held, s->kinds * sizeof *reads);
     if (!resolution_create(m, reads, all, s->count > 0, &h->resolution))
         return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
-    if (s->count == 0 && !h->resolution) return MOTUS_OK;
+    if (s->count == 0 && s->touches == 0 && !h->resolution) return MOTUS_OK;
     h->model = m;
     if (!make_view(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = interpreter_create(&h->view, &h->interpreter, &h->problem, err);
     if (status != MOTUS_OK) return status;
-    if (s->count == 0) {
-        *out = h;
-        return MOTUS_OK;
+    const struct {
+        tape **made;
+        const output *of;
+        size_t count;
+    } tapes[] = {{&h->argument, s->argument, s->kinds},
+                 {&h->held, s->held, s->kinds},
+                 {&h->rate, s->rate, s->kinds},
+                 {&h->touch, s->touch, s->touch_kinds},
+                 {&h->touch_rate, s->touch_rate, s->touch_kinds}};
+    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++) {
+        if (tapes[k].count == 0) continue;
+        *tapes[k].made = tape_of(m->arena, m->graph, tapes[k].of, tapes[k].count);
+        if (!*tapes[k].made) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     }
-    h->argument = tape_of(m->arena, m->graph, s->argument, s->kinds);
-    h->held = tape_of(m->arena, m->graph, s->held, s->kinds);
-    h->rate = tape_of(m->arena, m->graph, s->rate, s->kinds);
-    if (!h->argument || !h->held || !h->rate) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     *out = h;
     return MOTUS_OK;
 }
 
 const problem *held_problem(const held *h) { return &h->problem; }
 size_t held_count(const held *h) { return h->switches.count; }
+size_t held_touches(const held *h) { return h->switches.touches; }
 operation held_operation(const held *h, size_t k) { return (operation)h->switches.op[k]; }
 
 void held_name(const held *h, size_t k, char *out, size_t size)
@@ -97,7 +104,7 @@ bool held_bind(held *h, const double *sides, bool fresh)
     memcpy(h->sides, sides, bytes);
     if (fresh || !h->bound) memcpy(h->view.pool, h->model->pool, h->switches.slot * sizeof *sides);
     const binding b = {h->view.arrays, h->view.ints, h->view.pool};
-    tape *const tapes[] = {h->argument, h->held, h->rate};
+    tape *const tapes[] = {h->argument, h->held, h->rate, h->touch, h->touch_rate};
     h->bound = interpreter_rebind(h->interpreter);
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k]) h->bound = h->bound && tape_bind(tapes[k], &b);
@@ -105,17 +112,38 @@ bool held_bind(held *h, const double *sides, bool fresh)
 }
 
 /* Cells outside the loops are written by none. */
-static void run(const held *h, tape *t, double time, double *x, double *v, double *a, double *out)
+static void run(const held *h, tape *t, size_t count, double time, double *x, double *v, double *a, double *out)
 {
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out};
-    for (size_t k = 0; k < h->switches.count; k++) out[k] = NAN;
+    for (size_t k = 0; k < count; k++) out[k] = NAN;
     if (h->problem.refresh) h->problem.refresh(h->problem.ctx, time, x, v);
     if (t) tape_run(t, time, base);
 }
 
-void held_arguments(held *h, double t, double *x, double *v, double *out) { run(h, h->argument, t, x, v, NULL, out); }
-void held_values(held *h, double t, double *x, double *v, double *out) { run(h, h->held, t, x, v, NULL, out); }
-void held_rates(held *h, double t, double *x, double *v, double *a, double *out) { run(h, h->rate, t, x, v, a, out); }
+void held_arguments(held *h, double t, double *x, double *v, double *out)
+{
+    run(h, h->argument, h->switches.count, t, x, v, NULL, out);
+}
+
+void held_values(held *h, double t, double *x, double *v, double *out)
+{
+    run(h, h->held, h->switches.count, t, x, v, NULL, out);
+}
+
+void held_rates(held *h, double t, double *x, double *v, double *a, double *out)
+{
+    run(h, h->rate, h->switches.count, t, x, v, a, out);
+}
+
+void held_touch(held *h, double t, double *x, double *v, double *out)
+{
+    run(h, h->touch, h->switches.touches, t, x, v, NULL, out);
+}
+
+void held_touch_rates(held *h, double t, double *x, double *v, double *a, double *out)
+{
+    run(h, h->touch_rate, h->switches.touches, t, x, v, a, out);
+}
 
 bool held_resolves(const held *h) { return h->resolution != NULL; }
 

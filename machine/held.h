@@ -20,6 +20,8 @@ operation held_operation(const held *, size_t k);
 /* Text of the argument of switch k, in the language. */
 void held_name(const held *, size_t k, char *out, size_t size);
 
+size_t held_touches(const held *); /* see switches.h */
+
 /* Computes with these sides from now on. `fresh`: the model's numbers may have changed. False: no memory. */
 bool held_bind(held *, const double *sides, bool fresh);
 /* The arguments of all switches as the equations have them; as they are on the sides bound; and the rates of these
@@ -27,6 +29,9 @@ bool held_bind(held *, const double *sides, bool fresh);
 void held_arguments(held *, double t, double *x, double *v, double *out);
 void held_values(held *, double t, double *x, double *v, double *out);
 void held_rates(held *, double t, double *x, double *v, double *a, double *out);
+/* The arguments of all touches on the sides bound, and their rates. */
+void held_touch(held *, double t, double *x, double *v, double *out);
+void held_touch_rates(held *, double t, double *x, double *v, double *a, double *out);
 /* Whether a step over these times and states resolves the force: lang/model/resolution.h. */
 bool held_resolves(const held *); /* there is something to resolve */
 bool held_fits(held *, interval t, interval *x, interval *v);

@@ -8,6 +8,7 @@
 #include "probe.h"
 #include "remarks.h"
 #include "trend.h"
+#include "base/decimal.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -363,8 +364,11 @@ static motus_status make_row(compare *c, size_t k)
     char *note = c->out->texts[k].note;
     if (status != MOTUS_OK)
         snprintf(note, MOTUS_TEXT_MAX, "on the way back: %.400s", e.message);
-    else if (last_step > 0)
-        snprintf(note, MOTUS_TEXT_MAX, "the last step is %.6g, to end at %.6g", last_step, s->until);
+    else if (last_step > 0) {
+        char until[DECIMAL_MAX];
+        snprintf(note, MOTUS_TEXT_MAX, "the last step is %.6g, to end at %s", last_step,
+                 decimal_time(s->until, s->until - s->from, until));
+    }
     return MOTUS_OK;
 }
 

@@ -14,6 +14,7 @@
 #include "fit.h"
 #include "probe.h"
 #include "solution.h"
+#include "base/decimal.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,9 +64,9 @@ typedef struct converge {
     motus_study_def def;
     solution reference;
     study_grid grid;
-    double uncut; /* the end that was asked for */
-    bool cut;     /* the motion was cut far before it */
-    int allowed;  /* the highest order that the smoothness of the force allows; 0: any */
+    double uncut;   /* the end that was asked for */
+    bool cut;       /* the motion was cut far before it */
+    double allowed; /* the highest order that the smoothness of the force allows; 0: any */
     char why[MOTUS_TEXT_MAX / 2];
     double *table; /* INTERVALS × numbers */
     const char **methods;
@@ -247,7 +248,7 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
     row->observed = fit->observed;
     row->standard_error = fit->standard_error;
     row->exact_here = fit->verdict == FIT_EXACT;
-    const bool allowed = !c->allowed || row->declared <= c->allowed;
+    const bool allowed = c->allowed == 0 || row->declared <= c->allowed;
     row->passed = row->exact_here || (allowed && fit->verdict == FIT_SLOPE &&
                                       fit_passes(fit->observed, fit->standard_error, row->declared));
     switch (fit->verdict) {
@@ -256,8 +257,8 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
         if (allowed)
             snprintf(text, size, "observed %.2f, declared %d", fit->observed, row->declared);
         else
-            snprintf(text, size, "observed %.2f, declared %d: %s, which allows order %d", fit->observed, row->declared,
-                     c->why, c->allowed);
+            snprintf(text, size, "observed %.2f, declared %d: %s, which allows order %.3g", fit->observed,
+                     row->declared, c->why, c->allowed);
         if (!row->passed) row->status = MOTUS_ORDER;
         break;
     case FIT_ROUGH:
@@ -318,10 +319,12 @@ static motus_status make_row(converge *c, size_t k)
 static void describe(converge *c)
 {
     result *r = c->out;
+    char until[DECIMAL_MAX], uncut[DECIMAL_MAX];
+    const double span = c->uncut - c->s.from;
     int n = snprintf(r->reference, sizeof r->reference, "%s", c->reference.text);
     if (n > 0 && (size_t)n < sizeof r->reference)
-        snprintf(r->reference + n, sizeof r->reference - (size_t)n, "; until %.6g, not %.6g: %s", c->grid.until,
-                 c->uncut,
+        snprintf(r->reference + n, sizeof r->reference - (size_t)n, "; until %s, not %s: %s",
+                 decimal_time(c->grid.until, span, until), decimal_time(c->uncut, span, uncut),
                  c->cut ? "over a longer motion low orders would need too many steps to converge"
                         : "so no step is a simple fraction of the run, at which a force may jump");
     r->seen.reference_error = c->reference.scaled;
@@ -338,12 +341,13 @@ static motus_status converge_all(converge *c)
     study_part(s, REFERENCE_SHARE / 2, REFERENCE_SHARE / 2);
     if ((status = solution_find(s, &c->grid, INTERVALS, 0, &c->reference)) != MOTUS_OK) return status;
     if (!c->reference.known) {
-        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %.6g to measure errors against: %s",
-             c->uncut, solution_lacks(&c->reference));
+        char uncut[DECIMAL_MAX];
+        fail(s->err, MOTUS_DIVERGED, "there is no reference solution until %s to measure errors against: %s",
+             decimal_time(c->uncut, c->uncut - s->from, uncut), solution_lacks(&c->reference));
         hint(s->err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }
-    c->allowed = solution_allows(&c->reference, c->why, sizeof c->why);
+    c->allowed = solution_allows(&c->s, &c->reference, c->why, sizeof c->why);
     bool passed = true;
     for (size_t k = 0; k < c->count; k++) {
         double share = (1 - REFERENCE_SHARE) / (double)c->count;

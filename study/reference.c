@@ -6,6 +6,7 @@
  * each is less than one interval of the grid away from a kept row.
  */
 #include "solution.h"
+#include "base/decimal.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -88,8 +89,9 @@ motus_status motus_reference_at(motus_reference *r, const double *times, size_t 
     motus_status status = MOTUS_OK;
     for (size_t k = 0; k < count && status == MOTUS_OK; k++)
         if (!within(s, times[k])) {
-            status = fail(err, MOTUS_ARGUMENT, "time %zu, %.10g, is not between %.10g and %.10g", k + 1, times[k],
-                          s->from, s->until);
+            char t[DECIMAL_MAX], from[DECIMAL_MAX], until[DECIMAL_MAX];
+            status = fail(err, MOTUS_ARGUMENT, "time %zu, %s, is not between %s and %s", k + 1, decimal(times[k], t),
+                          decimal(s->from, from), decimal(s->until, until));
             hint(err, "ask for times between the start and the end of the reference");
         }
     const modes host = modes_enter();
@@ -119,8 +121,9 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     if ((status = solution_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->solution)) != MOTUS_OK)
         return status;
     if (!r->solution.known) {
-        fail(err, MOTUS_DIVERGED, "there is no reference solution until %.6g: %s", s->until,
-             solution_lacks(&r->solution));
+        char until[DECIMAL_MAX];
+        fail(err, MOTUS_DIVERGED, "there is no reference solution until %s: %s",
+             decimal_time(s->until, s->until - s->from, until), solution_lacks(&r->solution));
         hint(err, "let the motion end earlier, or give its exact line");
         return MOTUS_DIVERGED;
     }

@@ -187,8 +187,9 @@ static void invariant(const remarks_view *v, size_t i, sheet *out)
     if (n && !v->analysis.time_dependent)
         say(out,
             "%.80s: with %s it oscillates by at most %.3g and shows no trend, since a symplectic method nearly "
-            "conserves a modified energy.",
-            name, list, largest_drift(v, stays, i));
+            "conserves a modified energy%s.",
+            name, list, largest_drift(v, stays, i),
+            v->analysis.sampled_gradient ? "; that the force is a gradient holds as far as sampled" : "");
     n = names(v, drifts, i, list, sizeof list);
     if (n)
         say(out, "%.80s: with %s it has a trend that its oscillation does not explain; the largest change is %.3g.",
@@ -277,9 +278,9 @@ static void reference(const remarks_view *v, sheet *out)
         return;
     }
     char why[LINE_MAX_BYTES / 2];
-    const int order = solution_allows(v->reference, why, sizeof why);
-    if (order)
-        say(out, "The force is not smooth along the motion: %s. No method of fixed step has more than order %d here.",
+    const double order = solution_allows(v->s, v->reference, why, sizeof why);
+    if (order > 0)
+        say(out, "The force is not smooth along the motion: %s. No method of fixed step has more than order %.3g here.",
             why, order);
     size_t n = v->reference->exact ? 0 : names(v, as_good_as_the_reference, 0, list, sizeof list);
     if (n)

@@ -10,6 +10,7 @@
  * methods agree on.
  */
 #include "solution.h"
+#include "base/decimal.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +39,7 @@ typedef struct candidate {
     double step;
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
-    double jump_time, jump_rounding;
+    double jump_time, jump_rounding, jump_power;
     bool over;   /* a run was given up, since it took too long */
     double work; /* of all its runs */
     double more; /* what its last run cost, in units of what its steps alone would have cost */
@@ -56,6 +57,11 @@ study_grid solution_grid(const study *s, double step)
     int64_t per;
     if (isnan(step)) return study_grid_of(s, fabs(s->until - s->from) / STUDY_SAMPLES, STUDY_SAMPLES, 0, &per);
     return study_grid_of(s, step, s->total, s->last_step, &per);
+}
+
+static candidate untried(const motus_method *card)
+{
+    return (candidate){.card = card, .scaled = NAN, .jump = -1, .jump_time = NAN, .jump_power = NAN};
 }
 
 static size_t candidates(study *s, candidate *out)
@@ -79,7 +85,7 @@ static size_t candidates(study *s, candidate *out)
             if (at >= SOLUTION_CANDIDATES) continue;
             count = count < SOLUTION_CANDIDATES ? count + 1 : count;
             memmove(out + at + 1, out + at, (count - 1 - at) * sizeof *out);
-            out[at] = (candidate){.card = m, .scaled = NAN, .jump = -1, .jump_time = NAN};
+            out[at] = untried(m);
         }
     return count;
 }
@@ -122,6 +128,13 @@ static void estimate(candidate *c, study_distance d, double divisor, double step
     c->scaled = d.scaled / divisor;
 }
 
+/* Makes the error of a walk that of the study. */
+static motus_status tell(study *s, motus_status status, const motus_error *e)
+{
+    if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, e, s->err);
+    return status;
+}
+
 /* A walk of a reference run, which is given up where it costs more than `limit`. Its own failure is no failure of the
  * study: it leaves NaN in the table. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
@@ -133,10 +146,7 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     s->limit = fmax(1, limit / each);
     const motus_status status = study_walk(s, card->name, g, per, table, spent, &ignored);
     s->limit = 0;
-    if (study_fatal(status)) {
-        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-        return status;
-    }
+    if (study_fatal(status)) return tell(s, status, &ignored);
     /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
      * but for what it costs to locate switches. */
     const double cost = fmax(each * (double)spent->evaluations, plain);
@@ -180,6 +190,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
             c->jump = spent.jump;
             c->jump_time = spent.jump_time;
             c->jump_rounding = spent.jump_rounding;
+            c->jump_power = spent.jump_power;
             const study_distance last = d;
             d = have ? apart(s, *now, *before, g->points) : (study_distance){NAN, NAN, NAN};
             double fall = last.scaled / d.scaled, step = g->interval / (double)per;
@@ -309,6 +320,7 @@ static void adopt(study *s, const study_grid *g, const candidate *best, const do
     r->step = best->step;
     r->jump = best->jump;
     r->jump_time = best->jump_time;
+    r->jump_power = best->jump_power;
     snprintf(r->method, sizeof r->method, "%s", best->card->name);
     snprintf(r->text, sizeof r->text, "%s at step %.6g%s", best->card->name, best->step,
              best->jump >= 0 ? ", with steps that end where the force is not smooth" : "");
@@ -336,7 +348,7 @@ static motus_status agree(study *s, const study_grid *g, double budget, double e
         r->error = fmax(r->error, fmax(d.x, d.v));
         r->scaled = fmax(r->scaled, d.scaled);
         if (!far || turn == SOLUTION_ROUNDS) return MOTUS_OK;
-        candidate again = {.card = best->card, .scaled = NAN, .jump = -1, .jump_time = NAN};
+        candidate again = untried(best->card);
         const int level = ilogb(round(g->interval / best->step)) + 1;
         status = refine(s, g, budget, budget, enough, level, &again, &now, &before);
         if (status != MOTUS_OK) return status;
@@ -408,7 +420,7 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     if (study_broken(s) != MOTUS_OK) return study_broken(s);
     r->jump = -1;
     r->jump_time = NAN;
-    if (analysis.smooth || !candidates(s, list)) return study_broken(s);
+    if (!candidates(s, list)) return study_broken(s);
     double *room = take(s->allocator, g->points * s->numbers, sizeof(double));
     if (!room) return fail(s->err, MOTUS_MEMORY, "out of memory for %zu states of %zu numbers", g->points, s->numbers);
     study_cost cost;
@@ -417,10 +429,11 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     motus_status status = study_walk(s, list[0].card->name, g, 1, room, &cost, &ignored);
     s->locate = false;
     give(s->allocator, room);
-    if (study_fatal(status)) return status;
-    r->uneven = status != MOTUS_OK || !s->locatable;
+    if (study_fatal(status)) return tell(s, status, &ignored);
+    r->uneven = !analysis.smooth && (status != MOTUS_OK || !s->locatable);
     r->jump = cost.jump;
     r->jump_time = cost.jump_time;
+    r->jump_power = cost.jump_power;
     return MOTUS_OK;
 }
 
@@ -437,10 +450,7 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
         study_cost cost;
         motus_error ignored = motus_default_error();
         motus_status status = study_walk(s, exact, g, 1, r->rows + s->numbers, &cost, &ignored);
-        if (study_fatal(status)) {
-            if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-            return status;
-        }
+        if (study_fatal(status)) return tell(s, status, &ignored);
         if (status == MOTUS_OK && finite_rows(s, r->rows, g->points + 1)) {
             study_scale(s, r->rows + s->numbers, g->points);
             r->known = r->exact = true;
@@ -459,21 +469,25 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
     return status;
 }
 
-int solution_allows(const solution *r, char *why, size_t size)
+double solution_allows(const study *s, const solution *r, char *why, size_t size)
 {
+    char t[DECIMAL_MAX];
     why[0] = 0;
     if (r->uneven) {
         snprintf(why, size, "the force is not smooth, and where it jumps could not be found");
         return 1;
     }
     if (r->jump < 0) return 0;
+    const bool infinite = r->jump_power != (double)r->jump;
+    decimal_time(r->jump_time, s->until - s->from, t);
     if (r->jump == 0)
-        snprintf(why, size, "the force jumps at t = %.6g", r->jump_time);
+        snprintf(why, size, "the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
     else if (r->jump == 1)
-        snprintf(why, size, "the slope of the force jumps at t = %.6g", r->jump_time);
+        snprintf(why, size, "the slope of the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
     else
-        snprintf(why, size, "derivative %d of the force jumps at t = %.6g", (int)r->jump, r->jump_time);
-    return (int)r->jump + 1;
+        snprintf(why, size, "derivative %d of the force %s at t = %s", (int)r->jump, infinite ? "is infinite" : "jumps",
+                 t);
+    return fmax(r->jump_power + 1, 0.01);
 }
 
 const char *solution_lacks(const solution *r) { return r->text + strlen(NONE); }
@@ -489,8 +503,7 @@ motus_status solution_on(study *s, const solution *r, const study_grid *g, doubl
     motus_status status = study_walk(s, r->method, g, per, rows, &cost, &ignored);
     s->locate = false;
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
-    if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
-    return status;
+    return tell(s, status, &ignored);
 }
 
 void solution_free(study *s, solution *r)

@@ -11,7 +11,8 @@ typedef struct solution {
     bool located;     /* its runs end their steps where the force changes its formula */
     bool uneven;      /* the force is not smooth, and steps cannot end where it changes its formula */
     int64_t jump;     /* the lowest derivative of the force that jumps along the motion, as in motus_statistics; */
-    double jump_time; /*   at this time first */
+    double jump_time; /*   at this time first, and with this power */
+    double jump_power;
     char method[MOTUS_NAME_MAX]; /* the method of its run; "" if nothing is known */
     int order;
     double step;                  /* of the reference run; 0 for the exact motion */
@@ -31,9 +32,10 @@ motus_status solution_find(study *, const study_grid *, int64_t steps, double en
 /* The solution on another grid of the same motion (grid->points rows), at steps no larger than solution->step. */
 motus_status solution_on(study *, const solution *, const study_grid *, double *rows);
 const char *solution_lacks(const solution *); /* why nothing is known */
-/* The highest order that a method of fixed step can have on this motion, since the force is not smooth along it; 0:
- * any. `why` becomes a sentence without capital and stop: "the force jumps at t = 2.5". */
-int solution_allows(const solution *, char *why, size_t size);
+/* The highest order that a method of fixed step can have on this motion, since the force is not smooth along it,
+ * which need not be a whole number; 0: any. `why` becomes a sentence without capital and stop: "the force jumps at t
+ * = 2.5". */
+double solution_allows(const study *, const solution *, char *why, size_t size);
 void solution_free(study *, solution *);
 
 #endif

@@ -279,7 +279,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
 {
     motus_run *run = NULL;
     size_t done = 0;
-    *cost = (study_cost){.jump = -1, .jump_time = NAN};
+    *cost = (study_cost){.jump = -1, .jump_time = NAN, .jump_power = NAN};
     motus_status status = tick(s, 0);
     if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
     s->walking = run;
@@ -304,6 +304,7 @@ motus_status study_walk(study *s, const char *method, const study_grid *g, int64
         cost->jump = did.jump;
         cost->jump_time = did.jump_time;
         cost->jump_rounding = did.jump_rounding;
+        cost->jump_power = did.jump_power;
         s->locatable = did.switches >= 0;
     }
     motus_run_destroy(run);

@@ -59,7 +59,7 @@ typedef struct study_cost {
     double seconds;
     bool over;    /* the walk gave up at study.limit */
     int64_t jump; /* as in motus_statistics */
-    double jump_time, jump_rounding;
+    double jump_time, jump_rounding, jump_power;
 } study_cost;
 
 /* The definition in this version's layout, checked. */

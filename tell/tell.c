@@ -103,6 +103,9 @@ void tell_analysis(json *j, const motus_system *system)
     json_bool(j, "constant", a.constant);
     json_bool(j, "gyroscopic", a.gyroscopic);
     json_bool(j, "gradient", a.gradient);
+    json_bool(j, "sampled_gyroscopic", a.sampled_gyroscopic);
+    json_bool(j, "sampled_gradient", a.sampled_gradient);
+    json_bool(j, "energy", a.energy);
     json_bool(j, "smooth", a.smooth);
     json_bool(j, "exact_recognised", a.exact_recognised);
 }

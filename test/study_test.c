@@ -488,6 +488,47 @@ static void no_certificate_by_luck(void **state)
     motus_system_destroy(s);
 }
 
+/* The order that a force allows, and the time, with the digits that tell it from the ends of the motion. */
+static void what_a_force_allows(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says;
+    } rows[] = {
+        {"x'' = -x - sqrt(x^2)\nx(0) = 1\nx'(0) = 0\nuntil 2\n",
+         "the slope of the force jumps at t = 1.11072. No method of "
+         "fixed step has more than order 2 here"},
+        {"x'' = -x + 0.1 |x|^1.3\nx(0) = 1\nx'(0) = 0\nuntil 2\n", "derivative 2 of the force is infinite at t = "},
+        {"x'' = -x + 0.1 |x|^1.3\nx(0) = 1\nx'(0) = 0\nuntil 2\n", "more than order 2.3 here"},
+        {"x'' = -cbrt(x)\nx(0) = 1\nx'(0) = 0\nuntil 2\n", "the slope of the force is infinite at t = "},
+        {"x'' = -cbrt(x)\nx(0) = 1\nx'(0) = 0\nuntil 2\n", "more than order 1.33 here"},
+        {"x'' = -x + if(x > 0, sin(x), x - x^3/6)\nx(0) = 1\nx'(0) = -1\nuntil 2\n",
+         "derivative 5 of the force jumps at t"},
+        {"x'' = -sign(x)\nx(1e6) = 1\nx'(1e6) = 0\nuntil 1000002\n", "the force jumps at t = 1000001.41421."},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        motus_system *s = system_of_text(rows[k].text);
+        motus_study_def def = motus_default_study();
+        const char *const methods[] = {"rk4", "velocity-verlet"};
+        def.step = 0.02;
+        def.methods = methods;
+        def.method_count = 2;
+        motus_comparison *c = compare(s, &def);
+        if (!strstr(c->remarks, rows[k].says)) fail_msg("%s: %s", rows[k].text, c->remarks);
+        motus_comparison_destroy(c);
+        motus_system_destroy(s);
+    }
+    static const char *const smooth[] = {"x'' = -x - sqrt(x^2 + 1)\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.05\n",
+                                         "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 0.6)\nuntil 5\nstep 0.01\n"};
+    for (size_t k = 0; k < sizeof smooth / sizeof *smooth; k++) {
+        motus_system *s = system_of_text(smooth[k]);
+        motus_comparison *c = compare(s, NULL);
+        if (strstr(c->remarks, "smooth")) fail_msg("%s: %s", smooth[k], c->remarks);
+        motus_comparison_destroy(c);
+        motus_system_destroy(s);
+    }
+}
+
 static void exact_here(void **state)
 {
     (void)state;
@@ -741,6 +782,7 @@ int main(void)
         cmocka_unit_test(certificates),
         cmocka_unit_test(an_undeclared_velocity_is_refused),
         cmocka_unit_test(a_jump_costs_the_order),
+        cmocka_unit_test(what_a_force_allows),
         cmocka_unit_test(no_certificate_by_luck),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),

@@ -136,7 +136,7 @@ static void which_derivative_jumps(void **state)
         const char *force;
         int jump;
     } rows[] = {{"-x - sign(x)", 0},      {"-x - |x|", 1},        {"-x - |x| x", 2},    {"-x - 0.1 |x| x^2", 3},
-                {"-x - max(0, x)", 1},    {"-x - x |x|^3", 4},    {"-x - cbrt(x)", 1},  {"-x - sign(x) |x|^1.5", 1},
+                {"-x - max(0, x)", 1},    {"-x - x |x|^3", 4},    {"-x - cbrt(x)", 1},  {"-x - sign(x) |x|^1.5", 2},
                 {"-x + 1e-9 sign(x)", 0}, {"-x + floor(2 x)", 0}, {"-x |x^2 + 1|", -1}, {"-x + if(t < 20, 0, 1)", -1},
                 {"-x + max(0, t - 1)", 1}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
@@ -148,6 +148,58 @@ static void which_derivative_jumps(void **state)
         assert_int_equal(run_of(text, "rk4", 0.05, MOTUS_SWITCHES_STEP).did.switches, -1);
     }
     assert_int_equal(located("x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 4\n", "rk4", 0.1).did.switches, 0);
+}
+
+/* With which power of the time the force departs from a smooth one, and where: also where no argument changes its
+ * side, so that steps end at a touch of the place in which a formula has no derivative. The motion comes from 1 to 0
+ * with a velocity of about 1. */
+static void powers_and_touches(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *force;
+        double power;
+    } rows[] = {{"-x - sqrt(x^2)", 1},
+                {"-x - hypot(x, 0)", 1},
+                {"-x - hypot(x, 0 x)", 1},
+                {"-x - (x^2)^0.5", 1},
+                {"-2 x - 0.1 (x^2)^1.5", 3},
+                {"-x - |x|^1.3", 1.3},
+                {"-x - x |x|^1.3", 2.3},
+                {"-x + if(x > 0, sin(x), x - x^3/6)", 5},
+                {"-cbrt(x)", 1.0 / 3},
+                {"-x - sqrt(|x|)", 0.5},
+                {"-x - sqrt(1 - cos(x))", 1},
+                {"-x + acos(cos(t))", 1},
+                {"-x + asin(sin(t))", 1},
+                {"-x + atan2(sin(t), cos(t))", 0},
+                {"-x + sin(acos(cos(t)))", 1},
+                {"-x + cos(acos(cos(t)))", NAN},
+                {"-x - sqrt(x^2 + 1)", NAN},
+                {"-x - sqrt(x^2 + 1e-4)", NAN},
+                {"-2 x - 0.01 (x^2 + 1)^1.5", NAN},
+                {"-x - hypot(x, 0.1)", NAN},
+                {"-x - atan2(x, 2)", NAN},
+                {"-x + asin(0.9 sin(t))", NAN},
+                {"-2 x - 0.01 (x^2)^2 + 0.01 x (x^2)^3", NAN}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        for (int m = 0; m < 2; m++) {
+            char text[256];
+            snprintf(text, sizeof text, "x'' = %s\nx(0) = 1\nx'(0) = -0.3\nuntil 3.5\n", rows[k].force);
+            const outcome o = run_of(text, m ? "gauss8" : "kahan-li8", 0.05, MOTUS_SWITCHES_RESOLVE);
+            if (o.status) fail_msg("%s: %s", rows[k].force, o.message);
+            if (isnan(rows[k].power) ? !isnan(o.did.jump_power) : !(fabs(o.did.jump_power - rows[k].power) < 0.02))
+                fail_msg("%s: %g at %g, not %g", rows[k].force, o.did.jump_power, o.did.jump_time, rows[k].power);
+            assert_int_equal(o.did.jump, isnan(rows[k].power) ? -1 : (int)ceil(rows[k].power));
+            if (strstr(rows[k].force, "cos(t)"))
+                assert_true(isnan(o.did.jump_time) || fabs(o.did.jump_time - acos(-1)) < 1e-14);
+        }
+    /* x = cos(√2 t) up to x = 0, and from there a straight line */
+    const double w = sqrt(2), quarter = acos(0) / w, expected = -w * (3 - quarter);
+    const outcome o =
+        run_of("x'' = -x - sqrt(x^2)\nx(0) = 1\nx'(0) = 0\nuntil 3\n", "kahan-li8", 0.05, MOTUS_SWITCHES_RESOLVE);
+    NEAR(o.x, expected, 1e-14);
+    NEAR(o.did.jump_time, quarter, 1e-14);
 }
 
 /* A family has a switch for each cell: balls on a line that push each other away when they touch. */
@@ -276,6 +328,7 @@ int main(void)
         cmocka_unit_test(there_and_back),
         cmocka_unit_test(orders),
         cmocka_unit_test(which_derivative_jumps),
+        cmocka_unit_test(powers_and_touches),
         cmocka_unit_test(families),
         cmocka_unit_test(sliding),
         cmocka_unit_test(at_rest),

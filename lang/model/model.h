@@ -173,7 +173,7 @@ typedef struct model {
     output *exact;
     size_t exact_count; /* into X and V */
     bool exact_given, exact_recognised;
-    traits traits; /* but gyroscopic and gradient, which api/explain.c samples when they are needed */
+    traits traits; /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
 
     double start, step, until, every_time;
     bool start_known;

@@ -164,7 +164,7 @@ static bool hidden(operation op, interval a, interval b)
     case OP_COS:
     case OP_TAN: return !(a.high - a.low <= WAVE);
     case OP_DIV: return changes(b);
-    case OP_POW: return b.low < 1 && changes(a);
+    case OP_POW: return b.low < 0 && changes(a);
     default: return false;
     }
 }

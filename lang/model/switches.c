@@ -25,9 +25,9 @@ typedef struct kind {
 typedef struct builder {
     model *m;
     switches *s;
-    kind *kinds;
-    uint32_t room;
-    uint32_t *last; /* by node of the model: 1 + the number of the last kind of this operation, 0: none */
+    kind *kinds, *touches;
+    uint32_t room, touch_room;
+    uint32_t *last, *last_touch; /* by node of the model: 1 + the number of the last kind of this operation, 0: none */
 } builder;
 
 static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph->too_large; }
@@ -60,42 +60,43 @@ static bool spread_over(const model *m, const nest *n, int level, spread *out)
     return true;
 }
 
-/* The arrays of a new kind of switch: its sides in the pool, and its values. */
-static bool place(builder *b, const nest *around, unsigned deps, reference *side, reference *value)
+/* The place of the values of a new kind, of at most `most` cells with those that there are. */
+static const char *place(builder *b, const nest *around, unsigned deps, size_t *count, size_t most, reference *value)
 {
-    switches *s = b->s;
     spread over;
     over.tried = 0;
     for (int k = 0; k < MAX_LEVELS; k++) over.first[k] = INT64_MAX, over.last[k] = INT64_MIN;
-    if (around->count > MAX_DIMS || !spread_over(b->m, around, 0, &over)) {
-        s->refused = "there are too many of them in loops within loops";
-        return false;
-    }
+    if (around->count > MAX_DIMS || !spread_over(b->m, around, 0, &over))
+        return "there are too many of them in loops within loops";
     int dims = 0;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     double cells = 1;
-    *side = *value = (reference){0};
+    *value = (reference){0};
     for (int level = 0; level < around->count; level++) {
         if (!(deps & 1u << level)) continue;
         const bool empty = over.first[level] > over.last[level];
         first[dims] = empty ? 1 : over.first[level];
         last[dims] = empty ? 1 : over.last[level];
         cells *= (double)(last[dims] - first[dims] + 1);
-        side->at[dims++] = (subscript){(int8_t)level, -1, -1, 0};
+        value->at[dims++] = (subscript){(int8_t)level, -1, -1, 0};
     }
-    if ((double)s->count + cells > SWITCHES_MAX) {
-        s->refused = "there are too many of them";
-        return false;
-    }
-    uint16_t at;
-    if (!model_take_arrays(b->m, 2, &at)) return false;
-    side->dims = (uint8_t)dims;
-    *value = *side;
-    side->array = at;
-    value->array = (uint16_t)(at + 1);
-    graph_shape(&b->m->arrays[at], SPACE_POOL, s->slot + s->count, dims, first, last);
-    s->count += graph_shape(&b->m->arrays[at + 1], SPACE_OUT, s->count, dims, first, last);
-    return true;
+    if ((double)*count + cells > (double)most) return "there are too many of them";
+    value->dims = (uint8_t)dims;
+    if (model_take_arrays(b->m, 1, &value->array))
+        *count += graph_shape(&b->m->arrays[value->array], SPACE_OUT, *count, dims, first, last);
+    return NULL;
+}
+
+/* The sides of a kind of switch, in the pool. */
+static reference place_sides(builder *b, const reference *value)
+{
+    reference side = *value;
+    if (!model_take_arrays(b->m, 1, &side.array)) return side;
+    array *to = &b->m->arrays[side.array];
+    *to = b->m->arrays[value->array];
+    to->space = SPACE_POOL;
+    to->base += b->s->slot;
+    return side;
 }
 
 /* Operations --------------------------------------------------------------------------------------------------- */
@@ -167,6 +168,14 @@ static bool same_nest(const nest *p, const nest *q, unsigned deps)
     return true;
 }
 
+static output output_to(const reference *value, unsigned levels, const nest *around)
+{
+    output o = {.to = *value, .loops = 0};
+    while (levels >> o.loops) o.loops++;
+    for (int k = 0; k < o.loops; k++) o.loop[k] = around->at[k];
+    return o;
+}
+
 /* The number of the kind of switch, found or added; UINT32_MAX: refused, or no memory. */
 static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
 {
@@ -176,8 +185,10 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     const unsigned levels = original.deps & DEP_LEVELS;
     for (uint32_t k = b->last[n]; k; k = b->kinds[k - 1].before)
         if (same_nest(&b->kinds[k - 1].around, around, levels)) return k - 1;
-    reference side, value;
-    if (!place(b, around, levels, &side, &value)) return UINT32_MAX;
+    reference value;
+    s->refused = place(b, around, levels, &s->count, SWITCHES_MAX, &value);
+    if (s->refused || broken(b)) return UINT32_MAX;
+    const reference side = place_sides(b, &value);
     if (s->kinds == b->room) {
         const uint32_t room = b->room ? 2 * b->room : 16;
         arena *m = b->m->arena;
@@ -189,9 +200,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
         if (broken(b)) return UINT32_MAX;
         b->room = room;
     }
-    output o = {.to = value, .loops = 0};
-    while (levels >> o.loops) o.loops++;
-    for (int k = 0; k < o.loops; k++) o.loop[k] = around->at[k];
+    const output o = output_to(&value, levels, around);
     const uint32_t k = (uint32_t)s->kinds++;
     graph_shift shift = {b->m->block_size, b->m->block_size};
     b->kinds[k] = (kind){n, *around, graph_load(g, &side), b->last[n]};
@@ -202,6 +211,54 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     s->held[k].value = argument_of(g, original.op, a, c);
     s->rate[k].value = graph_derivative(g, s->held[k].value, seed_motion, &shift);
     return k;
+}
+
+/* Touches ---------------------------------------------------------------------------------------------------------- */
+
+/* What is 0 where the operation has no derivative, and positive elsewhere; 0: there is no such place. */
+static node touch_argument(graph *g, const graph_node *n, node a, node b)
+{
+    const graph_node *e = &g->nodes[n->b];
+    switch ((operation)n->op) {
+    case OP_SQRT: return a;
+    case OP_POW: return e->op == OP_CONST && e->value == floor(e->value) ? 0 : a;
+    case OP_ASIN:
+    case OP_ACOS: return graph_op(g, OP_SUB, graph_const(g, 1), graph_op(g, OP_MUL, a, a, 0), 0);
+    case OP_HYPOT: return graph_op(g, OP_ADD, graph_op(g, OP_MUL, a, a, 0), graph_op(g, OP_MUL, b, b, 0), 0);
+    case OP_ATAN2: return graph_op(g, OP_ADD, graph_op(g, OP_HYPOT, a, b, 0), b, 0);
+    default: return 0;
+    }
+}
+
+static void note_touch(builder *b, node n, node x, node y, const nest *around)
+{
+    graph *g = b->m->graph;
+    switches *s = b->s;
+    const graph_node original = g->nodes[n];
+    const unsigned levels = original.deps & DEP_LEVELS;
+    for (uint32_t k = b->last_touch[n]; k; k = b->touches[k - 1].before)
+        if (same_nest(&b->touches[k - 1].around, around, levels)) return;
+    const node argument = touch_argument(g, &original, x, y);
+    reference value;
+    if (!(g->nodes[argument].deps & MOVING)) return;
+    if (place(b, around, levels, &s->touches, TOUCHES_MAX, &value) || broken(b)) return;
+    if (s->touch_kinds == b->touch_room) {
+        const uint32_t room = b->touch_room ? 2 * b->touch_room : 16;
+        arena *m = b->m->arena;
+        b->touches = arena_grow(m, b->touches, b->touch_room * sizeof *b->touches, room * sizeof *b->touches);
+        s->touch = arena_grow(m, s->touch, b->touch_room * sizeof *s->touch, room * sizeof *s->touch);
+        s->touch_rate =
+            arena_grow(m, s->touch_rate, b->touch_room * sizeof *s->touch_rate, room * sizeof *s->touch_rate);
+        if (broken(b)) return;
+        b->touch_room = room;
+    }
+    graph_shift shift = {b->m->block_size, b->m->block_size};
+    const size_t k = s->touch_kinds++;
+    b->touches[k] = (kind){n, *around, 0, b->last_touch[n]};
+    b->last_touch[n] = (uint32_t)k + 1;
+    s->touch[k] = s->touch_rate[k] = output_to(&value, levels, around);
+    s->touch[k].value = argument;
+    s->touch_rate[k].value = graph_derivative(g, argument, seed_motion, &shift);
 }
 
 /* Equations ---------------------------------------------------------------------------------------------------- */
@@ -264,8 +321,9 @@ static node rewrite(builder *b, node root, const nest *around)
             if (is_switch(g, &n)) {
                 const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
                 if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
-            } else if (changed) {
-                map[k] = graph_op(g, n.op, to[0], to[1], to[2]);
+            } else {
+                if (changed) map[k] = graph_op(g, n.op, to[0], to[1], to[2]);
+                note_touch(b, w.nodes[k], to[0], to[1], around);
             }
         }
     }
@@ -291,8 +349,10 @@ static output *rewrite_all(builder *b, const output *from, size_t count)
 bool switches_find(model *m, switches *s)
 {
     *s = (switches){.slot = m->pool_count};
-    builder b = {.m = m, .s = s, .last = take(&m->arena->allocator, m->graph->count, sizeof *b.last)};
+    const size_t nodes = m->graph->count;
+    builder b = {.m = m, .s = s, .last = take(&m->arena->allocator, nodes, 2 * sizeof *b.last)};
     if (!b.last) return m->arena->failed = true, false;
+    b.last_touch = b.last + nodes;
     s->accel = rewrite_all(&b, m->accel, m->accel_count);
     s->boundary = rewrite_all(&b, m->boundary, m->boundary_count);
     s->op = arena_room(m->arena, s->count + 1);

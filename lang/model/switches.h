@@ -2,15 +2,18 @@
  *
  * A switch is an operation abs, sign, min, max, floor, mod, cbrt or a comparison, whose argument depends on the time or
  * the state. Its side is a number p that stands in its place: |u| becomes p u, with p = 1 or -1. While the sides are
- * held, the force is smooth, also beyond the place where a switch would change its side; so a step can lead across
- * that place, and a root of the argument tells where it is. In a family there is a switch for each cell.
+ * held, the force is smooth, also beyond the place where a switch would change its side; so a step can lead across that
+ * place, and a root of the argument tells where it is. In a family there is a switch for each cell.
+ *
+ * A touch is a place where a formula has no derivative without changing: sqrt, a power or hypot at 0, asin and acos at
+ * ±1, atan2 on its cut. Its argument is positive elsewhere, and 0 there.
  */
 #ifndef LANG_MODEL_SWITCHES_H
 #define LANG_MODEL_SWITCHES_H
 
 #include "lang/model/model.h"
 
-enum { SWITCHES_MAX = 1 << 16 }; /* of one model, cells counted */
+enum { SWITCHES_MAX = 1 << 16, TOUCHES_MAX = 1 << 12 }; /* of one model, cells counted; more touches are not observed */
 
 typedef struct switches {
     size_t count;        /* switches, cells counted */
@@ -23,6 +26,8 @@ typedef struct switches {
     output *argument;    /* kinds: what the switch compares with 0, or takes the integer part of, to SPACE_OUT */
     output *held, *rate; /* the same with sides in it, and its rate of change along the motion (reads SPACE_A) */
     size_t *first;       /* kinds: the number of the first cell's switch */
+    size_t touches, touch_kinds; /* touches, cells counted; families counted once */
+    output *touch, *touch_rate;  /* touch_kinds: the arguments, with sides in them, and their rates */
 } switches;
 
 /* Finds the switches of accelerations and boundary lines. False: no memory. */

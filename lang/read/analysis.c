@@ -1,6 +1,5 @@
 /* Traits of the equations that follow from their form: what they depend on, whether velocity enters linearly, whether
- * the exact motion is known. Traits that need sampled states (gradient, gyroscopic) are found elsewhere, by
- * evaluation. */
+ * the exact motion is known. What needs a proof or samples (gradient, gyroscopic) is found by api/symmetry.c. */
 #include "lang/read/read_steps.h"
 
 /* Differentiates along a direction of v; da/dv is constant where the result depends on the direction alone. */

@@ -116,15 +116,15 @@ static motus_status wrong_start(model *m, const double *is, const double *due, b
 
 static motus_status wrong_force(model *m, const sample *s, size_t k)
 {
-    char name[MOTUS_NAME_MAX + 64], a[VERIFY_DIGITS], b[VERIFY_DIGITS];
+    char name[MOTUS_NAME_MAX + 64], a[VERIFY_DIGITS], b[VERIFY_DIGITS], time[DECIMAL_MAX];
     model_name(m, true, k, name, sizeof name - 1);
     char *prime = strchr(name, '\'');
     if (prime) memmove(prime + 1, prime, strlen(prime) + 1);
     verify_digits(s->e[k], s->a[k], a, b);
     source_complain(&m->source, MOTUS_ARGUMENT, exact_line(m)->at,
-                    "the exact motion does not obey the equation: at t = %.6g %s is %s, but the force gives %s; they "
+                    "the exact motion does not obey the equation: at t = %s %s is %s, but the force gives %s; they "
                     "differ by %.2g",
-                    s->t, name, a, b, s->e[k] - s->a[k]);
+                    decimal_time(s->t, m->until - m->start, time), name, a, b, s->e[k] - s->a[k]);
     source_hint(&m->source, "correct the exact line, or leave it out");
     return MOTUS_ARGUMENT;
 }

@@ -172,11 +172,11 @@ static void rates(const runs *r, uint32_t i)
 
 static motus_status refuse(model *m, const model_definition *d, size_t k, double rate, double t)
 {
-    char number[64] = "";
+    char number[64] = "", time[DECIMAL_MAX];
     if (d->numbers > 1) snprintf(number, sizeof number, " (number %zu of %zu)", k + 1, d->numbers);
     source_complain(&m->source, MOTUS_ARGUMENT, d->statement->at,
-                    "%s%s is no invariant: along the motion it changes at the rate %.6g at t = %.6g", d->name, number,
-                    rate, t);
+                    "%s%s is no invariant: along the motion it changes at the rate %.6g at t = %s", d->name, number,
+                    rate, decimal_time(t, m->until - m->start, time));
     source_hint(&m->source,
                 "correct it or the equations; without the word invariant it is a quantity, which may change");
     return MOTUS_ARGUMENT;

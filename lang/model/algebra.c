@@ -1,0 +1,451 @@
+/* Sums, products and normal form of polynomials in atoms. See algebra.h. */
+#include "lang/model/algebra.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { DEPTH_MAX = 100, EXPONENT_MAX = 64 };
+
+bool algebra_begin(algebra *A, const model *m, long work)
+{
+    *A = (algebra){.model = m, .work = work, .atom_count = 1, .monomial_count = 1};
+    arena_init(&A->arena, &m->arena->allocator);
+    A->monomials = arena_take(&A->arena, sizeof *A->monomials);
+    A->monomial_room = 1;
+    return !A->arena.failed;
+}
+
+void algebra_end(algebra *A) { arena_release(&A->arena); }
+
+poly algebra_lose(algebra *A)
+{
+    A->lost = true;
+    return (poly){NULL, 0, -INFINITY};
+}
+
+/* Room for one more element of a list that doubles; false: no memory, or no work is left. */
+static bool grow(algebra *A, void *list, uint32_t count, uint32_t *room, size_t size)
+{
+    if (A->lost || --A->work < 0) return A->lost = true, false;
+    if (count < *room) return true;
+    void *old;
+    memcpy(&old, list, sizeof old);
+    const uint32_t more = *room ? 2 * *room : 64;
+    void *now = arena_grow(&A->arena, old, count * size, more * size);
+    if (!now) return A->lost = true, false;
+    memcpy(list, &now, sizeof now);
+    *room = more;
+    return true;
+}
+
+static uint32_t mixed(uint32_t h, uint32_t x)
+{
+    h = (h ^ x) * 0x9E3779B1u;
+    return h ^ h >> 15;
+}
+
+/* Monomials ------------------------------------------------------------------------------------------------------- */
+
+static bool same_powers(const algebra_power *p, const algebra_power *q, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++)
+        if (p[k].atom != q[k].atom || p[k].exponent != q[k].exponent) return false;
+    return true;
+}
+
+/* The monomial of the powers that stand behind the last one in the list, from `first` on. */
+static uint32_t share(algebra *A, uint32_t first)
+{
+    const uint32_t count = A->power_count - first;
+    uint32_t h = count;
+    if (count == 0) return 0;
+    for (uint32_t k = first; k < A->power_count; k++)
+        h = mixed(mixed(h, A->powers[k].atom), (uint32_t)(int32_t)lrint(4096 * A->powers[k].exponent));
+    h %= ALGEBRA_HEADS;
+    for (uint32_t k = A->monomial_heads[h]; k; k = A->monomials[k].next)
+        if (A->monomials[k].count == count &&
+            same_powers(A->powers + A->monomials[k].first, A->powers + first, count)) {
+            A->power_count = first;
+            return k;
+        }
+    if (!grow(A, &A->monomials, A->monomial_count, &A->monomial_room, sizeof *A->monomials)) return 0;
+    A->monomials[A->monomial_count] = (algebra_monomial){first, count, A->monomial_heads[h]};
+    return A->monomial_heads[h] = A->monomial_count++;
+}
+
+static void push(algebra *A, uint32_t atom, double exponent)
+{
+    if (fabs(exponent) < 1e-12) return;
+    if (!(fabs(exponent) <= 1e4)) {
+        A->lost = true;
+        return;
+    }
+    if (A->atoms[atom].op == OP_GT && exponent > 0) exponent = 1; /* step² is step */
+    if (!grow(A, &A->powers, A->power_count, &A->power_room, sizeof *A->powers)) return;
+    A->powers[A->power_count++] = (algebra_power){atom, exponent};
+}
+
+static uint32_t product(algebra *A, uint32_t p, uint32_t q)
+{
+    if (!p || !q) return p + q;
+    const uint32_t first = A->power_count;
+    const algebra_monomial m = A->monomials[p], n = A->monomials[q];
+    for (uint32_t i = 0, k = 0; (i < m.count || k < n.count) && !A->lost;) {
+        const algebra_power a = i < m.count ? A->powers[m.first + i] : (algebra_power){UINT32_MAX, 0},
+                            b = k < n.count ? A->powers[n.first + k] : (algebra_power){UINT32_MAX, 0};
+        push(A, a.atom < b.atom ? a.atom : b.atom,
+             (a.atom <= b.atom ? a.exponent : 0) + (b.atom <= a.atom ? b.exponent : 0));
+        i += a.atom <= b.atom;
+        k += b.atom <= a.atom;
+    }
+    return share(A, first);
+}
+
+/* The monomial without one of its atoms, whose exponent is then given another value; 0: it is left out. */
+static uint32_t with_exponent(algebra *A, uint32_t of, uint32_t atom, double exponent)
+{
+    const uint32_t first = A->power_count;
+    const algebra_monomial m = A->monomials[of];
+    for (uint32_t k = 0; k < m.count && !A->lost; k++) {
+        const algebra_power p = A->powers[m.first + k];
+        push(A, p.atom, p.atom == atom ? exponent : p.exponent);
+    }
+    return share(A, first);
+}
+
+static double exponent_of(const algebra *A, uint32_t of, uint32_t atom)
+{
+    const algebra_monomial *m = &A->monomials[of];
+    for (uint32_t k = 0; k < m->count; k++)
+        if (A->powers[m->first + k].atom == atom) return A->powers[m->first + k].exponent;
+    return 0;
+}
+
+/* Lists of terms -------------------------------------------------------------------------------------------------- */
+
+static void note(algebra *A, uint32_t of, double factor, double size)
+{
+    if (!grow(A, &A->line, A->line_count, &A->line_room, sizeof *A->line)) return;
+    if (!isfinite(size)) A->lost = true;
+    A->line[A->line_count++] = (poly_term){of, factor, size};
+}
+
+static void sort(poly_term *t, uint32_t count) /* Shell's sort, with Ciura's gaps */
+{
+    static const uint32_t gaps[] = {8929, 3905, 1750, 701, 301, 132, 57, 23, 10, 4, 1};
+    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
+        for (uint32_t i = gaps[g]; i < count; i++) {
+            const poly_term moved = t[i];
+            uint32_t k = i;
+            for (; k >= gaps[g] && t[k - gaps[g]].of > moved.of; k -= gaps[g]) t[k] = t[k - gaps[g]];
+            t[k] = moved;
+        }
+}
+
+/* The polynomial of the terms in the line from `first` on, which leave it. */
+static poly gather(algebra *A, uint32_t first, double low)
+{
+    if (A->lost) return algebra_lose(A);
+    uint32_t count = 0;
+    poly_term *t = A->line + first;
+    sort(t, A->line_count - first);
+    for (uint32_t k = 0; k < A->line_count - first;) {
+        poly_term sum = t[k];
+        for (k++; k < A->line_count - first && t[k].of == sum.of; k++) {
+            sum.factor += t[k].factor;
+            sum.size += t[k].size;
+        }
+        if (fabs(sum.factor) > ALGEBRA_ROUNDING * sum.size) t[count++] = sum;
+    }
+    poly_term *kept = count ? arena_room(&A->arena, count * sizeof *kept) : NULL;
+    if (count && !kept) return algebra_lose(A);
+    if (count) memcpy(kept, t, count * sizeof *kept);
+    A->line_count = first;
+    if (count == 0) low = 0;
+    if (count == 1 && kept->of == 0) low = kept->factor;
+    return (poly){kept, count, low};
+}
+
+poly algebra_number(algebra *A, double value)
+{
+    const uint32_t first = A->line_count;
+    if (value != 0) note(A, 0, value, fabs(value));
+    return gather(A, first, value);
+}
+
+poly algebra_of_atom(algebra *A, uint32_t atom, double exponent, double factor, double low)
+{
+    const uint32_t first = A->line_count, powers = A->power_count;
+    if (A->lost) return algebra_lose(A);
+    push(A, atom, exponent);
+    note(A, share(A, powers), factor, fabs(factor));
+    return gather(A, first, low);
+}
+
+poly algebra_add(algebra *A, poly p, double factor, poly q)
+{
+    const uint32_t first = A->line_count;
+    for (uint32_t k = 0; k < p.count; k++) note(A, p.terms[k].of, p.terms[k].factor, p.terms[k].size);
+    for (uint32_t k = 0; k < q.count; k++)
+        note(A, q.terms[k].of, factor * q.terms[k].factor, fabs(factor) * q.terms[k].size);
+    return gather(A, first, factor > 0 ? p.low + factor * q.low : -INFINITY);
+}
+
+static void note_product(algebra *A, poly p, poly q)
+{
+    for (uint32_t i = 0; i < p.count && !A->lost; i++)
+        for (uint32_t k = 0; k < q.count && !A->lost; k++)
+            note(A, product(A, p.terms[i].of, q.terms[k].of), p.terms[i].factor * q.terms[k].factor,
+                 p.terms[i].size * q.terms[k].size);
+}
+
+poly algebra_times(algebra *A, poly p, poly q)
+{
+    const uint32_t first = A->line_count;
+    const bool square = p.terms == q.terms && p.count == q.count;
+    note_product(A, p, q);
+    double low = p.low >= 0 && q.low >= 0 ? p.low * q.low : square ? 0 : -INFINITY;
+    return gather(A, first, low);
+}
+
+/* Atoms ----------------------------------------------------------------------------------------------------------- */
+
+static bool same_poly(poly p, poly q)
+{
+    if (p.count != q.count) return false;
+    for (uint32_t k = 0; k < p.count; k++)
+        if (p.terms[k].of != q.terms[k].of ||
+            !(fabs(p.terms[k].factor - q.terms[k].factor) <= ALGEBRA_ROUNDING * fabs(p.terms[k].factor)))
+            return false;
+    return true;
+}
+
+static uint32_t hashed(uint32_t h, poly p)
+{
+    for (uint32_t k = 0; k < p.count; k++) h = mixed(h, p.terms[k].of);
+    return h;
+}
+
+static uint32_t intern(algebra *A, algebra_atom atom)
+{
+    uint32_t h = mixed(mixed(atom.op, atom.space), (uint32_t)atom.at);
+    h = hashed(hashed(h, atom.a), atom.b) % ALGEBRA_HEADS;
+    for (uint32_t k = A->atom_heads[h]; k; k = A->atoms[k].next) {
+        algebra_atom *other = &A->atoms[k];
+        if (other->op != atom.op || other->space != atom.space || other->at != atom.at) continue;
+        if (!same_poly(other->a, atom.a) || !same_poly(other->b, atom.b)) continue;
+        other->a.low = fmax(other->a.low, atom.a.low);
+        return k;
+    }
+    if (A->atom_room == 0 && !grow(A, &A->atoms, 0, &A->atom_room, sizeof *A->atoms)) return 0;
+    if (!grow(A, &A->atoms, A->atom_count, &A->atom_room, sizeof *A->atoms)) return 0;
+    atom.next = A->atom_heads[h];
+    A->atoms[A->atom_count] = atom;
+    return A->atom_heads[h] = A->atom_count++;
+}
+
+uint32_t algebra_place(algebra *A, space s, size_t at)
+{
+    return intern(A, (algebra_atom){.op = s == SPACE_OUT ? OP_TIME : OP_LOAD, .space = (uint8_t)s, .at = at});
+}
+
+uint32_t algebra_atom_of(algebra *A, operation op, poly a, poly b)
+{
+    return A->lost ? 0 : intern(A, (algebra_atom){.op = (uint8_t)op, .a = a, .b = b});
+}
+
+/* Powers ---------------------------------------------------------------------------------------------------------- */
+
+static bool whole(double e) { return e == floor(e); }
+
+/* A power of a product is the product of powers: for whole exponents, and for the powers of what is positive. False:
+ * that does not hold. */
+static bool raise_single(algebra *A, poly base, double e, poly *out)
+{
+    const poly_term t = base.terms[0];
+    const algebra_monomial m = A->monomials[t.of];
+    if (!whole(e) && t.factor < 0) return false;
+    for (uint32_t k = 0; k < m.count; k++) {
+        const algebra_power p = A->powers[m.first + k];
+        const uint8_t op = A->atoms[p.atom].op;
+        if (op == OP_GT || op == OP_EQ || op == OP_NE) return false;
+        if (!whole(e) && op != OP_EXP && (op != OP_POW || whole(p.exponent))) return false;
+    }
+    const uint32_t first = A->line_count, powers = A->power_count;
+    for (uint32_t k = 0; k < m.count && !A->lost; k++)
+        push(A, A->powers[m.first + k].atom, e * A->powers[m.first + k].exponent);
+    const double factor = pow(t.factor, e);
+    note(A, share(A, powers), factor, fabs(factor) * t.size / fabs(t.factor));
+    *out = gather(A, first, whole(e / 2) || !whole(e) ? 0 : -INFINITY);
+    return true;
+}
+
+poly algebra_raise(algebra *A, poly base, double e)
+{
+    poly out;
+    if (A->lost || !isfinite(e)) return algebra_lose(A);
+    if (e == 0) return algebra_number(A, 1);
+    if (base.count == 0) return e > 0 ? base : algebra_lose(A);
+    if (e == 1) return base;
+    if (base.count == 1 && base.terms[0].of == 0 && (base.terms[0].factor > 0 || whole(e)))
+        return algebra_number(A, pow(base.terms[0].factor, e));
+    if (base.count == 1 && raise_single(A, base, e, &out)) return out;
+    if (whole(e) && e > 0 && e <= EXPONENT_MAX) {
+        const poly half = algebra_raise(A, base, floor(e / 2));
+        out = algebra_times(A, half, half);
+        return whole(e / 2) ? out : algebra_times(A, out, base);
+    }
+    const double c = whole(e) ? base.terms[0].factor : fabs(base.terms[0].factor);
+    const poly one = algebra_add(A, algebra_number(A, 0), 1 / c, base);
+    const double low = !whole(e) || whole(e / 2) || base.low > 0 ? 0 : -INFINITY;
+    return algebra_of_atom(A, algebra_atom_of(A, OP_POW, one, (poly){NULL, 0, 0}), e, pow(c, e), low);
+}
+
+/* Writes out the powers of one base: by the smallest of them, which no term lacks then, the polynomial may be divided,
+ * since only its zero matters. */
+static poly write_out(algebra *A, poly p, uint32_t atom)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (uint32_t k = 0; k < p.count; k++) {
+        const double e = exponent_of(A, p.terms[k].of, atom);
+        least = fmin(least, e);
+        most = fmax(most, e);
+    }
+    if (most - least < 1) return p;
+    const uint32_t first = A->line_count;
+    for (uint32_t k = 0; k < p.count && !A->lost; k++) {
+        const poly_term t = p.terms[k];
+        const double e = exponent_of(A, t.of, atom) - least, n = floor(e + 1e-9);
+        const uint32_t rest = with_exponent(A, t.of, atom, 0), before = A->line_count;
+        const poly one = n > 0 ? algebra_raise(A, A->atoms[atom].a, n) : algebra_number(A, 1);
+        const poly part = fabs(e - n) > 1e-9 ? algebra_of_atom(A, atom, e - n, 1, 0) : algebra_number(A, 1);
+        note(A, rest, t.factor, t.size);
+        const poly with = algebra_times(A, gather(A, before, 0), part);
+        note_product(A, with, one);
+    }
+    return gather(A, first, -INFINITY);
+}
+
+bool algebra_zero(algebra *A, poly *given)
+{
+    poly p = *given;
+    /* A base is made of atoms with smaller numbers. */
+    for (uint32_t atom = A->atom_count; p.count > 0 && !A->lost;) {
+        uint32_t next = 0;
+        for (uint32_t k = 0; k < p.count; k++) {
+            const algebra_monomial *m = &A->monomials[p.terms[k].of];
+            for (uint32_t i = 0; i < m->count; i++) {
+                const uint32_t other = A->powers[m->first + i].atom;
+                if (other < atom && other > next && A->atoms[other].op == OP_POW) next = other;
+            }
+        }
+        if (!next) break;
+        p = write_out(A, p, atom = next);
+    }
+    *given = p;
+    return !A->lost && p.count == 0;
+}
+
+static bool plain(const algebra *A, uint32_t atom)
+{
+    return A->atoms[atom].op == OP_LOAD || A->atoms[atom].op == OP_TIME;
+}
+
+static bool reads_places_alone(const algebra *A, poly p)
+{
+    for (uint32_t k = 0; k < p.count; k++) {
+        const algebra_monomial m = A->monomials[p.terms[k].of];
+        for (uint32_t i = 0; i < m.count; i++)
+            if (!plain(A, A->powers[m.first + i].atom)) return false;
+    }
+    return true;
+}
+
+bool algebra_differs(const algebra *A, poly p)
+{
+    uint32_t function = 0;
+    for (uint32_t k = 0; k < p.count; k++) {
+        const algebra_monomial m = A->monomials[p.terms[k].of];
+        for (uint32_t i = 0; i < m.count; i++) {
+            const uint32_t atom = A->powers[m.first + i].atom;
+            const algebra_atom *a = &A->atoms[atom];
+            if (plain(A, atom) || atom == function) continue;
+            if (function || a->op == OP_GT || a->op == OP_EQ || a->op == OP_NE || a->op == OP_FLOOR) return false;
+            if (!reads_places_alone(A, a->a) || !reads_places_alone(A, a->b)) return false;
+            function = atom;
+        }
+    }
+    return !A->lost && p.count > 0;
+}
+
+/* Derivatives ------------------------------------------------------------------------------------------------------ */
+
+static poly slope(algebra *A, poly p, uint32_t by, int depth);
+
+/* f'(a) a', of an atom that is a function. */
+static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
+{
+    const algebra_atom f = A->atoms[k];
+    const poly one = algebra_number(A, 1), none = {NULL, 0, 0};
+    if (k == by) return one;
+    if (f.op == OP_LOAD || f.op == OP_TIME) return none;
+    if (f.sloped == by) return f.slope;
+    const poly da = slope(A, f.a, by, depth + 1), db = slope(A, f.b, by, depth + 1);
+    poly rate = none;
+    if (da.count || db.count) {
+        const poly self = algebra_of_atom(A, k, 1, 1, -INFINITY), square = algebra_times(A, f.a, f.a);
+        switch ((operation)f.op) {
+        case OP_POW: rate = one; break; /* of the base */
+        case OP_EXP: rate = self; break;
+        case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, none); break;
+        case OP_COS: rate = algebra_add(A, none, -1, algebra_apply(A, OP_SIN, f.a, none)); break;
+        case OP_TAN: rate = algebra_add(A, one, 1, algebra_times(A, self, self)); break;
+        case OP_ASIN: rate = algebra_raise(A, algebra_add(A, one, -1, square), -0.5); break;
+        case OP_ATAN: rate = algebra_raise(A, algebra_add(A, one, 1, square), -1); break;
+        case OP_SINH: rate = algebra_apply(A, OP_COSH, f.a, none); break;
+        case OP_COSH: rate = algebra_apply(A, OP_SINH, f.a, none); break;
+        case OP_TANH: rate = algebra_add(A, one, -1, algebra_times(A, self, self)); break;
+        case OP_LOG: rate = algebra_raise(A, f.a, -1); break;
+        case OP_CBRT: rate = algebra_times(A, algebra_number(A, 1.0 / 3), algebra_raise(A, self, -2)); break;
+        case OP_ERF:
+            rate = algebra_apply(A, OP_EXP, algebra_add(A, none, -1, square), none);
+            rate = algebra_times(A, algebra_number(A, 1.1283791670955126), rate);
+            break;
+        case OP_ABS: rate = algebra_apply(A, OP_SIGN, f.a, none); break;
+        case OP_GT: rate = algebra_of_atom(A, algebra_atom_of(A, OP_EQ, f.a, none), 1, 1, 0); break;
+        case OP_FLOOR: rate = algebra_of_atom(A, algebra_atom_of(A, OP_NE, f.a, none), 1, 1, 0); break;
+        case OP_ATAN2: {
+            const poly below = algebra_add(A, square, 1, algebra_times(A, f.b, f.b));
+            rate = algebra_add(A, algebra_times(A, f.b, da), -1, algebra_times(A, f.a, db));
+            rate = algebra_times(A, rate, algebra_raise(A, below, -1));
+            break;
+        }
+        default: rate = algebra_lose(A); break;
+        }
+        if (f.op != OP_ATAN2) rate = algebra_times(A, rate, da);
+    }
+    A->atoms[k].sloped = by;
+    A->atoms[k].slope = rate;
+    return rate;
+}
+
+static poly slope(algebra *A, poly p, uint32_t by, int depth)
+{
+    if (depth > DEPTH_MAX) return algebra_lose(A);
+    const uint32_t first = A->line_count;
+    for (uint32_t k = 0; k < p.count && !A->lost; k++) {
+        const poly_term t = p.terms[k];
+        const algebra_monomial m = A->monomials[t.of];
+        for (uint32_t i = 0; i < m.count && !A->lost; i++) {
+            const algebra_power power = A->powers[m.first + i];
+            const poly of_atom = slope_of_atom(A, power.atom, by, depth);
+            if (of_atom.count == 0) continue;
+            const poly_term rest = {with_exponent(A, t.of, power.atom, power.exponent - 1), t.factor * power.exponent,
+                                    t.size * fabs(power.exponent)};
+            note_product(A, (poly){&rest, 1, 0}, of_atom);
+        }
+    }
+    return gather(A, first, -INFINITY);
+}
+
+poly algebra_slope(algebra *A, poly p, uint32_t by) { return slope(A, p, by, 0); }

@@ -1,0 +1,123 @@
+/* The operations of a model on polynomials in atoms. See algebra.h. */
+#include "lang/model/algebra.h"
+
+#include <math.h>
+
+static const poly none = {NULL, 0, 0};
+
+static bool number(poly p, double *value)
+{
+    if (p.count > 1 || (p.count == 1 && p.terms[0].of != 0)) return false;
+    *value = p.count ? p.terms[0].factor : 0;
+    return true;
+}
+
+static poly negative(algebra *A, poly p) { return algebra_add(A, none, -1, p); }
+
+/* p/c */
+static poly scaled(algebra *A, poly p, double c) { return algebra_add(A, none, 1 / c, p); }
+
+/* A function that is odd (sign -1), even (1), or neither (0). */
+static poly function(algebra *A, operation op, poly a, int parity, double low)
+{
+    const double c = a.count ? a.terms[0].factor : 0;
+    if (A->lost) return algebra_lose(A);
+    if (parity && c < 0) {
+        const poly p = function(A, op, negative(A, a), 0, low);
+        return parity < 0 ? negative(A, p) : p;
+    }
+    return algebra_of_atom(A, algebra_atom_of(A, op, a, none), 1, 1, low);
+}
+
+/* 1 where p > 0, else 0. */
+static poly step(algebra *A, poly p)
+{
+    double value;
+    if (A->lost) return algebra_lose(A);
+    if (number(p, &value)) return algebra_number(A, value > 0);
+    if (p.low > 0) return algebra_number(A, 1);
+    const double c = p.terms[0].factor;
+    const poly up = algebra_of_atom(A, algebra_atom_of(A, OP_GT, scaled(A, p, c), none), 1, 1, 0);
+    return c > 0 ? up : algebra_add(A, algebra_number(A, 1), -1, up);
+}
+
+/* a == b: almost nowhere, unless they are the same. */
+static poly equal(algebra *A, poly a, poly b)
+{
+    poly apart = algebra_add(A, a, -1, b);
+    return algebra_number(A, algebra_zero(A, &apart));
+}
+
+static poly magnitude(algebra *A, poly p)
+{
+    if (A->lost) return algebra_lose(A);
+    if (p.count == 0 || p.low >= 0) return p;
+    const double c = p.terms[0].factor;
+    const poly one = algebra_of_atom(A, algebra_atom_of(A, OP_ABS, scaled(A, p, c), none), 1, 1, 0);
+    return algebra_times(A, algebra_number(A, fabs(c)), one);
+}
+
+static poly complement(algebra *A, poly p) { return algebra_add(A, algebra_number(A, 1), -1, p); }
+
+static poly power(algebra *A, poly a, poly b)
+{
+    double e;
+    if (number(b, &e)) return algebra_raise(A, a, e);
+    return function(A, OP_EXP, algebra_times(A, b, algebra_apply(A, OP_LOG, a, none)), 0, 0);
+}
+
+poly algebra_apply(algebra *A, operation op, poly a, poly b)
+{
+    double x = 0, y = 0;
+    if (A->lost) return algebra_lose(A);
+    if (op != OP_ADD && op != OP_MUL && number(a, &x) && number(b, &y)) {
+        const double value = operation_value(op, x, y, 0);
+        return isfinite(value) ? algebra_number(A, value) : algebra_lose(A);
+    }
+    switch (op) {
+    case OP_NEG: return negative(A, a);
+    case OP_ADD: return algebra_add(A, a, 1, b);
+    case OP_SUB: return algebra_add(A, a, -1, b);
+    case OP_MUL: return algebra_times(A, a, b);
+    case OP_DIV: return algebra_times(A, a, algebra_raise(A, b, -1));
+    case OP_POW: return power(A, a, b);
+    case OP_SQRT: return algebra_raise(A, a, 0.5);
+    case OP_HYPOT: return algebra_raise(A, algebra_add(A, algebra_times(A, a, a), 1, algebra_times(A, b, b)), 0.5);
+    case OP_LT: return step(A, algebra_add(A, b, -1, a));
+    case OP_GT: return step(A, algebra_add(A, a, -1, b));
+    case OP_LE: return complement(A, step(A, algebra_add(A, a, -1, b)));
+    case OP_GE: return complement(A, step(A, algebra_add(A, b, -1, a)));
+    case OP_EQ: return equal(A, a, b);
+    case OP_NE: return complement(A, equal(A, a, b));
+    case OP_AND: return algebra_times(A, a, b);
+    case OP_OR: return algebra_add(A, algebra_add(A, a, 1, b), -1, algebra_times(A, a, b));
+    case OP_NOT: return complement(A, a);
+    case OP_ABS: return magnitude(A, a);
+    case OP_SIGN: return algebra_add(A, algebra_number(A, -1), 2, step(A, a));
+    case OP_MIN:
+    case OP_MAX: {
+        const poly apart = magnitude(A, algebra_add(A, a, -1, b));
+        return scaled(A, algebra_add(A, algebra_add(A, a, 1, b), op == OP_MAX ? 1 : -1, apart), 2);
+    }
+    case OP_MOD: {
+        const poly turns = function(A, OP_FLOOR, algebra_apply(A, OP_DIV, a, b), 0, -INFINITY);
+        return algebra_add(A, a, -1, algebra_times(A, b, turns));
+    }
+    case OP_ACOS: return algebra_add(A, algebra_number(A, acos(0)), -1, function(A, OP_ASIN, a, -1, -INFINITY));
+    case OP_ATAN2: return algebra_of_atom(A, algebra_atom_of(A, op, a, b), 1, 1, -INFINITY);
+    case OP_SIN:
+    case OP_TAN:
+    case OP_ASIN:
+    case OP_ATAN:
+    case OP_SINH:
+    case OP_TANH:
+    case OP_ERF:
+    case OP_CBRT: return function(A, op, a, -1, -INFINITY);
+    case OP_COS: return function(A, op, a, 1, -INFINITY);
+    case OP_COSH: return function(A, op, a, 1, 1);
+    case OP_EXP: return function(A, op, a, 0, 0);
+    case OP_LOG:
+    case OP_FLOOR: return function(A, op, a, 0, -INFINITY);
+    default: return algebra_lose(A);
+    }
+}

@@ -1,0 +1,263 @@
+/* See field.h. The force is read cell by cell, as polynomials whose derivatives are compared: algebra.h. */
+#include "lang/model/field.h"
+
+#include "lang/graph/graph_walk.h"
+#include "lang/model/algebra.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WORK = 1500000, DEPTH_MAX = 100 };
+
+typedef struct field {
+    algebra algebra;
+    space space;
+    double sign;
+    const double *masses;
+    uint32_t cells, room;
+    size_t *place;      /* cells */
+    poly *force, *part; /* cells: all of it; a part of it */
+    uint32_t *cell;     /* nv: 1 + number of the cell at a place; 0: none */
+    uint32_t *atom;     /* cells */
+    uint32_t *seen;     /* of each atom of the force: the cell for which it was seen */
+    uint32_t atoms;
+    bool refuted; /* the last two derivatives that were compared differ */
+} field;
+
+/* Reading --------------------------------------------------------------------------------------------------------- */
+
+static bool add_cell(field *f, const output *o, const int64_t *index)
+{
+    algebra *A = &f->algebra;
+    if (f->cells == f->room) {
+        const uint32_t more = f->room ? 2 * f->room : 16;
+        f->place = arena_grow(&A->arena, f->place, f->room * sizeof *f->place, more * sizeof *f->place);
+        f->force = arena_grow(&A->arena, f->force, f->room * sizeof *f->force, more * sizeof *f->force);
+        f->room = more;
+        if (!f->place || !f->force) return false;
+    }
+    f->place[f->cells] = algebra_offset(A->model, &o->to, index);
+    f->force[f->cells] = algebra_read(A, o->value, index);
+    f->cells++;
+    return !A->lost;
+}
+
+static bool add_cells(field *f, const output *o, int level, int64_t *index)
+{
+    if (level == o->loops) return add_cell(f, o, index);
+    const int64_t first = algebra_subscript(f->algebra.model, &o->loop[level].first, index),
+                  last = algebra_subscript(f->algebra.model, &o->loop[level].last, index);
+    for (int64_t k = first; k <= last; k++) {
+        index[level] = k;
+        if (!add_cells(f, o, level + 1, index)) return false;
+    }
+    return true;
+}
+
+/* False: no memory, or lost. */
+static bool read_force(field *f, const model *m)
+{
+    algebra *A = &f->algebra;
+    for (size_t i = 0; i < m->accel_count; i++) {
+        int64_t index[MAX_LEVELS] = {0};
+        if (!add_cells(f, &m->accel[i], 0, index)) return false;
+    }
+    f->cell = arena_room(&A->arena, (m->nv + 1) * sizeof *f->cell);
+    f->atom = arena_room(&A->arena, (f->cells + 1) * sizeof *f->atom);
+    f->part = arena_room(&A->arena, (f->cells + 1) * sizeof *f->part);
+    if (!f->cell || !f->atom || !f->part) return false;
+    for (uint32_t k = 0; k < f->cells && !A->lost; k++) {
+        f->cell[f->place[k]] = k + 1;
+        f->atom[k] = algebra_place(A, f->space, f->place[k]);
+    }
+    f->atoms = A->atom_count;
+    f->seen = arena_room(&A->arena, (f->atoms + 1) * sizeof *f->seen);
+    return f->seen && !A->lost;
+}
+
+/* The derivatives -------------------------------------------------------------------------------------------------- */
+
+static double mass(const field *f, uint32_t cell) { return f->masses ? f->masses[f->place[cell]] : 1; }
+
+/* Whether m[i] J[i][k] = sign m[k] J[k][i]. */
+static bool same(field *f, const poly *force, uint32_t i, uint32_t k)
+{
+    algebra *A = &f->algebra;
+    if (i == k && f->sign > 0) return true;
+    const poly back = algebra_slope(A, force[k], f->atom[i]);
+    if (k < i && back.count > 0) return true; /* cell k was first */
+    const poly there = algebra_slope(A, force[i], f->atom[k]);
+    const poly weighed = algebra_add(A, (poly){NULL, 0, 0}, mass(f, i), there);
+    poly apart = algebra_add(A, weighed, -f->sign * mass(f, k), back);
+    if (algebra_zero(A, &apart)) return true;
+    f->refuted = algebra_differs(A, apart);
+    return false;
+}
+
+/* So for all numbers that cell i reads. */
+static bool same_below(field *f, const poly *force, uint32_t i, poly p, int depth)
+{
+    algebra *A = &f->algebra;
+    if (depth > DEPTH_MAX) return false;
+    for (uint32_t k = 0; k < p.count; k++) {
+        const algebra_monomial m = A->monomials[p.terms[k].of];
+        for (uint32_t j = 0; j < m.count; j++) {
+            const uint32_t number = A->powers[m.first + j].atom;
+            if (number >= f->atoms || f->seen[number] == i + 1) continue;
+            f->seen[number] = i + 1;
+            const algebra_atom atom = A->atoms[number];
+            const uint32_t other = atom.op == OP_LOAD && atom.space == f->space ? f->cell[atom.at] : 0;
+            if (other && !same(f, force, i, other - 1)) return false;
+            if (!same_below(f, force, i, atom.a, depth + 1) || !same_below(f, force, i, atom.b, depth + 1))
+                return false;
+        }
+    }
+    return !A->lost;
+}
+
+static bool symmetric(field *f, const poly *force)
+{
+    memset(f->seen, 0, f->atoms * sizeof *f->seen);
+    for (uint32_t i = 0; i < f->cells; i++)
+        if (!same_below(f, force, i, force[i], 0)) return false;
+    return true;
+}
+
+/* The potential ---------------------------------------------------------------------------------------------------- */
+
+/* What an expression is under x → c x with c > 0: c^degree times itself; NaN: no power of c. And whether it may be
+ * without value somewhere. */
+typedef struct scaling {
+    double degree;
+    bool pole;
+} scaling;
+
+static scaling scaling_of(field *f, poly p, int depth);
+
+static scaling scaling_of_power(field *f, algebra_power p, int depth)
+{
+    const algebra_atom a = f->algebra.atoms[p.atom];
+    const bool root = p.exponent != floor(p.exponent);
+    if (a.op == OP_TIME) return (scaling){0, false};
+    if (a.op == OP_LOAD) return (scaling){p.exponent, p.exponent < 0 || root};
+    const scaling of_a = scaling_of(f, a.a, depth + 1), of_b = scaling_of(f, a.b, depth + 1);
+    scaling s = {of_a.degree == 0 && of_b.degree == 0 ? 0 : NAN, of_a.pole || of_b.pole};
+    switch ((operation)a.op) {
+    case OP_POW:
+        s.degree = of_a.degree * p.exponent;
+        s.pole |= !(a.a.low > 0) && (p.exponent < 0 || (root && !(a.a.low >= 0)));
+        return s;
+    case OP_ABS: s.degree = of_a.degree * p.exponent; break;
+    case OP_GT: s.degree = isnan(of_a.degree) ? NAN : 0; break;
+    case OP_LOG: s.pole |= !(a.a.low > 0); break;
+    case OP_ATAN2:
+        if (of_a.degree == of_b.degree) s.degree = 0;
+        s.pole |= !(a.b.low > 0);
+        break;
+    case OP_TAN:
+    case OP_ASIN: s.pole = true; break;
+    default: break;
+    }
+    s.pole |= p.exponent < 0;
+    return s;
+}
+
+static scaling scaling_of_term(field *f, uint32_t of, int depth)
+{
+    const algebra_monomial m = f->algebra.monomials[of];
+    scaling s = {0, false};
+    for (uint32_t k = 0; k < m.count; k++) {
+        const scaling one = scaling_of_power(f, f->algebra.powers[m.first + k], depth);
+        s.degree += one.degree;
+        s.pole |= one.pole;
+    }
+    return s;
+}
+
+static scaling scaling_of(field *f, poly p, int depth)
+{
+    if (depth > DEPTH_MAX) return (scaling){NAN, true};
+    scaling s = {0, false};
+    for (uint32_t k = 0; k < p.count; k++) {
+        const scaling one = scaling_of_term(f, p.terms[k].of, depth);
+        if (k == 0) s.degree = one.degree;
+        if (one.degree != s.degree) s.degree = NAN;
+        s.pole |= one.pole;
+    }
+    return s;
+}
+
+/* Whether a term reads no other place than this one. */
+static bool own(const field *f, uint32_t of, uint32_t atom, int depth)
+{
+    const algebra *A = &f->algebra;
+    const algebra_monomial m = A->monomials[of];
+    bool only = depth <= DEPTH_MAX;
+    for (uint32_t k = 0; k < m.count && only; k++) {
+        const algebra_atom a = A->atoms[A->powers[m.first + k].atom];
+        only = a.op != OP_LOAD || A->powers[m.first + k].atom == atom;
+        for (uint32_t i = 0; i < a.a.count && only; i++) only = own(f, a.a.terms[i].of, atom, depth + 1);
+        for (uint32_t i = 0; i < a.b.count && only; i++) only = own(f, a.b.terms[i].of, atom, depth + 1);
+    }
+    return only;
+}
+
+/* Where a force has poles, ways round them can lead back with another energy. Not so where a part of the force takes in
+ * all poles, is a gradient, and scales as |x|^n with n other than -1: its potential is -x·F/(n + 1). The rest, a
+ * gradient too, has no poles. What depends on its own place alone has a potential anyway. */
+static bool single(field *f)
+{
+    algebra *A = &f->algebra;
+    bool any = false, rest = false;
+    for (uint32_t i = 0; i < f->cells; i++) {
+        const poly force = f->force[i];
+        poly_term *terms = force.count ? arena_room(&A->arena, force.count * sizeof *terms) : NULL;
+        uint32_t count = 0;
+        if (force.count && !terms) return false;
+        for (uint32_t k = 0; k < force.count; k++) {
+            const scaling s = scaling_of_term(f, force.terms[k].of, 0);
+            if (!s.pole || own(f, force.terms[k].of, f->atom[i], 0)) {
+                rest = true;
+                continue;
+            }
+            if (isnan(s.degree) || fabs(s.degree + 1) < 1e-9) return f->cells == 1;
+            terms[count++] = force.terms[k];
+        }
+        f->part[i] = (poly){terms, count, -INFINITY};
+        any |= count > 0;
+    }
+    return !any || !rest || symmetric(f, f->part);
+}
+
+bool field_prove(model *m, bool in_v, const double *masses, field_proof *out)
+{
+    field f = {.space = in_v ? SPACE_V : SPACE_X, .sign = in_v ? -1 : 1, .masses = masses};
+    *out = (field_proof){false, false, false};
+    const bool began = algebra_begin(&f.algebra, m, WORK);
+    if (began && read_force(&f, m)) {
+        out->holds = symmetric(&f, f.force) && !f.algebra.lost;
+        out->refuted = f.refuted;
+        out->single = out->holds && !in_v && single(&f) && !f.algebra.lost;
+    }
+    const bool memory = !f.algebra.arena.failed && !m->arena->failed;
+    algebra_end(&f.algebra);
+    return memory;
+}
+
+bool field_jumps(model *m)
+{
+    graph *g = m->graph;
+    bool found = false;
+    for (size_t i = 0; i < m->accel_count && !found; i++) {
+        graph_walk w;
+        if (!graph_order(g, &m->accel[i].value, 1, DEP_X, true, &w)) return true;
+        for (uint32_t k = 0; k < w.count && !found; k++) {
+            const graph_node *n = &g->nodes[w.nodes[k]];
+            if (n->op == OP_SELECT) n = &g->nodes[n->a];
+            if (!operation_at((operation)n->op)->smooth && n->op != OP_ABS && n->op != OP_MIN && n->op != OP_MAX)
+                found = (n->deps & DEP_X) != 0;
+        }
+        give(&g->arena->allocator, w.nodes);
+    }
+    return found;
+}
