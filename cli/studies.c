@@ -8,6 +8,7 @@
 #include "cli/complain.h"
 #include "cli/plot.h"
 #include "cli/text.h"
+#include <math.h>
 
 motus_status studies_begin(studies *s, const char *what, int needed, const options *o, motus_study_def *def,
                            motus_error *err)
@@ -35,9 +36,14 @@ motus_status studies_begin(studies *s, const char *what, int needed, const optio
 void studies_title(const studies *s, const char *reference, double error)
 {
     const bool colours = complain_colours(1);
-    printf("%s%s%s, errors against ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
-    text_put(stdout, reference ? reference : "nothing");
-    if (error > 0) printf(" (error %.1g)", error);
+    printf("%s%s%s, ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
+    if (reference && !isnan(error)) {
+        printf("errors against ");
+        text_put(stdout, reference);
+        if (error > 0) printf(" (error %.1g)", error);
+    } else {
+        printf("without errors: there is no reference solution");
+    }
     putchar('\n');
 }
 

@@ -40,9 +40,10 @@ typedef struct candidate {
     double x, v, scaled; /* the estimated error; scaled is NaN where there is none */
     int64_t jump;        /* as in motus_statistics, of the finest run */
     double jump_time, jump_rounding, jump_power;
-    bool over;   /* a run was given up, since it took too long */
-    double work; /* of all its runs */
-    double more; /* what its last run cost, in units of what its steps alone would have cost */
+    bool over;                   /* a run was given up, since it took too long */
+    double work;                 /* of all its runs */
+    double more;                 /* what its last run cost, in units of what its steps alone would have cost */
+    char failed[MOTUS_TEXT_MAX]; /* why its last run failed; "" if it did not */
 } candidate;
 
 /* The work of the runs of one method: study_work. */
@@ -138,7 +139,7 @@ static motus_status tell(study *s, motus_status status, const motus_error *e)
 /* A walk of a reference run, which is given up where it costs more than `limit`. Its own failure is no failure of the
  * study: it leaves NaN in the table. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
-                         double *table, study_cost *spent, work *w)
+                         double *table, study_cost *spent, work *w, char failed[MOTUS_TEXT_MAX])
 {
     motus_error ignored = motus_default_error();
     const double steps = (double)g->intervals * (double)per, plain = study_work(s, card, steps, -1),
@@ -147,6 +148,7 @@ static motus_status walk(study *s, const motus_method *card, const study_grid *g
     const motus_status status = study_walk(s, card->name, g, per, table, spent, &ignored);
     s->limit = 0;
     if (study_fatal(status)) return tell(s, status, &ignored);
+    snprintf(failed, MOTUS_TEXT_MAX, "%s", status == MOTUS_OK ? "" : ignored.message);
     /* A run that failed early cost little; the next one may cost its full price. Half the step costs twice as much,
      * but for what it costs to locate switches. */
     const double cost = fmax(each * (double)spent->evaluations, plain);
@@ -178,7 +180,8 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         if (level > first && w.next > left) break;
         int64_t per = (int64_t)1 << level;
         study_cost spent;
-        motus_status status = walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, *now, &spent, &w);
+        motus_status status =
+            walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, *now, &spent, &w, c->failed);
         if (status != MOTUS_OK) return status;
         c->work = w.done;
         c->more = w.more;
@@ -276,7 +279,7 @@ static motus_status judge(study *s, const study_grid *g, double budget, candidat
     *found = (study_distance){NAN, NAN, NAN};
     for (int64_t per = first; per > 0; per = 2 * per + 1) {
         study_cost spent;
-        motus_status status = walk(s, other, g, per, 2 * w.most - w.done, room, &spent, &w);
+        motus_status status = walk(s, other, g, per, 2 * w.most - w.done, room, &spent, &w, c->failed);
         if (status != MOTUS_OK) return status;
         c->over = spent.over;
         study_distance d = {NAN, NAN, NAN};
@@ -309,7 +312,9 @@ static const char *why_unknown(const candidate *list, size_t count)
 {
     for (size_t k = 0; k < count; k++)
         if (list[k].over) return "it would take too long, since the force changes its formula often or fast";
-    return "every method of high order failed before the end";
+    for (size_t k = 0; k < count; k++)
+        if (list[k].failed[0]) return list[k].failed;
+    return "no method of high order applies";
 }
 
 /* The solution is the run of `best` in `table`, with the error that its halvings tell. */
@@ -340,9 +345,7 @@ static motus_status agree(study *s, const study_grid *g, double budget, double e
         study_distance d;
         motus_status status = judge(s, g, budget, best, r, now, &d);
         if (status != MOTUS_OK) return status;
-        if (isnan(d.scaled))
-            return unknown(r, best->over ? why_unknown(best, 1)
-                                         : "no second method of high order reached the end, to judge the first by");
+        if (isnan(d.scaled)) return unknown(r, why_unknown(best, 1));
         const bool far = d.scaled > fmax(fmax(SOLUTION_FAR * r->scaled, 2 * s->noise), enough);
         const double own = r->scaled;
         r->error = fmax(r->error, fmax(d.x, d.v));

@@ -4,7 +4,7 @@
 
 #include "study.h"
 
-#define SOLUTION_TEXT_MAX 192
+#define SOLUTION_TEXT_MAX (MOTUS_TEXT_MAX + 16)
 
 typedef struct solution {
     bool known, exact;
