@@ -63,7 +63,7 @@ judge "check --json has the documented keys" "$("$motus" check models/spring.mot
         jq -e "has(\"$key\")" "$place/check.json" >/dev/null 2>&1 || echo "$key"; done)"
 
 # --- links ------------------------------------------------------------------------------------------------------------------------------
-judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md; do
+judge "links lead somewhere" "$(for file in README.md CONTRIBUTING.md HOUSE.md doc/manual.md doc/engine.md; do
     grep -oE '\]\([^)#]+\)' "$file" | sed 's/^](//; s/)$//' | while read -r link; do
         # x[i](0) is not a link
         [[ $link == http* || $link != *[./]* ]] || [ -e "$(dirname "$file")/$link" ] || echo "$file: $link"; done; done)"
