@@ -344,7 +344,10 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     motus_status status = study_walk(s, list[0].card->name, g, 1, room, &cost, &ignored);
     s->locate = false;
     give(s->allocator, room);
-    if (study_fatal(status)) return status;
+    if (study_fatal(status)) {
+        if (s->err && !s->cancelled) motus_struct_write(MOTUS_DEF_ERROR, &ignored, s->err);
+        return status;
+    }
     r->uneven = !analysis.smooth && (status != MOTUS_OK || !s->locatable);
     r->jump = cost.jump;
     r->jump_time = cost.jump_time;
