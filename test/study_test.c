@@ -801,7 +801,8 @@ static void what_a_force_allows(void **state)
     }
 }
 
-/* Where a force allows just the order of a method, the errors at the jump are of it too, and differ from step to step. */
+/* Where a force allows just the order of a method, the errors at the jump are of it too, and differ from step to
+ * step. */
 static void just_the_order_allowed(void **state)
 {
     (void)state;
