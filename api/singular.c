@@ -104,6 +104,9 @@ static double error_of(judge *j, double h)
     return fmax(x > 0 ? x / j->of_x : 0, v > 0 ? v / j->of_v : 0) / TOLERANCE;
 }
 
+/* By what the next step may be longer than one with this error. */
+static double rate(double error) { return 0.9 * exp(-0.2 * log(error)); }
+
 /* Controlled steps from `from` to the time t; the state there is `now`. False: they come to a halt. */
 static bool arrives(judge *j, double t)
 {
@@ -122,10 +125,10 @@ static bool arrives(judge *j, double t)
             copy(j, &j->now, &j->half);
             j->of_v = fmax(j->of_v, vector_largest(j->now.v, j->problem->nv));
             if (last) return true;
-            h *= fmin(4, 0.9 * pow(fmax(error, 1e-4), -0.2));
+            h *= fmin(4, rate(fmax(error, 1e-4)));
             continue;
         }
-        h *= isfinite(error) ? fmax(0.1, fmin(0.5, 0.9 * pow(error, -0.2))) : 0.1;
+        h *= isfinite(error) ? fmax(0.1, fmin(0.5, rate(error))) : 0.1;
         if (fabs(h) < short_of) return false;
     }
     return true; /* long, but on its way */

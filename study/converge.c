@@ -256,8 +256,8 @@ static double overall(const converge *c, const motus_converge_row *row, double f
         if (!first) first = p;
         last = p;
     }
-    const double octaves = first ? log2(first->step / last->step) : 0;
-    return octaves >= OVERALL_OCTAVES ? log2(first->error / last->error) / octaves : NAN;
+    const double octaves = first ? log(first->step / last->step) / log(2) : 0;
+    return octaves >= OVERALL_OCTAVES ? log(first->error / last->error) / log(2) / octaves : NAN;
 }
 
 static void certify(const converge *c, motus_converge_row *row, const fit_order_result *fit, char *text, size_t size)
