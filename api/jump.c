@@ -44,14 +44,19 @@ static double difference(jump_force *force, void *ctx, size_t n, double w, doubl
     return most > WEIGHTS * (CLEAR * 0x1p-52 * size + OFF * rounding / w * rise) ? most : -1;
 }
 
+/* The power between distances w and far w; NaN where a difference is none. */
+static double power_of(double at, double further, double far)
+{
+    return at > 0 && further > 0 ? log(further / at) / log(far) : NAN;
+}
+
 /* Whether the difference follows the power between w and 2 w, too. */
 static bool follows(jump_force *force, void *ctx, size_t n, double w, double rounding, double *room, double power)
 {
     const double at = difference(force, ctx, n, w, rounding, room);
     for (int i = 1; i < BETWEEN; i++) {
-        const double far = 1 + (double)i / BETWEEN, due = at * pow(far, power),
-                     is = difference(force, ctx, n, far * w, rounding, room);
-        if (!(fabs(is - due) <= ALIKE * due)) return false;
+        const double far = 1 + (double)i / BETWEEN, is = difference(force, ctx, n, far * w, rounding, room);
+        if (!(fabs(power_of(at, is, far) - power) <= ALIKE / log(far))) return false;
     }
     return true;
 }
@@ -64,7 +69,7 @@ double jump_power(jump_force *force, void *ctx, size_t n, double h, double round
         if (k < AT_LEAST && w < WEIGHTS * OFF * APART * rounding) continue;
         const double now = difference(force, ctx, n, w, rounding, room), last = power;
         if (isnan(now)) return NAN;
-        power = before > 0 && now > 0 ? log2(now / before) : NAN;
+        power = power_of(before, now, 2);
         before = now;
         if (!(fabs(power - last) <= ALIKE) || !follows(force, ctx, n, w / 2, rounding, room, power)) continue;
         if (power > MOST) return NAN;

@@ -2,18 +2,19 @@
  *
  * Interval arithmetic over the states of a step tells where a divisor may be 0 (lang/model/resolution.h). Such a step
  * is then taken once more from its start, by steps that error control chooses. Either they come to a halt, at a
- * singularity; or they lead to another state than the run's step, which then has not resolved the force. Invariant: a
- * step that agrees with the controlled ones is not accused, however near to a pole it leads.
+ * singularity; or they lead to another state than the run's step, in which a divisor has passed 0. Invariant: a step
+ * that agrees with the controlled ones, or leads past no pole, is not accused, however near to one it leads.
  */
 #include "api/run.h"
+#include "api/vector.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { PIECES_MAX = 50000, STAGES = 4 }; /* controlled steps in all */
-#define TOLERANCE 1e-6                   /* of the motion's size, for a controlled step */
+enum { PIECES_MAX = 50000, STAGES = 4, DEPTH = 30 }; /* controlled steps in all; halvings */
+#define TOLERANCE 1e-6                               /* of the motion's size, for a controlled step */
 #define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter stands before a singularity */
 #define APART 0.5     /* of the velocity, or of the way: another end than that of the controlled steps */
 
@@ -30,22 +31,6 @@ typedef struct judge {
     int pieces;        /* controlled steps so far */
     double of_x, of_v; /* the sizes to which errors of controlled steps relate */
 } judge;
-
-static double largest(const double *y, size_t count)
-{
-    double most = 0;
-    for (size_t k = 0; k < count; k++)
-        if (!(fabs(y[k]) <= most)) most = fabs(y[k]);
-    return most;
-}
-
-static double apart(const double *y, const double *z, size_t count)
-{
-    double most = 0;
-    for (size_t k = 0; k < count; k++)
-        if (!(fabs(y[k] - z[k]) <= most)) most = fabs(y[k] - z[k]); /* NaN stays */
-    return most;
-}
 
 static void copy(const judge *j, end *to, const end *from)
 {
@@ -64,6 +49,8 @@ static interval reach(double from, double rate, double to, double end_rate, doub
     return (interval){least(from, to, ahead, back), most(from, to, ahead, back)};
 }
 
+static interval between(double a, double b) { return (interval){fmin(a, b), fmax(a, b)}; }
+
 static bool may_meet_pole(const judge *j)
 {
     const problem *p = j->problem;
@@ -73,7 +60,7 @@ static bool may_meet_pole(const judge *j)
     interval *x = j->box, *v = x + p->nx;
     for (size_t k = 0; k < p->nx; k++) x[k] = reach(a->x[k], a->v[k], b->x[k], b->v[k], h);
     for (size_t k = 0; k < p->nv; k++) v[k] = reach(a->v[k], a->a[k], b->v[k], b->a[k], h);
-    return resolution_pole(s->poles, (interval){fmin(a->t, b->t), fmax(a->t, b->t)}, x, v, s->model->pool);
+    return resolution_pole(s->poles, between(a->t, b->t), x, v, s->model->pool);
 }
 
 /* Controlled steps ------------------------------------------------------------------------------------------------ */
@@ -112,10 +99,13 @@ static double error_of(judge *j, double h)
     copy(j, &j->to, &j->half);
     step(j, &j->to, h / 2, &j->half);
     j->half.t = j->now.t + h;
-    const double x = apart(j->half.x, j->whole.x, p->nx), v = apart(j->half.v, j->whole.v, p->nv);
+    const double x = vector_apart(j->half.x, j->whole.x, p->nx), v = vector_apart(j->half.v, j->whole.v, p->nv);
     if (isnan(x) || isnan(v)) return NAN;
     return fmax(x > 0 ? x / j->of_x : 0, v > 0 ? v / j->of_v : 0) / TOLERANCE;
 }
+
+/* By what the next step may be longer than one with this error. */
+static double rate(double error) { return 0.9 * exp(-0.2 * log(error)); }
 
 /* Controlled steps from `from` to the time t; the state there is `now`. False: they come to a halt. */
 static bool arrives(judge *j, double t)
@@ -123,8 +113,8 @@ static bool arrives(judge *j, double t)
     const double whole = t - j->from.t, short_of = fmax(LEAST * fabs(whole), 8 * DBL_EPSILON * fabs(t));
     double h = whole;
     copy(j, &j->now, &j->from);
-    j->of_v = largest(j->from.v, j->problem->nv) + fabs(h) * largest(j->from.a, j->problem->nv);
-    j->of_x = largest(j->from.x, j->problem->nx) + fabs(h) * j->of_v;
+    j->of_v = vector_largest(j->from.v, j->problem->nv) + fabs(h) * vector_largest(j->from.a, j->problem->nv);
+    j->of_x = vector_largest(j->from.x, j->problem->nx) + fabs(h) * j->of_v;
     while (j->pieces++ < PIECES_MAX) {
         const double left = t - j->now.t;
         const bool last = fabs(h) >= fabs(left);
@@ -133,27 +123,49 @@ static bool arrives(judge *j, double t)
         const double error = error_of(j, h);
         if (error <= 1) {
             copy(j, &j->now, &j->half);
-            j->of_v = fmax(j->of_v, largest(j->now.v, j->problem->nv));
+            j->of_v = fmax(j->of_v, vector_largest(j->now.v, j->problem->nv));
             if (last) return true;
-            h *= fmin(4, 0.9 * pow(fmax(error, 1e-4), -0.2));
+            h *= fmin(4, rate(fmax(error, 1e-4)));
             continue;
         }
-        h *= isfinite(error) ? fmax(0.1, fmin(0.5, 0.9 * pow(error, -0.2))) : 0.1;
+        h *= isfinite(error) ? fmax(0.1, fmin(0.5, rate(error))) : 0.1;
         if (fabs(h) < short_of) return false;
     }
     return true; /* long, but on its way */
 }
 
-/* Whether the step from `from` to the run's state has passed a singularity. `to` is lost. */
+/* Whether a divisor passes 0 on the straight way of the run's step, between the fractions low and high of it. Parts
+ * without a pole are given up; what is left after DEPTH halvings is one. */
+static bool crosses(const judge *j, double low, double high, int depth)
+{
+    const problem *p = j->problem;
+    const motus_run *r = j->run;
+    const end *a = &j->from;
+    const double h = motus_run_time(r) - a->t;
+    interval *x = j->box, *v = x + p->nx;
+    for (size_t k = 0; k < p->nx; k++)
+        x[k] = between(a->x[k] + low * (r->x[k] - a->x[k]), a->x[k] + high * (r->x[k] - a->x[k]));
+    for (size_t k = 0; k < p->nv; k++)
+        v[k] = between(a->v[k] + low * (r->v[k] - a->v[k]), a->v[k] + high * (r->v[k] - a->v[k]));
+    if (!resolution_pole(r->system->poles, between(a->t + low * h, a->t + high * h), x, v, r->system->model->pool))
+        return false;
+    const double middle = (low + high) / 2;
+    return depth == 0 || crosses(j, low, middle, depth - 1) || crosses(j, middle, high, depth - 1);
+}
+
+/* Whether the step from `from` to the run's state has passed a singularity. `to` is lost. Where the controlled steps
+ * lead to another state, and no divisor has passed 0, the step is only too long: shorter ones converge. */
 static bool passes_pole(judge *j)
 {
     const problem *p = j->problem;
     const motus_run *r = j->run;
-    const double way = apart(j->to.x, j->from.x, p->nx);
+    const double way = vector_apart(j->to.x, j->from.x, p->nx);
     if (!arrives(j, j->to.t)) return true;
-    const double x = fmax(way, apart(j->now.x, j->from.x, p->nx)),
-                 v = fmax(largest(j->from.v, p->nv), largest(j->now.v, p->nv));
-    return apart(j->now.x, r->x, p->nx) > APART * x || apart(j->now.v, r->v, p->nv) > APART * v;
+    const double x = fmax(way, vector_apart(j->now.x, j->from.x, p->nx)),
+                 v = fmax(vector_largest(j->from.v, p->nv), vector_largest(j->now.v, p->nv));
+    if (vector_apart(j->now.x, r->x, p->nx) <= APART * x && vector_apart(j->now.v, r->v, p->nv) <= APART * v)
+        return false;
+    return crosses(j, 0, 1, DEPTH);
 }
 
 /* The run ---------------------------------------------------------------------------------------------------------- */

@@ -5,6 +5,7 @@
  * constant, from the initial values. Invariant: the same system gives the same numbers on every machine, and nothing
  * about the system changes.
  */
+#include "api/vector.h"
 #include "api/suggest.h"
 
 #include "api/choice.h"
@@ -40,13 +41,6 @@ typedef struct scales {
     double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
 } scales;
 
-static double largest(const double *u, size_t n)
-{
-    double most = 0;
-    for (size_t k = 0; k < n; k++) most = fabs(u[k]) > most || isnan(u[k]) ? fabs(u[k]) : most;
-    return most;
-}
-
 /* a at the start's (x, v), or at (moved_x, moved_v), and time t. */
 static bool evaluate(scales *s, double t, bool moved, double *a)
 {
@@ -58,7 +52,7 @@ static bool evaluate(scales *s, double t, bool moved, double *a)
     memset(a, 0, p->nv * sizeof *a);
     if (p->refresh) p->refresh(p->ctx, t, s->moved_x, s->moved_v);
     if (p->accel(p->ctx, t, s->moved_x, s->moved_v, a)) s->failed = true;
-    return !s->failed && isfinite(largest(a, p->nv));
+    return !s->failed && isfinite(vector_largest(a, p->nv));
 }
 
 /* ---- the linearised equations ---- */
@@ -91,7 +85,7 @@ static bool product(void *ctx, const double *u, double *out)
     if (!p->jvp && !quotient(s)) return false;
     for (size_t k = 0; k < p->nx; k++) out[k] = s->dv[k] / s->size_x;
     for (size_t k = 0; k < p->nv; k++) out[p->nx + k] = s->a[k] / s->size_v;
-    return isfinite(largest(out, p->nx + p->nv));
+    return isfinite(vector_largest(out, p->nx + p->nv));
 }
 
 /* Raises rate and period to those of the linearised motion. */
@@ -106,7 +100,8 @@ static void linearise(scales *s, double *basis)
     if (most > 0 && p->nx) s->size_v = most * s->size_x;
     /* The motion's own direction, (v, a); at rest, all directions. */
     for (size_t k = 0; k < p->nx; k++) basis[k] = s->v[k] / s->size_x;
-    const bool moves = evaluate(s, s->t, false, s->a) && (largest(s->a, p->nv) > 0 || largest(basis, p->nx) > 0);
+    const bool moves =
+        evaluate(s, s->t, false, s->a) && (vector_largest(s->a, p->nv) > 0 || vector_largest(basis, p->nx) > 0);
     for (size_t k = 0; k < p->nv; k++) basis[p->nx + k] = s->a[k] / s->size_v;
     for (size_t k = 0; k < n && !moves; k++) basis[k] = rate_scatter(k);
     const int count = rate_motion(&map, p->jvp ? ROUNDING_EXACT : ROUNDING_QUOTIENT, basis, re, im);
@@ -144,7 +139,7 @@ static double rate_at(scales *s, double spacing, double *samples)
     double size[4] = {0}, most = 0;
     for (int i = 0; i < 5; i++) {
         if (!evaluate(s, s->t + s->way * i * spacing, false, samples + (size_t)i * n)) return NAN;
-        most = fmax(most, largest(samples + (size_t)i * n, n));
+        most = fmax(most, vector_largest(samples + (size_t)i * n, n));
     }
     for (int d = 0; d < 4; d++)
         for (size_t k = 0; k < n; k++) {
@@ -169,7 +164,7 @@ static void drive(scales *s, double horizon, double *samples)
         if (changes[k] < 0) break;
         most = fmax(most, changes[k]);
     }
-    if (!(most > 1e-12 * largest(s->a, s->problem->nv))) return;
+    if (!(most > 1e-12 * vector_largest(s->a, s->problem->nv))) return;
     for (int k = 0; k < count && spacing == 0; k++)
         if (changes[k] >= most / 2) spacing = ldexp(1, k - OCTAVES);
     double rate = 1 / spacing, before = NAN;
@@ -191,11 +186,11 @@ static double time_of_values(const scales *s)
 {
     const double x = s->problem->nx ? s->size_x : 0, v = s->size_moving, a = s->size_a;
     if (a > 0 && s->problem->nx) {
-        const double t = 2 * fmax(v / a, sqrt(largest(s->x, s->problem->nx) / a));
+        const double t = 2 * fmax(v / a, sqrt(vector_largest(s->x, s->problem->nx) / a));
         return t > 0 ? t : PERIODS;
     }
-    if (v > 0 && largest(s->x, s->problem->nx) > 0) return PERIODS * x / v;
-    if (a > 0 && largest(s->v, s->problem->nv) > 0) return PERIODS * largest(s->v, s->problem->nv) / a;
+    if (v > 0 && vector_largest(s->x, s->problem->nx) > 0) return PERIODS * x / v;
+    if (a > 0 && vector_largest(s->v, s->problem->nv) > 0) return PERIODS * vector_largest(s->v, s->problem->nv) / a;
     return PERIODS;
 }
 
@@ -203,9 +198,9 @@ static void measure_sizes(scales *s)
 {
     const problem *p = s->problem;
     const bool known = evaluate(s, s->t, false, s->a);
-    const double x = largest(s->x, p->nx), v = largest(s->v, p->nv);
-    s->size_a = known ? largest(s->a, p->nv) : 0;
-    s->size_moving = largest(s->v, p->nx);
+    const double x = vector_largest(s->x, p->nx), v = vector_largest(s->v, p->nv);
+    s->size_a = known ? vector_largest(s->a, p->nv) : 0;
+    s->size_moving = vector_largest(s->v, p->nx);
     s->size_x = x > 0 ? x : 1;
     s->size_v = v > 0 ? v : s->size_a > 0 ? sqrt(s->size_a * s->size_x) : 1;
 }
@@ -229,7 +224,7 @@ static motus_status measure(scales *s, double duration, motus_error *err)
     if (p->traits.time || p->refresh) drive(s, horizon, work);
     if (s->rate == 0)
         s->period = time_of_values(s);
-    else if (nx && largest(s->x, nx) > 0 && s->size_moving > 0)
+    else if (nx && vector_largest(s->x, nx) > 0 && s->size_moving > 0)
         s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
     give(&s->system->allocator, room);
     if (s->no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");

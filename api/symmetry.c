@@ -22,6 +22,8 @@ static double random_number(uint64_t *state) /* splitmix64, to (-1, 1) */
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
 }
 
+static double power_of_ten(double e) { return exp(2.302585092994046 * e); }
+
 /* 1 for the numbers that have an equation, which alone are varied. */
 static void mark(const motus_system *s, double *mask)
 {
@@ -61,15 +63,15 @@ typedef struct sample {
 static void draw(const motus_system *s, int round, const sample *at, uint64_t *random)
 {
     const problem *p = &s->problem;
-    const double size = round == 0 ? 0 : pow(10, 3 * random_number(random));
+    const double size = round == 0 ? 0 : power_of_ten(3 * random_number(random));
     memcpy(at->x, s->x0, p->nx * sizeof *at->x);
     memcpy(at->v, s->v0, p->nv * sizeof *at->v);
     for (size_t k = 0; k < p->nv; k++) {
         const double of_x = size * random_number(random), of_v = size * random_number(random);
         if (k < p->nx) at->x[k] += at->mask[k] * of_x * (fabs(at->x[k]) + 1);
         at->v[k] += at->mask[k] * of_v * (fabs(at->v[k]) + 1);
-        at->u[k] = at->mask[k] * random_number(random) * pow(10, 12 * random_number(random));
-        at->w[k] = at->mask[k] * random_number(random) * pow(10, 12 * random_number(random));
+        at->u[k] = at->mask[k] * random_number(random) * power_of_ten(12 * random_number(random));
+        at->w[k] = at->mask[k] * random_number(random) * power_of_ten(12 * random_number(random));
         at->ju[k] = at->jw[k] = 0;
     }
 }
@@ -101,7 +103,7 @@ static bool sample_symmetric(motus_system *s, bool in_v, double sign, const doub
     bool ok = true, memory = true;
     mark(s, at.mask);
     for (int round = 0, all = rounds(s); round < all && ok && memory; round++) {
-        const double t = s->start + (round == 0 ? 0 : pow(10, 4 * random_number(&random)));
+        const double t = s->start + (round == 0 ? 0 : power_of_ten(4 * random_number(&random)));
         if (h) choose_sides(h, at.sides, &random);
         memory = (!h || held_bind(h, at.sides, round == 0)) && (!p->prepare || p->prepare(p->ctx, in_v));
         if (!memory) break;

@@ -278,8 +278,9 @@ size_t decimal_write(double value, char out[DECIMAL_MAX])
 char *decimal_time(double t, double span, char out[DECIMAL_MAX])
 {
     if (!(fabs(span) > 0) || !isfinite(span) || !isfinite(t)) return decimal(t, out);
-    const double digits = 1 + ceil(log10(fabs(t) / (1e-5 * fabs(span))));
-    snprintf(out, DECIMAL_MAX, "%.*g", digits > 17 ? 17 : digits > 6 ? (int)digits : 6, t);
+    int digits = 6;
+    for (double parts = fabs(t) / fabs(span); parts > 1 && digits < 17; parts /= 10) digits++;
+    snprintf(out, DECIMAL_MAX, "%.*g", digits, t);
     return out;
 }
 

@@ -126,11 +126,12 @@ export class Answers {
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
+    const singular = problem ? null : this.core.singular(this.lab, method, ask.step, ask.until);
     const columns = Array.from({ length: count }, (_, c) => column(values, all.length, 1 + c));
     return {
       values,
       track: {
-        method, times: column(values, all.length, 0), columns, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem,
+        method, times: column(values, all.length, 0), columns, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular,
       },
     };
   }

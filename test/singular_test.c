@@ -66,12 +66,18 @@ static void coming_near_to_a_pole(void **unused)
         /* a pole in the branch that is not taken, and a force that is infinite but can be integrated */
         "eps = 0.01\nx'' = if(|x| < eps, -x/eps^3, -x/|x|^3)\nx(0) = 1\nx'(0) = 0\nstep 0.0001\nuntil 3\n",
         "x'' = -sign(x)/sqrt(|x|)\nx(0) = 1\nx'(0) = 0\nstep 0.001\nuntil 5\n",
+        /* repelled, by steps that are far too long: shorter ones converge, and none passes the pole */
+        "x'' = 1/x - 1\nx(0) = 1e-3\nx'(0) = 0\nstep 0.01\nuntil 3\n",
+        "x'' = 1/x - 1\nx(0) = 1e-3\nx'(0) = 0\nstep 0.005\nuntil 3\n",
+        "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 0.2)\nstep 0.04\nuntil 1\n",
         "x'' = -x/3\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 5\n",
     };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
         for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
             double at;
-            if (accused(texts[k], methods[m], &at)) fail_msg("%s by %s is accused at %g", texts[k], methods[m], at);
+            /* a method that cannot solve its equations says so itself */
+            if (accused(texts[k], methods[m], &at) && !isnan(at))
+                fail_msg("%s by %s is accused at %g", texts[k], methods[m], at);
         }
 }
 

@@ -529,6 +529,27 @@ static void what_a_force_allows(void **state)
     }
 }
 
+/* Where a force allows just the order of a method, the errors at the jump are of it too, and differ from step to
+ * step. */
+static void just_the_order_allowed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        char text[128];
+        snprintf(text, sizeof text, "x'' = -x + |sin(x)|\nx(0) = %d\nx'(0) = %d\nuntil 20\n", k / 2 ? 1 : -1, k % 2);
+        motus_system *s = system_of_text(text);
+        motus_study_def def = motus_default_study();
+        const char *const methods[] = {"velocity-verlet", "rk4"};
+        def.methods = methods;
+        def.method_count = 2;
+        motus_convergence *c = converge(s, &def);
+        assert_true(c->rows[0]->passed && fabs(c->rows[0]->observed - 2) < 0.4);
+        assert_false(c->rows[1]->passed);
+        motus_convergence_destroy(c);
+        motus_system_destroy(s);
+    }
+}
+
 static void exact_here(void **state)
 {
     (void)state;
@@ -783,6 +804,7 @@ int main(void)
         cmocka_unit_test(an_undeclared_velocity_is_refused),
         cmocka_unit_test(a_jump_costs_the_order),
         cmocka_unit_test(what_a_force_allows),
+        cmocka_unit_test(just_the_order_allowed),
         cmocka_unit_test(no_certificate_by_luck),
         cmocka_unit_test(exact_here),
         cmocka_unit_test(long_motions_are_cut),

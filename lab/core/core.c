@@ -96,6 +96,17 @@ LAB_CALL(lab_start) motus_status lab_start(lab *l, const char *method, double st
     return motus_run_create(l->system, &def, &l->run, &l->error);
 }
 
+/* Whether such a run passes a singularity of the force (motus_run_singular): MOTUS_SINGULAR, and lab_problem says
+ * where. */
+LAB_CALL(lab_singular) motus_status lab_singular(lab *l, const char *method, double step, double until)
+{
+    motus_run_def def = motus_default_run();
+    def.method = *method ? method : NULL;
+    def.step = step;
+    def.until = until;
+    return motus_run_singular(l->system, &def, &l->error);
+}
+
 /* Steps on by `every` (from the second row of a run on) and writes the numbers of `count` columns, up to `rows` times
  * or to the end. The rows that were written are in *written, also where a step failed. */
 LAB_CALL(lab_record)

@@ -148,11 +148,12 @@ export const timePanel: PanelMaker = (store): Panel => {
       (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? `${labels()[i]} stopped before` : `${labels()[i]} ${brief(v, 6)}`]));
     const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? '');
     const stopped = tracks.flatMap((track, k) => (track.problem ? [`${begin(scene!.looks[k]?.label ?? '')} stopped: ${track.problem.message}.`] : []));
+    const passing = tracks.flatMap((track, k) => (track.singular ? [`${begin(scene!.looks[k]?.label ?? '')}: ${track.singular.message}.`] : []));
     return [
       `${listed(chosen.map(primed))} from t = ${brief(tracks[0]?.times[0] ?? 0)} to ${brief(end)}.`,
       final.length ? `At the end, ${primed(first)}: ${listed(final, 5)}.` : '',
       leaving.length ? `${begin(listed(leaving))} ${leaving.length > 1 ? 'leave' : 'leaves'} the picture.` : '',
-      ...stopped, dropped ? `${MOST} of ${MOST + dropped} chosen quantities are shown.` : '',
+      ...stopped, ...passing, dropped ? `${MOST} of ${MOST + dropped} chosen quantities are shown.` : '',
     ].filter(Boolean).join(' ');
   }
 

@@ -11,7 +11,8 @@ bool algebra_begin(algebra *A, const model *m, long work)
     *A = (algebra){.model = m, .work = work, .atom_count = 1, .monomial_count = 1};
     arena_init(&A->arena, &m->arena->allocator);
     A->monomials = arena_take(&A->arena, sizeof *A->monomials);
-    A->monomial_room = 1;
+    A->polys = arena_take(&A->arena, sizeof *A->polys);
+    A->monomial_room = A->poly_count = A->poly_room = 1;
     return !A->arena.failed;
 }
 
@@ -20,7 +21,7 @@ void algebra_end(algebra *A) { arena_release(&A->arena); }
 poly algebra_lose(algebra *A)
 {
     A->lost = true;
-    return (poly){NULL, 0, -INFINITY};
+    return 0;
 }
 
 /* Room for one more element of a list that doubles; false: no memory, or no work is left. */
@@ -60,7 +61,7 @@ static uint32_t share(algebra *A, uint32_t first)
     uint32_t h = count;
     if (count == 0) return 0;
     for (uint32_t k = first; k < A->power_count; k++)
-        h = mixed(mixed(h, A->powers[k].atom), (uint32_t)(int32_t)lrint(4096 * A->powers[k].exponent));
+        h = mixed(mixed(h, A->powers[k].atom), (uint32_t)(int32_t)(4096 * A->powers[k].exponent));
     h %= ALGEBRA_HEADS;
     for (uint32_t k = A->monomial_heads[h]; k; k = A->monomials[k].next)
         if (A->monomials[k].count == count &&
@@ -157,13 +158,13 @@ static poly gather(algebra *A, uint32_t first, double low)
         }
         if (fabs(sum.factor) > ALGEBRA_ROUNDING * sum.size) t[count++] = sum;
     }
-    poly_term *kept = count ? arena_room(&A->arena, count * sizeof *kept) : NULL;
-    if (count && !kept) return algebra_lose(A);
-    if (count) memcpy(kept, t, count * sizeof *kept);
     A->line_count = first;
-    if (count == 0) low = 0;
-    if (count == 1 && kept->of == 0) low = kept->factor;
-    return (poly){kept, count, low};
+    if (count == 0) return 0;
+    poly_term *kept = arena_room(&A->arena, count * sizeof *kept);
+    if (!kept || !grow(A, &A->polys, A->poly_count, &A->poly_room, sizeof *A->polys)) return algebra_lose(A);
+    memcpy(kept, t, count * sizeof *kept);
+    A->polys[A->poly_count] = (algebra_poly){kept, count, count == 1 && kept->of == 0 ? kept->factor : low};
+    return A->poly_count++;
 }
 
 poly algebra_number(algebra *A, double value)
@@ -185,56 +186,63 @@ poly algebra_of_atom(algebra *A, uint32_t atom, double exponent, double factor, 
 poly algebra_add(algebra *A, poly p, double factor, poly q)
 {
     const uint32_t first = A->line_count;
-    for (uint32_t k = 0; k < p.count; k++) note(A, p.terms[k].of, p.terms[k].factor, p.terms[k].size);
-    for (uint32_t k = 0; k < q.count; k++)
-        note(A, q.terms[k].of, factor * q.terms[k].factor, fabs(factor) * q.terms[k].size);
-    return gather(A, first, factor > 0 ? p.low + factor * q.low : -INFINITY);
+    const algebra_poly a = A->polys[p], b = A->polys[q];
+    for (uint32_t k = 0; k < a.count; k++) note(A, a.terms[k].of, a.terms[k].factor, a.terms[k].size);
+    for (uint32_t k = 0; k < b.count; k++)
+        note(A, b.terms[k].of, factor * b.terms[k].factor, fabs(factor) * b.terms[k].size);
+    return gather(A, first, factor > 0 ? a.low + factor * b.low : -INFINITY);
 }
 
-static void note_product(algebra *A, poly p, poly q)
+static void note_product(algebra *A, const poly_term *t, poly p)
 {
-    for (uint32_t i = 0; i < p.count && !A->lost; i++)
-        for (uint32_t k = 0; k < q.count && !A->lost; k++)
-            note(A, product(A, p.terms[i].of, q.terms[k].of), p.terms[i].factor * q.terms[k].factor,
-                 p.terms[i].size * q.terms[k].size);
+    const algebra_poly a = A->polys[p];
+    for (uint32_t k = 0; k < a.count && !A->lost; k++)
+        note(A, product(A, t->of, a.terms[k].of), t->factor * a.terms[k].factor, t->size * a.terms[k].size);
 }
 
 poly algebra_times(algebra *A, poly p, poly q)
 {
     const uint32_t first = A->line_count;
-    const bool square = p.terms == q.terms && p.count == q.count;
-    note_product(A, p, q);
-    double low = p.low >= 0 && q.low >= 0 ? p.low * q.low : square ? 0 : -INFINITY;
-    return gather(A, first, low);
+    const algebra_poly a = A->polys[p], b = A->polys[q];
+    for (uint32_t k = 0; k < a.count; k++) note_product(A, &a.terms[k], q);
+    return gather(A, first, a.low >= 0 && b.low >= 0 ? a.low * b.low : p == q ? 0 : -INFINITY);
+}
+
+poly algebra_without(algebra *A, poly p, poly_term t)
+{
+    const uint32_t first = A->line_count;
+    note(A, t.of, t.factor, t.size);
+    return algebra_add(A, p, -1, gather(A, first, -INFINITY));
 }
 
 /* Atoms ----------------------------------------------------------------------------------------------------------- */
 
-static bool same_poly(poly p, poly q)
+static bool same_poly(const algebra *A, poly p, poly q)
 {
-    if (p.count != q.count) return false;
-    for (uint32_t k = 0; k < p.count; k++)
-        if (p.terms[k].of != q.terms[k].of ||
-            !(fabs(p.terms[k].factor - q.terms[k].factor) <= ALGEBRA_ROUNDING * fabs(p.terms[k].factor)))
+    const algebra_poly a = A->polys[p], b = A->polys[q];
+    if (a.count != b.count) return false;
+    for (uint32_t k = 0; k < a.count; k++)
+        if (a.terms[k].of != b.terms[k].of ||
+            !(fabs(a.terms[k].factor - b.terms[k].factor) <= ALGEBRA_ROUNDING * fabs(a.terms[k].factor)))
             return false;
     return true;
 }
 
-static uint32_t hashed(uint32_t h, poly p)
+static uint32_t hashed(const algebra *A, uint32_t h, poly p)
 {
-    for (uint32_t k = 0; k < p.count; k++) h = mixed(h, p.terms[k].of);
+    for (uint32_t k = 0; k < A->polys[p].count; k++) h = mixed(h, A->polys[p].terms[k].of);
     return h;
 }
 
 static uint32_t intern(algebra *A, algebra_atom atom)
 {
     uint32_t h = mixed(mixed(atom.op, atom.space), (uint32_t)atom.at);
-    h = hashed(hashed(h, atom.a), atom.b) % ALGEBRA_HEADS;
+    h = hashed(A, hashed(A, h, atom.a), atom.b) % ALGEBRA_HEADS;
     for (uint32_t k = A->atom_heads[h]; k; k = A->atoms[k].next) {
         algebra_atom *other = &A->atoms[k];
         if (other->op != atom.op || other->space != atom.space || other->at != atom.at) continue;
-        if (!same_poly(other->a, atom.a) || !same_poly(other->b, atom.b)) continue;
-        other->a.low = fmax(other->a.low, atom.a.low);
+        if (!same_poly(A, other->a, atom.a) || !same_poly(A, other->b, atom.b)) continue;
+        A->polys[other->a].low = fmax(A->polys[other->a].low, A->polys[atom.a].low);
         return k;
     }
     if (A->atom_room == 0 && !grow(A, &A->atoms, 0, &A->atom_room, sizeof *A->atoms)) return 0;
@@ -256,13 +264,14 @@ uint32_t algebra_atom_of(algebra *A, operation op, poly a, poly b)
 
 /* Powers ---------------------------------------------------------------------------------------------------------- */
 
+static double powered(double a, double e) { return operation_value(OP_POW, a, e, 0); }
+
 static bool whole(double e) { return e == floor(e); }
 
 /* A power of a product is the product of powers: for whole exponents, and for the powers of what is positive. False:
  * that does not hold. */
-static bool raise_single(algebra *A, poly base, double e, poly *out)
+static bool raise_single(algebra *A, poly_term t, double e, poly *out)
 {
-    const poly_term t = base.terms[0];
     const algebra_monomial m = A->monomials[t.of];
     if (!whole(e) && t.factor < 0) return false;
     for (uint32_t k = 0; k < m.count; k++) {
@@ -274,7 +283,7 @@ static bool raise_single(algebra *A, poly base, double e, poly *out)
     const uint32_t first = A->line_count, powers = A->power_count;
     for (uint32_t k = 0; k < m.count && !A->lost; k++)
         push(A, A->powers[m.first + k].atom, e * A->powers[m.first + k].exponent);
-    const double factor = pow(t.factor, e);
+    const double factor = powered(t.factor, e);
     note(A, share(A, powers), factor, fabs(factor) * t.size / fabs(t.factor));
     *out = gather(A, first, whole(e / 2) || !whole(e) ? 0 : -INFINITY);
     return true;
@@ -283,45 +292,41 @@ static bool raise_single(algebra *A, poly base, double e, poly *out)
 poly algebra_raise(algebra *A, poly base, double e)
 {
     poly out;
+    const algebra_poly b = A->polys[base];
     if (A->lost || !isfinite(e)) return algebra_lose(A);
     if (e == 0) return algebra_number(A, 1);
-    if (base.count == 0) return e > 0 ? base : algebra_lose(A);
+    if (b.count == 0) return e > 0 ? base : algebra_lose(A);
     if (e == 1) return base;
-    if (base.count == 1 && base.terms[0].of == 0 && (base.terms[0].factor > 0 || whole(e)))
-        return algebra_number(A, pow(base.terms[0].factor, e));
-    if (base.count == 1 && raise_single(A, base, e, &out)) return out;
+    if (b.count == 1 && raise_single(A, b.terms[0], e, &out)) return out;
     if (whole(e) && e > 0 && e <= EXPONENT_MAX) {
         const poly half = algebra_raise(A, base, floor(e / 2));
         out = algebra_times(A, half, half);
         return whole(e / 2) ? out : algebra_times(A, out, base);
     }
-    const double c = whole(e) ? base.terms[0].factor : fabs(base.terms[0].factor);
-    const poly one = algebra_add(A, algebra_number(A, 0), 1 / c, base);
-    const double low = !whole(e) || whole(e / 2) || base.low > 0 ? 0 : -INFINITY;
-    return algebra_of_atom(A, algebra_atom_of(A, OP_POW, one, (poly){NULL, 0, 0}), e, pow(c, e), low);
+    const double c = whole(e) ? b.terms[0].factor : fabs(b.terms[0].factor);
+    const poly one = algebra_add(A, 0, 1 / c, base);
+    const double low = !whole(e) || whole(e / 2) || b.low > 0 ? 0 : -INFINITY;
+    return algebra_of_atom(A, algebra_atom_of(A, OP_POW, one, 0), e, powered(c, e), low);
 }
 
 /* Writes out the powers of one base: by the smallest of them, which no term lacks then, the polynomial may be divided,
  * since only its zero matters. */
-static poly write_out(algebra *A, poly p, uint32_t atom)
+static poly write_out(algebra *A, poly given, uint32_t atom)
 {
+    const algebra_poly p = A->polys[given];
     double least = INFINITY, most = -INFINITY;
     for (uint32_t k = 0; k < p.count; k++) {
         const double e = exponent_of(A, p.terms[k].of, atom);
         least = fmin(least, e);
         most = fmax(most, e);
     }
-    if (most - least < 1) return p;
+    if (most - least < 1) return given;
     const uint32_t first = A->line_count;
     for (uint32_t k = 0; k < p.count && !A->lost; k++) {
         const poly_term t = p.terms[k];
         const double e = exponent_of(A, t.of, atom) - least, n = floor(e + 1e-9);
-        const uint32_t rest = with_exponent(A, t.of, atom, 0), before = A->line_count;
-        const poly one = n > 0 ? algebra_raise(A, A->atoms[atom].a, n) : algebra_number(A, 1);
-        const poly part = fabs(e - n) > 1e-9 ? algebra_of_atom(A, atom, e - n, 1, 0) : algebra_number(A, 1);
-        note(A, rest, t.factor, t.size);
-        const poly with = algebra_times(A, gather(A, before, 0), part);
-        note_product(A, with, one);
+        const poly_term rest = {with_exponent(A, t.of, atom, fabs(e - n) > 1e-9 ? e - n : 0), t.factor, t.size};
+        note_product(A, &rest, n > 0 ? algebra_raise(A, A->atoms[atom].a, n) : algebra_number(A, 1));
     }
     return gather(A, first, -INFINITY);
 }
@@ -330,10 +335,10 @@ bool algebra_zero(algebra *A, poly *given)
 {
     poly p = *given;
     /* A base is made of atoms with smaller numbers. */
-    for (uint32_t atom = A->atom_count; p.count > 0 && !A->lost;) {
+    for (uint32_t atom = A->atom_count; p && !A->lost;) {
         uint32_t next = 0;
-        for (uint32_t k = 0; k < p.count; k++) {
-            const algebra_monomial *m = &A->monomials[p.terms[k].of];
+        for (uint32_t k = 0; k < A->polys[p].count; k++) {
+            const algebra_monomial *m = &A->monomials[A->polys[p].terms[k].of];
             for (uint32_t i = 0; i < m->count; i++) {
                 const uint32_t other = A->powers[m->first + i].atom;
                 if (other < atom && other > next && A->atoms[other].op == OP_POW) next = other;
@@ -343,7 +348,7 @@ bool algebra_zero(algebra *A, poly *given)
         p = write_out(A, p, atom = next);
     }
     *given = p;
-    return !A->lost && p.count == 0;
+    return !A->lost && p == 0;
 }
 
 static bool plain(const algebra *A, uint32_t atom)
@@ -353,8 +358,8 @@ static bool plain(const algebra *A, uint32_t atom)
 
 static bool reads_places_alone(const algebra *A, poly p)
 {
-    for (uint32_t k = 0; k < p.count; k++) {
-        const algebra_monomial m = A->monomials[p.terms[k].of];
+    for (uint32_t k = 0; k < A->polys[p].count; k++) {
+        const algebra_monomial m = A->monomials[A->polys[p].terms[k].of];
         for (uint32_t i = 0; i < m.count; i++)
             if (!plain(A, A->powers[m.first + i].atom)) return false;
     }
@@ -364,8 +369,8 @@ static bool reads_places_alone(const algebra *A, poly p)
 bool algebra_differs(const algebra *A, poly p)
 {
     uint32_t function = 0;
-    for (uint32_t k = 0; k < p.count; k++) {
-        const algebra_monomial m = A->monomials[p.terms[k].of];
+    for (uint32_t k = 0; k < A->polys[p].count; k++) {
+        const algebra_monomial m = A->monomials[A->polys[p].terms[k].of];
         for (uint32_t i = 0; i < m.count; i++) {
             const uint32_t atom = A->powers[m.first + i].atom;
             const algebra_atom *a = &A->atoms[atom];
@@ -375,7 +380,7 @@ bool algebra_differs(const algebra *A, poly p)
             function = atom;
         }
     }
-    return !A->lost && p.count > 0;
+    return !A->lost && p != 0;
 }
 
 /* Derivatives ------------------------------------------------------------------------------------------------------ */
@@ -386,34 +391,34 @@ static poly slope(algebra *A, poly p, uint32_t by, int depth);
 static poly slope_of_atom(algebra *A, uint32_t k, uint32_t by, int depth)
 {
     const algebra_atom f = A->atoms[k];
-    const poly one = algebra_number(A, 1), none = {NULL, 0, 0};
+    const poly one = algebra_number(A, 1);
     if (k == by) return one;
-    if (f.op == OP_LOAD || f.op == OP_TIME) return none;
+    if (f.op == OP_LOAD || f.op == OP_TIME) return 0;
     if (f.sloped == by) return f.slope;
     const poly da = slope(A, f.a, by, depth + 1), db = slope(A, f.b, by, depth + 1);
-    poly rate = none;
-    if (da.count || db.count) {
+    poly rate = 0;
+    if (da || db) {
         const poly self = algebra_of_atom(A, k, 1, 1, -INFINITY), square = algebra_times(A, f.a, f.a);
         switch ((operation)f.op) {
         case OP_POW: rate = one; break; /* of the base */
         case OP_EXP: rate = self; break;
-        case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, none); break;
-        case OP_COS: rate = algebra_add(A, none, -1, algebra_apply(A, OP_SIN, f.a, none)); break;
+        case OP_SIN: rate = algebra_apply(A, OP_COS, f.a, 0); break;
+        case OP_COS: rate = algebra_add(A, 0, -1, algebra_apply(A, OP_SIN, f.a, 0)); break;
         case OP_TAN: rate = algebra_add(A, one, 1, algebra_times(A, self, self)); break;
         case OP_ASIN: rate = algebra_raise(A, algebra_add(A, one, -1, square), -0.5); break;
         case OP_ATAN: rate = algebra_raise(A, algebra_add(A, one, 1, square), -1); break;
-        case OP_SINH: rate = algebra_apply(A, OP_COSH, f.a, none); break;
-        case OP_COSH: rate = algebra_apply(A, OP_SINH, f.a, none); break;
+        case OP_SINH: rate = algebra_apply(A, OP_COSH, f.a, 0); break;
+        case OP_COSH: rate = algebra_apply(A, OP_SINH, f.a, 0); break;
         case OP_TANH: rate = algebra_add(A, one, -1, algebra_times(A, self, self)); break;
         case OP_LOG: rate = algebra_raise(A, f.a, -1); break;
         case OP_CBRT: rate = algebra_times(A, algebra_number(A, 1.0 / 3), algebra_raise(A, self, -2)); break;
         case OP_ERF:
-            rate = algebra_apply(A, OP_EXP, algebra_add(A, none, -1, square), none);
+            rate = algebra_apply(A, OP_EXP, algebra_add(A, 0, -1, square), 0);
             rate = algebra_times(A, algebra_number(A, 1.1283791670955126), rate);
             break;
-        case OP_ABS: rate = algebra_apply(A, OP_SIGN, f.a, none); break;
-        case OP_GT: rate = algebra_of_atom(A, algebra_atom_of(A, OP_EQ, f.a, none), 1, 1, 0); break;
-        case OP_FLOOR: rate = algebra_of_atom(A, algebra_atom_of(A, OP_NE, f.a, none), 1, 1, 0); break;
+        case OP_ABS: rate = algebra_apply(A, OP_SIGN, f.a, 0); break;
+        case OP_GT: rate = algebra_of_atom(A, algebra_atom_of(A, OP_EQ, f.a, 0), 1, 1, 0); break;
+        case OP_FLOOR: rate = algebra_of_atom(A, algebra_atom_of(A, OP_NE, f.a, 0), 1, 1, 0); break;
         case OP_ATAN2: {
             const poly below = algebra_add(A, square, 1, algebra_times(A, f.b, f.b));
             rate = algebra_add(A, algebra_times(A, f.b, da), -1, algebra_times(A, f.a, db));
@@ -433,16 +438,17 @@ static poly slope(algebra *A, poly p, uint32_t by, int depth)
 {
     if (depth > DEPTH_MAX) return algebra_lose(A);
     const uint32_t first = A->line_count;
-    for (uint32_t k = 0; k < p.count && !A->lost; k++) {
-        const poly_term t = p.terms[k];
+    const algebra_poly of = A->polys[p];
+    for (uint32_t k = 0; k < of.count && !A->lost; k++) {
+        const poly_term t = of.terms[k];
         const algebra_monomial m = A->monomials[t.of];
         for (uint32_t i = 0; i < m.count && !A->lost; i++) {
             const algebra_power power = A->powers[m.first + i];
             const poly of_atom = slope_of_atom(A, power.atom, by, depth);
-            if (of_atom.count == 0) continue;
+            if (of_atom == 0) continue;
             const poly_term rest = {with_exponent(A, t.of, power.atom, power.exponent - 1), t.factor * power.exponent,
                                     t.size * fabs(power.exponent)};
-            note_product(A, (poly){&rest, 1, 0}, of_atom);
+            note_product(A, &rest, of_atom);
         }
     }
     return gather(A, first, -INFINITY);

@@ -22,11 +22,13 @@ typedef struct poly_term {
     double factor, size; /* size: the sum of |what the factor was added up from| */
 } poly_term;
 
-typedef struct poly {
+typedef uint32_t poly; /* the number of a polynomial; 0: zero */
+
+typedef struct algebra_poly {
     const poly_term *terms; /* by rising monomials */
     uint32_t count;
     double low; /* nowhere below this; -INFINITY: not known */
-} poly;
+} algebra_poly;
 
 typedef struct algebra_power {
     uint32_t atom;
@@ -53,10 +55,11 @@ enum { ALGEBRA_HEADS = 1 << 10 };
 typedef struct algebra {
     arena arena;
     const model *model;
+    algebra_poly *polys;
     algebra_atom *atoms; /* from 1 on */
     algebra_monomial *monomials;
     algebra_power *powers;
-    uint32_t atom_count, atom_room, monomial_count, monomial_room, power_count, power_room;
+    uint32_t poly_count, poly_room, atom_count, atom_room, monomial_count, monomial_room, power_count, power_room;
     uint32_t atom_heads[ALGEBRA_HEADS], monomial_heads[ALGEBRA_HEADS];
     poly_term *line; /* room for a list that is being made */
     uint32_t line_count, line_room;
@@ -73,6 +76,7 @@ uint32_t algebra_place(algebra *, space, size_t at); /* its atom */
 /* p + factor q */
 poly algebra_add(algebra *, poly p, double factor, poly q);
 poly algebra_times(algebra *, poly p, poly q);
+poly algebra_without(algebra *, poly p, poly_term); /* p less one of its terms */
 poly algebra_raise(algebra *, poly base, double exponent);
 /* An operation of the graph, but for leaves, sums and choices. */
 poly algebra_apply(algebra *, operation, poly a, poly b);

@@ -3,30 +3,32 @@
 
 #include <math.h>
 
-static const poly none = {NULL, 0, 0};
-
-static bool number(poly p, double *value)
+static bool number(const algebra *A, poly given, double *value)
 {
+    const algebra_poly p = A->polys[given];
     if (p.count > 1 || (p.count == 1 && p.terms[0].of != 0)) return false;
     *value = p.count ? p.terms[0].factor : 0;
     return true;
 }
 
-static poly negative(algebra *A, poly p) { return algebra_add(A, none, -1, p); }
+/* The first factor; 0 of zero. */
+static double first(const algebra *A, poly p) { return p ? A->polys[p].terms[0].factor : 0; }
+
+static poly negative(algebra *A, poly p) { return algebra_add(A, 0, -1, p); }
 
 /* p/c */
-static poly scaled(algebra *A, poly p, double c) { return algebra_add(A, none, 1 / c, p); }
+static poly scaled(algebra *A, poly p, double c) { return algebra_add(A, 0, 1 / c, p); }
 
 /* A function that is odd (sign -1), even (1), or neither (0). */
 static poly function(algebra *A, operation op, poly a, int parity, double low)
 {
-    const double c = a.count ? a.terms[0].factor : 0;
+    const double c = first(A, a);
     if (A->lost) return algebra_lose(A);
     if (parity && c < 0) {
         const poly p = function(A, op, negative(A, a), 0, low);
         return parity < 0 ? negative(A, p) : p;
     }
-    return algebra_of_atom(A, algebra_atom_of(A, op, a, none), 1, 1, low);
+    return algebra_of_atom(A, algebra_atom_of(A, op, a, 0), 1, 1, low);
 }
 
 /* 1 where p > 0, else 0. */
@@ -34,10 +36,10 @@ static poly step(algebra *A, poly p)
 {
     double value;
     if (A->lost) return algebra_lose(A);
-    if (number(p, &value)) return algebra_number(A, value > 0);
-    if (p.low > 0) return algebra_number(A, 1);
-    const double c = p.terms[0].factor;
-    const poly up = algebra_of_atom(A, algebra_atom_of(A, OP_GT, scaled(A, p, c), none), 1, 1, 0);
+    if (number(A, p, &value)) return algebra_number(A, value > 0);
+    if (A->polys[p].low > 0) return algebra_number(A, 1);
+    const double c = first(A, p);
+    const poly up = algebra_of_atom(A, algebra_atom_of(A, OP_GT, scaled(A, p, c), 0), 1, 1, 0);
     return c > 0 ? up : algebra_add(A, algebra_number(A, 1), -1, up);
 }
 
@@ -51,9 +53,9 @@ static poly equal(algebra *A, poly a, poly b)
 static poly magnitude(algebra *A, poly p)
 {
     if (A->lost) return algebra_lose(A);
-    if (p.count == 0 || p.low >= 0) return p;
-    const double c = p.terms[0].factor;
-    const poly one = algebra_of_atom(A, algebra_atom_of(A, OP_ABS, scaled(A, p, c), none), 1, 1, 0);
+    if (A->polys[p].low >= 0) return p;
+    const double c = first(A, p);
+    const poly one = algebra_of_atom(A, algebra_atom_of(A, OP_ABS, scaled(A, p, c), 0), 1, 1, 0);
     return algebra_times(A, algebra_number(A, fabs(c)), one);
 }
 
@@ -62,15 +64,15 @@ static poly complement(algebra *A, poly p) { return algebra_add(A, algebra_numbe
 static poly power(algebra *A, poly a, poly b)
 {
     double e;
-    if (number(b, &e)) return algebra_raise(A, a, e);
-    return function(A, OP_EXP, algebra_times(A, b, algebra_apply(A, OP_LOG, a, none)), 0, 0);
+    if (number(A, b, &e)) return algebra_raise(A, a, e);
+    return function(A, OP_EXP, algebra_times(A, b, algebra_apply(A, OP_LOG, a, 0)), 0, 0);
 }
 
 poly algebra_apply(algebra *A, operation op, poly a, poly b)
 {
     double x = 0, y = 0;
     if (A->lost) return algebra_lose(A);
-    if (op != OP_ADD && op != OP_MUL && number(a, &x) && number(b, &y)) {
+    if (op != OP_ADD && op != OP_MUL && number(A, a, &x) && number(A, b, &y)) {
         const double value = operation_value(op, x, y, 0);
         return isfinite(value) ? algebra_number(A, value) : algebra_lose(A);
     }
@@ -103,7 +105,8 @@ poly algebra_apply(algebra *A, operation op, poly a, poly b)
         const poly turns = function(A, OP_FLOOR, algebra_apply(A, OP_DIV, a, b), 0, -INFINITY);
         return algebra_add(A, a, -1, algebra_times(A, b, turns));
     }
-    case OP_ACOS: return algebra_add(A, algebra_number(A, acos(0)), -1, function(A, OP_ASIN, a, -1, -INFINITY));
+    case OP_ACOS:
+        return algebra_add(A, algebra_number(A, 1.5707963267948966), -1, function(A, OP_ASIN, a, -1, -INFINITY));
     case OP_ATAN2: return algebra_of_atom(A, algebra_atom_of(A, op, a, b), 1, 1, -INFINITY);
     case OP_SIN:
     case OP_TAN:

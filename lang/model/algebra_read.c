@@ -61,7 +61,8 @@ static bool decides(const graph_node *n)
 /* The condition as 0 or 1. */
 static poly condition(algebra *A, const graph_node *n, poly p)
 {
-    if (p.count == 0 || (p.count == 1 && p.terms[0].of == 0)) return algebra_number(A, p.count > 0);
+    const algebra_poly of = A->polys[p];
+    if (of.count == 0 || (of.count == 1 && of.terms[0].of == 0)) return algebra_number(A, of.count > 0);
     return decides(n) ? p : algebra_lose(A);
 }
 
@@ -75,10 +76,10 @@ static poly total(algebra *A, const graph_node *n, const int64_t *around)
     const int64_t first = algebra_subscript(m, &r.first, index), last = algebra_subscript(m, &r.last, index);
     for (int64_t k = first; k <= last && !A->lost; k++) {
         index[n->level] = k;
-        poly p = {NULL, 0, 0};
+        poly p = 0;
         if (n->b) {
             p = condition(A, &m->graph->nodes[n->b], algebra_read(A, n->b, index));
-            if (p.count == 0) continue; /* what the term would be need not be defined */
+            if (p == 0) continue; /* what the term would be need not be defined */
         }
         const poly body = algebra_read(A, n->a, index);
         sum = algebra_add(A, sum, 1, n->b ? algebra_times(A, p, body) : body);
@@ -99,13 +100,13 @@ poly algebra_read(algebra *A, node root, const int64_t *index)
     graph_walk w;
     const motus_allocator *hooks = &A->arena.allocator;
     if (A->lost || !graph_order(g, &root, 1, 0, false, &w)) return algebra_lose(A);
-    poly *of = take(hooks, w.count, sizeof *of), result = {NULL, 0, 0};
+    poly *of = take(hooks, w.count, sizeof *of), result = 0;
     if (!of) A->arena.failed = A->lost = true;
     A->work -= w.count;
     for (uint32_t k = 0; k < w.count && !A->lost; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         node operand[3] = {0, 0, 0};
-        poly p[3] = {{NULL, 0, 0}, {NULL, 0, 0}, {NULL, 0, 0}};
+        poly p[3] = {0, 0, 0};
         if (n.op == OP_SUM) {
             of[k] = total(A, &n, index);
             graph_order_again(g, &w);

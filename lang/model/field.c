@@ -85,9 +85,9 @@ static bool same(field *f, const poly *force, uint32_t i, uint32_t k)
     algebra *A = &f->algebra;
     if (i == k && f->sign > 0) return true;
     const poly back = algebra_slope(A, force[k], f->atom[i]);
-    if (k < i && back.count > 0) return true; /* cell k was first */
+    if (k < i && back) return true; /* cell k was first */
     const poly there = algebra_slope(A, force[i], f->atom[k]);
-    const poly weighed = algebra_add(A, (poly){NULL, 0, 0}, mass(f, i), there);
+    const poly weighed = algebra_add(A, 0, mass(f, i), there);
     poly apart = algebra_add(A, weighed, -f->sign * mass(f, k), back);
     if (algebra_zero(A, &apart)) return true;
     f->refuted = algebra_differs(A, apart);
@@ -99,8 +99,9 @@ static bool same_below(field *f, const poly *force, uint32_t i, poly p, int dept
 {
     algebra *A = &f->algebra;
     if (depth > DEPTH_MAX) return false;
-    for (uint32_t k = 0; k < p.count; k++) {
-        const algebra_monomial m = A->monomials[p.terms[k].of];
+    const algebra_poly of = A->polys[p];
+    for (uint32_t k = 0; k < of.count; k++) {
+        const algebra_monomial m = A->monomials[of.terms[k].of];
         for (uint32_t j = 0; j < m.count; j++) {
             const uint32_t number = A->powers[m.first + j].atom;
             if (number >= f->atoms || f->seen[number] == i + 1) continue;
@@ -138,6 +139,7 @@ static scaling scaling_of_power(field *f, algebra_power p, int depth)
 {
     const algebra_atom a = f->algebra.atoms[p.atom];
     const bool root = p.exponent != floor(p.exponent);
+    const double low = f->algebra.polys[a.a].low;
     if (a.op == OP_TIME) return (scaling){0, false};
     if (a.op == OP_LOAD) return (scaling){p.exponent, p.exponent < 0 || root};
     const scaling of_a = scaling_of(f, a.a, depth + 1), of_b = scaling_of(f, a.b, depth + 1);
@@ -145,14 +147,14 @@ static scaling scaling_of_power(field *f, algebra_power p, int depth)
     switch ((operation)a.op) {
     case OP_POW:
         s.degree = of_a.degree * p.exponent;
-        s.pole |= !(a.a.low > 0) && (p.exponent < 0 || (root && !(a.a.low >= 0)));
+        s.pole |= !(low > 0) && (p.exponent < 0 || (root && !(low >= 0)));
         return s;
     case OP_ABS: s.degree = of_a.degree * p.exponent; break;
     case OP_GT: s.degree = isnan(of_a.degree) ? NAN : 0; break;
-    case OP_LOG: s.pole |= !(a.a.low > 0); break;
+    case OP_LOG: s.pole |= !(low > 0); break;
     case OP_ATAN2:
         if (of_a.degree == of_b.degree) s.degree = 0;
-        s.pole |= !(a.b.low > 0);
+        s.pole |= !(f->algebra.polys[a.b].low > 0);
         break;
     case OP_TAN:
     case OP_ASIN: s.pole = true; break;
@@ -178,8 +180,9 @@ static scaling scaling_of(field *f, poly p, int depth)
 {
     if (depth > DEPTH_MAX) return (scaling){NAN, true};
     scaling s = {0, false};
-    for (uint32_t k = 0; k < p.count; k++) {
-        const scaling one = scaling_of_term(f, p.terms[k].of, depth);
+    const algebra_poly of = f->algebra.polys[p];
+    for (uint32_t k = 0; k < of.count; k++) {
+        const scaling one = scaling_of_term(f, of.terms[k].of, depth);
         if (k == 0) s.degree = one.degree;
         if (one.degree != s.degree) s.degree = NAN;
         s.pole |= one.pole;
@@ -196,8 +199,10 @@ static bool own(const field *f, uint32_t of, uint32_t atom, int depth)
     for (uint32_t k = 0; k < m.count && only; k++) {
         const algebra_atom a = A->atoms[A->powers[m.first + k].atom];
         only = a.op != OP_LOAD || A->powers[m.first + k].atom == atom;
-        for (uint32_t i = 0; i < a.a.count && only; i++) only = own(f, a.a.terms[i].of, atom, depth + 1);
-        for (uint32_t i = 0; i < a.b.count && only; i++) only = own(f, a.b.terms[i].of, atom, depth + 1);
+        for (int j = 0; j < 2; j++) {
+            const algebra_poly p = A->polys[j ? a.b : a.a];
+            for (uint32_t i = 0; i < p.count && only; i++) only = own(f, p.terms[i].of, atom, depth + 1);
+        }
     }
     return only;
 }
@@ -210,21 +215,16 @@ static bool single(field *f)
     algebra *A = &f->algebra;
     bool any = false, rest = false;
     for (uint32_t i = 0; i < f->cells; i++) {
-        const poly force = f->force[i];
-        poly_term *terms = force.count ? arena_room(&A->arena, force.count * sizeof *terms) : NULL;
-        uint32_t count = 0;
-        if (force.count && !terms) return false;
+        const algebra_poly force = A->polys[f->force[i]];
+        f->part[i] = f->force[i];
         for (uint32_t k = 0; k < force.count; k++) {
             const scaling s = scaling_of_term(f, force.terms[k].of, 0);
-            if (!s.pole || own(f, force.terms[k].of, f->atom[i], 0)) {
-                rest = true;
-                continue;
-            }
-            if (isnan(s.degree) || fabs(s.degree + 1) < 1e-9) return f->cells == 1;
-            terms[count++] = force.terms[k];
+            const bool counts = s.pole && !own(f, force.terms[k].of, f->atom[i], 0);
+            if (counts && (isnan(s.degree) || fabs(s.degree + 1) < 1e-9)) return f->cells == 1;
+            if (!counts) f->part[i] = algebra_without(A, f->part[i], force.terms[k]);
+            any |= counts;
+            rest |= !counts;
         }
-        f->part[i] = (poly){terms, count, -INFINITY};
-        any |= count > 0;
     }
     return !any || !rest || symmetric(f, f->part);
 }

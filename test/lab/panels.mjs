@@ -109,4 +109,15 @@ await attempt('convergence', async () => {
   judge('Stability: the points move with the step', before !== after, `${before} / ${after}`);
   await clean('convergence', page);
 });
+// --- a motion that passes a singularity says so, and one that only comes near to it does not -------------------------------------
+await attempt('singularity', async () => {
+  const fall = (speed) => `x'' = -1/x^2\nx(0) = 1\nx'(0) = ${speed}\nmethod rk4\nstep 0.001\nuntil 2\n`;
+  for (const [speed, passes] of [[0, true], [1.5, false]]) {
+    const page = await open(`${singleFile}#v=1&a=rk4,verlet&o=time&m=${encodeURIComponent(fall(speed))}`);
+    await settled(page, 600);
+    const status = await page.locator('.status .message').textContent(), summary = await summaryOf(page, 'Against time');
+    for (const text of [status, summary]) judge(`x'(0) = ${speed}: ${passes ? 'says' : 'does not say'} that the motion passes a singularity`, /RK4: the run passes a singularity of the force between t = 1\.11/.test(text) === passes && /singularity/.test(text) === passes, text);
+    await clean('singularity', page);
+  }
+});
 await finish();
