@@ -134,7 +134,8 @@ static size_t element(const model *m, const reference *r, const int64_t *index)
 {
     const array *a = &m->arrays[r->array];
     int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++) at += (subscript_value(m, &r->at[d], index) - a->first[d]) * a->stride[d];
+    for (int d = 0; d < r->dims; d++)
+        at += (subscript_value(m, &r->at[d], index) - a->over->first[d]) * a->over->stride[d];
     return (size_t)at;
 }
 

@@ -85,7 +85,7 @@ static bool resolve_matrix(model *m, model_definition *d)
     uint16_t at;
     if (!model_take_numbers(m, (size_t)n, &base) || !model_take_arrays(m, 1, &at)) return false;
     own_arrays(m, d, at, 1);
-    graph_shape(&m->arrays[at], SPACE_POOL, base, 2, d->first, d->last);
+    graph_shape(m->arena, &m->arrays[at], SPACE_POOL, base, 2, d->first, d->last);
     if (!evaluate_numbers(m, d, v.item, n, base)) return false;
     for (int k = 0; k < n; k++) {
         output place = {.to = {.dims = 2}};
@@ -130,7 +130,7 @@ static bool resolve_list(model *m, model_definition *d)
     node *column = arena_room(m->arena, (size_t)n * sizeof *column);
     if (!column) return false;
     for (int k = 0; k < parts; k++) {
-        graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
+        graph_shape(m->arena, &m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
         for (int i = 0; i < n; i++) column[i] = item[i].item[k];
         if (!evaluate_numbers(m, d, column, n, base + (size_t)k * (size_t)n)) return false;
     }
@@ -290,7 +290,7 @@ static bool resolve_family(model *m, model_definition *d)
     d->list = true;
     d->components = v.count;
     array probe;
-    size_t hull = graph_shape(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
+    size_t hull = graph_shape(m->arena, &probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
     double numbers = parts;
     for (int k = 0; k < d->dims; k++) numbers *= (double)(d->last[k] - d->first[k] + 1);
     if (numbers > MODEL_LIST_MAX) {
@@ -302,7 +302,7 @@ static bool resolve_family(model *m, model_definition *d)
     if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
     own_arrays(m, d, at, parts);
     for (int k = 0; k < parts; k++)
-        graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
+        graph_shape(m->arena, &m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
     uint8_t *map;
     if (!family_map(m, d, hull, &map)) return false;
     if (!map && (!evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) ||

@@ -39,7 +39,7 @@ static size_t place_of(const model *m, const reference *r)
         const subscript *s = &r->at[d];
         int64_t k = s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
         if (s->modulus >= 0) k = 1 + (k % m->ints[s->modulus] + m->ints[s->modulus]) % m->ints[s->modulus];
-        at += (k - a->first[d]) * a->stride[d];
+        at += (k - a->over->first[d]) * a->over->stride[d];
     }
     return (size_t)at;
 }

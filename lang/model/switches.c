@@ -93,8 +93,8 @@ static bool place(builder *b, const nest *around, unsigned deps, reference *side
     *value = *side;
     side->array = at;
     value->array = (uint16_t)(at + 1);
-    graph_shape(&b->m->arrays[at], SPACE_POOL, s->slot + s->count, dims, first, last);
-    s->count += graph_shape(&b->m->arrays[at + 1], SPACE_OUT, s->count, dims, first, last);
+    graph_shape(b->m->arena, &b->m->arrays[at], SPACE_POOL, s->slot + s->count, dims, first, last);
+    s->count += graph_shape(b->m->arena, &b->m->arrays[at + 1], SPACE_OUT, s->count, dims, first, last);
     return true;
 }
 
