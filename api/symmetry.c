@@ -147,6 +147,7 @@ bool symmetry_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
     if (s->sampled_gradient || t->velocity || t->first_order || !s->model) return true;
+    if (s->problem.nv == 1) return t->gradient = s->sampled_gradient = true; /* -V', V an integral of the force */
     modes m = modes_enter();
     s->sampled_gradient = symmetric(s, false, 1, NULL, &t->gradient);
     if (s->sampled_gradient && !t->gradient && s->problem.nv <= MASSES_MAX)

@@ -127,6 +127,13 @@ bool graph_reserve(graph *g, uint32_t capacity)
     return true;
 }
 
+void graph_complete(graph *g)
+{
+    arena_drop(g->arena, g->table, g->table_size * sizeof *g->table);
+    g->table = NULL;
+    g->table_size = 0;
+}
+
 /* By an eighth where it is large, because the old copy and the new one are there together. */
 static bool grow_nodes(graph *g)
 {

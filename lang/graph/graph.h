@@ -101,6 +101,8 @@ enum { GRAPH_NODES_MAX = 1 << 21 };
 graph *graph_create(arena *);
 /* Room for so many nodes, so that the graph need not grow: its old copy and the new one would be there together. */
 bool graph_reserve(graph *, uint32_t nodes);
+/* Gives back what only constructors need; they must not be called any more. */
+void graph_complete(graph *);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);
