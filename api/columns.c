@@ -43,7 +43,9 @@ bool system_number_columns(motus_system *s)
     size_t named = 0; /* parameters are no columns, and there may be one in every line */
     for (uint32_t i = 0; i < s->definition_count; i++)
         named += s->definitions[i].kind == DEFINED_QUANTITY || s->definitions[i].kind == DEFINED_INVARIANT;
-    s->ranges = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + named) * sizeof *s->ranges);
+    for (uint32_t i = 0; i < s->state_count; i++)
+        named += (s->states[i].order == 2 ? 2 : 1) * (s->problem.traits.has_exact ? 2 : 1);
+    s->ranges = arena_room(&s->arena, (1 + named) * sizeof *s->ranges);
     if (!s->ranges) return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
@@ -71,7 +73,7 @@ bool system_number_columns(motus_system *s)
         s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
     s->observed = arena_room(&s->arena, largest * sizeof(double));
-    return !s->arena.failed;
+    return columns_enter_names(s) && !s->arena.failed;
 }
 
 const column_range *columns_range(const motus_system *s, size_t k)

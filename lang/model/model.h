@@ -193,6 +193,8 @@ void model_print(const model *, node, char *out, size_t size);
  * memory, or complained. */
 bool model_take_numbers(model *, size_t count, size_t *first);
 bool model_take_arrays(model *, int count, uint16_t *first);
+/* Room for so many arrays in all, more than there is; nothing is given back, since programs refer to the old ones. */
+bool model_reserve_arrays(model *, uint32_t room);
 /* Room of its own for the ranges of a definition's indices. */
 bool model_take_extent(model *, model_definition *);
 /* Copies the initial values from the pool into x0 and v0; due after every change of them. */
