@@ -183,10 +183,11 @@ static motus_status evaluate(motus_system *s, const column_range *g, double t, d
     }
 }
 
-/* The exact columns come from one evaluation, and so do all quantities, or invariants, of a callback. */
+/* Of a state nothing is evaluated. The exact columns come from one evaluation, and so do all quantities, or invariants,
+ * of a callback. */
 static bool evaluated(const motus_system *s, const column_range *g, const column_range *done)
 {
-    return g == done ||
+    return g == done || (of_state(g->kind) && g->kind != MOTUS_COLUMN_EXACT) ||
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
@@ -281,9 +282,7 @@ static void indices_of(const model_state *s, size_t offset, int64_t *index)
 /* The number of the range's quantity or invariant, from 0: the ranges of a kind are neighbours. */
 static size_t rank_of(const motus_system *s, const column_range *g)
 {
-    size_t rank = 0;
-    while (g > s->ranges && g[-1].kind == g->kind) g--, rank++;
-    return rank;
+    return (size_t)(g - s->ranges) - s->named[g->kind == MOTUS_COLUMN_INVARIANT];
 }
 
 static motus_column describe(const motus_system *s, size_t k)

@@ -63,7 +63,7 @@ static bool resolve_plain(model *m, model_definition *d)
 static void own_arrays(model *m, model_definition *d, uint16_t first, int parts)
 {
     d->array = first;
-    for (int k = 0; k < parts; k++) m->array_owner[first + k] = (uint32_t)(d - m->definitions) + 1;
+    for (int k = 0; k < parts; k++) m->array_owner[first + k] = 2 * (uint32_t)(d - m->definitions) + 1;
 }
 
 /* K = [[2, -1], [-1, 2]]: places [row, column], each from 1 */
