@@ -342,7 +342,7 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
 }
 
 /* A copy of a list in the arena; the list is given back. */
-#define KEPT(w, a, list) kept(w, a, (rows = (list).at, (list).at = NULL, rows), (list).count, sizeof *(list).at)
+#define KEPT(w, a, list) kept(w, a, (list).at, (list).count, sizeof *(list).at)
 static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
 {
     void *copy = arena_take(a, (count + !count) * size);
@@ -370,7 +370,6 @@ static code *finish(writer *w, arena *a)
     give(w->plan.hooks, w->fields.at);
     w->registers.at = NULL;
     w->fields.at = NULL;
-    void *rows;
     code *c = arena_take(a, sizeof *c);
     *c = (code){.count = w->text.count,
                 .bind_count = w->bind_count,
@@ -385,6 +384,11 @@ static code *finish(writer *w, arena *a)
                 .loops = KEPT(w, a, w->loops),
                 .totals = KEPT(w, a, w->totals),
                 .constants = KEPT(w, a, w->constants)};
+    w->text.at = NULL;
+    w->sites.at = NULL;
+    w->loops.at = NULL;
+    w->totals.at = NULL;
+    w->constants.at = NULL;
     take_wraps(c, a);
     return a->failed ? NULL : c;
 }
