@@ -75,7 +75,7 @@ static uint32_t slot_of(const motus_system *s, const char *name)
     return h & (s->range_slots - 1);
 }
 
-bool columns_enter_names(motus_system *s)
+bool column_names_enter(motus_system *s)
 {
     s->range_slots = 4;
     while (s->range_slots < s->range_count + s->range_count / 4) s->range_slots *= 2;

@@ -73,7 +73,7 @@ bool system_number_columns(motus_system *s)
         s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
     s->observed = arena_room(&s->arena, largest * sizeof(double));
-    return columns_enter_names(s) && !s->arena.failed;
+    return column_names_enter(s) && !s->arena.failed;
 }
 
 const column_range *columns_range(const motus_system *s, size_t k)

@@ -137,8 +137,8 @@ typedef struct model {
     double *pool;
     size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
-    /* What belongs to what: a scalar slot to 1 + a definition; an array to 2 d + 1, definition d, or 2 s + 2, variable s;
-     * 0: none. */
+    /* A scalar slot belongs to definition d, 1 + d; an array to definition d, 2 d + 1, or to variable s, 2 s + 2; 0: to
+     * none. */
     uint32_t *slot_owner, *array_owner;
     int64_t no_extent[MAX_DIMS];
 
