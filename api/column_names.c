@@ -68,6 +68,26 @@ static const char *range_name(const motus_system *s, const column_range *g)
     }
 }
 
+static uint32_t slot_of(const motus_system *s, const char *name)
+{
+    uint32_t h = 2166136261u;
+    for (; *name; name++) h = (h ^ (unsigned char)*name) * 16777619u;
+    return h & (s->range_slots - 1);
+}
+
+bool column_names_enter(motus_system *s)
+{
+    s->range_slots = 4;
+    while (s->range_slots < s->range_count + s->range_count / 4) s->range_slots *= 2;
+    s->range_of = arena_room(&s->arena, s->range_slots * sizeof *s->range_of);
+    for (size_t i = 0; s->range_of && i < s->range_count; i++) {
+        uint32_t k = slot_of(s, range_name(s, &s->ranges[i]));
+        while (s->range_of[k]) k = (k + 1) & (s->range_slots - 1);
+        s->range_of[k] = (uint32_t)i + 1;
+    }
+    return s->range_of != NULL;
+}
+
 static motus_status no_column(const motus_system *s, const char *name, const char *base, motus_error *err)
 {
     fail(err, MOTUS_NAME, "there is no column %s", name);
@@ -122,8 +142,8 @@ motus_status motus_column_find(const motus_system *s, const char *name, size_t *
         hint(err, "names are x, x', r.y, r'.y, x[3], x[3]', r[3].x, energy, exact x");
         return MOTUS_NAME;
     }
-    for (size_t i = 0; i < s->range_count; i++) {
-        const column_range *g = &s->ranges[i];
+    for (uint32_t k = slot_of(s, n.base); s->range_of[k]; k = (k + 1) & (s->range_slots - 1)) {
+        const column_range *g = &s->ranges[s->range_of[k] - 1];
         size_t from, number;
         if (strcmp(range_name(s, g), n.base) || n.exact != (g->kind == MOTUS_COLUMN_EXACT) ||
             n.primes != (g->prime ? 1 : 0))

@@ -43,7 +43,9 @@ bool system_number_columns(motus_system *s)
     size_t named = 0; /* parameters are no columns, and there may be one in every line */
     for (uint32_t i = 0; i < s->definition_count; i++)
         named += s->definitions[i].kind == DEFINED_QUANTITY || s->definitions[i].kind == DEFINED_INVARIANT;
-    s->ranges = arena_room(&s->arena, (2 + 6 * (size_t)s->state_count + named) * sizeof *s->ranges);
+    for (uint32_t i = 0; i < s->state_count; i++)
+        named += (s->states[i].order == 2 ? 2 : 1) * (s->problem.traits.has_exact ? 2 : 1);
+    s->ranges = arena_room(&s->arena, (1 + named) * sizeof *s->ranges);
     if (!s->ranges) return false;
     add(s, MOTUS_COLUMN_TIME, false, 0, 1);
     add_states(s, MOTUS_COLUMN_POSITION, false, false);
@@ -71,7 +73,7 @@ bool system_number_columns(motus_system *s)
         s->exact_v = arena_room(&s->arena, (s->problem.nv + 1) * sizeof(double));
     }
     s->observed = arena_room(&s->arena, largest * sizeof(double));
-    return !s->arena.failed;
+    return column_names_enter(s) && !s->arena.failed;
 }
 
 const column_range *columns_range(const motus_system *s, size_t k)
@@ -182,10 +184,11 @@ static motus_status evaluate(motus_system *s, const column_range *g, double t, d
     }
 }
 
-/* The exact columns come from one evaluation, and so do all quantities, or invariants, of a callback. */
+/* Of a state nothing is evaluated. The exact columns come from one evaluation, and so do all quantities, or invariants,
+ * of a callback. */
 static bool evaluated(const motus_system *s, const column_range *g, const column_range *done)
 {
-    return g == done ||
+    return g == done || (of_state(g->kind) && g->kind != MOTUS_COLUMN_EXACT) ||
            (done && done->kind == g->kind && (g->kind == MOTUS_COLUMN_EXACT || (!s->model && !of_state(g->kind))));
 }
 
@@ -280,9 +283,7 @@ static void indices_of(const model_state *s, size_t offset, int64_t *index)
 /* The number of the range's quantity or invariant, from 0: the ranges of a kind are neighbours. */
 static size_t rank_of(const motus_system *s, const column_range *g)
 {
-    size_t rank = 0;
-    while (g > s->ranges && g[-1].kind == g->kind) g--, rank++;
-    return rank;
+    return (size_t)(g - s->ranges) - s->named[g->kind == MOTUS_COLUMN_INVARIANT];
 }
 
 static motus_column describe(const motus_system *s, size_t k)

@@ -12,6 +12,8 @@ const column_range *columns_range(const motus_system *, size_t k);
 model_state columns_shape(const motus_system *, const column_range *);
 /* The cell with these indices; false if there is no equation there. */
 bool columns_find_cell(const model_state *, const int64_t *index, size_t *cell);
+/* Enters the names of all ranges into the table by which motus_column_find finds them. False: no memory. */
+bool column_names_enter(motus_system *);
 /* MOTUS_CALLBACK: the callback for `which` returned `answer` at this time. */
 motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *);
 

@@ -43,10 +43,12 @@ static uint64_t mix_range(uint64_t h, const range *r) { return mix_subscript(mix
 /* Where a number lies: a reference, and the array it refers to. */
 static uint64_t mix_reference(uint64_t h, const model *m, const reference *r)
 {
+    static const extent none = {{0}, {0}, {0}}; /* leaves of derivatives lie nowhere */
     const array *a = &m->arrays[r->array];
+    const extent *over = a->over ? a->over : &none;
     h = mix_number(mix_number(h, a->space), (int64_t)a->base);
     for (int d = 0; d < r->dims; d++) {
-        h = mix_number(mix_number(mix_number(h, a->first[d]), a->last[d]), a->stride[d]);
+        h = mix_number(mix_number(mix_number(h, over->first[d]), over->last[d]), over->stride[d]);
         h = mix_subscript(h, &r->at[d]);
     }
     return h;

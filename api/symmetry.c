@@ -232,6 +232,10 @@ bool symmetry_gradient(motus_system *s)
 {
     traits *t = &s->problem.traits;
     if (s->judged_gradient || t->velocity || t->first_order || !s->model) return true;
+    if (s->problem.nv == 1) { /* -V', V an integral of the force */
+        s->energy = !t->time;
+        return t->gradient = s->judged_gradient = true;
+    }
     modes m = modes_enter();
     s->judged_gradient = judge_gradient(s);
     modes_leave(m);

@@ -44,6 +44,7 @@ struct motus_system {
     size_t positions, velocities;
     column_range *ranges;
     size_t range_count, column_count;
+    uint32_t *range_of, range_slots; /* a hash table by name: 1 + a range, 0 free; slots: a power of two */
     size_t named[2], named_count[2]; /* the ranges of quantities, and of invariants */
     double *observed; /* room for one quantity or invariant; of a callback, for all quantities or all invariants */
     double *exact_x, *exact_v;

@@ -513,6 +513,18 @@ static void quantities(text *t, int n)
     for (int i = 1; i <= n; i++) say(t, "q%d = %d x\n", i, i);
 }
 
+static void one_parameter_in_a_sum(text *t, int n)
+{
+    say(t, "x'' = -x");
+    for (int i = 1; i <= n; i++) say(t, " + p");
+    say(t, "%sp = 1\n", start);
+}
+
+static void variables(text *t, int n)
+{
+    for (int i = 1; i <= n; i++) say(t, "x%d'' = -x%d\nx%d(0) = 1\nx%d'(0) = 0\n", i, i, i, i);
+}
+
 /* Reads a model of n lines, terms or cells; the text's length and what reading it took. */
 static size_t read_shape(shape *write, int n, ledger *l)
 {
@@ -549,12 +561,14 @@ static void memory_for_the_text(void **unused)
         {"functions", functions, 100000, 28},
         {"comments", comments, 100000, 3},
         {"a list", list_of_numbers, 100000, 28},
-        {"a sum", terms, 300000, 70},
-        {"a product", factors, 100000, 80},
-        {"calls", calls, 50000, 140},
-        {"parameters in a sum", parameters_in_a_sum, 100000, 42},
-        {"cells", cells, 20000, 62},
-        {"quantities", quantities, 20000, 72},
+        {"a sum", terms, 300000, 33},
+        {"one parameter in a sum", one_parameter_in_a_sum, 300000, 45},
+        {"variables", variables, 8000, 56},
+        {"a product", factors, 100000, 39},
+        {"calls", calls, 50000, 74},
+        {"parameters in a sum", parameters_in_a_sum, 100000, 27},
+        {"cells", cells, 20000, 39},
+        {"quantities", quantities, 20000, 50},
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
         const int n = shapes[i].n / FEWER;

@@ -39,20 +39,23 @@ enum { PARAMS = 3 };
 
 typedef struct world {
     array arrays[ARRAYS];
+    extent over[ARRAYS];
     int64_t ints[INTS];
     double pool[PARAMS + 64], x[4096], v[4096], a[4096], dx[4096], out[4096];
     binding binding;
     double *base[SPACES];
 } world;
 
-static inline array line(space s, size_t base, int64_t first, int64_t last)
+static inline array line(extent *over, space s, size_t base, int64_t first, int64_t last)
 {
-    return (array){.space = s, .dims = 1, .base = base, .first = {first}, .last = {last}, .stride = {1}};
+    *over = (extent){.first = {first}, .last = {last}, .stride = {1}};
+    return (array){.space = (uint8_t)s, .dims = 1, .base = base, .over = over};
 }
 
-static inline array plane(space s, size_t base, int64_t rows, int64_t columns)
+static inline array plane(extent *over, space s, size_t base, int64_t rows, int64_t columns)
 {
-    return (array){.space = s, .dims = 2, .base = base, .last = {rows + 1, columns + 1}, .stride = {columns + 2, 1}};
+    *over = (extent){.last = {rows + 1, columns + 1}, .stride = {columns + 2, 1}};
+    return (array){.space = (uint8_t)s, .dims = 2, .base = base, .over = over};
 }
 
 static uint64_t seed = 1; /* each test program has its own sequence */
@@ -73,18 +76,18 @@ static inline void world_make(world *w, int64_t n, int64_t rows, int64_t columns
     w->ints[INT_COLUMNS] = columns;
     w->ints[INT_LIST] = list;
     w->arrays[SCALAR] = (array){.space = SPACE_X};
-    w->arrays[CHAIN] = line(SPACE_X, 1, 0, n + 1);
-    w->arrays[GRID] = plane(SPACE_X, (size_t)n + 3, rows, columns);
-    w->arrays[CHAIN_V] = line(SPACE_V, 1, 0, n + 1);
-    w->arrays[LIST_M] = line(SPACE_POOL, PARAMS, 1, list);
+    w->arrays[CHAIN] = line(&w->over[CHAIN], SPACE_X, 1, 0, n + 1);
+    w->arrays[GRID] = plane(&w->over[GRID], SPACE_X, (size_t)n + 3, rows, columns);
+    w->arrays[CHAIN_V] = line(&w->over[CHAIN_V], SPACE_V, 1, 0, n + 1);
+    w->arrays[LIST_M] = line(&w->over[LIST_M], SPACE_POOL, PARAMS, 1, list);
     w->arrays[TO_SCALAR] = (array){.space = SPACE_A};
-    w->arrays[TO_CHAIN] = line(SPACE_A, 1, 0, n + 1);
-    w->arrays[TO_GRID] = plane(SPACE_A, (size_t)n + 3, rows, columns);
+    w->arrays[TO_CHAIN] = line(&w->over[TO_CHAIN], SPACE_A, 1, 0, n + 1);
+    w->arrays[TO_GRID] = plane(&w->over[TO_GRID], SPACE_A, (size_t)n + 3, rows, columns);
     w->arrays[OUT_SCALAR] = (array){.space = SPACE_OUT};
-    w->arrays[OUT_CHAIN] = line(SPACE_OUT, 1, 0, n + 1);
-    w->arrays[OUT_GRID] = plane(SPACE_OUT, (size_t)n + 3, columns, rows);
+    w->arrays[OUT_CHAIN] = line(&w->over[OUT_CHAIN], SPACE_OUT, 1, 0, n + 1);
+    w->arrays[OUT_GRID] = plane(&w->over[OUT_GRID], SPACE_OUT, (size_t)n + 3, columns, rows);
     w->arrays[DIRECTION_SCALAR] = (array){.space = SPACE_DX};
-    w->arrays[DIRECTION_CHAIN] = line(SPACE_DX, 1, 0, n + 1);
+    w->arrays[DIRECTION_CHAIN] = line(&w->over[DIRECTION_CHAIN], SPACE_DX, 1, 0, n + 1);
     for (size_t k = 0; k < 4096; k++) w->x[k] = number(), w->v[k] = number(), w->dx[k] = number();
     for (size_t k = 0; k < PARAMS + 64; k++) w->pool[k] = number();
     w->binding = (binding){w->arrays, w->ints, w->pool};

@@ -289,6 +289,22 @@ static void abandoned_folders_are_removed(void **state)
     remove_left(foreign, "thesis");
 }
 
+/* Many variables, each with a line of its own: their stores are divided for the compiler. */
+static void many_variables(void **state)
+{
+    (void)state;
+    enum { VARIABLES = 150, ROOM = 80 };
+    static char text[VARIABLES * ROOM + 40];
+    size_t n = 0;
+    for (int i = 1; i <= VARIABLES; i++)
+        n += (size_t)snprintf(text + n, sizeof text - n, "x%d'' = -x%d^3 + 0.1 x%d\nx%d(0) = %d/7\nx%d'(0) = 0\n", i, i,
+                              i % VARIABLES + 1, i, i, i);
+    snprintf(text + n, sizeof text - n, "step 0.001\nuntil 0.1\n");
+    motus_system *s = open_text(text, NULL);
+    same_bits(s, "many variables", "leapfrog");
+    motus_system_destroy(s);
+}
+
 /* One text serves every N and every parameter. */
 static void one_object_for_all_sizes(void **state)
 {
@@ -418,6 +434,7 @@ int main(void)
                                        cmocka_unit_test(every_function),
                                        cmocka_unit_test(one_object_for_all_sizes),
                                        cmocka_unit_test(damaged_entries_are_rebuilt),
+                                       cmocka_unit_test(many_variables),
                                        cmocka_unit_test(abandoned_folders_are_removed),
                                        cmocka_unit_test(shared_directory_is_not_trusted),
                                        cmocka_unit_test(without_a_compiler),

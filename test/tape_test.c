@@ -16,7 +16,7 @@ static double *cell(plain *p, const reference *r)
     const array *a = &p->w->arrays[r->array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < r->dims; d++)
-        at += (graph_subscript(&r->at[d], p->index, p->w->ints) - a->first[d]) * a->stride[d];
+        at += (graph_subscript(&r->at[d], p->index, p->w->ints) - a->over->first[d]) * a->over->stride[d];
     return (a->space == SPACE_POOL ? p->w->pool : p->w->base[a->space]) + at;
 }
 

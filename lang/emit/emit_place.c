@@ -96,13 +96,13 @@ static uint32_t slot_integer(writer *w, int slot) { return integer(w, &(emit_int
 int64_t emit_int_value(const emit_int *k, const array *arrays, const int64_t *ints)
 {
     if (k->kind == EMIT_SLOT) return ints[k->slot];
-    if (k->kind == EMIT_STRIDE) return arrays[k->array].stride[k->dim];
+    if (k->kind == EMIT_STRIDE) return arrays[k->array].over->stride[k->dim];
     const array *a = &arrays[k->ref.array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < k->ref.dims; d++) {
         const subscript *s = &k->ref.at[d];
         int64_t fixed = s->modulus >= 0 ? 1 : s->literal + (s->slot >= 0 ? ints[s->slot] : 0);
-        at += (fixed - a->first[d]) * a->stride[d];
+        at += (fixed - a->over->first[d]) * a->over->stride[d];
     }
     return at;
 }

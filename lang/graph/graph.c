@@ -127,6 +127,13 @@ bool graph_reserve(graph *g, uint32_t capacity)
     return true;
 }
 
+void graph_complete(graph *g)
+{
+    arena_drop(g->arena, g->table, g->table_size * sizeof *g->table);
+    g->table = NULL;
+    g->table_size = 0;
+}
+
 /* By an eighth where it is large, because the old copy and the new one are there together. */
 static bool grow_nodes(graph *g)
 {
@@ -336,14 +343,15 @@ node graph_total(graph *g, const node *terms, size_t count)
     return p[0];
 }
 
-size_t graph_shape(array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])
+size_t graph_shape(arena *of, array *a, space space, size_t base, int dims, const int64_t first[], const int64_t last[])
 {
     size_t count = 1;
-    *a = (array){.space = space, .dims = dims, .base = base};
+    extent *over = dims ? arena_take(of, sizeof *over) : NULL;
+    *a = (array){.space = (uint8_t)space, .dims = (uint8_t)dims, .base = base, .over = over};
     for (int d = dims - 1; d >= 0; d--) {
-        a->first[d] = first[d];
-        a->last[d] = last[d];
-        a->stride[d] = (int64_t)count;
+        over->first[d] = first[d];
+        over->last[d] = last[d];
+        over->stride[d] = (int64_t)count;
         count *= (size_t)(last[d] - first[d] + 1);
     }
     return count;
@@ -352,7 +360,7 @@ size_t graph_shape(array *a, space space, size_t base, int dims, const int64_t f
 bool graph_marked(const array *a, const uint8_t *marks)
 {
     size_t last = a->base;
-    for (int d = 0; d < a->dims; d++) last += (size_t)((a->last[d] - a->first[d]) * a->stride[d]);
+    for (int d = 0; d < a->dims; d++) last += (size_t)((a->over->last[d] - a->over->first[d]) * a->over->stride[d]);
     for (size_t k = a->base; k <= last; k++)
         if (marks[k]) return true;
     return false;

@@ -32,15 +32,18 @@ typedef enum space { SPACE_X, SPACE_V, SPACE_A, SPACE_DX, SPACE_DV, SPACE_POOL, 
 /* One component of one state, list or quantity, as an array over its indices. Addresses are run-time values
  * (a machine binds them): element = base + sum over d of (index[d] - first[d]) * stride[d]; the last dimension
  * has stride 1. */
-typedef struct array {
-    space space;
-    int dims;
-    size_t base;
+typedef struct extent {
     int64_t first[MAX_DIMS], last[MAX_DIMS], stride[MAX_DIMS];
+} extent;
+typedef struct array { /* there are eight for every variable, so it is kept small */
+    uint8_t space;     /* enum space */
+    uint8_t dims;
+    size_t base;
+    const extent *over; /* NULL: no dims */
 } array;
 
 /* Lays an array out from `base` on over [first, last], the last index contiguous; returns how many places it has. */
-size_t graph_shape(array *, space, size_t base, int dims, const int64_t first[], const int64_t last[]);
+size_t graph_shape(arena *, array *, space, size_t base, int dims, const int64_t first[], const int64_t last[]);
 /* Whether any of an array's places, from its first to its last, is marked. */
 bool graph_marked(const array *, const uint8_t *marks);
 
@@ -98,6 +101,8 @@ enum { GRAPH_NODES_MAX = 1 << 21 };
 graph *graph_create(arena *);
 /* Room for so many nodes, so that the graph need not grow: its old copy and the new one would be there together. */
 bool graph_reserve(graph *, uint32_t nodes);
+/* Gives back what only constructors need; they must not be called any more. */
+void graph_complete(graph *);
 /* Constructors. Operands must exist. Constants fold to what the machine would compute. Identical nodes are shared. */
 node graph_const(graph *, double);
 node graph_time(graph *);

@@ -20,7 +20,8 @@ static inline size_t graph_element(const array *arrays, const reference *r, cons
 {
     const array *a = &arrays[r->array];
     int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++) at += (graph_subscript(&r->at[d], index, ints) - a->first[d]) * a->stride[d];
+    for (int d = 0; d < r->dims; d++)
+        at += (graph_subscript(&r->at[d], index, ints) - a->over->first[d]) * a->over->stride[d];
     return (size_t)at;
 }
 

@@ -137,6 +137,7 @@ static bool run(forming *f, const node *roots, output *outputs, size_t count)
         for (uint32_t k = 0; k < f->w.count; k++)
             if (!f->absorbed[k]) f->image[k] = form(f, f->w.nodes[k]);
         for (size_t r = 0; r < count; r++) outputs[r].value = image(f, roots[r]);
+        graph_complete(f->to);
     } else {
         f->from->arena->failed = true;
     }

@@ -63,7 +63,7 @@ static bool resolve_plain(model *m, model_definition *d)
 static void own_arrays(model *m, model_definition *d, uint16_t first, int parts)
 {
     d->array = first;
-    for (int k = 0; k < parts; k++) m->array_owner[first + k] = (uint32_t)(d - m->definitions) + 1;
+    for (int k = 0; k < parts; k++) m->array_owner[first + k] = 2 * (uint32_t)(d - m->definitions) + 1;
 }
 
 /* K = [[2, -1], [-1, 2]]: places [row, column], each from 1 */
@@ -85,7 +85,7 @@ static bool resolve_matrix(model *m, model_definition *d)
     uint16_t at;
     if (!model_take_numbers(m, (size_t)n, &base) || !model_take_arrays(m, 1, &at)) return false;
     own_arrays(m, d, at, 1);
-    graph_shape(&m->arrays[at], SPACE_POOL, base, 2, d->first, d->last);
+    graph_shape(m->arena, &m->arrays[at], SPACE_POOL, base, 2, d->first, d->last);
     if (!evaluate_numbers(m, d, v.item, n, base)) return false;
     for (int k = 0; k < n; k++) {
         output place = {.to = {.dims = 2}};
@@ -97,49 +97,72 @@ static bool resolve_matrix(model *m, model_definition *d)
     return true;
 }
 
+/* The nodes of a list's entries, entry by entry, to be given back; NULL: complained, or no memory. */
+static node *lower_entries(model *m, const tree *list, int *components)
+{
+    node *nodes = NULL;
+    lowering l;
+    lower_start(&l, m, PLACE_CONSTANT, "a parameter");
+    for (uint32_t i = 0; i < list->count; i++) {
+        const value v = lower_expression(&l, list->item[i]);
+        const size_t parts = v.count ? (size_t)v.count : 1;
+        if (i == 0) *components = v.count;
+        if (!failed(m) && (v.boolean || v.count != *components))
+            source_complain(&m->source, MOTUS_SHAPE, list->item[i]->at,
+                            "the entries of a list are all numbers, or all vectors of one length");
+        if (i == 0 && !failed(m) && !(nodes = take(&m->arena->allocator, list->count, parts * sizeof *nodes)))
+            m->arena->failed = true;
+        if (failed(m)) {
+            give(&m->arena->allocator, nodes);
+            return NULL;
+        }
+        for (size_t k = 0; k < parts; k++) nodes[i * parts + k] = v.item[k];
+    }
+    return nodes;
+}
+
+/* The entries' numbers go to the pool component by component. */
+static bool place_entries(model *m, model_definition *d, const node *nodes, int n, int parts)
+{
+    size_t base;
+    uint16_t at;
+    if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
+    own_arrays(m, d, at, parts);
+    node *column = take(&m->arena->allocator, (size_t)n, sizeof *column);
+    if (!column) m->arena->failed = true;
+    bool ok = column != NULL;
+    for (int k = 0; ok && k < parts; k++) {
+        graph_shape(m->arena, &m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
+        for (int i = 0; i < n; i++) column[i] = nodes[(size_t)i * (size_t)parts + (size_t)k];
+        ok = evaluate_numbers(m, d, column, n, base + (size_t)k * (size_t)n);
+    }
+    give(&m->arena->allocator, column);
+    for (int i = 0; ok && i < n; i++) {
+        const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
+        ok = vary_record(m, &place, nodes + (size_t)i * (size_t)parts, parts, base, 1, d->first, d->last, (size_t)n,
+                         NULL, 0, &d->log_array);
+    }
+    return ok;
+}
+
 /* m = [1, 2, 3] or [(1, 0), (0, 1)]: places 1 … n */
 static bool resolve_list(model *m, model_definition *d)
 {
     const tree *list = d->statement->value;
     if (list->count > 0 && list->item[0]->kind == TREE_LIST) return resolve_matrix(m, d);
-    int n = (int)list->count;
-    lowering l;
-    lower_start(&l, m, PLACE_CONSTANT, "a parameter");
-    value *item = arena_room(m->arena, (size_t)n * sizeof *item);
-    if (!item) return false;
-    for (int i = 0; i < n; i++) {
-        item[i] = lower_expression(&l, list->item[i]);
-        if (failed(m)) return false;
-        if (item[i].boolean || item[i].count != item[0].count) {
-            source_complain(&m->source, MOTUS_SHAPE, list->item[i]->at,
-                            "the entries of a list are all numbers, or all vectors of one length");
-            return false;
-        }
+    const int n = (int)list->count;
+    node *nodes = lower_entries(m, list, &d->components);
+    if (!nodes || !model_take_extent(m, d)) {
+        give(&m->arena->allocator, nodes);
+        return false;
     }
-    if (!model_take_extent(m, d)) return false;
     d->list = true;
     d->dims = 1;
-    d->components = item[0].count;
     d->first[0] = 1;
     d->last[0] = n;
-    int parts = d->components ? d->components : 1;
-    size_t base;
-    uint16_t at;
-    if (!model_take_numbers(m, (size_t)n * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
-    own_arrays(m, d, at, parts);
-    node *column = arena_room(m->arena, (size_t)n * sizeof *column);
-    if (!column) return false;
-    for (int k = 0; k < parts; k++) {
-        graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * (size_t)n, 1, d->first, d->last);
-        for (int i = 0; i < n; i++) column[i] = item[i].item[k];
-        if (!evaluate_numbers(m, d, column, n, base + (size_t)k * (size_t)n)) return false;
-    }
-    for (int i = 0; i < n; i++) {
-        const output place = {.to = {.dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = i + 1}}}};
-        if (!vary_record(m, &place, item[i].item, parts, base, 1, d->first, d->last, (size_t)n, NULL, 0, &d->log_array))
-            return false;
-    }
-    return true;
+    const bool ok = place_entries(m, d, nodes, n, d->components ? d->components : 1);
+    give(&m->arena->allocator, nodes);
+    return ok;
 }
 
 /* The lines of a family. Of lines about the same place that with fewer indices holds; what is set holds before all. */
@@ -290,7 +313,7 @@ static bool resolve_family(model *m, model_definition *d)
     d->list = true;
     d->components = v.count;
     array probe;
-    size_t hull = graph_shape(&probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
+    size_t hull = graph_shape(m->arena, &probe, SPACE_POOL, 0, d->dims, d->first, d->last), base;
     double numbers = parts;
     for (int k = 0; k < d->dims; k++) numbers *= (double)(d->last[k] - d->first[k] + 1);
     if (numbers > MODEL_LIST_MAX) {
@@ -302,7 +325,7 @@ static bool resolve_family(model *m, model_definition *d)
     if (!model_take_numbers(m, hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &at)) return false;
     own_arrays(m, d, at, parts);
     for (int k = 0; k < parts; k++)
-        graph_shape(&m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
+        graph_shape(m->arena, &m->arrays[at + k], SPACE_POOL, base + (size_t)k * hull, d->dims, d->first, d->last);
     uint8_t *map;
     if (!family_map(m, d, hull, &map)) return false;
     if (!map && (!evaluate_into_pool(m, &o, v.item, parts, base, d->first, d->last, hull) ||

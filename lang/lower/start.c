@@ -35,9 +35,11 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
     for (int d = 0; d < s->order; d++) {
         if (!model_take_numbers(m, s->hull * (size_t)parts, &base) || !model_take_arrays(m, parts, &s->start_array[d]))
             return false;
-        for (int k = 0; k < parts; k++)
-            graph_shape(&m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims, s->first,
-                        s->last);
+        for (int k = 0; k < parts; k++) {
+            graph_shape(m->arena, &m->arrays[s->start_array[d] + k], SPACE_POOL, base + (size_t)k * s->hull, s->dims,
+                        s->first, s->last);
+            m->array_owner[s->start_array[d] + k] = 2 * (uint32_t)(s - m->states) + 2;
+        }
     }
     return true;
 }

@@ -90,8 +90,6 @@ bool algebra_differs(const algebra *, poly);
 
 /* algebra_read.c: the value of an output at these indices. */
 poly algebra_read(algebra *, node, const int64_t *index);
-int64_t algebra_subscript(const model *, const subscript *, const int64_t *index);
-size_t algebra_offset(const model *, const reference *, const int64_t *index);
 
 /* algebra.c, for algebra_apply.c. */
 uint32_t algebra_atom_of(algebra *, operation, poly a, poly b);

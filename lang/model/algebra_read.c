@@ -1,26 +1,11 @@
 /* The nodes of a model as polynomials in atoms. See algebra.h. */
 #include "lang/model/algebra.h"
 
+#include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 
 #include <math.h>
 #include <string.h>
-
-int64_t algebra_subscript(const model *m, const subscript *s, const int64_t *index)
-{
-    const int64_t k = (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-    if (s->modulus < 0) return k;
-    const int64_t n = m->ints[s->modulus];
-    return 1 + (k % n + n) % n;
-}
-
-size_t algebra_offset(const model *m, const reference *r, const int64_t *index)
-{
-    const array *a = &m->arrays[r->array];
-    int64_t at = (int64_t)a->base;
-    for (int d = 0; d < r->dims; d++) at += (algebra_subscript(m, &r->at[d], index) - a->first[d]) * a->stride[d];
-    return (size_t)at;
-}
 
 static poly leaf(algebra *A, const graph_node *n, const int64_t *index)
 {
@@ -35,7 +20,7 @@ static poly leaf(algebra *A, const graph_node *n, const int64_t *index)
     }
     const reference *r = &m->graph->references[n->a];
     const space s = m->arrays[r->array].space;
-    const size_t at = algebra_offset(m, r, index);
+    const size_t at = graph_element(m->arrays, r, index, m->ints);
     if (s == SPACE_POOL) return algebra_number(A, m->pool[at]);
     if (s != SPACE_X && s != SPACE_V) return algebra_lose(A);
     return algebra_of_atom(A, algebra_place(A, s, at), 1, 1, -INFINITY);
@@ -73,7 +58,7 @@ static poly total(algebra *A, const graph_node *n, const int64_t *around)
     int64_t index[MAX_LEVELS];
     memcpy(index, around, sizeof index);
     poly sum = algebra_number(A, 0);
-    const int64_t first = algebra_subscript(m, &r.first, index), last = algebra_subscript(m, &r.last, index);
+    const int64_t first = graph_subscript(&r.first, index, m->ints), last = graph_subscript(&r.last, index, m->ints);
     for (int64_t k = first; k <= last && !A->lost; k++) {
         index[n->level] = k;
         poly p = 0;

@@ -39,7 +39,7 @@ bool evaluate_into_pool(model *m, const output *target, const node *values, int 
     output *o = outputs_for(m, parts, &at);
     if (!o) return false;
     for (int k = 0; k < parts; k++) {
-        graph_shape(&m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
+        graph_shape(m->arena, &m->arrays[at + k], SPACE_OUT, base + (size_t)k * hull, target->to.dims, first, last);
         o[k] = *target;
         o[k].value = values[k];
         o[k].to.array = (uint16_t)(at + k);
@@ -64,7 +64,7 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     output *o = outputs_for(m, count, &first);
     if (!o) return false;
     for (int k = 0; k < count; k++) {
-        graph_shape(&m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
+        graph_shape(m->arena, &m->arrays[first + k], SPACE_OUT, (size_t)k, 0, NULL, NULL);
         o[k] = (output){.value = nodes[k], .to = {.array = (uint16_t)(first + k)}};
     }
     double *base[SPACES] = {[SPACE_OUT] = out};

@@ -1,6 +1,7 @@
 /* See field.h. The force is read cell by cell, as polynomials whose derivatives are compared: algebra.h. */
 #include "lang/model/field.h"
 
+#include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 #include "lang/model/algebra.h"
 
@@ -36,7 +37,7 @@ static bool add_cell(field *f, const output *o, const int64_t *index)
         f->room = more;
         if (!f->place || !f->force) return false;
     }
-    f->place[f->cells] = algebra_offset(A->model, &o->to, index);
+    f->place[f->cells] = graph_element(A->model->arrays, &o->to, index, A->model->ints);
     f->force[f->cells] = algebra_read(A, o->value, index);
     f->cells++;
     return !A->lost;
@@ -45,8 +46,9 @@ static bool add_cell(field *f, const output *o, const int64_t *index)
 static bool add_cells(field *f, const output *o, int level, int64_t *index)
 {
     if (level == o->loops) return add_cell(f, o, index);
-    const int64_t first = algebra_subscript(f->algebra.model, &o->loop[level].first, index),
-                  last = algebra_subscript(f->algebra.model, &o->loop[level].last, index);
+    const int64_t *ints = f->algebra.model->ints;
+    const int64_t first = graph_subscript(&o->loop[level].first, index, ints),
+                  last = graph_subscript(&o->loop[level].last, index, ints);
     for (int64_t k = first; k <= last; k++) {
         index[level] = k;
         if (!add_cells(f, o, level + 1, index)) return false;

@@ -68,12 +68,19 @@ static void name_parameter(const model *m, uint32_t slot, char *out, size_t size
         snprintf(out, size, "%s[%u]", d->name, slot - d->slot + 1);
 }
 
+const model_state *model_state_of(const model *m, uint16_t array)
+{
+    const uint32_t owner = m->array_owner[array];
+    return owner && owner % 2 == 0 ? &m->states[owner / 2 - 1] : NULL;
+}
+
 static void name_reference(const model *m, const reference *r, char *out, size_t size)
 {
     const char *name = "?", *primes = "", *tail = "";
     int component = -1, components = 0;
-    for (uint32_t i = 0; i < m->state_count; i++) {
-        const model_state *s = &m->states[i];
+    const uint32_t owner = m->array_owner[r->array];
+    const model_state *s = model_state_of(m, r->array);
+    if (s) {
         int parts = s->components ? s->components : 1;
         for (int b = 0; b < 3; b++) {
             int k = (int)r->array - (m->block[b] + s->array);
@@ -94,8 +101,8 @@ static void name_reference(const model *m, const reference *r, char *out, size_t
             tail = "(0)";
         }
     }
-    if (m->array_owner[r->array]) {
-        const model_definition *d = &m->definitions[m->array_owner[r->array] - 1];
+    if (owner && !s) {
+        const model_definition *d = &m->definitions[(owner - 1) / 2];
         name = d->name;
         component = (int)r->array - d->array;
         components = d->components;

@@ -137,7 +137,8 @@ typedef struct model {
     double *pool;
     size_t pool_count, pool_capacity;
     uint32_t scalar_slots, scalar_used; /* pool slots [0, scalar_slots) are for scalars and vectors */
-    /* 1 + the number of the definition that a scalar slot, or an array of the pool, belongs to; 0: none */
+    /* A scalar slot belongs to definition d, 1 + d; an array to definition d, 2 d + 1, or to variable s, 2 s + 2; 0: to
+     * none. */
     uint32_t *slot_owner, *array_owner;
     int64_t no_extent[MAX_DIMS];
 
@@ -193,6 +194,10 @@ void model_print(const model *, node, char *out, size_t size);
  * memory, or complained. */
 bool model_take_numbers(model *, size_t count, size_t *first);
 bool model_take_arrays(model *, int count, uint16_t *first);
+/* Room for so many arrays in all, more than there is; nothing is given back, since programs refer to the old ones. */
+bool model_reserve_arrays(model *, uint32_t room);
+/* The variable that an array of its blocks, or of its initial values, belongs to; NULL: none. */
+const model_state *model_state_of(const model *, uint16_t array);
 /* Room of its own for the ranges of a definition's indices. */
 bool model_take_extent(model *, model_definition *);
 /* Copies the initial values from the pool into x0 and v0; due after every change of them. */

@@ -19,6 +19,17 @@ bool model_take_numbers(model *m, size_t count, size_t *first)
     return true;
 }
 
+bool model_reserve_arrays(model *m, uint32_t room)
+{
+    array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
+    uint32_t *owner = arena_grow(m->arena, m->array_owner, m->array_capacity * sizeof *owner, room * sizeof *owner);
+    if (!more || !owner) return false;
+    m->array_owner = owner;
+    m->arrays = more;
+    m->array_capacity = room;
+    return true;
+}
+
 bool model_take_arrays(model *m, int count, uint16_t *first)
 {
     uint32_t need = m->array_count + (uint32_t)count;
@@ -26,16 +37,7 @@ bool model_take_arrays(model *m, int count, uint16_t *first)
         source_complain(&m->source, MOTUS_LIMIT, (span){0, 0, 0}, "the model has more than %d arrays", UINT16_MAX);
         return false;
     }
-    if (need > m->array_capacity) {
-        uint32_t room = need + 64 + m->array_capacity / 2;
-        array *more = arena_grow(m->arena, m->arrays, m->array_capacity * sizeof *more, room * sizeof *more);
-        if (!more) return false;
-        uint32_t *owner = arena_grow(m->arena, m->array_owner, m->array_capacity * sizeof *owner, room * sizeof *owner);
-        if (!owner) return false;
-        m->array_owner = owner;
-        m->arrays = more;
-        m->array_capacity = room;
-    }
+    if (need > m->array_capacity && !model_reserve_arrays(m, need + 64 + m->array_capacity / 2)) return false;
     *first = (uint16_t)m->array_count;
     memset(&m->arrays[m->array_count], 0, (size_t)count * sizeof *m->arrays);
     memset(&m->array_owner[m->array_count], 0, (size_t)count * sizeof *m->array_owner);

@@ -83,7 +83,7 @@ static const char *place(builder *b, const nest *around, unsigned deps, size_t *
     if ((double)*count + cells > (double)most) return "there are too many of them";
     value->dims = (uint8_t)dims;
     if (model_take_arrays(b->m, 1, &value->array))
-        *count += graph_shape(&b->m->arrays[value->array], SPACE_OUT, *count, dims, first, last);
+        *count += graph_shape(b->m->arena, &b->m->arrays[value->array], SPACE_OUT, *count, dims, first, last);
     return NULL;
 }
 

@@ -57,8 +57,8 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
     const array *a = &m->arrays[o->to.array];
     int64_t at = (int64_t)a->base;
     for (int d = 0; d < o->to.dims && !o->loops; d++)
-        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->first[d]) *
-              a->stride[d];
+        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->over->first[d]) *
+              a->over->stride[d];
     return (size_t)at;
 }
 
@@ -157,7 +157,7 @@ uint8_t *vary_follows(model *m, const array *of)
     uint8_t *changed = arena_room(m->arena, m->graph->count + 1);
     if (m->arena->failed || !changed) return NULL;
     size_t count = 1;
-    for (int d = 0; d < of->dims; d++) count *= (size_t)(of->last[d] - of->first[d] + 1);
+    for (int d = 0; d < of->dims; d++) count *= (size_t)(of->over->last[d] - of->over->first[d] + 1);
     memset(v.affected + of->base, 1, count);
     follow(&v, changed);
     return v.affected;

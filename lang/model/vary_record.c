@@ -38,7 +38,7 @@ bool vary_record(model *m, const output *target, const node *values, int parts, 
     if (!*array) {
         if (!model_take_arrays(m, parts, array)) return false;
         for (int k = 0; k < parts; k++)
-            graph_shape(&m->arrays[*array + k], SPACE_OUT, base + (size_t)k * hull, dims, first, last);
+            graph_shape(m->arena, &m->arrays[*array + k], SPACE_OUT, base + (size_t)k * hull, dims, first, last);
         ++*array;
     }
     vary_entry *e = new_entry(m);
@@ -60,7 +60,7 @@ bool vary_record_scalar(model *m, node n, uint32_t slot)
     if (!m->log.scalars) {
         const int64_t first = 0, last = (int64_t)m->scalar_slots - 1;
         if (!model_take_arrays(m, 1, &m->log.scalars)) return false;
-        graph_shape(&m->arrays[m->log.scalars++], SPACE_OUT, 0, 1, &first, &last);
+        graph_shape(m->arena, &m->arrays[m->log.scalars++], SPACE_OUT, 0, 1, &first, &last);
     }
     return add_line(m, n, slot);
 }

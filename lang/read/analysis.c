@@ -10,16 +10,6 @@ static node seed_velocity(graph *g, node leaf, void *shift)
     return graph_seed_direction(g, leaf, shift);
 }
 
-static const model_state *state_of(const model *m, block block, uint16_t array)
-{
-    const uint16_t number = (uint16_t)(array - m->block[block]);
-    for (uint32_t k = 0; k < m->state_count; k++) {
-        const model_state *s = &m->states[k];
-        if (number >= s->array && number < s->array + (s->components ? s->components : 1)) return s;
-    }
-    return NULL;
-}
-
 typedef struct reading {
     const model *model;
     bool first_order;
@@ -29,7 +19,7 @@ static void see_load(void *ctx, const reference *ref, const range *sums, int fir
 {
     reading *r = ctx;
     (void)sums, (void)first_level, (void)inside;
-    const model_state *s = state_of(r->model, BLOCK_V, ref->array);
+    const model_state *s = model_state_of(r->model, ref->array);
     r->first_order |= !s || s->order == 1;
 }
 
@@ -40,7 +30,7 @@ static bool only_follow(model *m)
     for (size_t i = 0; i < m->accel_count && !r.first_order; i++) {
         const output *o = &m->accel[i];
         if (!(graph_deps(m->graph, o->value) & DEP_V)) continue;
-        const model_state *s = state_of(m, BLOCK_A, o->to.array);
+        const model_state *s = model_state_of(m, o->to.array);
         if (!s || s->order == 2) return false;
         graph_loads(m->graph, o->value, SPACE_V, see_load, &r);
     }
@@ -88,7 +78,7 @@ static bool recognise_constant(model *m)
     for (size_t i = 0; i < m->accel_count; i++) {
         output o = m->accel[i];
         const uint16_t number = (uint16_t)(o.to.array - m->block[BLOCK_A]);
-        const model_state *s = state_of(m, BLOCK_A, o.to.array);
+        const model_state *s = model_state_of(m, o.to.array);
         reference at = o.to;
         at.array = (uint16_t)(s->start_array[0] + number - s->array);
         node x0 = graph_load(g, &at);

@@ -154,14 +154,12 @@ static bool looked_at(model *m, model_definition *d)
     const int parts = d->components ? d->components : 1;
     d->dims = (uint8_t)o.loops;
     if (o.loops && !model_take_extent(m, d)) return false;
-    size_t hull = 1;
-    array shape = {.space = SPACE_OUT, .dims = o.loops};
-    for (int k = o.loops - 1; k >= 0; k--) {
-        shape.first[k] = d->first[k] = l.low[k];
-        shape.last[k] = d->last[k] = l.high[k];
-        shape.stride[k] = (int64_t)hull;
-        hull *= (size_t)(l.high[k] - l.low[k] + 1);
+    for (int k = 0; k < o.loops; k++) {
+        d->first[k] = l.low[k];
+        d->last[k] = l.high[k];
     }
+    array shape;
+    const size_t hull = graph_shape(m->arena, &shape, SPACE_OUT, 0, o.loops, d->first, d->last);
     d->numbers = hull * (size_t)parts;
     if (d->numbers > MODEL_NUMBERS_MAX) {
         source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name,

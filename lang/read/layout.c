@@ -36,9 +36,11 @@ bool layout_all(model *m)
         if (!model_take_arrays(m, (int)parts, &m->block[b])) return false;
         for (uint32_t i = 0; i < m->state_count; i++) {
             const model_state *s = &m->states[i];
-            for (int k = 0; k < (s->components ? s->components : 1); k++)
-                graph_shape(&m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull, s->dims,
-                            s->first, s->last);
+            for (int k = 0; k < (s->components ? s->components : 1); k++) {
+                graph_shape(m->arena, &m->arrays[m->block[b] + s->array + k], spaces[b], s->base + (size_t)k * s->hull,
+                            s->dims, s->first, s->last);
+                m->array_owner[m->block[b] + s->array + k] = 2 * i + 2;
+            }
         }
     }
     m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);

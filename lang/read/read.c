@@ -26,24 +26,10 @@ static bool constants(model *m)
     return true;
 }
 
-static motus_status build(model *m, const motus_text_def *def, read_method method)
-{
-    if (collect_all(m, def) && classify_all(m) && names_all(m) &&
-        graph_reserve(m->graph, m->statements.operations + 64) && constants(m) && settings_all(m, method) &&
-        layout_all(m) && equations_all(m))
-        analysis_all(m);
-    if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
-    if (m->source.failed) return m->source.status;
-    if (m->arena->failed || m->source.trees->failed) return MOTUS_MEMORY;
-    if (m->graph->too_large)
-        return fail(m->source.error, MOTUS_LIMIT, "the model's expressions are too large: more than %d operations",
-                    GRAPH_NODES_MAX);
-    return MOTUS_OK;
-}
-
 /* Nothing is lowered any more: what the trees took is more than all else that was read. */
 static void forget_trees(model *m)
 {
+    m->arena->failed |= m->source.trees->failed;
     arena_release(m->source.trees);
     m->source.trees = NULL;
     for (uint32_t i = 0; i < m->statements.count; i++) {
@@ -53,6 +39,23 @@ static void forget_trees(model *m)
         if (s->replaced) s->replaced->value = NULL;
         if (s->kind != STATEMENT_METHOD) s->index = NULL;
     }
+}
+
+static motus_status build(model *m, const motus_text_def *def, read_method method)
+{
+    const bool lowered = collect_all(m, def) && classify_all(m) && names_all(m) &&
+                         graph_reserve(m->graph, m->statements.operations + 64) &&
+                         model_reserve_arrays(m, 8 * m->state_count + 64) && constants(m) && settings_all(m, method) &&
+                         layout_all(m) && equations_all(m);
+    forget_trees(m);
+    if (lowered) analysis_all(m);
+    if (!source_failed(&m->source) && !m->graph->too_large && verify_claims(m) == MOTUS_MEMORY) m->arena->failed = true;
+    if (m->source.failed) return m->source.status;
+    if (m->arena->failed) return MOTUS_MEMORY;
+    if (m->graph->too_large)
+        return fail(m->source.error, MOTUS_LIMIT, "the model's expressions are too large: more than %d operations",
+                    GRAPH_NODES_MAX);
+    return MOTUS_OK;
 }
 
 motus_status read_model(arena *a, const motus_text_def *def, read_method method, model **out, motus_error *err)
@@ -81,7 +84,6 @@ motus_status read_model(arena *a, const motus_text_def *def, read_method method,
     arena_init(&trees, &a->allocator);
     m->source.trees = &trees;
     motus_status status = build(m, def, method);
-    forget_trees(m);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory for the model") : status;
     m->source.error = NULL; /* it is the caller's and does not outlive this call */
     *out = m;

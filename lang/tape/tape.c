@@ -95,7 +95,7 @@ static void bind_site(site *s, const binding *b)
     s->lane_step = 0;
     for (int d = 0; d < s->ref.dims; d++) {
         const subscript *at = &s->ref.at[d];
-        int64_t fixed = at->literal + (at->slot >= 0 ? b->ints[at->slot] : 0), step = m->stride[d];
+        int64_t fixed = at->literal + (at->slot >= 0 ? b->ints[at->slot] : 0), step = m->over->stride[d];
         if (at->modulus >= 0) {
             int64_t modulus = b->ints[at->modulus] > 0 ? b->ints[at->modulus] : 1;
             s->wrap[s->wraps].level = at->level;
@@ -107,7 +107,7 @@ static void bind_site(site *s, const binding *b)
             s->level[s->terms] = at->level;
             s->step[s->terms++] = step;
         }
-        s->offset += (fixed - m->first[d]) * step;
+        s->offset += (fixed - m->over->first[d]) * step;
         if (s->lanes >= 0 && at->level == s->lanes) s->lane_step += step;
     }
 }

@@ -341,12 +341,24 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
     return tape_registers_assign(w->plan.hooks, w->registers.at, w->registers.count, w->text.count, counts);
 }
 
-static void *kept(arena *a, const void *rows, size_t count, size_t size)
+/* A copy of a list in the arena; the list is given back. */
+#define KEPT(w, a, list) kept(w, a, (list).at, (list).count, sizeof *(list).at)
+static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
 {
-    if (!count) return arena_take(a, size);
-    void *copy = arena_take(a, count * size);
-    if (copy && !a->failed) memcpy(copy, rows, count * size);
+    void *copy = arena_take(a, (count + !count) * size);
+    if (copy && !a->failed && count) memcpy(copy, rows, count * size);
+    give(w->plan.hooks, rows);
     return copy;
+}
+
+static void take_wraps(code *c, arena *a)
+{
+    for (uint32_t k = 0; k < c->site_count && !a->failed; k++) {
+        site *s = &c->sites[k];
+        bool modular = false;
+        for (int d = 0; d < s->ref.dims; d++) modular |= s->ref.at[d].modulus >= 0;
+        if (modular) s->wrap = arena_take(a, MAX_DIMS * sizeof *s->wrap);
+    }
 }
 
 static code *finish(writer *w, arena *a)
@@ -367,12 +379,26 @@ static code *finish(writer *w, arena *a)
                 .scalars = counts[SCALAR_REGISTER] + 1,
                 .blocks = counts[BLOCK_REGISTER],
                 .pointers = counts[POINTER_REGISTER],
-                .instructions = kept(a, w->text.at, w->text.count, sizeof *w->text.at),
-                .sites = kept(a, w->sites.at, w->sites.count, sizeof *w->sites.at),
-                .loops = kept(a, w->loops.at, w->loops.count, sizeof *w->loops.at),
-                .totals = kept(a, w->totals.at, w->totals.count, sizeof *w->totals.at),
-                .constants = kept(a, w->constants.at, w->constants.count, sizeof *w->constants.at)};
+                .instructions = KEPT(w, a, w->text),
+                .sites = KEPT(w, a, w->sites),
+                .loops = KEPT(w, a, w->loops),
+                .totals = KEPT(w, a, w->totals),
+                .constants = KEPT(w, a, w->constants)};
+    w->text.at = NULL;
+    w->sites.at = NULL;
+    w->loops.at = NULL;
+    w->totals.at = NULL;
+    w->constants.at = NULL;
+    take_wraps(c, a);
     return a->failed ? NULL : c;
+}
+
+/* How many items are of an operation. */
+static size_t items_of(const plan *p, operation op)
+{
+    size_t count = 0;
+    for (uint32_t k = 0; k < p->items.count; k++) count += p->g->nodes[p->items.at[k].n].op == op;
+    return count;
 }
 
 code *tape_code_create(arena *a, const program *program, bool with_blocks)
@@ -384,6 +410,8 @@ code *tape_code_create(arena *a, const program *program, bool with_blocks)
         RESERVE(&w.plan, w.registers, w.plan.items.count + 1);
         RESERVE(&w.plan, w.text, most);
         RESERVE(&w.plan, w.fields, most);
+        RESERVE(&w.plan, w.sites, items_of(&w.plan, OP_LOAD) + program->count);
+        RESERVE(&w.plan, w.constants, items_of(&w.plan, OP_CONST));
         write_region(&w, AT_BIND);
         put(&w, CODE_END, 0, (instruction){0}, 0);
         w.bind_count = w.text.count;

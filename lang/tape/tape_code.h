@@ -45,7 +45,7 @@ typedef struct instruction {
 } instruction;
 
 /* A place in memory: a reference with its numbers bound. The address is offset + sum of index[level] * step over the
- * terms, plus the modular dimensions. */
+ * terms, plus the modular dimensions. There may be one for every operation, so it is kept small. */
 typedef struct site {
     reference ref;
     int8_t lanes; /* the level that runs along the lanes, -1: a scalar access */
@@ -53,10 +53,10 @@ typedef struct site {
     int8_t level[MAX_DIMS];
     int64_t step[MAX_DIMS];
     int64_t offset, lane_step; /* lane_step: elements from lane to lane while nothing wraps */
-    struct {
+    struct wrap {
         int8_t level;
         int64_t add, modulus, step;
-    } wrap[MAX_DIMS];
+    } * wrap; /* MAX_DIMS of them; NULL: no dimension is modular */
 } site;
 
 /* The running total of a sum: eight interleaved partials. part[0] becomes the result. */
