@@ -166,8 +166,8 @@ static void swap(double **p, double **q)
 }
 
 /* Halves the step, from 2^-level of an interval on, until only round-off is left, or the error is below `enough`, or
- * the work is spent; the first two runs, without which nothing is known, may take `total` each. *now and *before are tables with room for the
- * points (without the start); at the end *now holds the best run. */
+ * the work is spent; the first two runs, without which nothing is known, may take `total` each. *now and *before are
+ * tables with room for the points (without the start); at the end *now holds the best run. */
 static motus_status refine(study *s, const study_grid *g, double budget, double total, double enough, int level,
                            candidate *c, double **now, double **before)
 {
