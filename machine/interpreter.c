@@ -222,7 +222,7 @@ static uint64_t operations_of(const model *m, const model_definition *d)
  * each of which uses the one before have together as many operations as the square of their number. */
 static tape *observed(interpreter *in, const model_definition *d, arena *once)
 {
-    enum { OPERATIONS_KEPT = 1 << 24 }; /* a gigabyte */
+    enum { OPERATIONS_KEPT = 1 << 25 }; /* a gigabyte */
     tape **kept = &in->observed[d - in->model->definitions];
     if (*kept) return *kept;
     const uint64_t operations = operations_of(in->model, d);
