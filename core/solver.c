@@ -11,6 +11,7 @@
 
 struct solver {
     const problem *problem;
+    const solver_band *band;
     motus_allocator allocator;
     size_t n, stride, lower, upper; /* n: stages × nv; lower, upper: bandwidths of the matrix of all stages */
     int stages;
@@ -22,6 +23,20 @@ struct solver {
     double *direction, *image, *base, *shifted; /* scratch: nv each; the last two for difference quotients only */
     double *ax, *av;                            /* of the factorisation at hand: stages × stages each */
 };
+
+const solver_band *solver_best_band(void)
+{
+#if defined __x86_64__ && !defined ONE_COPY
+    __builtin_cpu_init();
+    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
+        return &solver_band_avx512;
+    return avx2 ? &solver_band_avx2 : &solver_band_base;
+#else
+    return &solver_band_base;
+#endif
+}
 
 void solver_forget(solver *s) { s->derived = s->factored = false; }
 
@@ -92,8 +107,13 @@ motus_status solver_create(const problem *p, int stages, bool use_x, bool use_v,
 {
     solver *s = take(allocator, 1, sizeof *s);
     if (!s) return no_memory(err);
-    *s = (solver){
-        .problem = p, .stages = stages, .use_x = use_x, .use_v = use_v, .constant = constant, .stride = stride};
+    *s = (solver){.problem = p,
+                  .band = solver_best_band(),
+                  .stages = stages,
+                  .use_x = use_x,
+                  .use_v = use_v,
+                  .constant = constant,
+                  .stride = stride};
     if (allocator) s->allocator = *allocator;
     motus_status status = structure(s, err);
     if (!status) {
@@ -209,7 +229,7 @@ static bool assemble(solver *s, const double *ax, const double *av)
     for (size_t k = 0; k < s->n; k++) s->matrix[k * height + middle] = 1;
     if (s->use_x) add(s, &s->x, ax);
     if (s->use_v) add(s, &s->v, av);
-    if (!diagonal(s)) return solver_band_factor(s->n, s->lower, s->upper, s->matrix, s->pivot);
+    if (!diagonal(s)) return s->band->factor(s->n, s->lower, s->upper, s->matrix, s->pivot);
     bool regular = true;
     for (size_t k = 0; k < s->n; k++) regular = regular && s->matrix[k] != 0;
     return regular;
@@ -249,7 +269,7 @@ void solver_back(solver *s, double *r)
     }
     for (size_t k = 0; k < nv; k++)
         for (size_t i = 0; i < stages; i++) s->b[s->place[k] * stages + i] = r[i * s->stride + k];
-    solver_band_back(s->n, s->lower, s->upper, s->matrix, s->pivot, s->b);
+    s->band->back(s->n, s->lower, s->upper, s->matrix, s->pivot, s->b);
     for (size_t k = 0; k < nv; k++)
         for (size_t i = 0; i < stages; i++) r[i * s->stride + k] = s->b[s->place[k] * stages + i];
 }

@@ -50,8 +50,15 @@ bool solver_colour(size_t rows, sparse *, const motus_allocator *);
 void solver_release(sparse *, const motus_allocator *);
 
 /* solver_band.c. Entry (i, j) is at matrix[j * (2 lower + upper + 1) + lower + upper + i - j]. */
-/* false: singular */
-bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot);
-void solver_band_back(size_t n, size_t lower, size_t upper, const double *matrix, const uint32_t *pivot, double *b);
+typedef struct solver_band {
+    /* false: singular */
+    bool (*factor)(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot);
+    void (*back)(size_t n, size_t lower, size_t upper, const double *matrix, const uint32_t *pivot, double *b);
+} solver_band;
+extern const solver_band solver_band_base;
+#if defined __x86_64__
+extern const solver_band solver_band_avx2, solver_band_avx512;
+#endif
+const solver_band *solver_best_band(void); /* the fastest one here */
 
 #endif

@@ -1,13 +1,20 @@
 /* Band matrices: LU with partial pivoting, column by column.
  *
  * Invariant: pivoting moves rows by at most `lower` places, so U needs `lower` diagonals more than the matrix;
- * callers leave them zero.
+ * callers leave them zero. The file is compiled once for each instruction set, as core/stepper_body.c is, to the same
+ * bits.
  */
 #include "core/solver.h"
 
 #include <math.h>
 
-bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot)
+#ifndef ISA
+#error "compile with -DISA=base, avx2 or avx512"
+#endif
+#define PASTE(a, b) a##b
+#define NAMED(isa) PASTE(solver_band_, isa)
+
+static bool band_factor(size_t n, size_t lower, size_t upper, double *matrix, uint32_t *pivot)
 {
     const size_t height = 2 * lower + upper + 1, middle = lower + upper;
     size_t reach = 0; /* last column that the rows pivoted so far reach into */
@@ -38,7 +45,7 @@ bool solver_band_factor(size_t n, size_t lower, size_t upper, double *matrix, ui
     return true;
 }
 
-void solver_band_back(size_t n, size_t lower, size_t upper, const double *matrix, const uint32_t *pivot, double *b)
+static void band_back(size_t n, size_t lower, size_t upper, const double *matrix, const uint32_t *pivot, double *b)
 {
     const size_t height = 2 * lower + upper + 1, middle = lower + upper;
     for (size_t j = 0; j < n; j++) {
@@ -57,3 +64,5 @@ void solver_band_back(size_t n, size_t lower, size_t upper, const double *matrix
         for (size_t i = 1; i <= above; i++) b[j - i] = fma(-value, *(column - i), b[j - i]);
     }
 }
+
+const solver_band NAMED(ISA) = {band_factor, band_back};

@@ -2,6 +2,7 @@
 #include "machine/machine.h"
 
 #include "lang/graph/graph_place.h"
+#include "lang/graph/graph_walk.h"
 #include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
@@ -11,16 +12,19 @@ struct interpreter {
     model *model;
     tape *accel, *boundary, *exact;
     tape *jvp[4];         /* along dx (1), dv (2), or both (3) */
-    tape **observed;      /* one per definition, made when it is first observed */
+    tape **observed;      /* one per definition, made when it is first observed, and kept while there is room */
+    uint64_t operations;  /* of the observed ones that are kept */
     double *acceleration; /* for quantities that contain x'' */
 };
 
-static tape *make(model *m, const output *outputs, size_t count)
+static tape *make_in(arena *a, model *m, const output *outputs, size_t count)
 {
-    tape *t = tape_of(m->arena, m->graph, outputs, count);
+    tape *t = tape_of(a, m->graph, outputs, count);
     binding b = {m->arrays, m->ints, m->pool};
     return t && !m->arena->failed && tape_bind(t, &b) ? t : NULL;
 }
+
+static tape *make(model *m, const output *outputs, size_t count) { return make_in(m->arena, m, outputs, count); }
 
 static int accel(void *ctx, double t, double *x, double *v, double *a)
 {
@@ -191,22 +195,55 @@ motus_status interpreter_create(model *m, interpreter **out, problem *p, motus_e
     return MOTUS_OK;
 }
 
-bool interpreter_observe(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
+static uint64_t operations_of(const model *m, const model_definition *d)
 {
-    model *m = in->model;
-    tape **observed = &in->observed[d - m->definitions];
-    bool needs_a = false;
-    if (!*observed) *observed = make(m, d->outputs, d->output_count);
-    for (size_t k = 0; k < d->output_count; k++) needs_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
+    uint64_t count = 0;
+    for (size_t k = 0; k < d->output_count; k++) {
+        graph_walk w;
+        if (!graph_order(m->graph, &d->outputs[k].value, 1, 0, true, &w)) return 0;
+        count += w.count;
+        give(&m->arena->allocator, w.nodes);
+    }
+    return count;
+}
+
+/* The tape of a definition, in the model's arena or, where those that are kept are large already, in `once`: quantities
+ * each of which uses the one before have together as many operations as the square of their number. */
+static tape *observed(interpreter *in, const model_definition *d, arena *once)
+{
+    enum { OPERATIONS_KEPT = 1 << 25 }; /* a gigabyte */
+    tape **kept = &in->observed[d - in->model->definitions];
+    if (*kept) return *kept;
+    const uint64_t operations = operations_of(in->model, d);
+    if (in->operations + operations > OPERATIONS_KEPT) return make_in(once, in->model, d->outputs, d->output_count);
+    in->operations += operations;
+    return *kept = make(in->model, d->outputs, d->output_count);
+}
+
+static bool observe(interpreter *in, tape *t, bool needs_a, double time, double *x, double *v, double *out)
+{
+    const model *m = in->model;
     if (needs_a && !in->acceleration) in->acceleration = arena_room(m->arena, (m->nv + 1) * sizeof(double));
-    if (!*observed || (needs_a && !in->acceleration)) return false;
+    if (!t || (needs_a && !in->acceleration)) return false;
     if (needs_a) {
         memset(in->acceleration, 0, m->nv * sizeof(double));
-        accel(in, t, x, v, in->acceleration);
+        accel(in, time, x, v, in->acceleration);
     }
     double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = in->acceleration, [SPACE_OUT] = out};
-    tape_run(*observed, t, base);
+    tape_run(t, time, base);
     return true;
+}
+
+bool interpreter_observe(interpreter *in, model_definition *d, double t, double *x, double *v, double *out)
+{
+    const model *m = in->model;
+    bool needs_a = false;
+    for (size_t k = 0; k < d->output_count; k++) needs_a |= (graph_deps(m->graph, d->outputs[k].value) & DEP_A) != 0;
+    arena once;
+    arena_init(&once, &m->arena->allocator);
+    const bool known = observe(in, observed(in, d, &once), needs_a, t, x, v, out);
+    arena_release(&once);
+    return known;
 }
 
 bool interpreter_rebind(interpreter *in)

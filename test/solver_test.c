@@ -103,15 +103,24 @@ static void pivoting(void **state)
     }
     for (size_t i = 0; i < N; i++)
         for (size_t j = 0; j < N; j++) b[i] += dense[i][j] * solution[j];
-    assert_true(solver_band_factor(N, LOWER, UPPER, matrix, pivot));
-    solver_band_back(N, LOWER, UPPER, matrix, pivot, b);
+    static double other_matrix[sizeof matrix / sizeof *matrix], other_b[N];
+    uint32_t other_pivot[N];
+    memcpy(other_matrix, matrix, sizeof matrix);
+    memcpy(other_b, b, sizeof b);
+    assert_true(solver_band_base.factor(N, LOWER, UPPER, other_matrix, other_pivot));
+    solver_band_base.back(N, LOWER, UPPER, other_matrix, other_pivot, other_b);
+    const solver_band *best = solver_best_band();
+    assert_true(best->factor(N, LOWER, UPPER, matrix, pivot));
+    best->back(N, LOWER, UPPER, matrix, pivot, b);
+    assert_memory_equal(matrix, other_matrix, sizeof matrix);
+    assert_memory_equal(b, other_b, sizeof b);
     for (size_t i = 0; i < N; i++) {
         exchanged += pivot[i] != i;
         assert_near(b[i], solution[i], 1e-10);
     }
     assert_true(exchanged > N / 2);
     memset(matrix, 0, sizeof matrix);
-    assert_false(solver_band_factor(N, LOWER, UPPER, matrix, pivot));
+    assert_false(best->factor(N, LOWER, UPPER, matrix, pivot));
 }
 
 typedef struct meter {

@@ -79,7 +79,9 @@ tape *tape_of(arena *a, graph *g, const output *outputs, size_t count)
     const program *p = a->failed ? NULL : program_create_in(&once, g, outputs, count);
     tape *t = p ? tape_create(a, p) : NULL;
     const code *c = t ? t->with_blocks : NULL;
-    if (t) t->program = c->blocks + c->pointers ? program_create(g, outputs, count) : NULL; /* tape_bind may write it */
+    if (t)
+        t->program =
+            c->blocks + c->pointers ? program_create_in(a, g, outputs, count) : NULL; /* tape_bind may write it */
     if (once.failed) a->failed = true;
     arena_release(&once);
     return t && !a->failed ? t : NULL;
