@@ -24,11 +24,13 @@ enum {
         20000, /* in one step: more are friction that sticks, or a motion that comes to rest by ever shorter bounces */
     LOOK = 16, /* pieces between two looks at the clock */
     STILL_MAX = 64, /* sides changed one after the other while time hardly moves */
+    NOISY = 3,      /* halvings at which a distance does not fall */
     HALVINGS_MAX = 200
 };
 #define NEAR 0x1p-32 /* of a step: a piece shorter than this hardly moves */
 #define TOUCHED 1e-7 /* of an argument at the ends of a step: where it is least, this is 0 */
 #define ALIKE 0.05   /* powers of a jump this near to one another are the same */
+#define NOISE 1e5    /* of a distance, in units of rounding: below it, what does not fall is noise */
 #define EDGE 0x1p-20 /* of a step: a touch nearer than this to its end is there */
 
 typedef struct place {
@@ -47,8 +49,10 @@ struct locate {
     place start;            /* of the step */
     place twice;            /* the end of two half pieces */
     place found;            /* where an argument is beyond in the middle of a step */
-    interval *box;          /* nx, then nv */
+    interval *box;          /* nx, then nv, and nv for accelerations */
+    interval *reach;        /* of the arguments, then of their rates */
     bool resolves;          /* pieces must resolve the force */
+    bool careful;           /* pieces must show that no argument leaves its side and comes back */
     double next;            /* the size of the next piece to try; INFINITY: all that is left of the step */
     size_t touches;         /* that pieces must end at; the arguments at both ends of a step, and their rates */
     double *touch[2], *touch_rate[2], *room;
@@ -59,6 +63,8 @@ struct locate {
     int64_t located;
     double jump; /* the lowest power with which the force departed from a smooth one: jump.h; NaN: none */
     double jump_time;
+    double growth;   /* of the next piece over this one */
+    double noise;    /* the distance that `halve` found */
     double rounding; /* of times at which the force changes fast: what it may have changed a velocity by, added up */
 };
 
@@ -101,12 +107,18 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     const size_t touches = h && switches == MOTUS_SWITCHES_RESOLVE ? held_touches(h) : 0;
     if (!h || (!held_count(h) && !resolves && !touches)) return MOTUS_OK;
     const problem *p = held_problem(h);
-    const size_t count = held_count(h),
-                 numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + p->nv) + 4 * touches + 3 * p->nv;
+    const size_t count = held_count(h), numbers = 7 * count + 6 * place_numbers(p, count) + 2 * (p->nx + 2 * p->nv) +
+                                                  4 * count + 4 * touches + 3 * p->nv;
     locate *l = take(&r->allocator, 1, sizeof *l + numbers * sizeof(double));
     if (!l) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    *l = (locate){
-        .held = h, .problem = *p, .count = count, .touches = touches, .next = INFINITY, .jump = NAN, .jump_time = NAN};
+    *l = (locate){.held = h,
+                  .problem = *p,
+                  .count = count,
+                  .touches = touches,
+                  .next = INFINITY,
+                  .growth = 2,
+                  .jump = NAN,
+                  .jump_time = NAN};
     l->problem.traits.gyroscopic = s->problem.traits.gyroscopic;
     double *at = (double *)(l + 1);
     l->side = at, l->old_side = l->side + count;
@@ -120,11 +132,13 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     at = place_memory(&l->twice, p, count, at);
     at = place_memory(&l->found, p, count, at);
     l->box = (interval *)(void *)at;
-    at += 2 * (p->nx + p->nv);
+    l->reach = l->box + p->nx + 2 * p->nv;
+    at += 2 * (p->nx + 2 * p->nv) + 4 * count;
     l->touch[0] = at, l->touch[1] = at + touches;
     l->touch_rate[0] = at + 2 * touches, l->touch_rate[1] = at + 3 * touches;
     l->room = at + 4 * touches;
     l->resolves = resolves;
+    l->careful = count && switches == MOTUS_SWITCHES_RESOLVE;
     for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
     r->locate = l;
     r->note = "switches are located by the interpreter";
@@ -463,22 +477,53 @@ static size_t change_sides_ahead(locate *l, double way)
     return changed;
 }
 
-/* Whether the step from `from` to `to` resolves the force: over all states between, with a margin for their curve. */
-static bool fits(const locate *l, const place *from, const place *to)
+/* All times, positions, velocities and accelerations between two states, with a margin for the curve. */
+typedef struct way {
+    interval t, *x, *v, *a;
+} way;
+
+static interval between(double from, double to, double margin)
+{
+    return (interval){fmin(from, to) - margin, fmax(from, to) + margin};
+}
+
+static way way_of(const locate *l, const place *from, const place *to)
 {
     const problem *p = &l->problem;
-    if (!l->resolves) return true;
     const double h = to->t - from->t;
-    interval *x = l->box, *v = x + p->nx;
-    for (size_t k = 0; k < p->nx; k++) {
-        const double bend = fabs(h * (to->v[k] - from->v[k])) / 8;
-        x[k] = (interval){fmin(from->x[k], to->x[k]) - bend, fmax(from->x[k], to->x[k]) + bend};
-    }
+    const way w = {between(from->t, to->t, 0), l->box, l->box + p->nx, l->box + p->nx + p->nv};
+    for (size_t k = 0; k < p->nx; k++) w.x[k] = between(from->x[k], to->x[k], fabs(h * (to->v[k] - from->v[k])) / 8);
     for (size_t k = 0; k < p->nv; k++) {
-        const double bend = fabs(h * (to->a[k] - from->a[k])) / 8;
-        v[k] = (interval){fmin(from->v[k], to->v[k]) - bend, fmax(from->v[k], to->v[k]) + bend};
+        const double bend = fabs(to->a[k] - from->a[k]) / 8;
+        w.v[k] = between(from->v[k], to->v[k], fabs(h) * bend);
+        w.a[k] = between(from->a[k], to->a[k], bend);
     }
-    return held_fits(l->held, (interval){fmin(from->t, to->t), fmax(from->t, to->t)}, x, v);
+    return w;
+}
+
+/* Whether the step from `from` to `to` resolves the force. */
+static bool fits(const locate *l, const place *from, const place *to)
+{
+    if (!l->resolves) return true;
+    const way w = way_of(l, from, to);
+    return held_fits(l->held, w.t, w.x, w.v);
+}
+
+/* Whether every argument either stays on its side all the way, or moves one way, so that the end tells what it did. */
+static bool sure(const locate *l, const place *from, const place *to)
+{
+    if (!l->careful) return true;
+    const way w = way_of(l, from, to);
+    interval *argument = l->reach, *rate = l->reach + l->count;
+    held_reach(l->held, w.t, w.x, w.v, w.a, argument, rate);
+    for (size_t k = 0; k < l->count; k++) {
+        const operation op = held_operation(l->held, k);
+        const double least =
+            fmin(switches_gap(op, l->side[k], argument[k].low), switches_gap(op, l->side[k], argument[k].high)) +
+            l->slack[k];
+        if (least <= 0 && !(rate[k].low >= 0 || rate[k].high <= 0)) return false;
+    }
+    return true;
 }
 
 static double largest(const double *y, size_t count)
@@ -488,13 +533,13 @@ static double largest(const double *y, size_t count)
     return most;
 }
 
-/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *same: both give the same, to
- * nearly the rounding of numbers of the largest size. */
-static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
+/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *apart: their distance, in units of
+ * what is nearly the rounding of numbers of the largest size; infinite where it cannot be computed. */
+static motus_status halve(motus_run *r, double h, double *apart, motus_error *err)
 {
     locate *l = r->locate;
     const problem *p = &l->problem;
-    *same = false;
+    *apart = INFINITY;
     motus_status status = step_from(r, &l->from, h / 2, &l->beyond, err);
     if (status == MOTUS_OK) status = step_from(r, &l->beyond, l->to.t - l->beyond.t, &l->twice, err);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? status : MOTUS_OK;
@@ -503,11 +548,14 @@ static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
                  late = 0x1p-52 * fabs(l->to.t); /* rounding of the time, at which a force changes fast */
     const double of_x = 1e-13 * (largest(l->to.x, p->nx) + fabs(h) * v) + late * v + 1e-30,
                  of_v = 1e-13 * (v + fabs(h) * a) + late * a + 1e-30; /* before a force sets in */
-    *same = true;
-    for (size_t k = 0; k < p->nv; k++) {
-        if (k < p->nx && !(fabs(l->to.x[k] - l->twice.x[k]) <= of_x)) *same = false;
-        if (!(fabs(l->to.v[k] - l->twice.v[k]) <= of_v)) *same = false;
+    double most = 0;
+    l->noise = 0;
+    for (size_t k = 0; k < p->nv && most < INFINITY; k++) {
+        const double dx = k < p->nx ? fabs(l->to.x[k] - l->twice.x[k]) : 0, dv = fabs(l->to.v[k] - l->twice.v[k]);
+        most = isnan(dx + dv) ? INFINITY : fmax(most, fmax(dx / of_x, dv / of_v));
+        l->noise = fmax(l->noise, fmax(dx, dv));
     }
+    *apart = most;
     return MOTUS_OK;
 }
 
@@ -519,32 +567,41 @@ static double change(const locate *l)
     return most;
 }
 
-/* The piece that begins at `from`, of size *h at most, which becomes shorter where the force is not resolved; it leads
- * to `to`. *failed: it cannot be computed. */
+/* The piece that begins at `from`, of size *h at most, which becomes shorter where the force is not resolved, or where
+ * an argument may leave its side and come back; it leads to `to`. *failed: it cannot be computed. */
 static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *err)
 {
     locate *l = r->locate;
     const double least = fmax(0x1p-24 * fabs(r->timing.h), 0x1p-48 * fabs(l->from.t));
-    for (;;) {
+    double before = INFINITY;
+    for (int noisy = 0;;) {
         motus_status status = step_from(r, &l->from, *h, &l->to, err);
         if (status == MOTUS_MEMORY) return status;
         *failed = status != MOTUS_OK;
-        if (!l->resolves) return MOTUS_OK;
-        const bool resolved = !*failed && fits(l, &l->from, &l->to);
-        if (fabs(*h) < 2 * least && (resolved || *failed)) return MOTUS_OK;
-        if (fabs(*h) < 2 * least) {
+        if (!l->resolves && (*failed || !l->careful)) return MOTUS_OK;
+        const bool small = fabs(*h) < 2 * least, resolved = !*failed && fits(l, &l->from, &l->to);
+        if (small && (resolved || *failed)) return MOTUS_OK;
+        if (small) {
             char t[DECIMAL_MAX];
             fail(err, MOTUS_SOLVE, "the force changes too fast to be resolved at t = %s; it may be singular there",
                  run_time_text(r, l->from.t, t));
             return MOTUS_SOLVE;
         }
-        bool good = false;
-        if (resolved) status = halve(r, *h, &good, err);
-        if (resolved && status != MOTUS_OK) return status;
-        if (good) {
-            place_swap(&l->to, &l->twice);
-            l->rounding += change(l) * 0x1p-52 * fabs(l->to.t);
-            return MOTUS_OK;
+        if (resolved && sure(l, &l->from, &l->to)) {
+            double apart;
+            if (!l->resolves) return MOTUS_OK;
+            status = halve(r, *h, &apart, err);
+            if (status != MOTUS_OK) return status;
+            /* What no longer falls is the rounding of the force. */
+            noisy = apart < NOISE && apart > before / 2 ? noisy + 1 : 0;
+            before = apart;
+            if (apart <= 1 || noisy == NOISY) {
+                l->growth = apart > 1 ? 2 << NOISY : 2;
+                if (apart > 1) l->rounding += l->noise;
+                place_swap(&l->to, &l->twice);
+                l->rounding += change(l) * 0x1p-52 * fabs(l->to.t);
+                return MOTUS_OK;
+            }
         }
         *h /= 2;
     }
@@ -564,6 +621,45 @@ static bool nudge(locate *l, double way)
         if (!isfinite(to->a[k])) return false;
     held_values(l->held, to->t, to->x, to->v, to->u);
     return true;
+}
+
+/* How uncertain the time is at which the arguments that have just changed sides, at `from`, were 0: by the rounding of
+ * the time, and of the arguments over their rates. */
+static double lateness(locate *l, double h)
+{
+    const place *at = &l->from;
+    double late = 0x1p-52 * fabs(at->t), *rounding = l->size;
+    held_rounding(l->held, at->t, at->x, at->v, rounding);
+    held_rates(l->held, at->t, at->x, at->v, at->a, l->rate[1]);
+    for (size_t k = 0; k < l->count; k++) {
+        const double own = rounding[k] / fabs(l->rate[1][k]);
+        if (l->side[k] != l->old_side[k] && own > late && own < fabs(h)) late = own;
+    }
+    return late;
+}
+
+/* A switch that has just changed its side may move the arguments of others, which then change theirs at once. */
+static motus_status settle(motus_run *r, motus_error *err)
+{
+    locate *l = r->locate;
+    place *at = &l->from;
+    for (int turn = 0; turn < STILL_MAX; turn++) {
+        bool changed = false;
+        for (size_t k = 0; k < l->count; k++) {
+            const operation op = held_operation(l->held, k);
+            if (!(gap(l, k, at) < 0)) continue;
+            l->side[k] = switches_side(op, at->u[k], 0);
+            l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], at->u[k]));
+            changed = true;
+        }
+        if (!changed) return MOTUS_OK;
+        if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+        if (l->problem.accel(l->problem.ctx, at->t, at->x, at->v, at->a)) break;
+        held_values(l->held, at->t, at->x, at->v, at->u);
+    }
+    char t[DECIMAL_MAX];
+    return fail(err, MOTUS_SOLVE, "the force cannot be evaluated at the switches at t = %s",
+                run_time_text(r, at->t, t));
 }
 
 /* From `from` to the time `end`, which is ahead; the state there is then `from`. */
@@ -590,7 +686,8 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
             if (touched) place_swap(&l->to, &l->found);
             if (part == 1 || touched) {
                 place_swap(&l->from, &l->to);
-                if (l->resolves && (h != left || touched || fabs(2 * h) > fabs(l->next))) l->next = 2 * h * part;
+                const double next = l->growth * h * part;
+                if (l->resolves && (h != left || touched || fabs(next) > fabs(l->next))) l->next = next;
                 if (h != left || touched) continue;
                 l->from.t = end;
                 return MOTUS_OK;
@@ -622,12 +719,15 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
         still = fabs(h) <= NEAR * fabs(r->timing.h) ? still + 1 : 0;
         place_swap(&l->from, &l->to);
         if (still > STILL_MAX) return slides(r, changed, err);
-        l->rounding += leap(l) * 0x1p-52 * fabs(l->from.t);
+        const double late = lateness(l, tried);
+        l->rounding += leap(l) * late;
         if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
         if (l->problem.accel(l->problem.ctx, l->from.t, l->from.x, l->from.v, l->from.a))
             return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s",
                         run_time_text(r, l->from.t, t));
         held_values(l->held, l->from.t, l->from.x, l->from.v, l->from.u);
+        status = settle(r, err);
+        if (status != MOTUS_OK) return status;
         note_jump(r, &l->from, r->timing.h);
     }
     return fail(err, MOTUS_SOLVE,
@@ -695,7 +795,8 @@ motus_status locate_step(motus_run *r, stepper_stop *why, motus_error *err)
     if (status == MOTUS_MEMORY) return status;
     if (status == MOTUS_OK) status = observe(r, &l->to, err);
     double part = 1;
-    const bool tried = status != MOTUS_OK || least_gap(l, &l->to, NULL) < 0 || l->resolves;
+    const bool tried =
+        status != MOTUS_OK || l->resolves || least_gap(l, &l->to, NULL) < 0 || !sure(l, &l->from, &l->to);
     place_copy(&l->start, &l->from, &l->problem, l->count);
     memcpy(l->start_side, l->side, l->count * sizeof *l->side);
     if (!tried && (status = find_dip(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;

@@ -15,7 +15,9 @@ struct held {
     switches switches;
     tape *argument, *held, *rate, *touch, *touch_rate; /* NULL: there are none */
     resolution *resolution;                            /* NULL: nothing to resolve */
-    double *sides;                                     /* that are bound: the last numbers of view.pool */
+    resolution *reach, *reach_rate; /* of the arguments as they are on the sides, and of their rates */
+    tape *rounding;
+    double *sides; /* that are bound: the last numbers of view.pool */
     bool bound;
 };
 
@@ -43,6 +45,32 @@ static bool make_view(held *h, model *m)
     h->sides = view->pool + s->slot;
     for (size_t k = 0; k < s->count; k++) h->sides[k] = 1;
     return true;
+}
+
+/* What rounding leaves of a leaf: half an ulp of the time and of a state. */
+static node leaf_rounding(graph *g, node leaf, void *ctx)
+{
+    (void)ctx;
+    const graph_node *n = graph_at(g, leaf);
+    const bool moves =
+        n->op == OP_TIME || (n->op == OP_LOAD && g->arrays[g->references[n->a].array].space != SPACE_POOL);
+    return moves ? graph_op(g, OP_ABS, leaf, 0, 0) : 0;
+}
+
+/* What tells how near a switch is, and how well its time is known. */
+static bool make_reach(held *h, model *m)
+{
+    const switches *s = &h->switches;
+    output *rounding = arena_room(m->arena, (s->kinds + 1) * sizeof *rounding);
+    for (size_t k = 0; rounding && k < s->kinds; k++) {
+        rounding[k] = s->held[k];
+        rounding[k].value = graph_rounding(m->graph, s->held[k].value, leaf_rounding, NULL);
+    }
+    if (!rounding || m->arena->failed || !resolution_create_values(m, s->held, s->kinds, &h->reach) ||
+        !resolution_create_values(m, s->rate, s->kinds, &h->reach_rate))
+        return false;
+    h->rounding = tape_of(m->arena, m->graph, rounding, s->kinds);
+    return h->rounding != NULL;
 }
 
 motus_status held_create(model *m, held **out, const char **refused, motus_error *err)
@@ -81,6 +109,7 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
         *tapes[k].made = tape_of(m->arena, m->graph, tapes[k].of, tapes[k].count);
         if (!*tapes[k].made) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     }
+    if (s->kinds && !make_reach(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     *out = h;
     return MOTUS_OK;
 }
@@ -104,7 +133,7 @@ bool held_bind(held *h, const double *sides, bool fresh)
     memcpy(h->sides, sides, bytes);
     if (fresh || !h->bound) memcpy(h->view.pool, h->model->pool, h->switches.slot * sizeof *sides);
     const binding b = {h->view.arrays, h->view.ints, h->view.pool};
-    tape *const tapes[] = {h->argument, h->held, h->rate, h->touch, h->touch_rate};
+    tape *const tapes[] = {h->argument, h->held, h->rate, h->touch, h->touch_rate, h->rounding};
     h->bound = interpreter_rebind(h->interpreter);
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k]) h->bound = h->bound && tape_bind(tapes[k], &b);
@@ -150,4 +179,18 @@ bool held_resolves(const held *h) { return h->resolution != NULL; }
 bool held_fits(held *h, interval t, interval *x, interval *v)
 {
     return !h->resolution || resolution_fits(h->resolution, t, x, v, h->view.pool);
+}
+
+void held_reach(held *h, interval t, interval *x, interval *v, interval *a, interval *argument, interval *rate)
+{
+    const interval none = {NAN, NAN};
+    for (size_t k = 0; k < h->switches.count; k++) argument[k] = rate[k] = none;
+    resolution_values(h->reach, t, x, v, NULL, h->view.pool, argument);
+    resolution_values(h->reach_rate, t, x, v, a, h->view.pool, rate);
+}
+
+void held_rounding(held *h, double t, double *x, double *v, double *out)
+{
+    run(h, h->rounding, h->switches.count, t, x, v, NULL, out);
+    for (size_t k = 0; k < h->switches.count; k++) out[k] *= 0x1p-53;
 }

@@ -35,5 +35,10 @@ void held_touch_rates(held *, double t, double *x, double *v, double *a, double 
 /* Whether a step over these times and states resolves the force: lang/model/resolution.h. */
 bool held_resolves(const held *); /* there is something to resolve */
 bool held_fits(held *, interval t, interval *x, interval *v);
+/* Over the same, with accelerations a: between which values the arguments of all switches are, on the sides bound, and
+ * their rates; NaN: not defined. */
+void held_reach(held *, interval t, interval *x, interval *v, interval *a, interval *argument, interval *rate);
+/* By how much rounding of the time, of a state and of the operations may have changed each argument. */
+void held_rounding(held *, double t, double *x, double *v, double *out);
 
 #endif

@@ -147,6 +147,7 @@ static void sort(poly_term *t, uint32_t count) /* Shell's sort, with Ciura's gap
 static poly gather(algebra *A, uint32_t first, double low)
 {
     if (A->lost) return algebra_lose(A);
+    if (A->line_count == first) return 0;
     uint32_t count = 0;
     poly_term *t = A->line + first;
     sort(t, A->line_count - first);

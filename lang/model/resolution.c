@@ -14,6 +14,7 @@
 #define FLAT -50.0 /* exp is nothing below this */
 #define EDGE 8.0   /* tanh, erf and atan hardly change beyond this */
 #define RATIO 2.0  /* by which a divisor, or the base of a power, may change */
+#define STEEP 8.0  /* powers above this are narrow where they change by more than e to this */
 #define POLE 1e-3  /* a divisor that may become this part of itself, may become 0 */
 
 #define NO_STEP UINT32_MAX
@@ -25,8 +26,10 @@ typedef struct step {
     uint32_t operand[3]; /* earlier steps */
     uint8_t arity;       /* a sum has none: it asks for its operands itself */
     bool counts;         /* it may be what is looked for */
-    int home;            /* 1 + the innermost level that it depends on, 0: none */
-    uint64_t known;      /* when the interval was computed */
+    uint32_t base;       /* a product is base^power, where its factors are powers of the same step; else power is 1 */
+    double power;
+    int home;       /* 1 + the innermost level that it depends on, 0: none */
+    uint64_t known; /* when the interval was computed */
     interval interval;
 } step;
 
@@ -42,7 +45,7 @@ struct resolution {
     uint64_t now, changed[MAX_LEVELS + 1]; /* by home: when its loop variable changed */
     bool (*found)(operation, interval, interval);
     /* of the step that is looked at */
-    interval t, *x, *v;
+    interval t, *x, *v, *a, *out; /* a, out: of resolution_values alone */
     const double *pool;
 };
 
@@ -73,15 +76,33 @@ static bool hides_waves(operation op) { return hides(op, true); }
 /* Whether an operation has poles. */
 static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
 
-/* Whether an operation that counts has an argument that moves. */
-static bool any_counts(const graph *g, const graph_walk *w, bool (*counts)(operation))
+static bool none_counts(operation op)
 {
-    for (uint32_t k = 0; k < w->count; k++) {
-        const graph_node *n = &g->nodes[w->nodes[k]];
-        const node varies = n->op == OP_DIV ? n->b : n->a;
-        if (counts((operation)n->op) && g->nodes[varies].deps & (DEP_TIME | DEP_STATE)) return true;
+    (void)op;
+    return false;
+}
+
+/* Whether an operation that counts has an argument that moves. */
+static bool any_counts(const resolution *r, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const step *s = &r->steps[k];
+        const uint32_t varies = s->operand[s->node.op == OP_DIV];
+        if (s->counts && r->steps[varies].node.deps & (DEP_TIME | DEP_STATE)) return true;
     }
     return false;
+}
+
+/* Recognises the products that raise a number to a whole power. */
+static void find_power(resolution *r, uint32_t k)
+{
+    step *s = &r->steps[k];
+    const step *p = &r->steps[s->operand[0]], *q = &r->steps[s->operand[1]];
+    s->base = k;
+    s->power = 1;
+    if (s->node.op != OP_MUL || p->base != q->base) return;
+    s->base = p->base;
+    s->power = p->power + q->power;
 }
 
 static int home_of(const graph_node *n)
@@ -102,6 +123,8 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
         s->counts = counts((operation)s->node.op);
         s->arity = s->node.op == OP_SUM ? 0 : operation_at((operation)s->node.op)->arity;
         for (int j = graph_operands(&s->node, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
+        find_power(r, k);
+        if (s->power > STEEP) s->counts = counts(OP_POW);
     }
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
 }
@@ -115,17 +138,14 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
     if (!roots) return false;
     for (size_t i = 0; i < count; i++) roots[i] = outputs[i].value;
     if (!graph_order(g, roots, count, 0, true, &w)) return false;
-    if (any_counts(g, &w, counts)) {
-        resolution *r = arena_take(m->arena, sizeof *r);
-        step *steps = arena_room(m->arena, w.count * sizeof *steps);
-        uint32_t *stack = arena_room(m->arena, (w.count + 1) * sizeof *stack);
-        uint32_t *root = arena_room(m->arena, (count + 1) * sizeof *root);
-        if (r && steps && stack && root) {
-            *r = (resolution){
-                .model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
-            fill(r, g, &w, counts);
-            *out = r;
-        }
+    resolution *r = arena_take(m->arena, sizeof *r);
+    step *steps = arena_room(m->arena, w.count * sizeof *steps);
+    uint32_t *stack = arena_room(m->arena, (w.count + 1) * sizeof *stack);
+    uint32_t *root = arena_room(m->arena, (count + 1) * sizeof *root);
+    if (r && steps && stack && root) {
+        *r = (resolution){.model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
+        fill(r, g, &w, counts);
+        if (any_counts(r, w.count) || counts == none_counts) *out = r;
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
@@ -134,6 +154,11 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
 bool resolution_create(model *m, const output *outputs, size_t count, bool switched, resolution **out)
 {
     return create(m, outputs, count, switched ? hides_waves : hides_plain, out);
+}
+
+bool resolution_create_values(model *m, const output *outputs, size_t count, resolution **out)
+{
+    return create(m, outputs, count, none_counts, out);
 }
 
 bool resolution_create_poles(model *m, const output *outputs, size_t count, resolution **out)
@@ -147,6 +172,13 @@ static bool changes(interval a)
 {
     const interval m = interval_magnitude(a);
     return !(m.low > 0 && m.high <= RATIO * m.low);
+}
+
+/* Whether a high power of a hides a peak; nothing is where it is as small as exp is below FLAT. */
+static bool steep(interval a, double power)
+{
+    const interval m = interval_magnitude(a);
+    return power > STEEP && power * log(m.high) > FLAT && !(power * log(m.high / m.low) <= STEEP);
 }
 
 /* Whether an operation with these arguments may hide something. */
@@ -164,7 +196,7 @@ static bool hidden(operation op, interval a, interval b)
     case OP_COS:
     case OP_TAN: return !(a.high - a.low <= WAVE);
     case OP_DIV: return changes(b);
-    case OP_POW: return b.low < 0 && changes(a);
+    case OP_POW: return (b.low < 0 && changes(a)) || steep(a, b.high);
     default: return false;
     }
 }
@@ -227,6 +259,7 @@ static interval load(const resolution *r, const graph_node *n)
     switch (arrays[ref->array].space) {
     case SPACE_X: return place_in(r->x, at);
     case SPACE_V: return place_in(r->v, at);
+    case SPACE_A: return place_in(r->a, at);
     case SPACE_POOL: return number(r->pool[at]);
     default: return place_in(NULL, at);
     }
@@ -276,7 +309,9 @@ static bool compute(resolution *r, step *s)
     const interval none = {0, 0}, a = r->steps[s->operand[0]].interval,
                    b = s->arity > 1 ? r->steps[s->operand[1]].interval : none,
                    c = s->arity > 2 ? r->steps[s->operand[2]].interval : none;
-    if (s->counts && r->found(op, a, b)) return false;
+    const bool found = op == OP_MUL && s->power > STEEP ? r->found(OP_POW, r->steps[s->base].interval, number(s->power))
+                                                        : r->found(op, a, b);
+    if (s->counts && found) return false;
     s->interval = interval_value(op, a, b, c, s->arity > 1 && s->operand[0] == s->operand[1]);
     return true;
 }
@@ -303,13 +338,14 @@ static bool evaluate(resolution *r, uint32_t root)
 }
 
 /* The cells of a boundary that is driven may go further within the step than its ends show. */
-static void widen(const resolution *r, const output *o, interval value)
+static void put(const resolution *r, const output *o, interval value)
 {
     const array *arrays = r->model->arrays;
     const space space = arrays[o->to.array].space;
-    if (space != SPACE_X && space != SPACE_V) return;
-    interval *place = (space == SPACE_X ? r->x : r->v) + graph_element(arrays, &o->to, r->index, r->model->ints);
-    *place = interval_hull(*place, value);
+    const size_t at = graph_element(arrays, &o->to, r->index, r->model->ints);
+    if (space == SPACE_X) r->x[at] = interval_hull(r->x[at], value);
+    if (space == SPACE_V) r->v[at] = interval_hull(r->v[at], value);
+    if (space == SPACE_OUT && r->out) r->out[at] = value;
 }
 
 /* All cells of an output, from loop `level` on. */
@@ -318,7 +354,7 @@ static bool cells(resolution *r, size_t k, int level)
     const output *o = &r->outputs[k];
     if (level == o->loops) {
         if (!evaluate(r, r->root[k])) return false;
-        widen(r, o, r->steps[r->root[k]].interval);
+        put(r, o, r->steps[r->root[k]].interval);
         return true;
     }
     const int64_t *ints = r->model->ints, last = graph_subscript(&o->loop[level].last, r->index, ints);
@@ -329,20 +365,42 @@ static bool cells(resolution *r, size_t k, int level)
     return true;
 }
 
-/* Whether an operation is found with arguments in the intervals. */
-static bool finds(resolution *r, interval t, interval *x, interval *v, const double *pool,
+static void begin(resolution *r, interval t, interval *x, interval *v, const double *pool,
                   bool (*found)(operation, interval, interval))
 {
     r->t = t;
     r->x = x;
     r->v = v;
+    r->a = r->out = NULL;
     r->pool = pool;
     r->found = found;
     r->top = 0;
     r->changed[0] = ++r->now;
+}
+
+/* Whether an operation is found with arguments in the intervals. */
+static bool finds(resolution *r, interval t, interval *x, interval *v, const double *pool,
+                  bool (*found)(operation, interval, interval))
+{
+    begin(r, t, x, v, pool, found);
     for (size_t k = 0; k < r->count; k++)
         if (!cells(r, k, 0)) return true;
     return false;
+}
+
+static bool nothing(operation op, interval a, interval b)
+{
+    (void)op, (void)a, (void)b;
+    return false;
+}
+
+void resolution_values(resolution *r, interval t, interval *x, interval *v, interval *a, const double *pool,
+                       interval *out)
+{
+    begin(r, t, x, v, pool, nothing);
+    r->a = a;
+    r->out = out;
+    for (size_t k = 0; k < r->count; k++) cells(r, k, 0);
 }
 
 bool resolution_fits(resolution *r, interval t, interval *x, interval *v, const double *pool)

@@ -20,6 +20,11 @@ bool resolution_create(model *, const output *, size_t count, bool switched, res
 /* Over all t, x and v in the intervals, with the numbers of the pool. */
 bool resolution_fits(resolution *, interval t, interval *x, interval *v, const double *pool);
 
+/* The values of outputs into OUT, of which place k is out[k]; these may read A, too, whose intervals are a. */
+bool resolution_create_values(model *, const output *, size_t count, resolution **out);
+void resolution_values(resolution *, interval t, interval *x, interval *v, interval *a, const double *pool,
+                       interval *out);
+
 /* The same for poles: a divisor of 0, or the base of a negative power; log at 0, tan at odd multiples of π/2. Whether
  * there may be one in the intervals. */
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
