@@ -24,13 +24,12 @@ enum {
         20000, /* in one step: more are friction that sticks, or a motion that comes to rest by ever shorter bounces */
     LOOK = 16, /* pieces between two looks at the clock */
     STILL_MAX = 64, /* sides changed one after the other while time hardly moves */
-    NOISY = 3,      /* halvings at which a distance does not fall */
     HALVINGS_MAX = 200
 };
 #define NEAR 0x1p-32 /* of a step: a piece shorter than this hardly moves */
 #define TOUCHED 1e-7 /* of an argument at the ends of a step: where it is least, this is 0 */
 #define ALIKE 0.05   /* powers of a jump this near to one another are the same */
-#define NOISE 1e5    /* of a distance, in units of rounding: below it, what does not fall is noise */
+#define FORCES 8.0   /* how many roundings of a force may differ between one piece and two halves */
 #define EDGE 0x1p-20 /* of a step: a touch nearer than this to its end is there */
 
 typedef struct place {
@@ -63,8 +62,6 @@ struct locate {
     int64_t located;
     double jump; /* the lowest power with which the force departed from a smooth one: jump.h; NaN: none */
     double jump_time;
-    double growth;   /* of the next piece over this one */
-    double noise;    /* the distance that `halve` found */
     double rounding; /* of times at which the force changes fast: what it may have changed a velocity by, added up */
 };
 
@@ -116,7 +113,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
                   .count = count,
                   .touches = touches,
                   .next = INFINITY,
-                  .growth = 2,
+
                   .jump = NAN,
                   .jump_time = NAN};
     l->problem.traits.gyroscopic = s->problem.traits.gyroscopic;
@@ -460,20 +457,32 @@ static size_t change_sides(locate *l)
 }
 
 /* Where no step leads on from `to`, because the force is not defined beyond a root: changes the sides of the arguments
- * that reach their ends within the time `way`. Returns one of them, or `count`. */
+ * that reach their ends within the time `way`, and moves `to` beyond them by Taylor's formula. Returns one of them, or
+ * `count`. */
 static size_t change_sides_ahead(locate *l, double way)
 {
+    const problem *p = &l->problem;
     size_t changed = l->count;
+    double part = 0; /* of `way`, until all have reached their ends */
     memcpy(l->old_side, l->side, l->count * sizeof *l->side);
     held_rates(l->held, l->to.t, l->to.x, l->to.v, l->to.a, l->rate[1]);
     for (size_t k = 0; k < l->count; k++) {
         const operation op = held_operation(l->held, k);
-        const double ahead = way * switches_gap_rate(op, l->side[k], l->to.u[k], l->rate[1][k]);
-        if (!(gap(l, k, &l->to) + ahead <= 0)) continue;
+        const double ahead = way * switches_gap_rate(op, l->side[k], l->to.u[k], l->rate[1][k]),
+                     left = gap(l, k, &l->to);
+        if (!(left + ahead <= 0)) continue;
+        part = fmax(part, left / -ahead);
         l->side[k] = switches_beyond(op, l->side[k], l->to.u[k]);
-        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], l->to.u[k]));
         changed = k;
     }
+    if (changed == l->count) return changed;
+    follow(p, &l->to, 2 * part * way, l->beyond.x, l->beyond.v);
+    memcpy(l->to.x, l->beyond.x, p->nx * sizeof(double));
+    memcpy(l->to.v, l->beyond.v, p->nv * sizeof(double));
+    l->to.t += 2 * part * way;
+    held_values(l->held, l->to.t, l->to.x, l->to.v, l->to.u);
+    for (size_t k = 0; k < l->count; k++)
+        l->slack[k] = fmax(0, -2 * switches_gap(held_operation(l->held, k), l->side[k], l->to.u[k]));
     return changed;
 }
 
@@ -533,29 +542,28 @@ static double largest(const double *y, size_t count)
     return most;
 }
 
-/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *apart: their distance, in units of
- * what is nearly the rounding of numbers of the largest size; infinite where it cannot be computed. */
-static motus_status halve(motus_run *r, double h, double *apart, motus_error *err)
+/* Takes the piece of size h that led to `to` once more, in two halves, to `twice`. *same: both give the same, to
+ * nearly the rounding of numbers of the largest size, and that of the force. */
+static motus_status halve(motus_run *r, double h, bool *same, motus_error *err)
 {
     locate *l = r->locate;
     const problem *p = &l->problem;
-    *apart = INFINITY;
+    *same = false;
     motus_status status = step_from(r, &l->from, h / 2, &l->beyond, err);
     if (status == MOTUS_OK) status = step_from(r, &l->beyond, l->to.t - l->beyond.t, &l->twice, err);
     if (status != MOTUS_OK) return status == MOTUS_MEMORY ? status : MOTUS_OK;
     const double a = fmax(largest(l->from.a, p->nv), fmax(largest(l->beyond.a, p->nv), largest(l->to.a, p->nv))),
-                 v = fmax(largest(l->from.v, p->nv), largest(l->to.v, p->nv)),
-                 late = 0x1p-52 * fabs(l->to.t); /* rounding of the time, at which a force changes fast */
-    const double of_x = 1e-13 * (largest(l->to.x, p->nx) + fabs(h) * v) + late * v + 1e-30,
-                 of_v = 1e-13 * (v + fabs(h) * a) + late * a + 1e-30; /* before a force sets in */
-    double most = 0;
-    l->noise = 0;
-    for (size_t k = 0; k < p->nv && most < INFINITY; k++) {
-        const double dx = k < p->nx ? fabs(l->to.x[k] - l->twice.x[k]) : 0, dv = fabs(l->to.v[k] - l->twice.v[k]);
-        most = isnan(dx + dv) ? INFINITY : fmax(most, fmax(dx / of_x, dv / of_v));
-        l->noise = fmax(l->noise, fmax(dx, dv));
+                 v = fmax(largest(l->from.v, p->nv), largest(l->to.v, p->nv)), way = fabs(h),
+                 late = 0x1p-52 * fabs(l->to.t), /* rounding of the time, at which a force changes fast */
+        force = FORCES * held_force_rounding(l->held, l->to.t, l->to.x, l->to.v, l->room);
+    const double of_x = 1e-13 * (largest(l->to.x, p->nx) + way * v) + late * v + way * way * force + 1e-30,
+                 of_v = 1e-13 * (v + way * a) + late * a + way * force + 1e-30; /* before a force sets in */
+    *same = true;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (k < p->nx && !(fabs(l->to.x[k] - l->twice.x[k]) <= of_x)) *same = false;
+        if (!(fabs(l->to.v[k] - l->twice.v[k]) <= of_v)) *same = false;
     }
-    *apart = most;
+    if (*same) l->rounding += way * force / FORCES;
     return MOTUS_OK;
 }
 
@@ -573,8 +581,7 @@ static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *er
 {
     locate *l = r->locate;
     const double least = fmax(0x1p-24 * fabs(r->timing.h), 0x1p-48 * fabs(l->from.t));
-    double before = INFINITY;
-    for (int noisy = 0;;) {
+    for (;;) {
         motus_status status = step_from(r, &l->from, *h, &l->to, err);
         if (status == MOTUS_MEMORY) return status;
         *failed = status != MOTUS_OK;
@@ -588,16 +595,11 @@ static motus_status piece(motus_run *r, double *h, bool *failed, motus_error *er
             return MOTUS_SOLVE;
         }
         if (resolved && sure(l, &l->from, &l->to)) {
-            double apart;
+            bool same;
             if (!l->resolves) return MOTUS_OK;
-            status = halve(r, *h, &apart, err);
+            status = halve(r, *h, &same, err);
             if (status != MOTUS_OK) return status;
-            /* What no longer falls is the rounding of the force. */
-            noisy = apart < NOISE && apart > before / 2 ? noisy + 1 : 0;
-            before = apart;
-            if (apart <= 1 || noisy == NOISY) {
-                l->growth = apart > 1 ? 2 << NOISY : 2;
-                if (apart > 1) l->rounding += l->noise;
+            if (same) {
                 place_swap(&l->to, &l->twice);
                 l->rounding += change(l) * 0x1p-52 * fabs(l->to.t);
                 return MOTUS_OK;
@@ -686,8 +688,7 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
             if (touched) place_swap(&l->to, &l->found);
             if (part == 1 || touched) {
                 place_swap(&l->from, &l->to);
-                const double next = l->growth * h * part;
-                if (l->resolves && (h != left || touched || fabs(next) > fabs(l->next))) l->next = next;
+                if (l->resolves && (h != left || touched || fabs(2 * h) > fabs(l->next))) l->next = 2 * h * part;
                 if (h != left || touched) continue;
                 l->from.t = end;
                 return MOTUS_OK;
@@ -702,7 +703,8 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
         size_t changed = change_sides(l);
         if (changed == l->count && failed) {
             const bool moves = l->from.t + h != l->from.t;
-            const double late = copysign(0x1p-46 * fabs(l->to.t) + (moves ? 0 : 0x1p-10 * fabs(tried)), tried);
+            const double least = fmin(0x1p-10 * fabs(tried), 0x1p-30 * fabs(r->timing.h)),
+                         late = copysign(0x1p-46 * fabs(l->to.t) + (moves ? 0 : least), tried);
             changed = change_sides_ahead(l, late);
             /* A stage was beyond a root that is further ahead, or behind. */
             if (changed == l->count && (moves || (still++ < STILL_MAX && nudge(l, late)))) {

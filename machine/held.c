@@ -4,6 +4,7 @@
 #include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ struct held {
     tape *argument, *held, *rate, *touch, *touch_rate; /* NULL: there are none */
     resolution *resolution;                            /* NULL: nothing to resolve */
     resolution *reach, *reach_rate; /* of the arguments as they are on the sides, and of their rates */
-    tape *rounding;
+    tape *rounding, *force_rounding;
     double *sides; /* that are bound: the last numbers of view.pool */
     bool bound;
 };
@@ -57,20 +58,23 @@ static node leaf_rounding(graph *g, node leaf, void *ctx)
     return moves ? graph_op(g, OP_ABS, leaf, 0, 0) : 0;
 }
 
+static tape *rounding_of(model *m, const output *of, size_t count)
+{
+    output *to = arena_room(m->arena, (count + 1) * sizeof *to);
+    for (size_t k = 0; to && k < count; k++) {
+        to[k] = of[k];
+        to[k].value = graph_rounding(m->graph, of[k].value, leaf_rounding, NULL);
+    }
+    return to && !m->arena->failed ? tape_of(m->arena, m->graph, to, count) : NULL;
+}
+
 /* What tells how near a switch is, and how well its time is known. */
 static bool make_reach(held *h, model *m)
 {
     const switches *s = &h->switches;
-    output *rounding = arena_room(m->arena, (s->kinds + 1) * sizeof *rounding);
-    for (size_t k = 0; rounding && k < s->kinds; k++) {
-        rounding[k] = s->held[k];
-        rounding[k].value = graph_rounding(m->graph, s->held[k].value, leaf_rounding, NULL);
-    }
-    if (!rounding || m->arena->failed || !resolution_create_values(m, s->held, s->kinds, &h->reach) ||
-        !resolution_create_values(m, s->rate, s->kinds, &h->reach_rate))
-        return false;
-    h->rounding = tape_of(m->arena, m->graph, rounding, s->kinds);
-    return h->rounding != NULL;
+    return (h->rounding = rounding_of(m, s->held, s->kinds)) &&
+           resolution_create_values(m, s->held, s->kinds, &h->reach) &&
+           resolution_create_values(m, s->rate, s->kinds, &h->reach_rate);
 }
 
 motus_status held_create(model *m, held **out, const char **refused, motus_error *err)
@@ -109,7 +113,8 @@ motus_status held_create(model *m, held **out, const char **refused, motus_error
         *tapes[k].made = tape_of(m->arena, m->graph, tapes[k].of, tapes[k].count);
         if (!*tapes[k].made) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     }
-    if (s->kinds && !make_reach(h, m)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
+    if ((s->kinds && !make_reach(h, m)) || !(h->force_rounding = rounding_of(m, s->accel, m->accel_count)))
+        return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     *out = h;
     return MOTUS_OK;
 }
@@ -133,7 +138,7 @@ bool held_bind(held *h, const double *sides, bool fresh)
     memcpy(h->sides, sides, bytes);
     if (fresh || !h->bound) memcpy(h->view.pool, h->model->pool, h->switches.slot * sizeof *sides);
     const binding b = {h->view.arrays, h->view.ints, h->view.pool};
-    tape *const tapes[] = {h->argument, h->held, h->rate, h->touch, h->touch_rate, h->rounding};
+    tape *const tapes[] = {h->argument, h->held, h->rate, h->touch, h->touch_rate, h->rounding, h->force_rounding};
     h->bound = interpreter_rebind(h->interpreter);
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k]) h->bound = h->bound && tape_bind(tapes[k], &b);
@@ -193,4 +198,16 @@ void held_rounding(held *h, double t, double *x, double *v, double *out)
 {
     run(h, h->rounding, h->switches.count, t, x, v, NULL, out);
     for (size_t k = 0; k < h->switches.count; k++) out[k] *= 0x1p-53;
+}
+
+double held_force_rounding(held *h, double t, double *x, double *v, double *room)
+{
+    const size_t n = h->problem.nv;
+    double most = 0, *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = room};
+    for (size_t k = 0; k < n; k++) room[k] = 0;
+    if (h->problem.refresh) h->problem.refresh(h->problem.ctx, t, x, v);
+    tape_run(h->force_rounding, t, base);
+    for (size_t k = 0; k < n; k++)
+        if (room[k] <= DBL_MAX) most = fmax(most, room[k]);
+    return 0x1p-54 * most;
 }

@@ -40,5 +40,7 @@ bool held_fits(held *, interval t, interval *x, interval *v);
 void held_reach(held *, interval t, interval *x, interval *v, interval *a, interval *argument, interval *rate);
 /* By how much rounding of the time, of a state and of the operations may have changed each argument. */
 void held_rounding(held *, double t, double *x, double *v, double *out);
+/* The same of the accelerations: the largest of all, half of its bound. room: nv numbers. */
+double held_force_rounding(held *, double t, double *x, double *v, double *room);
 
 #endif
