@@ -197,7 +197,7 @@ static motus_status measure(converge *c, const motus_method *card, const char *m
     study *s = &c->s;
     study_cost cost;
     *point = (motus_point){.step = g->interval / (double)per, .error = NAN};
-    motus_status status = study_walk(s, method, g, per, c->table, &cost, e);
+    motus_status status = study_walk(s, method, g, per, NULL, c->table, &cost, e);
     point->evaluations = cost.evaluations;
     *spent = study_work(s, card, (double)cost.steps, (double)cost.evaluations);
     if (study_fatal(status)) {

@@ -27,8 +27,9 @@
 #define SOLUTION_LOST 0.1 /* of the motion's size: an estimate beyond this says that nothing is known */
 #define SOLUTION_FAR \
     100 /* times the estimate of halvings: a second method that is further away says that they agree by luck */
-#define SOLUTION_ROUNDS 3 /* so often does the first method take shorter steps then */
-#define SOLUTION_UNEVEN 4 /* by how much an estimate is widened where steps cross jumps of the force */
+#define SOLUTION_ROUNDS 3      /* so often does the first method take shorter steps then */
+#define SOLUTION_SHAKE 0x1p-53 /* of the largest values of the motion */
+#define SOLUTION_UNEVEN 4      /* by how much an estimate is widened where steps cross jumps of the force */
 /* The bound on the work (study_work): about a fifth of a second of a small model, or SOLUTION_PASSES evaluations for
  * each step of the methods under study, if that is more. */
 #define SOLUTION_WORK 3e7
@@ -139,13 +140,13 @@ static motus_status tell(study *s, motus_status status, const motus_error *e)
 /* A walk of a reference run, which is given up where it costs more than `limit`. Its own failure is no failure of the
  * study: it leaves NaN in the table. */
 static motus_status walk(study *s, const motus_method *card, const study_grid *g, int64_t per, double limit,
-                         double *table, study_cost *spent, work *w, char failed[MOTUS_TEXT_MAX])
+                         const double *from, double *table, study_cost *spent, work *w, char failed[MOTUS_TEXT_MAX])
 {
     motus_error ignored = motus_default_error();
     const double steps = (double)g->intervals * (double)per, plain = study_work(s, card, steps, -1),
                  each = plain / study_evaluations(card, steps);
     s->limit = fmax(1, limit / each);
-    const motus_status status = study_walk(s, card->name, g, per, table, spent, &ignored);
+    const motus_status status = study_walk(s, card->name, g, per, from, table, spent, &ignored);
     s->limit = 0;
     if (study_fatal(status)) return tell(s, status, &ignored);
     snprintf(failed, MOTUS_TEXT_MAX, "%s", status == MOTUS_OK ? "" : ignored.message);
@@ -181,7 +182,7 @@ static motus_status refine(study *s, const study_grid *g, double budget, double 
         int64_t per = (int64_t)1 << level;
         study_cost spent;
         motus_status status =
-            walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, *now, &spent, &w, c->failed);
+            walk(s, c->card, g, per, level <= first + 1 ? total : left + w.most, NULL, *now, &spent, &w, c->failed);
         if (status != MOTUS_OK) return status;
         c->work = w.done;
         c->more = w.more;
@@ -279,7 +280,7 @@ static motus_status judge(study *s, const study_grid *g, double budget, candidat
     *found = (study_distance){NAN, NAN, NAN};
     for (int64_t per = first; per > 0; per = 2 * per + 1) {
         study_cost spent;
-        motus_status status = walk(s, other, g, per, 2 * w.most - w.done, room, &spent, &w, c->failed);
+        motus_status status = walk(s, other, g, per, 2 * w.most - w.done, NULL, room, &spent, &w, c->failed);
         if (status != MOTUS_OK) return status;
         c->over = spent.over;
         study_distance d = {NAN, NAN, NAN};
@@ -336,6 +337,29 @@ static void adopt(study *s, const study_grid *g, const candidate *best, const do
     own_rounding(s, g, best, r);
 }
 
+/* All runs begin at the same rounded numbers, and near a place where the motion rests they round alike for long: that
+ * error does not show between them. So one run begins a rounding away, and its distance at the end counts too. */
+static motus_status shake(study *s, const study_grid *g, double budget, candidate *best, solution *r, double *room)
+{
+    double *from = s->work;
+    work w = {.most = budget};
+    for (size_t k = 0; k < s->numbers; k++) {
+        double most = 0;
+        for (size_t p = 0; p <= g->points; p++) most = fmax(most, fabs(r->rows[p * s->numbers + k]));
+        from[k] = s->start[k] + (k % 2 ? -1 : 1) * SOLUTION_SHAKE * most;
+    }
+    study_cost spent;
+    char failed[MOTUS_TEXT_MAX];
+    const int64_t per = llround(g->interval / best->step);
+    motus_status status = walk(s, best->card, g, per, 2 * budget, from, room, &spent, &w, failed);
+    if (status != MOTUS_OK || !finite_rows(s, room, g->points)) return status;
+    const study_distance d = apart(s, room, r->rows + s->numbers, g->points);
+    if (!(d.scaled < SOLUTION_LOST)) return unknown(r, "rounding grows along this motion until no digit of it is left");
+    r->error = fmax(r->error, fmax(d.x, d.v));
+    r->scaled = fmax(r->scaled, d.scaled);
+    return MOTUS_OK;
+}
+
 /* Judges the solution by a second method. Halvings of the first one may agree because all of them miss the same; while
  * the judge is far from what they tell, the first one takes shorter steps than these. */
 static motus_status agree(study *s, const study_grid *g, double budget, double enough, candidate *best, solution *r,
@@ -390,6 +414,7 @@ static motus_status find_reference(study *s, const study_grid *g, int64_t steps,
     if (!best) return unknown(r, why_unknown(list, count));
     adopt(s, g, best, best_table, r);
     motus_status status = agree(s, g, total, enough, best, r, now, before);
+    if (status == MOTUS_OK && r->known) status = shake(s, g, total, best, r, now);
     study_part(s, base, span * (double)(count + 1));
     if (status != MOTUS_OK || !r->known) return status;
     r->uneven = r->uneven && !(s->locate && s->locatable);
@@ -429,7 +454,7 @@ static motus_status find_jump(study *s, const study_grid *g, solution *r)
     study_cost cost;
     motus_error ignored = motus_default_error();
     s->locate = true;
-    motus_status status = study_walk(s, list[0].card->name, g, 1, room, &cost, &ignored);
+    motus_status status = study_walk(s, list[0].card->name, g, 1, NULL, room, &cost, &ignored);
     s->locate = false;
     give(s->allocator, room);
     if (study_fatal(status)) return tell(s, status, &ignored);
@@ -452,7 +477,7 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
     if (exact) {
         study_cost cost;
         motus_error ignored = motus_default_error();
-        motus_status status = study_walk(s, exact, g, 1, r->rows + s->numbers, &cost, &ignored);
+        motus_status status = study_walk(s, exact, g, 1, NULL, r->rows + s->numbers, &cost, &ignored);
         if (study_fatal(status)) return tell(s, status, &ignored);
         if (status == MOTUS_OK && finite_rows(s, r->rows, g->points + 1)) {
             study_scale(s, r->rows + s->numbers, g->points);
@@ -503,7 +528,7 @@ motus_status solution_on(study *s, const solution *r, const study_grid *g, doubl
         per *= 2;
     study_cost cost;
     motus_error ignored = motus_default_error();
-    motus_status status = study_walk(s, r->method, g, per, rows, &cost, &ignored);
+    motus_status status = study_walk(s, r->method, g, per, NULL, rows, &cost, &ignored);
     s->locate = false;
     if (!study_fatal(status)) return MOTUS_OK; /* the rows are NaN from the failure on */
     return tell(s, status, &ignored);

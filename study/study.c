@@ -274,14 +274,15 @@ motus_status study_state(study *s, motus_run *run, double *y, motus_error *err)
     return motus_run_state(run, y, y + s->nx, err);
 }
 
-motus_status study_walk(study *s, const char *method, const study_grid *g, int64_t per, double *out, study_cost *cost,
-                        motus_error *err)
+motus_status study_walk(study *s, const char *method, const study_grid *g, int64_t per, const double *from, double *out,
+                        study_cost *cost, motus_error *err)
 {
     motus_run *run = NULL;
     size_t done = 0;
     *cost = (study_cost){.jump = -1, .jump_time = NAN, .jump_power = NAN};
     motus_status status = tick(s, 0);
-    if (status == MOTUS_OK) status = study_run(s, method, g->interval / (double)per, NAN, g->until, NULL, &run, err);
+    if (status == MOTUS_OK)
+        status = study_run(s, method, g->interval / (double)per, from ? g->from : NAN, g->until, from, &run, err);
     s->walking = run;
     for (; status == MOTUS_OK && done < g->points; done++) {
         double began = study_seconds();
