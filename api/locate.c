@@ -168,11 +168,20 @@ void locate_statistics(const motus_run *r, motus_statistics *out)
 static motus_status observe(motus_run *r, place *at, motus_error *err)
 {
     locate *l = r->locate;
+    for (size_t k = 0; k < l->problem.nv; k++) at->a[k] = 0; /* of cells without an equation, too */
     const motus_status status = stepper_sync(r->stepper, at->x, at->v, at->a, err);
     if (status != MOTUS_OK) return status;
     at->t = stepper_time(r->stepper);
     held_values(l->held, at->t, at->x, at->v, at->u);
     return MOTUS_OK;
+}
+
+/* Computes the acceleration of a place, on the sides bound. False: it cannot be evaluated. */
+static bool accelerated(const locate *l, place *at)
+{
+    const problem *p = &l->problem;
+    for (size_t k = 0; k < p->nv; k++) at->a[k] = 0;
+    return p->accel(p->ctx, at->t, at->x, at->v, at->a) == 0;
 }
 
 /* A step of size h from `from` to `to`. */
@@ -617,8 +626,7 @@ static bool nudge(locate *l, double way)
     place *to = &l->to;
     follow(p, &l->from, way, to->x, to->v);
     to->t = l->from.t + way;
-    for (size_t k = 0; k < p->nv; k++) to->a[k] = 0;
-    if (p->accel(p->ctx, to->t, to->x, to->v, to->a)) return false;
+    if (!accelerated(l, to)) return false;
     for (size_t k = 0; k < p->nv; k++)
         if (!isfinite(to->a[k])) return false;
     held_values(l->held, to->t, to->x, to->v, to->u);
@@ -656,7 +664,7 @@ static motus_status settle(motus_run *r, motus_error *err)
         }
         if (!changed) return MOTUS_OK;
         if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
-        if (l->problem.accel(l->problem.ctx, at->t, at->x, at->v, at->a)) break;
+        if (!accelerated(l, at)) break;
         held_values(l->held, at->t, at->x, at->v, at->u);
     }
     char t[DECIMAL_MAX];
@@ -724,7 +732,7 @@ static motus_status pieces(motus_run *r, double end, motus_error *err)
         const double late = lateness(l, tried);
         l->rounding += leap(l) * late;
         if (!held_bind(l->held, l->side, false)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
-        if (l->problem.accel(l->problem.ctx, l->from.t, l->from.x, l->from.v, l->from.a))
+        if (!accelerated(l, &l->from))
             return fail(err, MOTUS_CALLBACK, "the acceleration cannot be evaluated at t = %s",
                         run_time_text(r, l->from.t, t));
         held_values(l->held, l->from.t, l->from.x, l->from.v, l->from.u);

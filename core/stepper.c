@@ -91,6 +91,7 @@ motus_status stepper_create(const machine *m, const chosen *method, double t0, d
     if (allocator) s->allocator = *allocator;
     s->method = *method;
     s->body = m->body ? m->body : stepper_best_body();
+    s->arrays = memory;
     s->snapshot = memory + arrays * sizes.stride;
     s->work = stepper_plan(p, method, s->snapshot + carried);
     s->library.problem = &s->problem;

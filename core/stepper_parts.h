@@ -22,6 +22,7 @@ struct stepper {
     bool shortened;
     bool arrived; /* the stepper stands at `until` */
     double until;
+    double *arrays;   /* those of work, up to the snapshot */
     double *snapshot; /* the carried numbers at `at`; at.steps < 0: none */
     stepper_count at;
     double main_t0; /* of the leg, while the shorter last step has its own */

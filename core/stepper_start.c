@@ -132,9 +132,9 @@ static motus_status check_exact(stepper *s, double t0, double h, const double *x
 void stepper_begin(stepper *s, double t0, double h, const double *x, const double *v)
 {
     work *w = &s->work;
-    double *list[CARRY_MAX];
     w->n = 0;
-    for (int i = s->body->carry(w, list); i-- > 0;) memset(list[i], 0, w->nv * sizeof(double));
+    /* Entries without an equation are written by no step: what a failed step left there must not stay. */
+    memset(s->arrays, 0, (size_t)(s->snapshot - s->arrays) * sizeof(double));
     memcpy(w->x, x, w->nx * sizeof *x);
     memcpy(w->v, v, w->nv * sizeof *v);
     w->t0 = w->t = t0;

@@ -154,6 +154,69 @@ static void a_reference_does_not_take_for_ever(void **state)
     motus_system_destroy(s);
 }
 
+#define OTHER_NUMBERS 2e-11 /* by which motions differ whose texts round the times of kicks of 1000 differently */
+
+/* One motion written in two ways, of which the first hides what decides the force: each reference's error covers the
+ * distance between the two. */
+static void no_way_of_writing_hides_a_force(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *hidden, *plain;
+        double until;
+    } rows[] = {
+        {"-0.01*x + if((t-5.003)^2 < 1e-8, 1000, 0) + if(t > 5.006, 1, 0)",
+         "-0.01*x + if(t > 5.0029, if(t < 5.0031, 1000, 0), 0) + if(t > 5.006, 1, 0)", 10},
+        {"-x + if(mod(t, 2) < 0.001, 1000, 0)",
+         "-x + if(t < 0.001, 1000, 0) + if(t > 2, if(t < 2.001, 1000, 0), 0) + if(t > 4, if(t < 4.001, 1000, 0), 0)",
+         5},
+        {"-0.01*x + 1000*((t-5.003)^4 < 1e-16)", "-0.01*x + if(t > 5.0029, if(t < 5.0031, 1000, 0), 0)", 10},
+        {"-0.01*x + 1000*(log((t-5.003)^2) < -18.420680743952367)",
+         "-0.01*x + if(t > 5.0029, if(t < 5.0031, 1000, 0), 0)", 10},
+        {"-x + 10*((((cos(0.5*(t-1.172323))^64)^64)^64)^64)", "-x + 10*exp(16777216*log(cos(0.5*(t-1.172323))))", 3},
+        {"-x + 0.3*sign(x+1e6-1000000.3)", "-x + 0.3*sign(x-0.3)", 5},
+        {"-x*sqrt(|x|)", "-x*abs(x)^0.5", 10},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        double x[2], v[2], error[2];
+        for (int form = 0; form < 2; form++) {
+            char text[512];
+            snprintf(text, sizeof text, "x'' = %s\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil %g\n",
+                     form ? rows[k].plain : rows[k].hidden, rows[k].until);
+            error[form] = reference_at(text, rows[k].until, &x[form], &v[form]);
+            assert_true(error[form] < 1e-8);
+        }
+        if (!(fabs(x[0] - x[1]) <= error[0] + error[1] + OTHER_NUMBERS))
+            fail_msg("%s: %g", rows[k].hidden, fabs(x[0] - x[1]));
+    }
+}
+
+/* A failed trial of an implicit method leaves nothing behind in cells without an equation. */
+static void contacts_in_a_family(void **state)
+{
+    (void)state;
+    double x, v, y, w;
+    const double end = 10,
+                 error = reference_at("x[i]'' = -x[i] + max(-x[i]-0.5, 0)^1.5 for i = 1..1\nx[0] = 0\n"
+                                      "x[2] = 0\nx[1](0) = 1\nx[1]'(0) = 0\nuntil 10\nstep 0.1\n",
+                                      end, &x, &v),
+                 other = reference_at("x'' = -x + max(-x-0.5, 0)^1.5\nx(0) = 1\nx'(0) = 0\nuntil 10\nstep 0.1\n", end,
+                                      &y, &w);
+    assert_true(error < 1e-10 && other < 1e-10 && fabs(x - y) <= error + other);
+}
+
+/* The pendulum upright, 1e-16 beside its equilibrium: all runs round this alike, and the motion makes 1e-16 great. */
+static void rounding_that_all_runs_share(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("x'' = -sin(x)\nx(0) = pi\nx'(0) = 0\nuntil 38\nstep 0.1\n");
+    motus_reference *r = NULL;
+    motus_error e = motus_default_error();
+    assert_int_equal(motus_reference_create(s, NULL, &r, &e), MOTUS_DIVERGED);
+    assert_non_null(strstr(e.message, "rounding"));
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +227,9 @@ int main(void)
         cmocka_unit_test(a_force_that_is_defined_on_one_side),
         cmocka_unit_test(a_second_method_makes_the_first_one_go_on),
         cmocka_unit_test(a_reference_does_not_take_for_ever),
+        cmocka_unit_test(no_way_of_writing_hides_a_force),
+        cmocka_unit_test(contacts_in_a_family),
+        cmocka_unit_test(rounding_that_all_runs_share),
     };
     return cmocka_run_group_tests_name("reference", tests, NULL, NULL);
 }
