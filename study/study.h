@@ -91,8 +91,8 @@ motus_status study_run(study *, const char *method, double step, double start, d
 study_grid study_grid_of(const study *, double step, int64_t total, double last_step, int64_t *per);
 /* The run's state as one row. */
 motus_status study_state(study *, motus_run *, double *y, motus_error *err);
-/* Runs a method along a grid with `per` steps in each interval, from a state (NULL: the model's start); out: points × numbers, NaN from a failure on. A
- * failure ends the study only if study_fatal. */
+/* Runs a method along a grid with `per` steps in each interval, from a state (NULL: the model's start). out: points ×
+ * numbers, NaN from a failure on. A failure ends the study only if study_fatal. */
 motus_status study_walk(study *, const char *method, const study_grid *, int64_t per, const double *from, double *out,
                         study_cost *, motus_error *err);
 /* An estimate of the cost of so many steps and evaluations, the same on every machine; its unit is one number of one
