@@ -163,9 +163,11 @@ static void say_forces(words *w, const motus_system *s)
         say(w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
                "orders lose their order where these switch\n");
     if (t->has_exact)
-        say(w, s->model->exact_recognised
-                   ? "the exact motion is known: constant acceleration\n"
-                   : "the exact motion is given, and was checked against the equation at times of the run\n");
+        say(w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
+               : s->model->exact_between
+                   ? "the exact motion is given, and was checked against the equation at times of the run\n"
+                   : "the exact motion is given, and was checked against the equation at times of the run; between "
+                     "them the force may change unseen\n");
 }
 
 const char *motus_explain(motus_system *s)

@@ -207,7 +207,7 @@ static bool judge_with(motus_system *s, const double *masses)
     bool known = field_prove(s->model, false, masses, &proof);
     t->gradient = proof.holds;
     s->energy = proof.single && !t->time;
-    if (known && !proof.holds && !proof.refuted && !field_jumps(s->model))
+    if (known && !proof.holds && !proof.refuted && !proof.jumps && !field_jumps(s->model))
         known = sample_symmetric(s, false, 1, masses, &t->gradient);
     s->sampled_gradient = t->gradient && !proof.holds;
     return known;

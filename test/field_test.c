@@ -69,7 +69,21 @@ static void gradients(void **state)
         {"-x + 1e-30 y; -y", NO},
         {"-x + y; -y - x", NO},
         {"y z; x z; x y + x", NO},
+        /* by jumps that the formula shows as a quotient or as an angle: their derivative is symmetric elsewhere */
+        {"y/|y|; 0 x", NO},
+        {"y/sqrt(y^2); 0 x", NO},
+        {"y/hypot(y, 0); -y", NO},
+        {"acos(y/sqrt(y^2)); -y", NO},
+        {"-x + y exp(-0.5 log(y^2)); -y", NO},
+        {"tanh(1/y); -x (1 - tanh(1/y)^2)/y^2", NO},
+        {"-x + |y - x|/(y - x); -y", NO},
+        {"atan2(y, x) - x y/(x^2 + y^2); x^2/(x^2 + y^2)", NO},
+        {"-y^2/(x^2 + y^2); atan(y/x) + x y/(x^2 + y^2)", NO},
+        {"x/hypot(x, y) atan2(y, x) - y/hypot(x, y); y/hypot(x, y) atan2(y, x) + x/hypot(x, y)", NO},
         /* gradients */
+        {"sign(x) |x|^-0.5 + x/|x| - y; y/sqrt(y^2) - x", ENERGY}, /* each of its own place alone */
+        {"-1/(x - y)^3; 1/(x - y)^3", ENERGY},
+        {"-(x - 1)/((x - 1)^2 + y^2)^1.5 - x/(x^2 + y^2); -y/((x - 1)^2 + y^2)^1.5 - y/(x^2 + y^2)", PROVED},
         {"-sign(x) |x|^1.5", ENERGY},
         {"if(x > 1, floor(x), -x)", ENERGY},
         {"-x - 2 x y; -y - x^2 + y^2", ENERGY},

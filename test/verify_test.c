@@ -81,6 +81,51 @@ static void false_exact_lines(void **unused)
             "differ", 4);
 }
 
+/* Pulses and switches between any times that one would sample, poles, and switches at which rounding decides. */
+static void exact_lines_between(void **unused)
+{
+    (void)unused;
+    static const char *const pulses[] = {
+        "exp(-((t - 5.003)/0.001)^2)",
+        "1000 exp(-((x - 0.3)/0.0001)^2)",
+        "if(t > 5.003, if(t < 5.0031, 1000, 0), 0)",
+        "if(x > 0.3, if(x < 0.30001, 1000, 0), 0)",
+        "1000 max(0, 1 - |t - 5.003|/0.0001)",
+        "1000 (floor(t + 0.0001) - floor(t))",
+        "if(mod(t, 3.003) < 0.0001, 1000, 0)",
+    };
+    for (size_t k = 0; k < sizeof pulses / sizeof *pulses; k++) {
+        char text[256];
+        snprintf(text, sizeof text, "x'' = -x + %s\n" START "exact x = cos(t)\nuntil 10\n", pulses[k]);
+        refuses(text, "does not obey the equation", "the force gives", 4);
+    }
+    refuses("x'' = -x\n" START "exact x = cos(t) + 0.001 exp(-((t - 5.003)/0.001)^2)\nuntil 10\n", "does not obey", "",
+            4);
+    refuses("s' = s^2\ns(0) = 1\nexact s = 1/(1 - t)\nuntil 3\n", "has a pole at t = 1", "", 3);
+    refuses("x'' = -x - 0.1 sign(x')\n" START "exact x = 0.1 + 0.9 cos(t)\nuntil 4\n", "does not obey", "", 4);
+    takes("s' = s^2\ns(0) = 1\nexact s = 1/(1 - t)\nuntil 0.999\n");
+    takes("x'' = -x - 0.1 sign(x')\n" START "exact x = 0.1 + 0.9 cos(t)\nuntil 3\n");
+    takes("x'' = -sign(t - 1)\nx(0) = 0\nx'(0) = 0\nexact x = if(t < 1, t^2/2, t - 0.5 - (t - 1)^2/2)\nuntil 2\n");
+    takes("x'' = -if(t >= 5, 1, 0)\nx(0) = 0\nx'(0) = 0\nexact x = -max(t - 5, 0)^2/2\nuntil 10\n");
+    takes("r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 1)\nexact r = (cos(t), sin(t))\nuntil 100000\n");
+}
+
+/* What the check did not see is said. */
+static void exact_lines_unseen(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {
+        "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 1)\nexact r = (cos(t), sin(t))\nuntil 10\n",
+        "r'' = -r/|r|^3\nr(0) = (1, 0)\nr'(0) = (0, 1)\nexact r = (cos(t), sin(t))\nuntil 100000\n",
+        "x'' = -x + sum(k = 1..3: if(t > 5.003 k, if(t < 5.0031 k, 1, 0), 0))\n" START "exact x = cos(t)\nuntil 10\n",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = given_text(texts[k]);
+        assert_int_equal(strstr(motus_explain(s), "between them the force may change unseen") != NULL, k > 0);
+        motus_system_destroy(s);
+    }
+}
+
 /* The run by the exact motion has the same judgement. */
 static void starts_of_exact_runs(void **unused)
 {
@@ -226,8 +271,10 @@ static void set_numbers(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(true_exact_lines), cmocka_unit_test(false_exact_lines), cmocka_unit_test(starts_of_exact_runs),
-        cmocka_unit_test(exact_callbacks),  cmocka_unit_test(true_invariants),   cmocka_unit_test(false_invariants),
+        cmocka_unit_test(true_exact_lines),     cmocka_unit_test(false_exact_lines),
+        cmocka_unit_test(starts_of_exact_runs), cmocka_unit_test(exact_lines_between),
+        cmocka_unit_test(exact_lines_unseen),   cmocka_unit_test(exact_callbacks),
+        cmocka_unit_test(true_invariants),      cmocka_unit_test(false_invariants),
         cmocka_unit_test(set_numbers),
     };
     return cmocka_run_group_tests_name("verify", tests, NULL, NULL);

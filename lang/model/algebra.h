@@ -46,6 +46,7 @@ typedef struct algebra_atom {
     size_t at;
     poly a, b;
     uint32_t next;
+    uint8_t apart; /* algebra_jump.c, of POW: 1: the base is zero nowhere, or at lone places; 2: not so; 0: not asked */
     uint32_t sloped; /* the atom by which `slope` is the derivative; 0: none is known */
     poly slope;
 } algebra_atom;
@@ -90,6 +91,10 @@ bool algebra_differs(const algebra *, poly);
 
 /* algebra_read.c: the value of an output at these indices. */
 poly algebra_read(algebra *, node, const int64_t *index);
+
+/* algebra_jump.c: whether a monomial may jump as places of the space change, but for its steps. cell: by place, 0: it
+ * does not move. */
+bool algebra_jump(algebra *, uint32_t of, space, const uint32_t *cell);
 
 /* algebra.c, for algebra_apply.c. */
 uint32_t algebra_atom_of(algebra *, operation, poly a, poly b);

@@ -231,13 +231,27 @@ static bool single(field *f)
     return !any || !rest || symmetric(f, f->part);
 }
 
+/* Whether a part of the force that reads other places than its own may jump without a step in its formula: the
+ * derivatives lack that. */
+static bool jumps(field *f)
+{
+    algebra *A = &f->algebra;
+    for (uint32_t i = 0; i < f->cells; i++)
+        for (uint32_t k = 0; k < A->polys[f->force[i]].count; k++) {
+            const uint32_t of = A->polys[f->force[i]].terms[k].of;
+            if (algebra_jump(A, of, f->space, f->cell) && !own(f, of, f->atom[i], 0)) return !A->lost;
+        }
+    return false;
+}
+
 bool field_prove(model *m, bool in_v, const double *masses, field_proof *out)
 {
     field f = {.space = in_v ? SPACE_V : SPACE_X, .sign = in_v ? -1 : 1, .masses = masses};
-    *out = (field_proof){false, false, false};
+    *out = (field_proof){0};
     const bool began = algebra_begin(&f.algebra, m, WORK);
     if (began && read_force(&f, m)) {
-        out->holds = symmetric(&f, f.force) && !f.algebra.lost;
+        out->jumps = !in_v && jumps(&f);
+        out->holds = !out->jumps && symmetric(&f, f.force) && !f.algebra.lost;
         out->refuted = f.refuted;
         out->single = out->holds && !in_v && single(&f) && !f.algebra.lost;
     }

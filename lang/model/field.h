@@ -9,6 +9,7 @@
 
 typedef struct field_proof {
     bool holds, refuted; /* neither: not known */
+    bool jumps;          /* with da/dx: the force may jump where a quotient or an angle does, as y/|y| at 0 */
     /* With da/dx: the potential has one value everywhere. Round a singularity of a force whose derivative is symmetric,
      * a potential may gain something at each turn, as the angle does. */
     bool single;

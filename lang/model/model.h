@@ -174,7 +174,8 @@ typedef struct model {
     output *exact;
     size_t exact_count; /* into X and V */
     bool exact_given, exact_recognised;
-    traits traits; /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
+    bool exact_between; /* verify.h: the exact line was checked at and between sampled times */
+    traits traits;      /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
 
     double start, step, until, every_time;
     bool start_known;

@@ -1,5 +1,5 @@
 /* What a model claims of its motion is checked: its exact lines (verify_exact.c) and its invariants
- * (verify_invariant.c); what both need is in verify.c.
+ * (verify_invariant.c); what both need is in verify.c, and what is checked between sampled times in verify_between.c.
  *
  * Numbers count as equal where their difference is below EXACT_ROUNDING times what rounding may make of them: a bound
  * from their formulas (graph_rounding), which knows about cancellation, and the size of the motion, by which a velocity
@@ -24,6 +24,7 @@ typedef struct verify {
     tape *boundary_second;                                     /* the acceleration of boundary cells */
     tape **rate, **rate_rounding; /* for each definition; NULL: it is no invariant, or none that is checked */
     size_t numbers;               /* of the largest invariant */
+    struct verify_between *between;
 } verify;
 
 /* MOTUS_OK; MOTUS_ARGUMENT: complained; MOTUS_MEMORY. */
@@ -47,8 +48,26 @@ void verify_size(const model *, double rate, const double *x, const double *v, d
 enum { VERIFY_DIGITS = 32 };
 void verify_digits(double a, double b, char of_a[VERIFY_DIGITS], char of_b[VERIFY_DIGITS]);
 
+/* One time: the exact motion, its acceleration e, the force a there; and how far rounding may carry each off. */
+typedef struct verify_sample {
+    double t, *x, *v, *e, *a, *of_x, *of_v, *of_a, *of_e, *room;
+} verify_sample;
+
 bool verify_exact_make(model *);
 motus_status verify_exact(model *);
+/* The exact motion at a time, into x and v of the sample. */
+void verify_exact_move(const model *, verify_sample *, double t);
+/* The first number of v whose acceleration differs from the force at a time; nv: none does. */
+size_t verify_exact_at(const model *, verify_sample *, double t);
+
+typedef struct verify_fault {
+    size_t number; /* of v that differs, at the time of the sample; nv: none does */
+    double pole;   /* the time of a pole of the exact motion; NaN: none was found */
+} verify_fault;
+
+bool verify_between_make(model *);
+/* Sets exact_between of the model. MOTUS_OK, or MOTUS_MEMORY. */
+motus_status verify_between(model *, verify_sample *, verify_fault *);
 bool verify_invariant_make(model *);
 motus_status verify_invariants(model *);
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { SAMPLES = 64, SAMPLES_LEAST = 4, ARRAYS = 12 };
+#define START 1e-10  /* of the run: the first sample of a force with switches */
 #define WORK_MAX 1e7 /* operations: of large models fewer times are sampled */
 
 bool verify_exact_make(model *m)
@@ -25,6 +26,7 @@ bool verify_exact_make(model *m)
         }
     c->motion = verify_tape(m, m->exact, m->exact_count);
     c->second = verify_tape(m, second, count);
+    if (!verify_between_make(m)) return false;
     if (!c->bounded) return true;
     c->motion_rounding = verify_tape(m, verify_rounding(m, m->exact, m->exact_count, verify_leaf), m->exact_count);
     c->second_rounding = verify_tape(m, verify_rounding(m, second, count, verify_leaf), count);
@@ -38,21 +40,17 @@ static const statement *exact_line(const model *m)
     return NULL;
 }
 
-/* One time: the exact motion, its acceleration e, the force a there; and how far rounding may carry each off. */
-typedef struct sample {
-    double t, *x, *v, *e, *a, *of_x, *of_v, *of_a, *of_e, *room;
-} sample;
-
-static void place(sample *s, size_t n, double *at)
+static void place(verify_sample *s, size_t n, double *at)
 {
     double **arrays[] = {&s->x, &s->v, &s->e, &s->a, &s->of_x, &s->of_v, &s->of_a, &s->of_e, &s->room};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) *arrays[k] = at + k * n; /* room: to the end */
 }
 
-static void move(const model *m, sample *s)
+void verify_exact_move(const model *m, verify_sample *s, double t)
 {
     const verify *c = m->verify;
     double *motion[SPACES] = {[SPACE_X] = s->x, [SPACE_V] = s->v};
+    s->t = t;
     memcpy(s->x, m->x0, m->nx * sizeof *s->x);
     memcpy(s->v, m->v0, m->nv * sizeof *s->v);
     tape_run(c->motion, s->t, motion);
@@ -60,7 +58,7 @@ static void move(const model *m, sample *s)
 }
 
 /* The sizes of the motion and the roundings of its formula. */
-static void bound(const model *m, sample *s)
+static void bound(const model *m, verify_sample *s)
 {
     const verify *c = m->verify;
     verify_size(m, verify_fastest(m, s->t, s->x, s->v, s->room), s->x, s->v, s->of_x, s->of_v);
@@ -72,7 +70,7 @@ static void bound(const model *m, sample *s)
     for (size_t k = 0; k < m->nv; k++) s->of_v[k] += v[k];
 }
 
-static void accelerate(const model *m, sample *s)
+static void accelerate(const model *m, verify_sample *s)
 {
     const verify *c = m->verify;
     double *second[SPACES] = {[SPACE_A] = s->e}, *rounded[SPACES] = {[SPACE_A] = s->of_e},
@@ -114,7 +112,7 @@ static motus_status wrong_start(model *m, const double *is, const double *due, b
     return MOTUS_ARGUMENT;
 }
 
-static motus_status wrong_force(model *m, const sample *s, size_t k)
+static motus_status wrong_force(model *m, const verify_sample *s, size_t k)
 {
     char name[MOTUS_NAME_MAX + 64], a[VERIFY_DIGITS], b[VERIFY_DIGITS], time[DECIMAL_MAX];
     model_name(m, true, k, name, sizeof name - 1);
@@ -129,26 +127,51 @@ static motus_status wrong_force(model *m, const sample *s, size_t k)
     return MOTUS_ARGUMENT;
 }
 
-static motus_status check(model *m, sample *s)
+static motus_status pole(model *m, double t)
+{
+    char time[DECIMAL_MAX];
+    source_complain(&m->source, MOTUS_ARGUMENT, exact_line(m)->at,
+                    "the exact motion has a pole at t = %s: it obeys the equation before that alone",
+                    decimal_time(t, m->until - m->start, time));
+    source_hint(&m->source, "let the run end before that: until = ...");
+    return MOTUS_ARGUMENT;
+}
+
+size_t verify_exact_at(const model *m, verify_sample *s, double t)
+{
+    verify_exact_move(m, s, t);
+    bound(m, s);
+    accelerate(m, s);
+    return differs(s->e, s->a, s->of_a, s->of_e, m->nv);
+}
+
+static motus_status check_start(model *m, verify_sample *s)
+{
+    verify_exact_move(m, s, m->start);
+    bound(m, s);
+    size_t at = differs(s->x, m->x0, s->of_x, NULL, m->nx);
+    if (at < m->nx) return wrong_start(m, s->x, m->x0, false, at);
+    at = differs(s->v, m->v0, s->of_v, NULL, m->nv);
+    return at < m->nv ? wrong_start(m, s->v, m->v0, true, at) : MOTUS_OK;
+}
+
+static motus_status check(model *m, verify_sample *s)
 {
     const double way = isfinite(m->until) ? m->until - m->start : 1, golden = 0.61803398874989485;
     const double work = fmax(m->terms, (double)m->nv) * (1 + (double)m->verify->nodes);
     const int samples = work * SAMPLES < WORK_MAX ? SAMPLES : (int)fmax(SAMPLES_LEAST, WORK_MAX / work);
+    const motus_status start = check_start(m, s);
+    if (start != MOTUS_OK) return start;
     for (int k = 0; k <= samples; k++) {
-        s->t = m->start + way * (k * golden - floor(k * golden));
-        move(m, s);
-        bound(m, s);
-        if (k == 0) {
-            size_t at = differs(s->x, m->x0, s->of_x, NULL, m->nx);
-            if (at < m->nx) return wrong_start(m, s->x, m->x0, false, at);
-            at = differs(s->v, m->v0, s->of_v, NULL, m->nv);
-            if (at < m->nv) return wrong_start(m, s->v, m->v0, true, at);
-        }
-        accelerate(m, s);
-        const size_t at = differs(s->e, s->a, s->of_a, s->of_e, m->nv);
+        const double t = m->start + way * (k * golden - floor(k * golden));
+        /* at the start a switch may be in neither of its sides, which lasts for no time */
+        const size_t at = verify_exact_at(m, s, k == 0 && !m->traits.smooth ? t + START * way : t);
         if (at < m->nv) return wrong_force(m, s, at);
     }
-    return MOTUS_OK;
+    verify_fault fault;
+    if (verify_between(m, s, &fault) != MOTUS_OK) return MOTUS_MEMORY;
+    if (!isnan(fault.pole)) return pole(m, fault.pole);
+    return fault.number < m->nv ? wrong_force(m, s, fault.number) : MOTUS_OK;
 }
 
 static bool bind(const model *m)
@@ -165,7 +188,7 @@ motus_status verify_exact(model *m)
     const size_t n = m->nv + 1;
     double *room = take(&m->arena->allocator, ARRAYS * n, sizeof *room);
     if (!room) return MOTUS_MEMORY;
-    sample s = {0};
+    verify_sample s = {0};
     place(&s, n, room);
     const motus_status status = check(m, &s);
     give(&m->arena->allocator, room);
@@ -177,9 +200,9 @@ bool verify_exact_rounding(model *m, double t, double *x, double *v)
     const size_t n = m->nv + 1;
     double *room = bind(m) ? take(&m->arena->allocator, ARRAYS * n, sizeof *room) : NULL;
     if (!room) return false;
-    sample s = {.t = t};
+    verify_sample s = {0};
     place(&s, n, room);
-    move(m, &s);
+    verify_exact_move(m, &s, t);
     bound(m, &s);
     memcpy(x, s.of_x, m->nx * sizeof *x);
     memcpy(v, s.of_v, m->nv * sizeof *v);

@@ -1,0 +1,233 @@
+/* The check of exact lines between the times that verify_exact.c samples: a force may have a pulse there, or a switch.
+ *
+ * Each piece of time between two samples is halved, and its middle sampled, until the force is resolved over it
+ * (lang/model/resolution.h), with the motion bounded by its own formulas. A switch counts as 1 over what it compares
+ * with 0, which is not resolved where that is 0. Invariant: a difference counts where it lasts for INSTANT of the
+ * run on both sides; so the one instant of a switch, at which rounding decides, refuses no line.
+ */
+#include "lang/read/verify.h"
+
+#include "lang/graph/graph_walk.h"
+#include "lang/model/resolution.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PIECES = 64,
+    DEPTH = 26,       /* halvings of a piece */
+    TRIES_MAX = 4096, /* pieces that are examined in all */
+    MOVING = DEP_TIME | DEP_STATE
+};
+#define INSTANT 1e-10 /* of the run; less than a piece after DEPTH halvings */
+#define WORK_MAX 4e6  /* operations: of large models fewer pieces are examined */
+#define POLE 1e3      /* times the largest number of the motion elsewhere: there it has a pole */
+
+struct verify_between {
+    resolution *force, *poles; /* of the force with its switches, of the motion alone; NULL: nothing to resolve */
+    bool sums;                 /* switches within sums, which are not examined */
+};
+
+/* Making it -------------------------------------------------------------------------------------------------------- */
+
+static bool switches(const graph_node *n)
+{
+    switch ((operation)n->op) {
+    case OP_MIN:
+    case OP_MAX:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_CBRT:
+    case OP_FLOOR:
+    case OP_MOD: return (n->deps & MOVING) != 0;
+    default: return false;
+    }
+}
+
+/* What is 0 where the operation switches; 0: it is no switch that moves. */
+static node switched_at(graph *g, const graph_node *n)
+{
+    if (!switches(n)) return 0;
+    const node pi = graph_const(g, 3.141592653589793);
+    switch ((operation)n->op) {
+    case OP_MIN:
+    case OP_MAX:
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE: return graph_op(g, OP_SUB, n->a, n->b, 0);
+    case OP_ABS:
+    case OP_SIGN:
+    case OP_CBRT: return n->a;
+    case OP_FLOOR: return graph_op(g, OP_SIN, graph_op(g, OP_MUL, pi, n->a, 0), 0, 0);
+    case OP_MOD: return graph_op(g, OP_SIN, graph_op(g, OP_MUL, pi, graph_op(g, OP_DIV, n->a, n->b, 0), 0), 0, 0);
+    default: return 0;
+    }
+}
+
+/* Adds the switches of one output to a list, as outputs into accelerations; `to` NULL: counts them. */
+static bool add_switches(model *m, struct verify_between *b, const output *o, output *to, size_t *count)
+{
+    graph *g = m->graph;
+    graph_walk w;
+    if (!graph_order(g, &o->value, 1, MOVING, true, &w)) return false;
+    for (uint32_t k = 0; k < w.count; k++) {
+        const graph_node n = g->nodes[w.nodes[k]];
+        if (!to) {
+            *count += switches(&n);
+            continue;
+        }
+        const node zero = switched_at(g, &n);
+        if (!zero || !(graph_deps(g, zero) & MOVING)) continue;
+        const unsigned outer = (1u << o->loops) - 1, levels = (1u << MAX_LEVELS) - 1;
+        if (graph_deps(g, zero) & levels & ~outer) {
+            b->sums = true;
+            continue;
+        }
+        output *made = &to[(*count)++];
+        *made = *o;
+        made->value = graph_op(g, OP_DIV, graph_const(g, 1), zero, 0);
+        const space s = m->arrays[o->to.array].space;
+        const int from = s == SPACE_X ? BLOCK_X : s == SPACE_V ? BLOCK_V : BLOCK_A;
+        made->to.array = (uint16_t)(o->to.array - m->block[from] + m->block[BLOCK_A]);
+    }
+    give(&m->arena->allocator, w.nodes);
+    return true;
+}
+
+bool verify_between_make(model *m)
+{
+    struct verify_between *b = m->verify->between = arena_take(m->arena, sizeof *b);
+    if (!b || !m->verify->bounded) return b != NULL;
+    const output *const lists[] = {m->exact, m->boundary, m->accel};
+    const size_t counts[] = {m->exact_count, m->boundary_count, m->accel_count};
+    output *all = NULL;
+    size_t first = 0, count = 0;
+    for (int made = 0; made < 2; made++) { /* counts, then makes */
+        for (int l = 0; l < 3; l++)
+            for (size_t k = 0; k < counts[l]; k++, first += !made)
+                if (made) all[first++] = lists[l][k];
+        if (made) count = first;
+        for (int l = 0; l < 3; l++)
+            for (size_t k = 0; k < counts[l]; k++)
+                if (!add_switches(m, b, &lists[l][k], all, &count)) return false;
+        if (!made && !(all = arena_room(m->arena, (first + count + 1) * sizeof *all))) return false;
+        if (!made) first = count = 0;
+    }
+    return resolution_create(m, all, count, count > first, &b->force) &&
+           resolution_create_poles(m, m->exact, m->exact_count, &b->poles);
+}
+
+/* Going through the run -------------------------------------------------------------------------------------------- */
+
+typedef struct walk {
+    model *model;
+    verify_sample *sample;
+    interval *x, *v;
+    double run, usual; /* the run's length; the largest number of the motion at the samples */
+    int tries;
+    bool unresolved;
+    size_t wrong; /* the number of v that differs; nv: none */
+    double pole;  /* the time of a pole; NaN: none */
+} walk;
+
+static double greatest(const model *m, const verify_sample *s)
+{
+    double most = 0;
+    for (size_t k = 0; k < m->nx; k++) most = fmax(most, fabs(s->x[k]));
+    for (size_t k = 0; k < m->nv; k++) most = fmax(most, fabs(s->v[k]));
+    return most;
+}
+
+/* Whether the equation holds at a time, or shortly before or after it. Times outside the run are not tried. */
+static bool holds(walk *w, double t)
+{
+    const model *m = w->model;
+    static const double shift[3] = {INSTANT, -INSTANT, 0}; /* the last one is told */
+    for (int k = 0; k < 3; k++) {
+        const double at = t + shift[k] * w->run, part = (at - m->start) / w->run;
+        if (part < 0 || part > 1) continue;
+        w->wrong = verify_exact_at(m, w->sample, at);
+        if (w->wrong == m->nv) return true;
+    }
+    return false;
+}
+
+/* The intervals are the state at the middle; the formulas of the motion, which come first, widen them. */
+static void intervals(walk *w, double a, double b, interval *t)
+{
+    const model *m = w->model;
+    verify_exact_move(m, w->sample, a + (b - a) / 2);
+    for (size_t k = 0; k < m->nx; k++) w->x[k] = (interval){w->sample->x[k], w->sample->x[k]};
+    for (size_t k = 0; k < m->nv; k++) w->v[k] = (interval){w->sample->v[k], w->sample->v[k]};
+    *t = (interval){fmin(a, b), fmax(a, b)};
+}
+
+/* A short piece that is not resolved: whether the motion has a pole in it. */
+static bool has_pole(walk *w, double a, double b)
+{
+    const model *m = w->model;
+    interval t;
+    if (!m->verify->between->poles) return false;
+    intervals(w, a, b, &t);
+    if (!resolution_pole(m->verify->between->poles, t, w->x, w->v, m->pool)) return false;
+    verify_exact_move(m, w->sample, a);
+    const double at_a = greatest(m, w->sample);
+    verify_exact_move(m, w->sample, b);
+    return fmin(at_a, greatest(m, w->sample)) > POLE * w->usual;
+}
+
+/* Examines a piece whose ends were sampled. False: the line is wrong. */
+static bool examine(walk *w, double a, double b, int depth)
+{
+    interval t;
+    intervals(w, a, b, &t);
+    w->tries--;
+    if (resolution_fits(w->model->verify->between->force, t, w->x, w->v, w->model->pool)) return true;
+    if (depth == DEPTH) {
+        if (has_pole(w, a, b)) w->pole = a + (b - a) / 2;
+        return isnan(w->pole);
+    }
+    if (w->tries <= 0) return w->unresolved = true;
+    const double middle = a + (b - a) / 2;
+    return holds(w, middle) && examine(w, a, middle, depth + 1) && examine(w, middle, b, depth + 1);
+}
+
+static bool go(walk *w)
+{
+    const model *m = w->model;
+    const double work = fmax(m->terms, (double)m->nv) * (1 + (double)m->verify->nodes);
+    const int most = (int)fmin(TRIES_MAX, WORK_MAX / work) / PIECES;
+    for (int k = 0; k < PIECES; k++) { /* the middles: ends are sampled from both sides, and poles lie there often */
+        verify_exact_move(m, w->sample, m->start + w->run * (k + 0.5) / PIECES);
+        const double size = greatest(m, w->sample);
+        if (isfinite(size)) w->usual += size / PIECES;
+    }
+    for (int k = 0; k < PIECES; k++) {
+        const double a = m->start + w->run * k / PIECES, b = m->start + w->run * (k + 1) / PIECES;
+        w->tries = most + (w->tries > 0 ? w->tries : 0);
+        if (!holds(w, b) || !examine(w, a, b, 0)) return false;
+    }
+    return true;
+}
+
+motus_status verify_between(model *m, verify_sample *s, verify_fault *fault)
+{
+    const struct verify_between *b = m->verify->between;
+    const double run = isfinite(m->until) ? m->until - m->start : 1;
+    *fault = (verify_fault){.number = m->nv, .pole = NAN};
+    m->exact_between = m->verify->bounded && !b->sums;
+    if (!b->force || run == 0) return MOTUS_OK;
+    interval *room = take(&m->arena->allocator, m->nx + m->nv + 1, sizeof *room);
+    if (!room) return MOTUS_MEMORY;
+    walk w = {.model = m, .sample = s, .x = room, .v = room + m->nx, .run = run, .wrong = m->nv, .pole = NAN};
+    if (!go(&w)) fault->number = isnan(w.pole) ? w.wrong : m->nv;
+    fault->pole = w.pole;
+    m->exact_between &= !w.unresolved;
+    give(&m->arena->allocator, room);
+    return MOTUS_OK;
+}
