@@ -2,9 +2,11 @@
  *
  * Interval arithmetic over the states of a step tells where a divisor may be 0 (lang/model/resolution.h). Such a step
  * is then taken once more from its start, by steps that error control chooses. Either they come to a halt, at a
- * singularity; or they lead to another state than the run's step, in which a divisor has passed 0. Invariant: a step
- * that agrees with the controlled ones, or leads past no pole, is not accused, however near to one it leads.
+ * singularity; or they pass a pole, too weak for their error to show it; or they lead to another state than the run's
+ * step: then the run alone has passed a pole, or its step only does not resolve the force. Invariant: a step that agrees
+ * with the controlled ones, which pass no pole, is not accused, however near to one it leads.
  */
+#include "api/pole.h"
 #include "api/run.h"
 #include "api/vector.h"
 
@@ -13,8 +15,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PIECES_MAX = 50000, STAGES = 4, DEPTH = 30 }; /* controlled steps in all; halvings */
-#define TOLERANCE 1e-6                               /* of the motion's size, for a controlled step */
+enum { PIECES_MAX = 50000, STAGES = 4 }; /* controlled steps in all */
+#define TOLERANCE 1e-6                   /* of the motion's size, for a controlled step */
 #define LEAST 0x1p-44 /* of the run's step: a controlled step that must be shorter stands before a singularity */
 #define APART 0.5     /* of the velocity, or of the way: another end than that of the controlled steps */
 
@@ -22,14 +24,16 @@ typedef struct end {
     double t, *x, *v, *a;
 } end;
 
+typedef enum course { ARRIVES, HALTS, PASSES, LASTS } course; /* LASTS: it is long, but on its way */
+
 typedef struct judge {
     motus_run *run;
     const problem *problem;
     end from, to, now, whole, half;
-    double *stage_x, *stage_v, *sum_x, *sum_v;
-    interval *box;     /* nx, then nv */
-    int pieces;        /* controlled steps so far */
-    double of_x, of_v; /* the sizes to which errors of controlled steps relate */
+    double *stage_x, *stage_v, *sum_x, *sum_v; /* of nv numbers each, one after the other */
+    interval *box;                             /* nx, then nv */
+    int pieces;                                /* controlled steps so far */
+    double of_x, of_v;                         /* the sizes to which errors of controlled steps relate */
 } judge;
 
 static void copy(const judge *j, end *to, const end *from)
@@ -49,8 +53,6 @@ static interval reach(double from, double rate, double to, double end_rate, doub
     return (interval){least(from, to, ahead, back), most(from, to, ahead, back)};
 }
 
-static interval between(double a, double b) { return (interval){fmin(a, b), fmax(a, b)}; }
-
 static bool may_meet_pole(const judge *j)
 {
     const problem *p = j->problem;
@@ -60,7 +62,7 @@ static bool may_meet_pole(const judge *j)
     interval *x = j->box, *v = x + p->nx;
     for (size_t k = 0; k < p->nx; k++) x[k] = reach(a->x[k], a->v[k], b->x[k], b->v[k], h);
     for (size_t k = 0; k < p->nv; k++) v[k] = reach(a->v[k], a->a[k], b->v[k], b->a[k], h);
-    return resolution_pole(s->poles, between(a->t, b->t), x, v, s->model->pool);
+    return resolution_pole(s->poles, (interval){fmin(a->t, b->t), fmax(a->t, b->t)}, x, v, s->model->pool);
 }
 
 /* Controlled steps ------------------------------------------------------------------------------------------------ */
@@ -107,8 +109,14 @@ static double error_of(judge *j, double h)
 /* By what the next step may be longer than one with this error. */
 static double rate(double error) { return 0.9 * exp(-0.2 * log(error)); }
 
-/* Controlled steps from `from` to the time t; the state there is `now`. False: they come to a halt. */
-static bool arrives(judge *j, double t)
+/* Whether the way to a state after the time h passes a pole. */
+static bool pole_between(const judge *j, const end *from, double h, const double *x, const double *v, bool straight)
+{
+    return pole_on(&(pole_way){j->run->system, from->t, h, from->x, from->v, x, v, straight, j->box, j->stage_x});
+}
+
+/* Controlled steps from `from` to the time t; the state there is `now`. */
+static course follow(judge *j, double t)
 {
     const double whole = t - j->from.t, short_of = fmax(LEAST * fabs(whole), 8 * DBL_EPSILON * fabs(t));
     double h = whole;
@@ -119,53 +127,37 @@ static bool arrives(judge *j, double t)
         const double left = t - j->now.t;
         const bool last = fabs(h) >= fabs(left);
         if (last) h = left;
-        if (fabs(left) <= short_of) return true;
+        if (fabs(left) <= short_of) return ARRIVES;
         const double error = error_of(j, h);
         if (error <= 1) {
+            if (pole_between(j, &j->now, h, j->half.x, j->half.v, false)) return PASSES;
             copy(j, &j->now, &j->half);
             j->of_v = fmax(j->of_v, vector_largest(j->now.v, j->problem->nv));
-            if (last) return true;
+            if (last) return ARRIVES;
             h *= fmin(4, rate(fmax(error, 1e-4)));
             continue;
         }
         h *= isfinite(error) ? fmax(0.1, fmin(0.5, rate(error))) : 0.1;
-        if (fabs(h) < short_of) return false;
+        if (fabs(h) < short_of) return HALTS;
     }
-    return true; /* long, but on its way */
+    return LASTS;
 }
 
-/* Whether a divisor passes 0 on the straight way of the run's step, between the fractions low and high of it. Parts
- * without a pole are given up; what is left after DEPTH halvings is one. */
-static bool crosses(const judge *j, double low, double high, int depth)
+/* Whether the run's step from `from` is another motion than that of the controlled steps, which lead to `now`. `to` is
+ * lost. */
+static motus_status judged(judge *j)
 {
     const problem *p = j->problem;
     const motus_run *r = j->run;
-    const end *a = &j->from;
-    const double h = motus_run_time(r) - a->t;
-    interval *x = j->box, *v = x + p->nx;
-    for (size_t k = 0; k < p->nx; k++)
-        x[k] = between(a->x[k] + low * (r->x[k] - a->x[k]), a->x[k] + high * (r->x[k] - a->x[k]));
-    for (size_t k = 0; k < p->nv; k++)
-        v[k] = between(a->v[k] + low * (r->v[k] - a->v[k]), a->v[k] + high * (r->v[k] - a->v[k]));
-    if (!resolution_pole(r->system->poles, between(a->t + low * h, a->t + high * h), x, v, r->system->model->pool))
-        return false;
-    const double middle = (low + high) / 2;
-    return depth == 0 || crosses(j, low, middle, depth - 1) || crosses(j, middle, high, depth - 1);
-}
-
-/* Whether the step from `from` to the run's state has passed a singularity. `to` is lost. Where the controlled steps
- * lead to another state, and no divisor has passed 0, the step is only too long: shorter ones converge. */
-static bool passes_pole(judge *j)
-{
-    const problem *p = j->problem;
-    const motus_run *r = j->run;
-    const double way = vector_apart(j->to.x, j->from.x, p->nx);
-    if (!arrives(j, j->to.t)) return true;
+    const double way = vector_apart(j->to.x, j->from.x, p->nx), until = j->to.t;
+    const course course = follow(j, until);
+    if (course == HALTS || course == PASSES) return MOTUS_SINGULAR;
     const double x = fmax(way, vector_apart(j->now.x, j->from.x, p->nx)),
                  v = fmax(vector_largest(j->from.v, p->nv), vector_largest(j->now.v, p->nv));
     if (vector_apart(j->now.x, r->x, p->nx) <= APART * x && vector_apart(j->now.v, r->v, p->nv) <= APART * v)
-        return false;
-    return crosses(j, 0, 1, DEPTH);
+        return pole_between(j, &j->now, 0, r->x, r->v, true) ? MOTUS_SINGULAR : MOTUS_OK; /* by its error */
+    if (pole_between(j, &j->from, until - j->from.t, r->x, r->v, true)) return MOTUS_SINGULAR;
+    return course == ARRIVES ? MOTUS_UNRESOLVED : MOTUS_OK;
 }
 
 /* The run ---------------------------------------------------------------------------------------------------------- */
@@ -183,7 +175,7 @@ static motus_status observe(judge *j, end *at, motus_error *err)
     return MOTUS_OK;
 }
 
-static motus_status accuse(const judge *j, double from, motus_error *err)
+static motus_status accuse(const judge *j, motus_status what, double from, motus_error *err)
 {
     char a[DECIMAL_MAX], b[DECIMAL_MAX];
     const double to = motus_run_time(j->run);
@@ -192,16 +184,23 @@ static motus_status accuse(const judge *j, double from, motus_error *err)
         snprintf(b, sizeof b, "%.*g", digits, to);
         if (strcmp(a, b) != 0) break;
     }
-    fail(err, MOTUS_SINGULAR,
-         "the run passes a singularity of the force between t = %s and t = %s, which the step does not resolve; what "
-         "follows is not the motion",
-         a, b);
-    hint(err,
-         "let the run end before, `until = %s` of the definition; or take a smaller step, where the motion only comes "
-         "near to it",
-         a);
+    if (what == MOTUS_SINGULAR)
+        fail(err, what,
+             "the run passes a singularity of the force between t = %s and t = %s, which the step does not resolve; "
+             "what follows is not the motion",
+             a, b);
+    else
+        fail(err, what, "the step does not resolve the force between t = %s and t = %s; what follows is not the motion",
+             a, b);
+    if (what == MOTUS_SINGULAR)
+        hint(err,
+             "let the run end before, `until = %s` of the definition; or take a smaller step, where the motion only "
+             "comes near to it",
+             a);
+    else
+        hint(err, "take a smaller step");
     if (err) err->time = from;
-    return MOTUS_SINGULAR;
+    return what;
 }
 
 static motus_status walk(judge *j, motus_error *err)
@@ -217,7 +216,8 @@ static motus_status walk(judge *j, motus_error *err)
         if (status != MOTUS_OK) break;
         if (may_meet_pole(j)) {
             const double from = j->from.t;
-            if (passes_pole(j)) return accuse(j, from, err);
+            const motus_status what = judged(j);
+            if (what != MOTUS_OK) return accuse(j, what, from, err);
             observe(j, &j->to, NULL);
         }
         const end kept = j->from;

@@ -127,5 +127,6 @@ int main(int argc, char **argv)
     if (!err.message[0]) fail(&err, status, "%s", motus_status_text(status));
     /* converge and run have already printed their JSON objects, which say which methods failed, and where the run was
      * singular */
-    return complain_show(&err, as_json && status != MOTUS_ORDER && status != MOTUS_SINGULAR);
+    return complain_show(&err,
+                         as_json && status != MOTUS_ORDER && status != MOTUS_SINGULAR && status != MOTUS_UNRESOLVED);
 }

@@ -18,6 +18,7 @@
 #include "cli/walk.h"
 
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 enum { CSV, PLOT, STATE, FILES };
@@ -27,7 +28,7 @@ typedef struct job {
     load model;
     motus_run_def def;
     motus_run *run;
-    motus_error singular; /* its status is MOTUS_SINGULAR where the run has passed a singularity */
+    motus_error singular; /* its status: what motus_run_singular says of the run */
     stop_progress progress;
     double start, until;
     csv csv;
@@ -151,7 +152,13 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     motus_status status = o->save_state ? save(j, err) : MOTUS_OK;
     if (!status && o->plot) status = figure_draw(&j->figure, o->plot, &j->files[PLOT], err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
-    summary s = {&j->model, o, j->run, &j->deviation, j->start, seconds, j->singular.time};
+    summary s = {&j->model,
+                 o,
+                 j->run,
+                 &j->deviation,
+                 j->start,
+                 seconds,
+                 j->singular.status == MOTUS_SINGULAR ? j->singular.time : NAN};
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))

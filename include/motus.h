@@ -92,7 +92,8 @@ MOTUS_API const char *motus_version(void);
     X(METHOD, "method", "the method does not admit this model", 2)             \
     X(STATE, "state", "the restart state does not fit this run", 2)            \
     X(UNAVAILABLE, "unavailable", "not available in this version", 2)          \
-    X(SINGULAR, "singular", "the run passes a singularity of the force", 1)
+    X(SINGULAR, "singular", "the run passes a singularity of the force", 1)    \
+    X(UNRESOLVED, "unresolved", "the step does not resolve the force", 1)
 
 #define MOTUS_STATUS_ENUMERATOR(name, word, text, exit) MOTUS_##name,
 typedef enum motus_status {
@@ -118,7 +119,7 @@ typedef struct motus_error {
     /* CALLBACK: what the callback returned; 0: it reads the velocity, though its definition says that it does not. Else
      * 0. */
     int returned;
-    double time;                   /* DIVERGED, SOLVE, CALLBACK, SINGULAR: the time of the failure; else NaN */
+    double time; /* DIVERGED, SOLVE, CALLBACK, SINGULAR, UNRESOLVED: the time of the failure; else NaN */
     char variable[MOTUS_NAME_MAX]; /* DIVERGED, SOLVE: the number that failed, "r[3].y"; else "" */
     char message[MOTUS_TEXT_MAX];  /* one sentence, UTF-8, without a newline, safe to print on a terminal */
     char hint[MOTUS_TEXT_MAX];     /* what to do, or "" */
@@ -554,10 +555,11 @@ typedef struct motus_statistics {
 } motus_statistics;
 MOTUS_API motus_status motus_run_statistics(const motus_run *, motus_statistics *);
 /* Whether such a run passes a singularity of the force, which its step does not resolve: the state after it is a finite
- * number, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time. The call takes the run's
- * steps once more, by the interpreter, so that runs cost no more; it stops after MOTUS_SINGULAR_WORK operations, and
- * where a step fails. MOTUS_OK besides: also for a callback and for a model with families, whose poles are not known.
- * The definition's hooks are not called. Fails besides as motus_run_create does. */
+ * number, but not the motion. MOTUS_SINGULAR: it does, in a step that begins at err->time. MOTUS_UNRESOLVED: such a
+ * step comes near to one, or to a narrow peak of the force, and leads elsewhere than smaller ones. The call takes the
+ * run's steps once more, by the interpreter, so that runs cost no more; it stops after MOTUS_SINGULAR_WORK operations,
+ * and where a step fails. MOTUS_OK besides: also for a callback and for a model with families, whose poles are not
+ * known. The definition's hooks are not called. Fails besides as motus_run_create does. */
 #define MOTUS_SINGULAR_WORK 2e7
 MOTUS_API motus_status motus_run_singular(motus_system *, const motus_run_def *, motus_error *);
 /* Why "auto" uses the interpreter although the run is long enough to compile, or "". */

@@ -123,11 +123,11 @@ export class Core {
   start(lab: number, method: string, step: number | null, until: number | null): void {
     this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(until))));
   }
-  /** Where such a run passes a singularity of the force, so that what follows is not the motion; null: nowhere, as far as it was examined. */
+  /** Where such a run passes a singularity of the force, or does not resolve the force, so that what follows is not the motion; null: nowhere, as far as it was examined. */
   singular(lab: number, method: string, step: number | null, until: number | null): Problem | null {
     const found = this.texts([method], (at) => (this.exports.lab_singular(lab, at, NaNs(step), NaNs(until)) === 0 ? null : this.problem(lab)));
     if (found?.kind === 'memory') throw new Refused(found);
-    return found?.kind === 'singular' ? found : null;
+    return found?.kind === 'singular' || found?.kind === 'unresolved' ? found : null;
   }
   /** Rows of columns, one after the other, every `every` steps; the first row is the present state if `first`. */
   record(lab: number, columns: readonly number[], every: number, rows: number, first: boolean): Rows {

@@ -62,7 +62,7 @@ export interface Track {
   readonly step: number; readonly steps: number; readonly total: number; readonly lastStep: number; readonly evaluations: number; readonly every: number;
   /** Why it stopped before the end: with the time and the variable. What was computed until then stands. */
   readonly problem: Problem | null;
-  /** Where it passes a singularity of the force: what follows is not the motion. */
+  /** Where it passes a singularity of the force, or does not resolve the force: what follows is not the motion. */
   readonly singular: Problem | null;
 }
 

@@ -301,6 +301,10 @@ that "... its JSON is one object" json "$out"
 that "... that has the time" holds '.singularity == 1.11 and .steps == 2000'
 gives "... but not before it" 0 "$motus" run fall.motus --until 1.1 --json
 that "... whose JSON has none" holds '.singularity == null'
+sed 's/-1.x^2/-x\/(x^2 + 1e-6)^1.5/; s/step.*/step 0.01/' fall.motus >narrow.motus
+gives "a step that does not resolve the force" 1 "$motus" run narrow.motus --json
+that "... is told" grep -q "the step does not resolve the force between t = 1.11 and t = 1.12" "$err"
+that "... and is no singularity" holds '.singularity == null'
 printf "x'' = 1/(1 - t)\nx(0) = 0\nx'(0) = 0\nmethod rk4\nstep 0.25\nuntil 2\n" >pole.motus
 refuses "a division by zero on the way" 1 "t = " "$motus" run pole.motus -o pole.csv
 that "... leaves no file" absent pole.csv

@@ -96,8 +96,8 @@ LAB_CALL(lab_start) motus_status lab_start(lab *l, const char *method, double st
     return motus_run_create(l->system, &def, &l->run, &l->error);
 }
 
-/* Whether such a run passes a singularity of the force (motus_run_singular): MOTUS_SINGULAR, and lab_problem says
- * where. */
+/* Whether such a run passes a singularity of the force (motus_run_singular): MOTUS_SINGULAR or MOTUS_UNRESOLVED, and
+ * lab_problem says where. */
 LAB_CALL(lab_singular) motus_status lab_singular(lab *l, const char *method, double step, double until)
 {
     motus_run_def def = motus_default_run();

@@ -75,6 +75,15 @@ static interval corners(operation op, interval a, interval b)
     return r;
 }
 
+/* A base that is 0 or below has a power where the exponent is positive, or an integer. */
+static interval power(interval a, interval b)
+{
+    const bool whole = single(b) && b.low == floor(b.low), even = whole && b.low == 2 * floor(b.low / 2);
+    const bool pole = a.low <= 0 && a.high >= 0 && !(b.low > 0);
+    if (pole || (a.low < 0 && !whole)) return anything;
+    return corners(OP_POW, even ? interval_magnitude(a) : a, b);
+}
+
 interval interval_value(operation op, interval a, interval b, interval c, bool same)
 {
     switch (op) {
@@ -101,7 +110,7 @@ interval interval_value(operation op, interval a, interval b, interval c, bool s
     case OP_ABS: return even(op, a);
     case OP_LOG: return a.low > 0 ? rising(op, a) : anything;
     case OP_SQRT: return a.low >= 0 ? rising(op, a) : anything;
-    case OP_POW: return a.low > 0 ? corners(op, a, b) : anything;
+    case OP_POW: return power(a, b);
     case OP_HYPOT: return corners(op, interval_magnitude(a), interval_magnitude(b));
     case OP_ATAN2: return b.low > 0 ? corners(op, a, b) : (interval){-half_turn, half_turn};
     case OP_MIN:
