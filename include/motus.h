@@ -469,10 +469,11 @@ typedef enum motus_switches {
      * rounding of the time, where a piece ends. The times after steps are those of other runs. The interpreter computes
      * such a run where the model has switches. It cannot be traced, sampled, saved or restored. */
     MOTUS_SWITCHES_LOCATE,
-    /* As MOTUS_SWITCHES_LOCATE; and where the force has an operation that may change from one regime to another and
-     * back within a step, as exp(-z²) does at its peak, steps are taken in pieces over which it cannot, and which are
-     * halved until two halves give the same as one. MOTUS_SOLVE: that is not reached, since the force changes too fast.
-     * Reference solutions are runs of this kind. */
+    /* As MOTUS_SWITCHES_LOCATE; pieces are also short enough that no switch changes its side and changes back within
+     * one, however narrow its window; and where the force has an operation that may change from one regime to another
+     * and back, as exp(-z²) does at its peak, they are halved until it cannot, and until two halves give the same as
+     * one. MOTUS_SOLVE: that is not reached, since the force changes too fast. Reference solutions are runs of this
+     * kind. */
     MOTUS_SWITCHES_RESOLVE
 } motus_switches;
 
