@@ -92,7 +92,7 @@ static void exact_lines_between(void **unused)
         "if(x > 0.3, if(x < 0.30001, 1000, 0), 0)",
         "1000 max(0, 1 - |t - 5.003|/0.0001)",
         "1000 (floor(t + 0.0001) - floor(t))",
-        "if(mod(t, 3.003) < 0.0001, 1000, 0)",
+        "if(mod(t + 1, 3.003) < 0.0001, 1000, 0)",
     };
     for (size_t k = 0; k < sizeof pulses / sizeof *pulses; k++) {
         char text[256];
