@@ -92,7 +92,7 @@ static void exact_lines_between(void **unused)
         "if(x > 0.3, if(x < 0.30001, 1000, 0), 0)",
         "1000 max(0, 1 - |t - 5.003|/0.0001)",
         "1000 (floor(t + 0.0001) - floor(t))",
-        "if(mod(t, 3.003) < 0.0001, 1000, 0)",
+        "if(mod(t + 1, 3.003) < 0.0001, 1000, 0)",
     };
     for (size_t k = 0; k < sizeof pulses / sizeof *pulses; k++) {
         char text[256];
@@ -227,6 +227,15 @@ static void true_invariants(void **unused)
         "x'' = 1/(4 x^3)\nx(0) = 1\nx'(0) = 0\ninvariant e = x'^2 + 1/(4 x^2)\nuntil -5\n",
         "x'' = -x\n" START "invariant e = x'' + x\n",
         "x'' = -x\n" START "invariant one = 1\n",
+        /* kinks and jumps along the whole run */
+        "x'' = -floor(x)\nx(0) = 3.3\nx'(0) = 0\ninvariant e = x'^2/2 + floor(x) (x - floor(x)) + floor(x) (floor(x) "
+        "- 1)/2\nuntil 100\n",
+        "x'' = -x - 0.1 sign(x')\n" START "w' = 0.1 |x'|\nw(0) = 0\ninvariant e = x^2/2 + x'^2/2 + w\nuntil 30\n",
+        /* of this motion alone two terms jump at once, which they do one by one along runs */
+        "x'' = -x\n" START "invariant e = |x| - |cos(t)|\nuntil 100\n",
+        "x'' = -x\n" START "invariant e = max(x, 0) - max(cos(t), 0)\nuntil -100\n",
+        "x'' = -x\n" START "invariant e = sign(x) - sign(cos(t))\nuntil 100\n",
+        "x'' = -x\n" START "invariant e = atan2(x', x) + t - 2 pi floor((t + pi)/(2 pi))\nuntil 100\n",
     };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) takes(texts[k]);
 }
@@ -249,6 +258,25 @@ static void false_invariants(void **unused)
             "1..N\nx[i]'(0) = 0 for i = 1..N\ninvariant e = sum(i = 1..N: x[i]'^2/2) + sum(i = 0..N: (x[i+1] - "
             "x[i])^2/2)\nuntil 20\n",
             "e is no invariant", "", 7);
+}
+
+/* Late, for a short time, or by a jump of the invariant itself. */
+static void late_changes(void **unused)
+{
+    (void)unused;
+    static const char *const frictions[] = {"if(t > 9, x', 0)", "exp(-((x + 0.9)/0.001)^2) x'",
+                                            "if(x < -0.9, if(x > -0.901, x', 0), 0)",
+                                            "if(t > 5, if(t < 5.001, x', 0), 0)"};
+    static const char *const jumps[] = {"floor(x - 0.5)", "sign(x)", "x'^2 + x^2 + if(t > 9, 1, 2)"};
+    char text[256];
+    for (size_t k = 0; k < sizeof frictions / sizeof *frictions; k++) {
+        snprintf(text, sizeof text, "x'' = -x - %s\n" START "invariant e = x'^2/2 + x^2/2\nuntil 10\n", frictions[k]);
+        refuses(text, "e is no invariant", "it changes at the rate", 4);
+    }
+    for (size_t k = 0; k < sizeof jumps / sizeof *jumps; k++) {
+        snprintf(text, sizeof text, "x'' = -x\n" START "invariant e = %s\nuntil 10\n", jumps[k]);
+        refuses(text, "e is no invariant", "it jumps from", 4);
+    }
 }
 
 /* Numbers that are set are checked as those of the text. */
@@ -275,7 +303,7 @@ int main(void)
         cmocka_unit_test(starts_of_exact_runs), cmocka_unit_test(exact_lines_between),
         cmocka_unit_test(exact_lines_unseen),   cmocka_unit_test(exact_callbacks),
         cmocka_unit_test(true_invariants),      cmocka_unit_test(false_invariants),
-        cmocka_unit_test(set_numbers),
+        cmocka_unit_test(late_changes),         cmocka_unit_test(set_numbers),
     };
     return cmocka_run_group_tests_name("verify", tests, NULL, NULL);
 }

@@ -1,10 +1,10 @@
 /* Whether a term may jump where its formula shows no step: y/|y| and tanh(1/y) do at y = 0, atan2 on its cut.
  *
- * A quotient of analytic functions has a pole where its divisor is 0, or no singularity worth the name, and never a
- * jump. A formula that is continuous but not analytic, as |y| is, has none either. The two together may have one; so may
- * a function of what has a pole. Not so where the divisor is 0 at points, lines or other places of codimension 2 at
- * least, as |r| is: the force is continuous on all ways round them. Invariant: a term of which no jump is reported has
- * none across a hypersurface but those of its steps.
+ * A quotient of analytic functions has a pole where its divisor is 0, or a limit there, and never a jump. A formula
+ * that is continuous but not analytic, as |y| is, has none either. The two together may have one; so may a function of
+ * what has a pole. Not so where the divisor is 0 at points, lines or other places of codimension 2 at least, as |r| is:
+ * the force is continuous on all ways round them. Invariant: a term of which no jump is reported has none across a
+ * hypersurface but those of its steps.
  */
 #include "lang/model/algebra.h"
 

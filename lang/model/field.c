@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WORK = 1500000, DEPTH_MAX = 100 };
+enum { WORK = 1500000, WORK_CONSERVED = 200000, DEPTH_MAX = 100 };
 
 typedef struct field {
     algebra algebra;
@@ -254,6 +254,52 @@ bool field_prove(model *m, bool in_v, const double *masses, field_proof *out)
         out->holds = !out->jumps && symmetric(&f, f.force) && !f.algebra.lost;
         out->refuted = f.refuted;
         out->single = out->holds && !in_v && single(&f) && !f.algebra.lost;
+    }
+    const bool memory = !f.algebra.arena.failed && !m->arena->failed;
+    algebra_end(&f.algebra);
+    return memory;
+}
+
+/* What is conserved ------------------------------------------------------------------------------------------------ */
+
+/* Whether dp/dt = ∂p/∂t + v ∂p/∂x + a ∂p/∂v is zero, and p does not jump. */
+static bool conserved(field *f, poly p)
+{
+    algebra *A = &f->algebra;
+    for (uint32_t k = 0; k < A->polys[p].count; k++) {
+        const uint32_t of = A->polys[p].terms[k].of;
+        if (algebra_jump(A, of, SPACE_X, f->cell) || algebra_jump(A, of, SPACE_V, f->cell)) return false;
+    }
+    poly rate = algebra_slope(A, p, algebra_place(A, SPACE_OUT, 0));
+    for (uint32_t k = 0; k < f->cells && !A->lost; k++) {
+        rate = algebra_add(A, rate, 1, algebra_times(A, algebra_slope(A, p, f->atom[k]), f->force[k]));
+        if (f->place[k] >= A->model->nx) continue;
+        const poly by_x = algebra_slope(A, p, algebra_place(A, SPACE_X, f->place[k]));
+        rate = algebra_add(A, rate, 1, algebra_times(A, by_x, algebra_of_atom(A, f->atom[k], 1, 1, -INFINITY)));
+    }
+    return algebra_zero(A, &rate);
+}
+
+static bool conserved_cells(field *f, const output *o, int level, int64_t *index)
+{
+    algebra *A = &f->algebra;
+    if (level == o->loops) return conserved(f, algebra_read(A, o->value, index));
+    const int64_t *ints = A->model->ints, last = graph_subscript(&o->loop[level].last, index, ints);
+    for (int64_t k = graph_subscript(&o->loop[level].first, index, ints); k <= last; k++) {
+        index[level] = k;
+        if (!conserved_cells(f, o, level + 1, index)) return false;
+    }
+    return true;
+}
+
+bool field_conserves(model *m, const model_definition *d, bool *proved)
+{
+    field f = {.space = SPACE_V};
+    const bool began = algebra_begin(&f.algebra, m, WORK_CONSERVED);
+    *proved = began && !m->driven && read_force(&f, m);
+    for (size_t k = 0; k < d->output_count && *proved; k++) {
+        int64_t index[MAX_LEVELS] = {0};
+        *proved = conserved_cells(&f, &d->outputs[k], 0, index) && !f.algebra.lost;
     }
     const bool memory = !f.algebra.arena.failed && !m->arena->failed;
     algebra_end(&f.algebra);

@@ -18,6 +18,8 @@ typedef struct field_proof {
 /* Of M da/dx that it is symmetric, with the masses M of all numbers of v (NULL: 1); or of da/dv (in_v) that it is
  * antisymmetric. False: no memory. */
 bool field_prove(model *, bool in_v, const double *masses, field_proof *);
+/* Whether the quantity is proved to be constant along every motion. False: no memory. */
+bool field_conserves(model *, const model_definition *, bool *proved);
 /* Whether the force may jump where a place passes some value, which its derivatives do not show. */
 bool field_jumps(model *);
 

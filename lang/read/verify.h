@@ -8,6 +8,7 @@
 #ifndef LANG_READ_VERIFY_H
 #define LANG_READ_VERIFY_H
 
+#include "lang/model/resolution.h"
 #include "lang/read/read.h"
 #include "lang/tape/tape.h"
 
@@ -22,8 +23,11 @@ typedef struct verify {
     tape *boundary, *force, *force_rounding;
     tape *motion, *motion_rounding, *second, *second_rounding; /* of exact lines */
     tape *boundary_second;                                     /* the acceleration of boundary cells */
-    tape **rate, **rate_rounding; /* for each definition; NULL: it is no invariant, or none that is checked */
-    size_t numbers;               /* of the largest invariant */
+    tape **rate, **rate_rounding;   /* for each definition; NULL: it is no invariant, or none that is checked */
+    tape **value, **value_rounding; /* likewise, of invariants with kinks */
+    bool *proved;                   /* likewise */
+    resolution *along;              /* of the force and of invariants; NULL: nothing to resolve */
+    size_t numbers;                 /* of the largest invariant */
     struct verify_between *between;
 } verify;
 
@@ -65,6 +69,10 @@ typedef struct verify_fault {
     double pole;   /* the time of a pole of the exact motion; NaN: none was found */
 } verify_fault;
 
+/* The resolution of lists of outputs with their switches, those that go into x and v in the first list; *out NULL:
+ * there is nothing to resolve. *sums becomes true where switches within sums are left out. False: no memory. */
+bool verify_resolution(model *, const output *const lists[], const size_t counts[], size_t n, resolution **out,
+                       bool *sums);
 bool verify_between_make(model *);
 /* Sets exact_between of the model. MOTUS_OK, or MOTUS_MEMORY. */
 motus_status verify_between(model *, verify_sample *, verify_fault *);

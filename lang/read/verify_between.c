@@ -8,7 +8,6 @@
 #include "lang/read/verify.h"
 
 #include "lang/graph/graph_walk.h"
-#include "lang/model/resolution.h"
 
 #include <math.h>
 #include <string.h>
@@ -69,8 +68,8 @@ static node switched_at(graph *g, const graph_node *n)
     }
 }
 
-/* Adds the switches of one output to a list, as outputs into accelerations; `to` NULL: counts them. */
-static bool add_switches(model *m, struct verify_between *b, const output *o, output *to, size_t *count)
+/* Adds the switches of one output to a list, as outputs that go into no place; `to` NULL: counts them. */
+static bool add_switches(model *m, const output *o, output *to, size_t *count, bool *sums)
 {
     graph *g = m->graph;
     graph_walk w;
@@ -85,18 +84,34 @@ static bool add_switches(model *m, struct verify_between *b, const output *o, ou
         if (!zero || !(graph_deps(g, zero) & MOVING)) continue;
         const unsigned outer = (1u << o->loops) - 1, levels = (1u << MAX_LEVELS) - 1;
         if (graph_deps(g, zero) & levels & ~outer) {
-            b->sums = true;
+            *sums = true;
             continue;
         }
         output *made = &to[(*count)++];
         *made = *o;
         made->value = graph_op(g, OP_DIV, graph_const(g, 1), zero, 0);
         const space s = m->arrays[o->to.array].space;
-        const int from = s == SPACE_X ? BLOCK_X : s == SPACE_V ? BLOCK_V : BLOCK_A;
-        made->to.array = (uint16_t)(o->to.array - m->block[from] + m->block[BLOCK_A]);
+        if (s == SPACE_X) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_X] + m->block[BLOCK_A]);
+        if (s == SPACE_V) made->to.array = (uint16_t)(o->to.array - m->block[BLOCK_V] + m->block[BLOCK_A]);
     }
     give(&m->arena->allocator, w.nodes);
     return true;
+}
+
+bool verify_resolution(model *m, const output *const lists[], const size_t counts[], size_t n, resolution **out,
+                       bool *sums)
+{
+    size_t plain = 0, room = 0, count = 0;
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < counts[l]; k++, plain++)
+            if (!add_switches(m, &lists[l][k], NULL, &room, sums)) return false;
+    output *all = arena_room(m->arena, (plain + room + 1) * sizeof *all);
+    if (!all) return false;
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < counts[l]; k++) all[count++] = lists[l][k];
+    for (size_t k = 0; k < plain; k++)
+        if (!add_switches(m, &all[k], all, &count, sums)) return false;
+    return resolution_create(m, all, count, count > plain, out);
 }
 
 bool verify_between_make(model *m)
@@ -105,20 +120,7 @@ bool verify_between_make(model *m)
     if (!b || !m->verify->bounded) return b != NULL;
     const output *const lists[] = {m->exact, m->boundary, m->accel};
     const size_t counts[] = {m->exact_count, m->boundary_count, m->accel_count};
-    output *all = NULL;
-    size_t first = 0, count = 0;
-    for (int made = 0; made < 2; made++) { /* counts, then makes */
-        for (int l = 0; l < 3; l++)
-            for (size_t k = 0; k < counts[l]; k++, first += !made)
-                if (made) all[first++] = lists[l][k];
-        if (made) count = first;
-        for (int l = 0; l < 3; l++)
-            for (size_t k = 0; k < counts[l]; k++)
-                if (!add_switches(m, b, &lists[l][k], all, &count)) return false;
-        if (!made && !(all = arena_room(m->arena, (first + count + 1) * sizeof *all))) return false;
-        if (!made) first = count = 0;
-    }
-    return resolution_create(m, all, count, count > first, &b->force) &&
+    return verify_resolution(m, lists, counts, 3, &b->force, &b->sums) &&
            resolution_create_poles(m, m->exact, m->exact_count, &b->poles);
 }
 
