@@ -332,6 +332,7 @@ static double leap(const locate *l)
 typedef struct near {
     const motus_run *run;
     const place *at;
+    bool straight; /* the positions move evenly, so that powers of them are powers of the time */
 } near;
 
 /* The acceleration of the model itself, whose switches choose their sides. */
@@ -341,6 +342,7 @@ static bool force_near(void *ctx, double way, double *a)
     const problem *p = &n->run->system->problem;
     place *beyond = &n->run->locate->beyond;
     follow(p, n->at, way, beyond->x, beyond->v);
+    for (size_t k = 0; n->straight && k < p->nx; k++) beyond->x[k] = n->at->x[k] + way * n->at->v[k];
     for (size_t k = 0; k < p->nv; k++) a[k] = 0;
     return p->accel(p->ctx, n->at->t + way, beyond->x, beyond->v, a) == 0;
 }
@@ -349,7 +351,7 @@ static bool force_near(void *ctx, double way, double *a)
 static void note_jump(motus_run *r, const place *at, double h)
 {
     locate *l = r->locate;
-    near n = {r, at};
+    near n = {r, at, false};
     if (l->jump <= 0) return;
     const problem *p = &l->problem;
     double rounding = fabs(at->t);
@@ -358,7 +360,10 @@ static void note_jump(motus_run *r, const place *at, double h)
         const double off = 0x1p-52 * fabs(at->x[k]), late = fmin(off / fabs(at->v[k]), sqrt(off / fabs(at->a[k])));
         if (late > rounding && late <= DBL_MAX) rounding = late;
     }
-    const double power = jump_power(force_near, &n, p->nv, h, rounding, l->room);
+    double power = jump_power(force_near, &n, p->nv, h, rounding, l->room);
+    n.straight = isnan(power);
+    for (size_t k = 0; k < p->nx; k++) n.straight = n.straight && !(fabs(at->v[k]) < fabs(h * at->a[k]));
+    if (n.straight) power = jump_power(force_near, &n, p->nv, h, rounding, l->room);
     if (isnan(power) || power >= l->jump - ALIKE) return; /* false where there was none */
     l->jump = power;
     l->jump_time = at->t;

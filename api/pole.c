@@ -1,9 +1,9 @@
 /* See pole.h.
  *
- * Interval arithmetic gives up the parts of the way without a pole, by halvings. What is left is so short that a divisor
- * is 0 in it. The force need not be infinite there, as sin(x)/x is not, and may have an integral, as 1/sqrt(|x|) has;
- * so its power of the time is read off its changes near the place. Invariant: a pole is found whatever its strength, as
- * far as the rounding of times and states lets the force change by more than its own rounding.
+ * Interval arithmetic gives up the parts of the way without a pole, by halvings. What is left is so short that a
+ * divisor is 0 in it. The force need not be infinite there, as sin(x)/x is not, and may have an integral, as
+ * 1/sqrt(|x|) has; so its power of the time is read off its changes near the place. Invariant: a pole is found
+ * whatever its strength, as far as the rounding of times and states lets the force change by more than its own.
  */
 #include "api/pole.h"
 

@@ -15,8 +15,8 @@ typedef struct pole_way {
     double *room;  /* 4 nv numbers */
 } pole_way;
 
-/* A divisor (or what else has a pole: lang/model/resolution.h) passes or touches 0 on the way, and the force grows there
- * as the inverse of the time, or faster. */
+/* A divisor (or what else has a pole: lang/model/resolution.h) passes or touches 0 on the way, and the force grows
+ * there as the inverse of the time, or faster. */
 bool pole_on(const pole_way *);
 
 #endif

@@ -3,8 +3,8 @@
  * Interval arithmetic over the states of a step tells where a divisor may be 0 (lang/model/resolution.h). Such a step
  * is then taken once more from its start, by steps that error control chooses. Either they come to a halt, at a
  * singularity; or they pass a pole, too weak for their error to show it; or they lead to another state than the run's
- * step: then the run alone has passed a pole, or its step only does not resolve the force. Invariant: a step that agrees
- * with the controlled ones, which pass no pole, is not accused, however near to one it leads.
+ * step: then the run alone has passed a pole, or its step only does not resolve the force. Invariant: a step that
+ * agrees with the controlled ones, which pass no pole, is not accused, however near to one it leads.
  */
 #include "api/pole.h"
 #include "api/run.h"

@@ -221,6 +221,7 @@ static node touch_argument(graph *g, const graph_node *n, node a, node b)
     const graph_node *e = &g->nodes[n->b];
     switch ((operation)n->op) {
     case OP_SQRT: return a;
+    case OP_CBRT: return graph_op(g, OP_ABS, a, 0, 0); /* which also touches 0 from below */
     case OP_POW: return e->op == OP_CONST && e->value == floor(e->value) ? 0 : a;
     case OP_ASIN:
     case OP_ACOS: return graph_op(g, OP_SUB, graph_const(g, 1), graph_op(g, OP_MUL, a, a, 0), 0);
@@ -320,6 +321,7 @@ static node rewrite(builder *b, node root, const nest *around)
             }
             if (is_switch(g, &n)) {
                 const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
+                if (n.op == OP_CBRT) note_touch(b, w.nodes[k], to[0], to[1], around);
                 if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
             } else {
                 if (changed) map[k] = graph_op(g, n.op, to[0], to[1], to[2]);

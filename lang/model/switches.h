@@ -5,8 +5,8 @@
  * held, the force is smooth, also beyond the place where a switch would change its side; so a step can lead across that
  * place, and a root of the argument tells where it is. In a family there is a switch for each cell.
  *
- * A touch is a place where a formula has no derivative without changing: sqrt, a power or hypot at 0, asin and acos at
- * ±1, atan2 on its cut. Its argument is positive elsewhere, and 0 there.
+ * A touch is a place where a formula has no derivative without changing: sqrt, cbrt, a power or hypot at 0, asin and
+ * acos at ±1, atan2 on its cut. Its argument is positive elsewhere, and 0 there.
  */
 #ifndef LANG_MODEL_SWITCHES_H
 #define LANG_MODEL_SWITCHES_H
