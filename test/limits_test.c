@@ -56,7 +56,7 @@ static const limit limits[] = {
     {"threads", MOTUS_THREADS_MAX, NULL, NULL},
     {"numbers of a state whose Jacobian matrix is asked for", MOTUS_JACOBIAN_MAX, NULL, NULL},
     {"bytes of the matrix of an implicit method", SOLVER_BAND_BYTES_MAX, NULL, NULL},
-    {"pieces of one step that is located at its switches", 20000, "api/locate.c", "20000, /* in one step"},
+    {"pieces of one step that is located at its switches", 20000, "api/locate_piece.c", "PIECES_MAX = 20000"},
     {"switches of a model that are located, cells counted", SWITCHES_MAX, NULL, NULL},
     {"controlled steps to tell whether a run has passed a singularity", 50000, "api/singular.c", "PIECES_MAX = 50000"},
     {"operations of a model that is computed in lanes", OPERATIONS_MAX, NULL, NULL},
