@@ -40,6 +40,7 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
     } catch (e) {
       said = e.problem.message;
     }
+    if (said === '' && run.status !== 0) said = core.singular(lab, method, null, until)?.message ?? '';
     const both = `${file} by ${method}`;
     if (run.status !== 0) judge(both, said !== '' && run.stderr.includes(said), `the program says ${run.stderr}, the module ${said || 'nothing'}`);
     else judge(both, said === '' && core.save(lab) === readFileSync(state, 'utf8'), said);
