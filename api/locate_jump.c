@@ -55,8 +55,7 @@ void locate_note(motus_run *r, const place *at, double h)
     near n = {r, at, false};
     if (l->jump <= 0) return;
     const problem *p = &l->problem;
-    double rounding = fabs(at->t);
-    rounding *= 0x1p-52;
+    double rounding = 0x1p-52 * fabs(at->t);
     for (size_t k = 0; k < p->nx; k++) { /* the time in which x moves by its rounding */
         const double off = 0x1p-52 * fabs(at->x[k]), late = fmin(off / fabs(at->v[k]), sqrt(off / fabs(at->a[k])));
         if (late > rounding && late <= DBL_MAX) rounding = late;
@@ -109,7 +108,7 @@ static motus_status least_of(motus_run *r, size_t k, double h, double rate0, dou
     return status;
 }
 
-/* As find_dip, for the first touch in the step: the force is not smooth there, although no argument changes its
+/* As locate_dip, for the first touch in the step: the force is not smooth there, although no argument changes its
  * side. */
 motus_status locate_touch(motus_run *r, double h, double *fraction, motus_error *err)
 {

@@ -17,6 +17,12 @@ motus_status locate_slides(const motus_run *r, size_t k, motus_error *err)
     return MOTUS_SOLVE;
 }
 
+/* An argument just before its root is still on the other side: it may be, twice as far as now. */
+static void give_slack(locate *l, size_t k, const place *at)
+{
+    l->slack[k] = fmax(0, -2 * switches_gap(held_operation(l->held, k), l->side[k], at->u[k]));
+}
+
 /* Changes the sides of all arguments that have left theirs at `to`. Returns one of them, or `count`. */
 size_t locate_change(locate *l)
 {
@@ -28,7 +34,7 @@ size_t locate_change(locate *l)
             l->side[k] = switches_beyond(op, l->side[k], l->to.u[k]);
             changed = k;
         }
-        l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], l->to.u[k]));
+        give_slack(l, k, &l->to);
     }
     return changed;
 }
@@ -58,8 +64,7 @@ size_t locate_change_ahead(locate *l, double way)
     memcpy(l->to.v, l->beyond.v, p->nv * sizeof(double));
     l->to.t += 2 * part * way;
     held_values(l->held, l->to.t, l->to.x, l->to.v, l->to.u);
-    for (size_t k = 0; k < l->count; k++)
-        l->slack[k] = fmax(0, -2 * switches_gap(held_operation(l->held, k), l->side[k], l->to.u[k]));
+    for (size_t k = 0; k < l->count; k++) give_slack(l, k, &l->to);
     return changed;
 }
 
@@ -89,7 +94,7 @@ motus_status locate_settle(motus_run *r, motus_error *err)
             const operation op = held_operation(l->held, k);
             if (!(locate_gap(l, k, at) < 0)) continue;
             l->side[k] = switches_side(op, at->u[k], 0);
-            l->slack[k] = fmax(0, -2 * switches_gap(op, l->side[k], at->u[k]));
+            give_slack(l, k, at);
             changed = true;
         }
         if (!changed) return MOTUS_OK;

@@ -17,6 +17,22 @@ static const operation_row rows[OPERATIONS] = {
 
 const operation_row *operation_at(operation op) { return &rows[op < OPERATIONS ? op : OP_CONST]; }
 
+bool operation_decides(operation op)
+{
+    switch (op) {
+    case OP_LT:
+    case OP_LE:
+    case OP_GT:
+    case OP_GE:
+    case OP_EQ:
+    case OP_NE:
+    case OP_AND:
+    case OP_OR:
+    case OP_NOT: return true;
+    default: return false;
+    }
+}
+
 double operation_value(operation op, double a, double b, double c)
 {
     switch (op) {

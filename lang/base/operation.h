@@ -2,6 +2,7 @@
 #ifndef LANG_BASE_OPERATION_H
 #define LANG_BASE_OPERATION_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Leaves CONST TIME PARAM INDEX LOAD; SUM; NEG ADD SUB MUL DIV; FMA = a*b+c, FMS = a*b-c, FNMA = c-a*b and the leaf
@@ -33,6 +34,7 @@ typedef struct operation_row {
 } operation_row;
 
 const operation_row *operation_at(operation);
+bool operation_decides(operation); /* its value is 0 or 1 */
 /* The value of one operation: the bits that every machine computes. */
 double operation_value(operation, double a, double b, double c);
 

@@ -25,23 +25,7 @@ static node passed_on(graph *g, const graph_node *n, node self, int operand, nod
     return bounded ? product : graph_op(g, OP_SELECT, graph_op(g, OP_NE, error, 0, 0), product, 0);
 }
 
-static bool jumps(const graph_node *n)
-{
-    switch ((operation)n->op) {
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE:
-    case OP_EQ:
-    case OP_NE:
-    case OP_AND:
-    case OP_OR:
-    case OP_NOT:
-    case OP_SIGN:
-    case OP_FLOOR: return true;
-    default: return false;
-    }
-}
+static bool jumps(operation op) { return operation_decides(op) || op == OP_SIGN || op == OP_FLOOR; }
 
 /* The error of one operation, from those of its operands. */
 static node of_operation(graph *g, node self, const node error[3])
@@ -49,7 +33,7 @@ static node of_operation(graph *g, node self, const node error[3])
     const graph_node n = g->nodes[self];
     node operand[3];
     const int arity = graph_operands(&n, operand);
-    if (jumps(&n)) return 0;
+    if (jumps((operation)n.op)) return 0;
     if (n.op == OP_SUM) {
         const node body = error[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, error[0]) : 0;
         return graph_op(g, OP_ADD, body, size_of(g, self), 0);

@@ -26,29 +26,12 @@ static poly leaf(algebra *A, const graph_node *n, const int64_t *index)
     return algebra_of_atom(A, algebra_place(A, s, at), 1, 1, -INFINITY);
 }
 
-/* Whether the value is 0 or 1. */
-static bool decides(const graph_node *n)
-{
-    switch ((operation)n->op) {
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE:
-    case OP_EQ:
-    case OP_NE:
-    case OP_AND:
-    case OP_OR:
-    case OP_NOT: return true;
-    default: return false;
-    }
-}
-
 /* The condition as 0 or 1. */
 static poly condition(algebra *A, const graph_node *n, poly p)
 {
     const algebra_poly of = A->polys[p];
     if (of.count == 0 || (of.count == 1 && of.terms[0].of == 0)) return algebra_number(A, of.count > 0);
-    return decides(n) ? p : algebra_lose(A);
+    return operation_decides((operation)n->op) ? p : algebra_lose(A);
 }
 
 static poly total(algebra *A, const graph_node *n, const int64_t *around)

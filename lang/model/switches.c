@@ -101,7 +101,7 @@ static reference place_sides(builder *b, const reference *value)
 
 /* Operations --------------------------------------------------------------------------------------------------- */
 
-static bool is_switch(const graph *g, const graph_node *n)
+bool switches_is(const graph *g, const graph_node *n)
 {
     unsigned deps = 0;
     node operand[3];
@@ -136,7 +136,7 @@ static bool compares(operation op)
     }
 }
 
-static node argument_of(graph *g, operation op, node a, node b)
+node switches_argument(graph *g, operation op, node a, node b)
 {
     if (compares(op)) return graph_op(g, OP_SUB, a, b, 0);
     return op == OP_MOD ? graph_op(g, OP_DIV, a, b, 0) : a;
@@ -207,8 +207,8 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     b->last[n] = k + 1;
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
-    s->argument[k].value = argument_of(g, original.op, original.a, original.b);
-    s->held[k].value = argument_of(g, original.op, a, c);
+    s->argument[k].value = switches_argument(g, original.op, original.a, original.b);
+    s->held[k].value = switches_argument(g, original.op, a, c);
     s->rate[k].value = graph_derivative(g, s->held[k].value, seed_motion, &shift);
     return k;
 }
@@ -246,10 +246,10 @@ static void note_touch(builder *b, node n, node x, node y, const nest *around)
     if (s->touch_kinds == b->touch_room) {
         const uint32_t room = b->touch_room ? 2 * b->touch_room : 16;
         arena *m = b->m->arena;
-        b->touches = arena_grow(m, b->touches, b->touch_room * sizeof *b->touches, room * sizeof *b->touches);
-        s->touch = arena_grow(m, s->touch, b->touch_room * sizeof *s->touch, room * sizeof *s->touch);
+        b->touches = arena_replace(m, b->touches, b->touch_room * sizeof *b->touches, room * sizeof *b->touches);
+        s->touch = arena_replace(m, s->touch, b->touch_room * sizeof *s->touch, room * sizeof *s->touch);
         s->touch_rate =
-            arena_grow(m, s->touch_rate, b->touch_room * sizeof *s->touch_rate, room * sizeof *s->touch_rate);
+            arena_replace(m, s->touch_rate, b->touch_room * sizeof *s->touch_rate, room * sizeof *s->touch_rate);
         if (broken(b)) return;
         b->touch_room = room;
     }
@@ -319,7 +319,7 @@ static node rewrite(builder *b, node root, const nest *around)
                 if (operands_of[k].at[j]) to[j] = map[operands_of[k].at[j] - 1];
                 changed |= to[j] != was;
             }
-            if (is_switch(g, &n)) {
+            if (switches_is(g, &n)) {
                 const uint32_t kind = kind_of(b, w.nodes[k], to[0], to[1], around);
                 if (n.op == OP_CBRT) note_touch(b, w.nodes[k], to[0], to[1], around);
                 if (kind < UINT32_MAX) map[k] = with_side(g, n.op, to[0], to[1], b->kinds[kind].side);
@@ -369,7 +369,7 @@ bool switches_find(model *m, switches *s)
 
 /* Sides -------------------------------------------------------------------------------------------------------- */
 
-static bool counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
+bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
 
 /* 1 where the argument is positive on this side, -1 where it is negative. */
 static double direction(operation op, double side)
@@ -387,7 +387,7 @@ static double direction(operation op, double side)
 
 double switches_side(operation op, double u, double rate)
 {
-    if (counts(op)) return floor(u) == u && rate < 0 ? u - 1 : floor(u);
+    if (switches_counts(op)) return floor(u) == u && rate < 0 ? u - 1 : floor(u);
     const double s = u > 0 ? 1 : u < 0 ? -1 : rate > 0 ? 1 : rate < 0 ? -1 : 0;
     switch (op) {
     case OP_LT: return s < 0;
@@ -402,20 +402,20 @@ double switches_side(operation op, double u, double rate)
 
 double switches_gap(operation op, double side, double u)
 {
-    if (counts(op)) return fmin(u - side, side + 1 - u);
+    if (switches_counts(op)) return fmin(u - side, side + 1 - u);
     const double way = direction(op, side);
     return way != 0 ? way * u : -fabs(u);
 }
 
 double switches_gap_rate(operation op, double side, double u, double rate)
 {
-    if (counts(op)) return u - side < side + 1 - u ? rate : -rate;
+    if (switches_counts(op)) return u - side < side + 1 - u ? rate : -rate;
     return direction(op, side) * rate;
 }
 
 double switches_beyond(operation op, double side, double u)
 {
-    if (counts(op)) return u - side < side + 1 - u ? side - 1 : side + 1;
+    if (switches_counts(op)) return u - side < side + 1 - u ? side - 1 : side + 1;
     if (compares(op)) return 1 - side;
     return side != 0 ? -side : u > 0 ? 1 : -1;
 }

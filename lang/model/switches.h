@@ -33,6 +33,12 @@ typedef struct switches {
 /* Finds the switches of accelerations and boundary lines. False: no memory. */
 bool switches_find(model *, switches *);
 
+/* Whether a node is a switch, and what it compares with 0, or takes the integer part of (switches_counts), with the
+ * operands a and b. */
+bool switches_is(const graph *, const graph_node *);
+node switches_argument(graph *, operation, node a, node b);
+bool switches_counts(operation);
+
 /* The side that belongs to the value u of the argument; where u is 0, or at the lower end of a floor, to the side
  * towards which it moves. */
 double switches_side(operation, double u, double rate);

@@ -8,6 +8,7 @@
 #include "lang/read/verify.h"
 
 #include "lang/graph/graph_walk.h"
+#include "lang/model/switches.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,43 +30,14 @@ struct verify_between {
 
 /* Making it -------------------------------------------------------------------------------------------------------- */
 
-static bool switches(const graph_node *n)
-{
-    switch ((operation)n->op) {
-    case OP_MIN:
-    case OP_MAX:
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE:
-    case OP_ABS:
-    case OP_SIGN:
-    case OP_CBRT:
-    case OP_FLOOR:
-    case OP_MOD: return (n->deps & MOVING) != 0;
-    default: return false;
-    }
-}
-
-/* What is 0 where the operation switches; 0: it is no switch that moves. */
+/* What is 0 where the operation switches; 0: it is no switch. */
 static node switched_at(graph *g, const graph_node *n)
 {
-    if (!switches(n)) return 0;
-    const node pi = graph_const(g, 3.141592653589793);
-    switch ((operation)n->op) {
-    case OP_MIN:
-    case OP_MAX:
-    case OP_LT:
-    case OP_LE:
-    case OP_GT:
-    case OP_GE: return graph_op(g, OP_SUB, n->a, n->b, 0);
-    case OP_ABS:
-    case OP_SIGN:
-    case OP_CBRT: return n->a;
-    case OP_FLOOR: return graph_op(g, OP_SIN, graph_op(g, OP_MUL, pi, n->a, 0), 0, 0);
-    case OP_MOD: return graph_op(g, OP_SIN, graph_op(g, OP_MUL, pi, graph_op(g, OP_DIV, n->a, n->b, 0), 0), 0, 0);
-    default: return 0;
-    }
+    if (!switches_is(g, n)) return 0;
+    const operation op = (operation)n->op;
+    const node u = switches_argument(g, op, n->a, n->b);
+    if (!switches_counts(op)) return u;
+    return graph_op(g, OP_SIN, graph_op(g, OP_MUL, graph_const(g, 3.141592653589793), u, 0), 0, 0);
 }
 
 /* Adds the switches of one output to a list, as outputs that go into no place; `to` NULL: counts them. */
@@ -77,7 +49,7 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
     for (uint32_t k = 0; k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         if (!to) {
-            *count += switches(&n);
+            *count += switches_is(g, &n);
             continue;
         }
         const node zero = switched_at(g, &n);
