@@ -76,12 +76,6 @@ static bool hides_waves(operation op) { return hides(op, true); }
 /* Whether an operation has poles. */
 static bool has_poles(operation op) { return op == OP_DIV || op == OP_POW || op == OP_LOG || op == OP_TAN; }
 
-static bool none_counts(operation op)
-{
-    (void)op;
-    return false;
-}
-
 /* Whether an operation that counts has an argument that moves. */
 static bool any_counts(const resolution *r, uint32_t count)
 {
@@ -120,15 +114,16 @@ static void fill(resolution *r, graph *g, const graph_walk *w, bool (*counts)(op
         step *s = &r->steps[k];
         *s = (step){.node = g->nodes[w->nodes[k]]};
         s->home = home_of(&s->node);
-        s->counts = counts((operation)s->node.op);
+        s->counts = counts && counts((operation)s->node.op);
         s->arity = s->node.op == OP_SUM ? 0 : operation_at((operation)s->node.op)->arity;
         for (int j = graph_operands(&s->node, operand); j-- > 0;) s->operand[j] = g->place[operand[j]];
         find_power(r, k);
-        if (s->power > STEEP) s->counts = counts(OP_POW);
+        if (s->power > STEEP) s->counts = counts && counts(OP_POW);
     }
     for (size_t k = 0; k < r->count; k++) r->root[k] = g->place[r->outputs[k].value];
 }
 
+/* counts NULL: nothing is looked for, but values are asked for. */
 static bool create(model *m, const output *outputs, size_t count, bool (*counts)(operation), resolution **out)
 {
     graph *g = m->graph;
@@ -145,7 +140,7 @@ static bool create(model *m, const output *outputs, size_t count, bool (*counts)
     if (r && steps && stack && root) {
         *r = (resolution){.model = m, .outputs = outputs, .count = count, .steps = steps, .root = root, .stack = stack};
         fill(r, g, &w, counts);
-        if (any_counts(r, w.count) || counts == none_counts) *out = r;
+        if (!counts || any_counts(r, w.count)) *out = r;
     }
     give(&g->arena->allocator, w.nodes);
     return !m->arena->failed;
@@ -158,7 +153,7 @@ bool resolution_create(model *m, const output *outputs, size_t count, bool switc
 
 bool resolution_create_values(model *m, const output *outputs, size_t count, resolution **out)
 {
-    return create(m, outputs, count, none_counts, out);
+    return create(m, outputs, count, NULL, out);
 }
 
 bool resolution_create_poles(model *m, const output *outputs, size_t count, resolution **out)
@@ -309,9 +304,9 @@ static bool compute(resolution *r, step *s)
     const interval none = {0, 0}, a = r->steps[s->operand[0]].interval,
                    b = s->arity > 1 ? r->steps[s->operand[1]].interval : none,
                    c = s->arity > 2 ? r->steps[s->operand[2]].interval : none;
-    const bool found = op == OP_MUL && s->power > STEEP ? r->found(OP_POW, r->steps[s->base].interval, number(s->power))
-                                                        : r->found(op, a, b);
-    if (s->counts && found) return false;
+    const bool power = op == OP_MUL && s->power > STEEP;
+    if (s->counts && (power ? r->found(OP_POW, r->steps[s->base].interval, number(s->power)) : r->found(op, a, b)))
+        return false;
     s->interval = interval_value(op, a, b, c, s->arity > 1 && s->operand[0] == s->operand[1]);
     return true;
 }
@@ -388,16 +383,10 @@ static bool finds(resolution *r, interval t, interval *x, interval *v, const dou
     return false;
 }
 
-static bool nothing(operation op, interval a, interval b)
-{
-    (void)op, (void)a, (void)b;
-    return false;
-}
-
 void resolution_values(resolution *r, interval t, interval *x, interval *v, interval *a, const double *pool,
                        interval *out)
 {
-    begin(r, t, x, v, pool, nothing);
+    begin(r, t, x, v, pool, NULL);
     r->a = a;
     r->out = out;
     for (size_t k = 0; k < r->count; k++) cells(r, k, 0);
