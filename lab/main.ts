@@ -9,7 +9,6 @@ import { nameExports } from './figure/export';
 import { convergence } from './panel/convergence';
 import { driftPanel } from './panel/drift';
 import { errorPanel } from './panel/error';
-import { motionPanel } from './panel/motion';
 import { phasePanel } from './panel/phase';
 import { precision } from './panel/precision';
 import { stability } from './panel/stability';
@@ -18,6 +17,9 @@ import { timePanel } from './panel/time';
 import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
 import { startState } from './shell/address';
+import { stage as makeStage } from './stage/stage';
+import { stagingOf } from './stage/staging';
+import { recall, remember } from './shell/memory';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
@@ -41,17 +43,19 @@ function each(panels: Iterable<Panel>, act: (panel: Panel) => void): void {
   }
 }
 
-/** On a small screen the clock hides the foot of the picture: who plays, and looks at it, is to see all of it. */
-function bringIntoView(picture: Element | null): void {
-  const box = picture?.getBoundingClientRect();
-  if (!box || box.bottom < 0 || box.top > innerHeight) return;
-  picture?.scrollIntoView({ block: 'nearest', behavior: matchMedia('(prefers-reduced-motion: reduce)').matches ? 'auto' : 'smooth' });
+/** Milliseconds after the first picture that nobody touched; then the motion runs once, in its own time. */
+const GENTLE = 600;
+
+/** Where the text that stands on the stage ends; 0 where it stands above. */
+function textEdge(): number {
+  const text = place('words').getBoundingClientRect(), picture = place('stage-picture').getBoundingClientRect();
+  return text.top < picture.bottom - 40 && text.bottom > picture.top + 40 && text.right < picture.right ? Math.round(text.right - picture.left) : 0;
 }
 
 async function start(): Promise<void> {
   const { state, problem } = startState(presets);
   const store = createStore(await createClient(), state);
-  const motion = motionPanel(store), steps = stepsPanel(store), closer = makers.map((make) => make(store));
+  const motion = makeStage(store, { column: textEdge }), steps = stepsPanel(store), closer = makers.map((make) => make(store));
   const always: readonly Panel[] = [motion, steps];
   const open = new Set<Panel>(always);
 
@@ -59,18 +63,17 @@ async function start(): Promise<void> {
     onTime: (t) => each(open, (panel) => panel.at(t)),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
-    onPlay: (playing) => { if (playing) bringIntoView(place('stage-figure').querySelector('.figure-picture')); },
   });
-  const toasts = mountShell(store, closer.map(({ id, title }) => ({ id, title })), () => each(open, (panel) => panel.redraw()));
+  const toasts = mountShell(store, motion, closer.map(({ id, title }) => ({ id, title })), () => each(open, (panel) => panel.redraw()));
   if (problem) toasts.say(problem);
-  place('stage-figure').append(motion.element);
+  place('stage-figure').replaceChildren(motion.element);
   place('step-view').append(steps.element);
   place('transport').append(clock.element);
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
   const card = place('method-card');
-  let carded = '', preset = state.preset;
+  let carded = '', preset = state.preset, shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
@@ -78,6 +81,19 @@ async function start(): Promise<void> {
     store.load(presetState(presets, name));
     place('stage').scrollIntoView();
   });
+
+  /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
+  function gentle(): void {
+    if (recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    const touched = new AbortController(), { signal } = touched;
+    for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => touched.abort(), { capture: true, passive: true, signal });
+    window.setTimeout(() => {
+      if (signal.aborted || document.hidden) return;
+      touched.abort();
+      remember('seen', '1');
+      if (!clock.playing()) clock.toggle();
+    }, GENTLE);
+  }
 
   function showCard(): void {
     const name = family(store.scene?.solution.tracks[0]?.method ?? '');
@@ -113,16 +129,19 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     each(open, (panel) => panel.show(scene));
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
-    // Another example begins at its beginning; a change of this one is seen at the time that one looks at.
-    if (scene.state.preset !== preset) clock.seek(store.numbers.start);
+    // A scene begins with what it comes to, so that the misses are seen.
+    clock.setUnit(stagingOf(scene.state.preset).units?.t ?? '');
+    if (scene.state.preset !== preset || !shown) clock.seek(end);
     preset = scene.state.preset;
+    if (!shown) gentle();
+    shown = true;
     each(open, (panel) => panel.at(clock.time()));
     showCard();
   }
   store.subscribe((what) => {
     // A picture that is not of what is typed looks like it.
     const { model, run, step, until } = store.trouble;
-    document.querySelector('main')?.classList.toggle('stale', Boolean(model || run || step || until));
+    document.body.classList.toggle('stale', Boolean(model || run || step || until));
     if (what === 'scene') show();
     if (what !== 'view') return;
     arrange();

@@ -26,8 +26,8 @@ export interface View {
 
 export type Theme = 'auto' | 'light' | 'dark';
 export type Marker = 'circle' | 'square' | 'triangle' | 'diamond' | 'cross' | 'plus' | 'star' | 'down' | 'ring' | 'bar';
-/** How a method is drawn, in every panel alike. colour: a CSS colour for the present theme. */
-export interface Look { readonly method: string; readonly label: string; readonly colour: string; readonly dash: readonly number[]; readonly marker: Marker }
+/** How a method is drawn, in every panel alike. colour, tone: CSS colours for the present theme, of its line and of letters about it. */
+export interface Look { readonly method: string; readonly label: string; readonly colour: string; readonly tone: string; readonly dash: readonly number[]; readonly marker: Marker }
 
 export interface Scene {
   readonly state: State; readonly description: Description; readonly solution: Solution;

@@ -82,10 +82,10 @@ function labelling(ticks: readonly number[]): (value: number) => string {
   return (v) => minus((Math.abs(v) < step / 8 ? 0 : v).toFixed(decimals));
 }
 
-interface Built extends Scale { readonly minor: readonly number[]; readonly base: number; readonly min: number; readonly max: number }
+export interface Built extends Scale { readonly minor: readonly number[]; readonly base: number; readonly min: number; readonly max: number }
 
 /** from, to: pixels. count: how many ticks there is room for. */
-function build(definition: AxisDefinition, from: number, to: number, count: number): Built {
+export function scaleOf(definition: AxisDefinition, from: number, to: number, count: number): Built {
   const [min, max] = sound(definition);
   if (definition.log) {
     const low = Math.log10(min), high = Math.log10(max), per = (to - from) / (high - low);
@@ -165,8 +165,8 @@ function build(definition: AxisDefinition, from: number, to: number, count: numb
 }
 
 /** Fewer and fewer ticks until the labels along x leave each other room. */
-function buildAlong(definition: AxisDefinition, left: number, right: number): Built {
-  let scale = build(definition, left, right, Math.max(2, Math.round((right - left) / 80)));
+export function scaleAlong(definition: AxisDefinition, left: number, right: number): Built {
+  let scale = scaleOf(definition, left, right, Math.max(2, Math.round((right - left) / 80)));
   for (let count = scale.ticks.length - 1; count >= 1; count--) {
     let free = -Infinity, fits = true;
     for (const tick of scale.ticks) {
@@ -175,7 +175,7 @@ function buildAlong(definition: AxisDefinition, left: number, right: number): Bu
       free = at + half + 10;
     }
     if (fits) break;
-    scale = build(definition, left, right, count);
+    scale = scaleOf(definition, left, right, count);
   }
   return scale;
 }
@@ -191,7 +191,7 @@ export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, o
   let bounds = { x: sound(x), y: sound(y) };
   const right = region.left + region.width - 14;
   const room = (scale: Built): number => Math.max(options.margin ?? 0, 16 + Math.max(...scale.ticks.map((v) => textWidth(scale.label(v))), 12));
-  let up = build(y, bottom, top, rows);
+  let up = scaleOf(y, bottom, top, rows);
   let left = region.left + Math.min(room(up), region.width / 2);
   if (options.equal && !x.log && !y.log) {
     const width = Math.max(20, right - left);
@@ -203,7 +203,7 @@ export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, o
     bounds = { x: wide(bounds.x, width), y: wide(bounds.y, height) };
     x = { ...x, min: bounds.x[0], max: bounds.x[1] };
     y = { ...y, min: bounds.y[0], max: bounds.y[1] };
-    up = build(y, top + height, top, rows);
+    up = scaleOf(y, top + height, top, rows);
     left = Math.max(left, region.left + Math.min(room(up), region.width / 2));
     // Longer labels than before: once more for the narrower picture, so that a unit stays a unit.
     const narrower = Math.max(20, right - left);
@@ -212,10 +212,10 @@ export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, o
       x = { ...x, min: low, max: low + unit * narrower };
     }
   } else {
-    up = build(y, top + height, top, rows);
+    up = scaleOf(y, top + height, top, rows);
   }
   const width = Math.max(20, right - left);
-  const along = buildAlong(x, left, left + width);
+  const along = scaleAlong(x, left, left + width);
   const base = top + height, end = left + width;
   const crisp = (p: number): number => Math.round(p) + 0.5;
 

@@ -7,29 +7,62 @@ import type { Look, Marker } from '../scene';
 import type { Method } from '../protocol';
 import type { Ink } from './types';
 
-const LIGHT: Ink = { text: '#1C1F23', quiet: '#5B626B', grid: '#E6E8EB', axis: '#8A929C', surface: '#FFFFFF', exact: '#15803D', accent: '#1D4ED8', danger: '#B42318' };
-const DARK: Ink = { text: '#E8EAED', quiet: '#A3ABB5', grid: '#2A2F36', axis: '#69717C', surface: '#14171A', exact: '#4ADE80', accent: '#8AB4F8', danger: '#F97066' };
+
+/** All colours of the page: the build writes them into its style (inkStyle), and pictures read them there. */
+const THEMES: Readonly<Record<'light' | 'dark', Ink>> = {
+  light: {
+    text: '#1C1F23', quiet: '#5B626B', grid: '#E6E8EB', axis: '#7E8792', surface: '#FFFFFF', exact: '#15803D', accent: '#1D4ED8', danger: '#B42318', ghost: '#B9BFC7', figure: '#D9DDE2',
+  },
+  dark: {
+    text: '#E8EAED', quiet: '#A3ABB5', grid: '#262B31', axis: '#69717C', surface: '#0F1214', exact: '#4ADE80', accent: '#8AB4F8', danger: '#F97066', ghost: '#4A525C', figure: '#2E353C',
+  },
+};
+/** Of what is no picture: the dock, fields and cards, edges. */
+const GROUNDS = {
+  light: { dock: '#F4F5F7', card: '#FFFFFF', edge: '#D5D9DE', 'danger-ground': '#FDF1EF', number: '#8A5A00', shade: '0 10px 40px rgb(20 25 35 / 14%)' },
+  dark: { dock: '#171B1F', card: '#1B2025', edge: '#343B43', 'danger-ground': '#2A1917', number: '#FFDD57', shade: '0 10px 40px rgb(0 0 0 / 55%)' },
+};
 
 export function isDark(): boolean {
   const chosen = document.documentElement.dataset.theme;
   return chosen === 'dark' || (chosen !== 'light' && matchMedia('(prefers-color-scheme: dark)').matches);
 }
 
-/** The colours of the present theme; asked for once a drawing, not once a line, as the browser has to settle styles for it. */
-export function ink(): Ink {
-  const style = getComputedStyle(document.documentElement), otherwise = isDark() ? DARK : LIGHT;
-  const of = (name: keyof Ink): string => style.getPropertyValue(`--${name}`).trim() || otherwise[name];
-  return {
-    text: of('text'), quiet: of('quiet'), grid: of('grid'), axis: of('axis'), surface: of('surface'),
-    exact: of('exact'), accent: of('accent'), danger: of('danger'),
-  };
+/** Light and dark, each of a line and of letters: lines have a contrast of 3:1 or more, letters of 4.5:1. Chosen as far apart as possible from each other
+ * and from the green, also for those who do not tell red from green. */
+type Tones = readonly [line: string, letters: string];
+const COLOURS: readonly (readonly [light: Tones, dark: Tones])[] = [
+  [['#D9432E', '#B93420'], ['#FF8A3D', '#FF8A3D']], [['#1F4FE0', '#1F4FE0'], ['#3F86FF', '#6FA5FF']], [['#B97800', '#8A5A00'], ['#FFDD57', '#FFDD57']],
+  [['#7A1FC2', '#7A1FC2'], ['#BBA4FF', '#BBA4FF']], [['#0089C7', '#00699A'], ['#4FDDF7', '#4FDDF7']], [['#E0359E', '#B81F7C'], ['#F985C3', '#F985C3']],
+  [['#0B4A63', '#0B4A63'], ['#E8F1F2', '#E8F1F2']], [['#7A0F35', '#7A0F35'], ['#F4444F', '#F75860']], [['#6A4A14', '#6A4A14'], ['#9C8A66', '#9C8A66']],
+  [['#1A1468', '#1A1468'], ['#9A6BC9', '#A67DD0']],
+];
+
+/** The custom properties of a theme; of method k the line is --m<k>, the letters --m<k>t. */
+function properties(theme: 'light' | 'dark'): string {
+  const own = { ...THEMES[theme], ...GROUNDS[theme] }, dark = Number(theme === 'dark');
+  return [`color-scheme:${theme}`, ...Object.entries(own).map(([name, value]) => `--${name}:${value}`),
+    ...COLOURS.flatMap((pair, k) => [`--m${k}:${pair[dark]![0]}`, `--m${k}t:${pair[dark]![1]}`])].join(';');
+}
+export function inkStyle(): string {
+  const dark = properties('dark');
+  return `:root{${properties('light')}}:root[data-theme="dark"]{${dark}}@media(prefers-color-scheme:dark){:root:not([data-theme="light"]){${dark}}}\n`;
 }
 
-/** Light and dark: chosen as far apart as possible from each other and from the green, also for those who do not tell red from green. */
-const COLOURS: readonly (readonly [light: string, dark: string])[] = [
-  ['#D9432E', '#FF8A3D'], ['#1F4FE0', '#3F86FF'], ['#B97800', '#FFDD57'], ['#7A1FC2', '#BBA4FF'], ['#0089C7', '#4FDDF7'],
-  ['#E0359E', '#F985C3'], ['#0B4A63', '#E8F1F2'], ['#7A0F35', '#F4444F'], ['#6A4A14', '#9C8A66'], ['#1A1468', '#9A6BC9'],
-];
+/** Where colours come from: the page's style, or the names of its properties for pictures that are made before there is a page. */
+export interface Paint { readonly ink: Ink; method(k: number): Tones }
+const NAMES = Object.keys(THEMES.light) as (keyof Ink)[];
+export const named: Paint = {
+  ink: Object.fromEntries(NAMES.map((name) => [name, `var(--${name})`])) as unknown as Ink,
+  method: (k) => [`var(--m${k})`, `var(--m${k}t)`],
+};
+/** The colours of the present theme; asked for once a drawing, not once a line, as the browser has to settle styles for it. */
+export function ink(): Ink {
+  const style = getComputedStyle(document.documentElement), otherwise = THEMES[isDark() ? 'dark' : 'light'];
+  return Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim() || otherwise[name]])) as unknown as Ink;
+}
+const present = (): Paint => { const dark = Number(isDark()); return { ink: ink(), method: (k) => COLOURS[k]![dark]! }; };
+
 const MARKERS: readonly Marker[] = ['circle', 'square', 'diamond', 'triangle', 'cross', 'down', 'plus', 'star', 'ring', 'bar'];
 const DASHES: readonly (readonly number[])[] = [
   [7, 3], [], [9, 3, 2, 3], [2, 2.5], [14, 4], [9, 3, 2, 3, 2, 3], [5, 2], [3, 4], [14, 3, 4, 3], [10, 5, 4, 5, 4, 5],
@@ -57,18 +90,17 @@ export function recoloured<S extends { readonly looks: readonly Look[]; readonly
   return { ...scene, looks: looksOf(scene.looks.map((l) => l.method), scene.catalogue) };
 }
 
-export function looksOf(methods: readonly string[], catalogue: readonly Method[]): Look[] {
-  const dark = isDark(), exact = ink().exact;
+export function looksOf(methods: readonly string[], catalogue: readonly Method[], paint: Paint = present()): Look[] {
   return methods.map((name) => {
     // newmark(1/4, 1/2) looks like newmark.
     const bare = name.replace(/\s*\(.*$/, '');
     const row = catalogue.find((m) => m.name === bare || m.aliases.includes(bare)), method = row?.name ?? bare;
     const label = (row?.title ?? bare) + name.slice(bare.length);
-    if (method === 'exact') return { method: name, label, colour: exact, dash: [], marker: 'circle' };
+    if (method === 'exact') return { method: name, label, colour: paint.ink.exact, tone: paint.ink.exact, dash: [], marker: 'circle' };
     const k = place(method, catalogue), round = Math.floor(k / 10);
-    const pair = COLOURS[k % 10]!;
+    const [colour, tone] = paint.method(k % 10);
     return {
-      method: name, label, colour: dark ? pair[1] : pair[0],
+      method: name, label, colour, tone,
       // Each further ten meets its colour again with another dash and another marker.
       dash: DASHES[(k + 3 * round) % 10]!, marker: MARKERS[(k + 7 * round) % 10]!,
     };

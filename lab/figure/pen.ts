@@ -2,8 +2,8 @@
  *
  * Invariant: whatever is passed in, nothing is thrown: what is not finite is not drawn.
  */
-import { FAMILY, OUTLINES, SIZE, STROKE, finite, head, runs, shift } from './shapes';
-import type { Pen, Stroke } from './types';
+import { FAMILY, HALO, OUTLINES, SIZE, STROKE, finite, head, runs, shift, spansOf } from './shapes';
+import type { Pen, Span, Stroke } from './types';
 
 export { svgPen } from './svg';
 
@@ -79,16 +79,30 @@ export function canvasPen(context: CanvasRenderingContext2D, width: number, heig
     },
     text(x, y, text, lettering) {
       if (!finite(x, y)) return;
-      const anchor = lettering.anchor ?? 'start';
+      const spans = spansOf(text), fontOf = (span: Span): string => {
+        const { bold = lettering.bold, italic = lettering.italic, size = lettering.size ?? SIZE } = span;
+        return `${italic ? 'italic ' : ''}${bold ? '600 ' : ''}${size}px ${FAMILY}`;
+      };
+      const widths = spans.length === 1 && (lettering.anchor ?? 'start') === 'start' ? [0] : spans.map((span) => { c.font = fontOf(span); return c.measureText(span.text).width; });
+      const whole = widths.reduce((a, b) => a + b, 0);
       c.save();
       c.translate(x, y);
       if (lettering.turn) c.rotate(lettering.turn * Math.PI / 180);
-      c.font = `${lettering.italic ? 'italic ' : ''}${lettering.bold ? '600 ' : ''}${lettering.size ?? SIZE}px ${FAMILY}`;
-      c.textAlign = anchor === 'middle' ? 'center' : anchor === 'end' ? 'right' : 'left';
+      c.textAlign = 'left';
       // Not canvas's own "top" and "bottom", which differ between browsers: shifts from the baseline, as the SVG has them.
       c.textBaseline = 'alphabetic';
-      c.fillStyle = lettering.colour;
-      c.fillText(text, 0, shift(lettering));
+      const write = (put: (span: Span, at: number, down: number) => void): void => {
+        let at = lettering.anchor === 'middle' ? -whole / 2 : lettering.anchor === 'end' ? -whole : 0;
+        spans.forEach((span, k) => { c.font = fontOf(span); put(span, at, shift(lettering) + (span.sunk ?? 0)); at += widths[k]!; });
+      };
+      if (lettering.halo) {
+        c.strokeStyle = lettering.halo;
+        c.lineWidth = HALO;
+        c.lineJoin = 'round';
+        c.setLineDash([]);
+        write((span, at, down) => c.strokeText(span.text, at, down));
+      }
+      write((span, at, down) => { c.fillStyle = span.colour ?? lettering.colour; c.fillText(span.text, at, down); });
       c.restore();
     },
     box(x, y, w, h, fill, alpha = 1) {

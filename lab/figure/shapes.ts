@@ -3,7 +3,7 @@
  * Invariant: told once, so that a canvas and an SVG show the same.
  */
 import type { Marker } from '../scene';
-import type { Lettering } from './types';
+import type { Lettering, Span } from './types';
 
 export const FAMILY = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "Helvetica Neue", Arial, sans-serif';
 export const SIZE = 12;
@@ -62,6 +62,10 @@ export function runs(columns: number, rows: number, cells: Uint8Array, run: (i: 
   }
 }
 
+/** The rim of letters that have one, in pixels: half of it lies outside of them. */
+export const HALO = 5;
+export const spansOf = (text: string | readonly Span[]): readonly Span[] => (typeof text === 'string' ? [{ text }] : text);
+
 export function shift(lettering: Lettering): number {
   const size = lettering.size ?? SIZE;
   switch (lettering.baseline) {
@@ -73,7 +77,8 @@ export function shift(lettering: Lettering): number {
 }
 
 /** How wide a text will be, nearly: a pen that writes SVG cannot measure, and both must place alike. */
-export function textWidth(text: string, size = SIZE): number {
+export function textWidth(text: string | readonly Span[], size = SIZE): number {
+  if (typeof text !== 'string') return text.reduce((sum, span) => sum + textWidth(span.text, span.size ?? size) * (span.bold ? 1.06 : 1), 0);
   let em = 0;
   for (const c of text) em += (WIDTHS.find(([letters]) => letters.test(c)) ?? LAST)[1];
   return em * size;

@@ -3,7 +3,7 @@
  * Invariant: whatever is passed in, the SVG is well formed and stands by itself: texts and colours are escaped, numbers that are not finite are
  * never written, nothing is fetched.
  */
-import { FAMILY, OUTLINES, SIZE, STROKE, finite, head, runs, shift } from './shapes';
+import { FAMILY, HALO, OUTLINES, SIZE, STROKE, finite, head, runs, shift } from './shapes';
 import type { Pen, Stroke } from './types';
 
 /** Text that is safe in XML: markup escaped, what XML forbids (most control characters, halves of pairs) replaced. */
@@ -79,13 +79,20 @@ export function svgPen(width: number, height: number): SvgPen {
     },
     text(x, y, text, lettering) {
       if (!finite(x, y)) return;
+      const manner = (bold?: boolean, italic?: boolean, of?: number): string => `${bold ? ' font-weight="600"' : ''}${italic ? ' font-style="italic"' : ''}${of !== undefined && of !== SIZE ? ` font-size="${n(of)}"` : ''}`;
       const anchor = lettering.anchor && lettering.anchor !== 'start' ? ` text-anchor="${lettering.anchor}"` : '';
-      const style = `${lettering.bold ? ' font-weight="600"' : ''}${lettering.italic ? ' font-style="italic"' : ''}`;
-      const size = lettering.size !== undefined && lettering.size !== SIZE ? ` font-size="${n(lettering.size)}"` : '';
+      const halo = lettering.halo ? ` paint-order="stroke" stroke="${escape(lettering.halo)}" stroke-width="${HALO}" stroke-linejoin="round"` : '';
       const dy = shift(lettering);
       // The shift is along the turned letters, as on the canvas.
       const place = lettering.turn ? `transform="translate(${n(x)} ${n(y)}) rotate(${n(lettering.turn)})" y="${n(dy)}"` : `x="${n(x)}" y="${n(y + dy)}"`;
-      out.push(`<text ${place} fill="${escape(lettering.colour)}"${anchor}${size}${style}>${escape(text)}</text>`);
+      let sunk = 0;
+      const inside = typeof text === 'string' ? escape(text) : text.map((span) => {
+        const down = (span.sunk ?? 0) - sunk;
+        sunk = span.sunk ?? 0;
+        const own = `${span.colour ? ` fill="${escape(span.colour)}"` : ''}${manner(span.bold, span.italic, span.size)}${down ? ` dy="${n(down)}"` : ''}`;
+        return own ? `<tspan${own}>${escape(span.text)}</tspan>` : escape(span.text);
+      }).join('');
+      out.push(`<text ${place} fill="${escape(lettering.colour)}"${anchor}${manner(lettering.bold, lettering.italic, lettering.size)}${halo}${typeof text === 'string' ? '' : ' xml:space="preserve"'}>${inside}</text>`);
     },
     box(x, y, w, h, fill, alpha) {
       if (finite(x, y, w, h) && w > 0 && h > 0) out.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="${escape(fill)}"${opacity(alpha)}/>`);

@@ -8,7 +8,11 @@ export interface Stroke { readonly colour: string; readonly width: number; reado
 export interface Lettering {
   readonly colour: string; readonly size?: number; readonly anchor?: 'start' | 'middle' | 'end';
   readonly baseline?: 'top' | 'middle' | 'bottom' | 'alphabetic'; readonly bold?: boolean; readonly italic?: boolean; readonly turn?: number;   // turn: degrees
+  /** Colour of a rim about the letters, so that lines behind them do not make them hard to read. */
+  readonly halo?: string;
 }
+/** A part of a text in a manner of its own; what is left out is the whole text's. */
+export interface Span { readonly text: string; readonly colour?: string; readonly bold?: boolean; readonly italic?: boolean; readonly size?: number; readonly sunk?: number }   // sunk: pixels below the line
 /** Lengths are CSS pixels; the origin is top left. */
 export interface Pen {
   readonly width: number; readonly height: number;
@@ -17,15 +21,16 @@ export interface Pen {
   area(xy: ArrayLike<number>, fill: string, alpha?: number, count?: number): void;
   mark(shape: Marker, x: number, y: number, radius: number, colour: string): void;
   arrow(x0: number, y0: number, x1: number, y1: number, stroke: Stroke): void;
-  text(x: number, y: number, text: string, lettering: Lettering): void;
+  text(x: number, y: number, text: string | readonly Span[], lettering: Lettering): void;
   box(x: number, y: number, width: number, height: number, fill: string, alpha?: number): void;
   /** A grid of cells, row by row from the top, coloured by colours[cells[i]]; '' is left free. One image, not a thousand boxes. */
   cells(x: number, y: number, width: number, height: number, columns: number, rows: number, cells: Uint8Array, colours: readonly string[]): void;
   clip(x: number, y: number, width: number, height: number, inside: () => void): void;
 }
 
-/** The colours of the present theme, as CSS colours. */
-export interface Ink { readonly text: string; readonly quiet: string; readonly grid: string; readonly axis: string; readonly surface: string; readonly exact: string; readonly accent: string; readonly danger: string }
+/** The colours of the present theme, as CSS colours. ghost, figure: of what is there for comparison only. */
+export type InkName = 'text' | 'quiet' | 'grid' | 'axis' | 'surface' | 'exact' | 'accent' | 'danger' | 'ghost' | 'figure';
+export type Ink = Readonly<Record<InkName, string>>;
 
 export interface Table { readonly head: readonly string[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
 

@@ -15,14 +15,16 @@ const most = 12;
 interface Toggle { readonly element: HTMLElement; readonly name: string; refresh(chosen: readonly string[]): void; repaint(): void }
 
 export function methods(store: LiveStore): { readonly element: HTMLElement; readonly main: HTMLElement; repaint(): void } {
-  const list = el('div', { class: 'toggles' }), more = el('div', { class: 'toggles' });
+  const list = el('div', { class: 'chips' }), more = el('div', { class: 'toggles' });
   const search = el('input', { type: 'search', id: 'method-search', placeholder: 'order 4, symplectic, Yoshida …', autocomplete: 'off', spellcheck: 'false' });
   const found = el('p', { class: 'quiet', role: 'status' });
   const main = el('select', { id: 'main-method' });
   const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Formula and steps of'), main);
-  const fold = el('details', { class: 'more' }, el('summary', {}, 'All methods'), el('label', { for: 'method-search' }, 'Search'), search, found, more);
   const message = el('p', { class: 'message mild', role: 'status' });
-  const element = el('fieldset', { class: 'methods' }, el('legend', {}, 'Methods'), list, message, fold);
+  const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All methods' }, el('label', { for: 'method-search' }, 'All methods'), search, found, more);
+  const opener = button('more', () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
+  list.append(opener);
+  const element = el('div', { class: 'methods', role: 'group', 'aria-label': 'Methods' }, list, sheet, message);
 
   let toggles: Toggle[] = [], shown = '', limitReached = false, last: readonly unknown[] = [];
   /** What is drawn: the state's, or the model's own where the state names none. */
@@ -48,12 +50,13 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     const label = el('span', { class: 'label' });
     const picture = el('span', { class: 'picture' });
     const method = store.catalogue.find(m => m.name === name);
-    const control = button('', () => { if (control.getAttribute('aria-disabled') !== 'true') press(name); }, { class: 'toggle', 'aria-pressed': 'false' }, picture, el('span', { class: 'words' }, label, reason));
+    const control = button('', () => { if (control.getAttribute('aria-disabled') !== 'true') press(name); }, { class: 'chip', 'aria-pressed': 'false' }, picture, el('span', { class: 'words' }, label, reason));
     const usual = method ? words(method) : '';
     const repaint = (): void => {
       const look = looksOf([name], store.catalogue)[0];
       if (!look) return;
       picture.replaceChildren(sample(look));
+      control.style.setProperty('--c', look.colour);
       say(label, look.label);
     };
     repaint();
@@ -80,7 +83,8 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     const held = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.method : undefined;
     toggles = [...names, ...others].map(toggle);
     for (const t of toggles) t.element.dataset.method = t.name;
-    list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element));
+    list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element), opener);
+    say(opener, `${others.length} more`);
     more.replaceChildren(...toggles.slice(names.length).map(t => t.element));
     if (held !== undefined) toggles.find(t => t.name === held)?.element.focus({ preventScroll: true });
     filter();

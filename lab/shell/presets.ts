@@ -4,18 +4,14 @@
  * the sentence that their first comment begins with.
  */
 import models from 'virtual:presets';
-import { presetState, type Presets } from '../share';
-import { notes } from '../theory/presets';
-import type { LiveStore } from '../state';
-import { button, el, say } from '../dom';
-import type { Toasts } from './toasts';
+import type { Presets } from '../share';
 
 type Note = readonly (string | { readonly to: string; readonly label: string })[];
 interface Entry { readonly title: string; readonly group: string; readonly methods: readonly string[]; readonly mark?: string; readonly note?: Note }
 
-const groups = ['Begin here', 'Oscillators', 'Pendulums', 'Orbits', 'In a field', 'Many bodies', 'More'] as const;
-
 const entries: Readonly<Record<string, Entry>> = {
+  'thrown-ball': { title: 'A thrown ball', group: 'Begin here', methods: ['explicit-euler', 'symplectic-euler', 'midpoint'] },
+  'thrown-ball-air': { title: 'A ball in air', group: 'Begin here', methods: ['explicit-euler', 'symplectic-euler', 'midpoint'] },
   'projectile': {
     title: 'Thrown ball', group: 'Begin here', methods: ['explicit-euler', 'symplectic-euler', 'midpoint'], mark: 'founding scene',
     note: [
@@ -54,7 +50,7 @@ const texts = new Map(models.map(model => [model.name, model.text]));
 const entryOf = (name: string): Entry | undefined => (Object.hasOwn(entries, name) ? entries[name] : undefined);
 
 export const presets: Presets = {
-  first: 'projectile',
+  first: 'thrown-ball',
   text: name => texts.get(name),
   methods: name => entryOf(name)?.methods ?? [],
 };
@@ -71,60 +67,3 @@ export function described(text: string): string {
 }
 
 export const titleOf = (name: string): string => entryOf(name)?.title ?? name;
-
-/** The picker of the header, and what it picked: title, description, note. */
-export function presetPicker(store: LiveStore, toasts: Toasts): { readonly picker: HTMLElement; readonly card: HTMLElement; readonly note: HTMLElement } {
-  const own = el('option', { value: '' }, 'Your own model');
-  const select = el('select', { id: 'preset', 'aria-describedby': 'preset-description' });
-  const sorted = groups.map(group => ({ group, names: models.map(m => m.name).filter(name => (entryOf(name)?.group ?? 'More') === group) }));
-  const order = Object.keys(entries);
-  for (const { group, names } of sorted) {
-    if (!names.length) continue;
-    names.sort((a, b) => order.indexOf(a) - order.indexOf(b));
-    select.append(el('optgroup', { label: group }, ...names.map(name => {
-      const mark = entryOf(name)?.mark;
-      return el('option', { value: name, title: described(texts.get(name) ?? '') }, titleOf(name) + (mark ? ` · ${mark}` : ''));
-    })));
-  }
-  const title = el('h1', { id: 'scene-title' }), mark = el('p', { class: 'mark' });
-  const description = el('p', { id: 'preset-description', class: 'description' }), note = el('div', { class: 'note' });
-  const revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
-  const began = document.createTextNode('');
-  const edited = el('p', { class: 'edited' }, began, revert);
-  const card = el('div', { class: 'scene-card' }, title, mark, description, edited);
-
-  function open(name: string): void {
-    const before = store.state;
-    const changed = texts.get(before.preset) !== before.text;
-    store.load({ ...presetState(presets, name), view: { ...before.view, plane: 'auto', quantities: [], phase: null } });
-    if (changed) toasts.say('Your own text was put aside.', { label: 'Bring it back', act: () => store.load(before) });
-  }
-  select.addEventListener('change', () => { if (select.value) open(select.value); });
-
-  let shown = '';
-  function show(): void {
-    const { preset, text } = store.state, changed = texts.get(preset) !== text;
-    if (preset === '' && !own.isConnected) select.prepend(own);
-    if (preset !== '' && own.isConnected) own.remove();
-    if (select.value !== preset) select.value = preset;
-    edited.hidden = preset === '' || !changed;
-    // What is said of an example holds for its own text only.
-    const name = changed ? '' : preset, key = name === '' ? `${preset} ${text}` : name;
-    if (key === shown) return;
-    shown = key;
-    began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;
-    const entry = entryOf(name);
-    say(title, name === '' ? 'Your own model' : titleOf(name));
-    say(mark, entry?.mark ?? '');
-    mark.hidden = !entry?.mark;
-    say(description, described(text));
-    description.hidden = description.textContent === '';
-    const words = (entry?.note ?? []).map(part => (typeof part === 'string' ? part : button(part.label, () => open(part.to), { class: 'text-button' })));
-    const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];
-    note.replaceChildren(...(words.length ? [el('p', {}, ...words)] : written.map(paragraph => el('p', {}, paragraph))));
-    note.hidden = note.childElementCount === 0;
-  }
-  store.subscribe(what => { if (what === 'state') show(); });
-  show();
-  return { picker: el('div', { class: 'preset-picker' }, el('label', { for: 'preset' }, 'Example'), select), card, note };
-}

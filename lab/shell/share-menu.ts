@@ -1,5 +1,6 @@
 /* Share: the address of what is seen, and the command that computes the same bits. Invariant: what is copied is shown. */
 import { command, type Presets } from '../share';
+import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
 import { button, el, fresh, icon, say } from '../dom';
@@ -17,7 +18,7 @@ async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string,
   }
 }
 
-export function shareMenu(store: LiveStore, presets: Presets, toasts: Toasts): HTMLElement {
+export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toasts: Toasts): HTMLElement {
   const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command');
   const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
   const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
@@ -27,7 +28,9 @@ export function shareMenu(store: LiveStore, presets: Presets, toasts: Toasts): H
   const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
-    commandLabel, line, older, copyCommand, refusal);
+    commandLabel, line, older, copyCommand, refusal,
+    el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
+      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` }))));
   const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
     icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
   const root = el('div', { class: 'share' }, opener, panel);

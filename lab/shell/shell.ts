@@ -1,34 +1,34 @@
 /* The controls of the page, put where index.html keeps room for them. Invariant: controls talk to the store, and to nothing else. */
 import type { LiveStore } from '../state';
+import type { Stage } from '../stage/stage';
 import { followAddress } from './address';
 import { place } from '../dom';
-import { editor } from './editor';
+import { dials } from './dials';
+import { dockLinks } from './dock';
 import { methods } from './methods';
+import { nav } from './nav';
 import { panelPicker, type PanelName } from './panels';
-import { presetPicker, presets } from './presets';
-import { settings } from './settings';
+import { presets } from './presets';
 import { shareMenu } from './share-menu';
-import { sliders } from './sliders';
 import { status } from './status';
+import { stepSlider } from './step';
 import { themeButton } from './theme';
 import { createToasts, type Toasts } from './toasts';
-import { typesetView } from './typeset';
+import { words } from './words';
 
 /** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
-export function mountShell(store: LiveStore, panels: readonly PanelName[], themeChanged: () => void): Toasts {
-  const toasts = createToasts(place('toasts'));
-  const { picker, card, note } = presetPicker(store, toasts);
-  const chosen = methods(store);
-  place('presets').append(picker);
-  place('share').append(shareMenu(store, presets, toasts));
+export function mountShell(store: LiveStore, stage: Stage, panels: readonly PanelName[], themeChanged: () => void): Toasts {
+  const toasts = createToasts(place('toasts')), chosen = methods(store);
+  const said = words(store, toasts, () => stage.relayout());
+  const places = nav([{ label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  place('nav').append(places.element);
+  place('share').append(shareMenu(store, presets, stage, toasts));
   place('theme').append(themeButton(() => { store.recolour(); chosen.repaint(); themeChanged(); }));
-  place('scene-card').append(card);
-  place('scene-note').append(note);
-  place('model').append(editor(store), typesetView(store));
+  place('words').replaceChildren(said.element);
   place('methods').append(chosen.element);
   place('main-choice').append(chosen.main);
-  place('settings').append(settings(store));
-  place('parameters').append(sliders(store));
+  place('dials').append(stepSlider(store), dials(store));
+  place('dock-links').append(dockLinks(store, stage.choice));
   place('status').append(status(store));
   place('panel-picker').append(panelPicker(store, panels));
   followAddress(store, presets, toasts);

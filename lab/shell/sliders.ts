@@ -10,7 +10,7 @@ import { compact, normal, numberOf, short, tuple } from './number';
 import { reach, widen, type Reach } from './range';
 
 const mostRows = 40;
-interface Row { readonly element: HTMLElement; refresh(): void }
+export interface Row { readonly element: HTMLElement; readonly part: number; refresh(): void }
 
 const axes = ['x', 'y', 'z'];
 function partName(parameter: Parameter, k: number, count: number): string {
@@ -21,7 +21,10 @@ function partName(parameter: Parameter, k: number, count: number): string {
 /** A number of things rather than a size: an upper end of an index. */
 const counts = (text: string, name: string): boolean => /^[A-Za-z]\w*$/.test(name) && new RegExp(`\\.\\.[^:\\n]*\\b${name}\\b`).test(text);
 
-function rowsOf(store: LiveStore, parameter: Parameter, model: string): Row[] {
+/** How a row is called and how far its slider goes, where a scene says so. */
+export interface Manner { readonly label?: string; readonly unit?: string; readonly low?: number; readonly high?: number; readonly dial?: boolean }
+
+export function rowsOf(store: LiveStore, parameter: Parameter, model: string, manner: (part: number) => Manner = () => ({})): Row[] {
   const literal = tuple(parameter.text);
   const fits = literal !== null && literal.parts.length === parameter.values.length;
   // Numbers that the model computes follow its parameters; a single initial value may be moved all the same, and then stands for itself.
@@ -52,15 +55,18 @@ function rowsOf(store: LiveStore, parameter: Parameter, model: string): Row[] {
   };
 
   return values.map((value, k): Row => {
-    const name = partName(parameter, k, values.length), id = fresh('parameter');
+    const { label, unit, low, high, dial = false } = manner(k), name = label ?? partName(parameter, k, values.length), id = fresh('parameter');
     let limits: Reach = reach(value, several ? scale : 0, parameter.initial || several, counts(model, parameter.name));
-const digits = (text: string): string => (text.length <= 9 ? text : compact(Number(text)));
+    if (low !== undefined && high !== undefined && value >= low && value <= high) limits = { low, high, step: limits.step };
+    const digits = (text: string): string => (text.length <= 9 ? text : compact(Number(text)));
     const slider = el('input', { type: 'range', id, 'aria-describedby': id + '-message' });
-    const field = el('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: 'number' });
+    const field = el('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: dial ? 'value' : 'number' });
     const message = el('p', { id: id + '-message', class: 'message', role: 'status' });
     const reset = button('Reset', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': `${name}: back to the model’s value`, title: 'Back to the model’s value' },
       icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
-    const element = el('div', { class: 'row' }, el('label', { for: id, title: name }, name), slider, field, reset, message);
+    const words = el('label', { for: id, title: name }, name);
+    const element = dial ? el('div', { class: 'dial' }, el('div', { class: 'dial-head' }, words, el('span', { class: 'dial-value' }, reset, field, el('span', { class: 'unit' }, unit ? `\u2009${unit}` : ''))),
+      el('div', { class: 'dial-track' }, slider), message) : el('div', { class: 'row' }, words, slider, field, reset, message);
 
     const limit = (): void => { slider.min = String(limits.low); slider.max = String(limits.high); slider.step = String(limits.step); };
     limit();
@@ -74,6 +80,7 @@ const digits = (text: string): string => (text.length <= 9 ? text : compact(Numb
       const changed = fits ? number !== value : isSet();
       reset.classList.toggle('shown', changed);
       reset.disabled = !changed;
+      if (dial) { reset.hidden = !changed; field.style.width = `${Math.max(2, field.value.length + 0.5)}ch`; }
     }
     slider.addEventListener('input', () => {
       const text = short(slider.valueAsNumber);
@@ -96,7 +103,7 @@ const digits = (text: string): string => (text.length <= 9 ? text : compact(Numb
     field.addEventListener('blur', () => { if (field.getAttribute('aria-invalid') !== 'true') refresh(); });
     field.addEventListener('keydown', event => { if (event.key === 'Escape') { field.blur(); refresh(); } });
     refresh();
-    return { element, refresh };
+    return { element, part: k, refresh };
   });
 }
 

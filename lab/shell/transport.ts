@@ -11,11 +11,13 @@ export interface TransportOptions {
   readonly speed?: number; onSpeed?(speed: number): void; onPlay?(playing: boolean): void;
 }
 export interface Transport {
-  readonly element: HTMLElement;
+  readonly element: HTMLElement; readonly play: HTMLElement;
   /** stepTimes: where the main method's steps end, for stepping; the start first. The present time is kept as far as the new range allows. */
   setRange(start: number, end: number, stepTimes: ArrayLike<number>): void;
   time(): number; playing(): boolean; toggle(): void;
   step(n: number): void; seek(t: number): void; setSpeed(speed: number): void;
+  /** What stands behind the time: a unit. */
+  setUnit(text: string): void;
 }
 /** Asks the page, from anywhere in it, that the clock stop and go so many steps forward (or back; 0: only stop): new CustomEvent(STEP_EVENT, { detail: n, bubbles: true }). */
 export const STEP_EVENT = 'motus-step';
@@ -28,6 +30,8 @@ const LONGEST_FRAME = 250;
 /* For those who asked their system for less motion: so many milliseconds between one picture and the next. */
 const CALM = 600;
 const PARTS = 10000;
+/* Ticks under the line, at most. */
+const STEPS_TICKED = 40;
 
 export function transport(options: TransportOptions): Transport {
   let start = 0, end = 1, steps: ArrayLike<number> = [0, 1], now = 0, speed = options.speed ?? 1;
@@ -39,25 +43,22 @@ export function transport(options: TransportOptions): Transport {
   element.setAttribute('aria-label', 'Time');
   const play = iconButton(PLAY, 'Play (space)', () => toggle());
   play.classList.add('transport-play');
-  const buttons = make('div', 'transport-buttons');
-  buttons.append(
-    iconButton(RESTART, 'Back to the start (Home)', () => seek(start)), iconButton(BACK, 'One step back (left arrow)', () => step(-1)), play,
-    iconButton(FORWARD, 'One step forward (right arrow)', () => step(1)));
 
   const scrub = make('input', 'transport-scrub');
   scrub.type = 'range'; scrub.min = '0'; scrub.max = String(PARTS); scrub.step = '1'; scrub.value = '0';
   scrub.setAttribute('aria-label', 'Present time');
   scrub.addEventListener('input', () => { const part = Number(scrub.value) / PARTS; seek(part === 1 ? end : start + (end - start) * part); });
+  const line = make('div', 'transport-line'), ticks = make('div', 'transport-ticks');
+  line.append(scrub, ticks);
 
-  const clock = make('span', 'transport-time'), present = make('span', 'transport-now'), whole = make('span', 'transport-end');
-  clock.append(present, whole);
+  const clock = make('span', 'transport-time'), present = make('span', 'transport-now'), unit = make('span', 'transport-unit');
+  clock.append(present, unit);
 
-  const speedLabel = make('label', 'transport-speed'), speedName = make('span', 'transport-speed-name'), select = make('select', 'transport-select');
-  speedName.textContent = 'speed';
+  const select = make('select', 'transport-select');
+  select.setAttribute('aria-label', 'Speed of the animation');
   for (const [value, text] of SPEEDS) select.append(new Option(text, String(value)));
   select.addEventListener('change', () => { speed = Number(select.value); options.onSpeed?.(speed); });
-  speedLabel.append(speedName, select);
-  element.append(buttons, scrub, clock, speedLabel);
+  element.append(play, iconButton(BACK, 'One step back (left arrow)', () => step(-1)), iconButton(FORWARD, 'One step forward (right arrow)', () => step(1)), line, clock, select);
 
   const forwards = (): boolean => end >= start;
   const clamped = (t: number): number => forwards() ? Math.min(end, Math.max(start, t)) : Math.max(end, Math.min(start, t));
@@ -71,10 +72,10 @@ export function transport(options: TransportOptions): Transport {
   }
   function tell(): void {
     const text = written(now), part = String(end === start ? PARTS : Math.round(PARTS * (now - start) / (end - start)));
-    present.textContent = `t = ${text}`;
+    present.textContent = text;
     if (scrub.value !== part) scrub.value = part;
     scrub.style.setProperty('--part', `${Number(part) / PARTS * 100}%`);
-    scrub.setAttribute('aria-valuetext', `t = ${text} of ${written(end)}`);
+    scrub.setAttribute('aria-valuetext', `t = ${text}${unit.textContent} of ${written(end)}`);
     options.onTime(now);
   }
   function set(t: number): void { now = clamped(t); tell(); }
@@ -141,17 +142,27 @@ export function transport(options: TransportOptions): Transport {
     event.preventDefault();
   });
 
+  /** A tick where each step ends, while ticks can be told apart. */
+  function mark(): void {
+    const count = steps.length - 1;
+    if (count < 1 || count > STEPS_TICKED) { ticks.replaceChildren(); return; }
+    while (ticks.childElementCount > count + 1) ticks.lastElementChild?.remove();
+    while (ticks.childElementCount < count + 1) ticks.append(make('i', ''));
+    for (let i = 0; i <= count; i++) (ticks.children[i] as HTMLElement).style.left = `${100 * (steps[i]! - start) / (end - start || 1)}%`;
+  }
+
   select.value = String(speed);
   tell();
   return {
-    element, time: () => now, playing: () => running, toggle, step, seek,
+    element, play, time: () => now, playing: () => running, toggle, step, seek,
+    setUnit(text) { unit.textContent = text ? `\u2009${text}` : ''; },
     setSpeed(wanted) { if (wanted > 0) { speed = wanted; select.value = String(speed); } },
     setRange(from, to, stepTimes) {
       start = from; end = to; steps = stepTimes;
       decimals = decimalsFor(Math.abs(end - start), steps.length > 1 ? Math.abs(steps[1]! - steps[0]!) : 0);
-      whole.textContent = `of ${written(end)}`;
+      mark();
       /* A clock whose digits come and go would push its neighbours about. */
-      present.style.minWidth = `${Math.max(written(end).length, written(start).length) + 3}ch`;
+      present.style.minWidth = `${Math.max(written(end).length, written(start).length)}ch`;
       set(now);
     },
   };
@@ -177,8 +188,8 @@ function isTheirs(target: EventTarget | null, key: string): boolean {
 }
 
 /* The icons, as outlines in a square of 24: drawn, so that every system shows the same. */
-const PLAY = 'M7 4.5v15l12.5-7.5z', PAUSE = 'M6.5 5h4v14h-4zM13.5 5h4v14h-4z', RESTART = 'M5 5h2.5v14H5zM19.5 5v14l-10-7z',
-  BACK = 'M15 6.5 9.5 12l5.5 5.5-1.5 1.5-7-7 7-7z', FORWARD = 'M9 6.5 14.5 12 9 17.5l1.5 1.5 7-7-7-7z';
+const PLAY = 'M7 4.5v15l12.5-7.5z', PAUSE = 'M7.5 5.5h3v13h-3zM13.5 5.5h3v13h-3z',
+  BACK = 'M14.2 5.2 15.4 6.4 9.8 12l5.6 5.6-1.2 1.2L7.4 12z', FORWARD = 'M9.8 5.2 8.6 6.4 14.2 12l-5.6 5.6 1.2 1.2L16.6 12z';
 
 function make<K extends keyof HTMLElementTagNameMap>(tag: K, name: string): HTMLElementTagNameMap[K] {
   const e = document.createElement(tag);

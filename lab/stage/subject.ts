@@ -3,7 +3,7 @@
  * Invariant: a subject names columns of the solution by their place, so a view never looks at names again. Every model has at least one view:
  * where nothing else can be said, each number is a curve in time.
  */
-import type { Column, Description, Solution, Variable } from '../../protocol';
+import type { Column, Description, Solution, Variable } from '../protocol';
 
 /** One point that moves: its coordinates, as places in solution.columns. */
 export interface Body { readonly label: string; readonly columns: readonly number[] }

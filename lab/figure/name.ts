@@ -1,0 +1,26 @@
+/* Names of a model as an equation sets them: theta as ϑ, r.x as r with index x, primes as primes.
+ *
+ * Invariant: the letters are those that the core's MathML has for the same name (lang/typeset).
+ */
+import type { Span } from './types';
+
+const GREEK: Readonly<Record<string, string>> = {
+  alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', epsilon: 'ε', zeta: 'ζ', eta: 'η', theta: 'ϑ', iota: 'ι', kappa: 'κ', lambda: 'λ', mu: 'μ', nu: 'ν', xi: 'ξ', pi: 'π',
+  rho: 'ρ', sigma: 'σ', tau: 'τ', upsilon: 'υ', phi: 'φ', chi: 'χ', psi: 'ψ', omega: 'ω',
+  Gamma: 'Γ', Delta: 'Δ', Theta: 'Θ', Lambda: 'Λ', Xi: 'Ξ', Pi: 'Π', Sigma: 'Σ', Phi: 'Φ', Psi: 'Ψ', Omega: 'Ω',
+};
+
+/** A name in italic letters, its index lowered. */
+export function nameSpans(name: string, size: number): Span[] {
+  const parts = /^([\p{L}_]+)(\d*)((?:\[[^\]]*\])?)('*)((?:\.\w+)?)('*)$/u.exec(name);
+  if (!parts) return [{ text: name, italic: true, size }];
+  const [, word = '', digits = '', bracket = '', primes = '', part = '', later = ''] = parts;
+  const index = [digits, bracket.slice(1, -1), part.slice(1)].filter(Boolean).join(', ');
+  const spans: Span[] = [{ text: GREEK[word] ?? word, italic: true, size }];
+  const marks = '′'.repeat(primes.length + later.length);
+  if (marks) spans.push({ text: marks, size });
+  if (index) spans.push({ text: index, size: 0.72 * size, sunk: 0.22 * size, italic: !/^\d/.test(index) });
+  return spans;
+}
+/** The same as plain text. */
+export const nameText = (name: string): string => nameSpans(name, 1).map((span) => span.text).join('');

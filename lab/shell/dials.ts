@@ -1,0 +1,62 @@
+/* The two or three numbers of a scene that matter most, in the dock: those that the scene names, else the first that the model has; and its switch.
+ *
+ * Invariant: rows are rebuilt only when the model has other parameters; what a slider does not touch keeps the text that the model has (sliders.ts).
+ */
+import type { Parameter } from '../protocol';
+import { presetState } from '../share';
+import { stagingOf, type Dial } from '../stage/staging';
+import type { LiveStore } from '../state';
+import { el } from '../dom';
+import { presets } from './presets';
+import { rowsOf, type Row } from './sliders';
+
+const most = 3;
+
+/** Where a scene names none: parameters that are numbers, then initial values. */
+function usual(parameters: readonly Parameter[]): Dial[] {
+  const dials: Dial[] = [];
+  for (const p of [...parameters.filter((q) => !q.initial), ...parameters.filter((q) => q.initial)]) {
+    if (p.values.length > 3 || p.list) continue;
+    p.values.forEach((_, part) => { if (dials.length < most) dials.push({ name: p.name, part, label: '' }); });
+  }
+  return dials;
+}
+
+export function dials(store: LiveStore): HTMLElement {
+  const element = el('div', { class: 'dials-more' });
+  const slide = el('input', { type: 'checkbox', id: 'scene-switch', role: 'switch' }), slideName = el('span', {});
+  const slideRow = el('label', { class: 'dial switch', for: 'scene-switch' }, slideName, slide, el('span', { class: 'switch-track', 'aria-hidden': 'true' }));
+  let rows: Row[] = [], shown = '';
+
+  slide.addEventListener('change', () => {
+    const { state } = store, staging = stagingOf(state.preset), to = staging.switch?.to;
+    if (to === undefined || presets.text(to) === undefined) return;
+    // What both models have goes along: start, step, methods.
+    store.load({ ...presetState(presets, to), set: Object.fromEntries(Object.entries(state.set).filter(([name]) => /\(/.test(name))), methods: state.methods, step: state.step, until: state.until, view: state.view });
+  });
+  function build(): void {
+    const { description, state } = store;
+    if (!description || store.trouble.model) return;
+    const staging = stagingOf(presets.text(state.preset) === state.text ? state.preset : '');
+    const key = JSON.stringify([staging === stagingOf('') ? '' : state.preset, description.parameters.map((p) => [p.name, p.initial ? p.values : p.text, p.list])]);
+    if (key === shown) return;
+    shown = key;
+    const wanted = staging.dials ?? usual(description.parameters);
+    rows = wanted.flatMap((dial) => {
+      const parameter = description.parameters.find((p) => p.name === dial.name);
+      if (!parameter) return [];
+      const made = rowsOf(store, parameter, state.text, () => ({ ...dial, label: dial.label || undefined, dial: true }) as Dial & { dial: true });
+      const row = made.find((r) => r.part === (dial.part ?? 0));
+      return row ? [row] : [];
+    });
+    const turn = staging.switch;
+    slideName.textContent = turn?.label ?? '';
+    slide.checked = turn?.on ?? false;
+    element.replaceChildren(...rows.map((r) => r.element), ...(turn ? [slideRow] : []));
+  }
+  store.subscribe((what) => {
+    if (what === 'description') build();
+    if (what === 'state' || what === 'description' || what === 'scene') for (const row of rows) row.refresh();
+  });
+  return element;
+}

@@ -1,0 +1,97 @@
+/* The step: a slider on a scale of powers whose stops halve, and the number itself as a field.
+ *
+ * Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. Stops belong to the
+ * model, not to the state: they do not move under the reader's hand.
+ */
+import { stagingOf } from '../stage/staging';
+import type { LiveStore } from '../state';
+import { button, el, icon, say } from '../dom';
+import { compact, normal, short } from './number';
+
+const positions = 1000, catching = 6;               // pixels within which a stop catches
+
+export function stepSlider(store: LiveStore): HTMLElement {
+  const slider = el('input', { type: 'range', min: 0, max: positions, step: 1, id: 'step-slider', 'aria-label': 'Step h' });
+  const field = el('input', { id: 'step', type: 'text', inputmode: 'text', autocomplete: 'off', spellcheck: 'false', class: 'value', 'aria-label': 'Step h, as a number', 'aria-describedby': 'step-message' });
+  const unit = el('span', { class: 'unit' }), steps = el('span', { class: 'steps' }), suggested = el('i', { class: 'suggested' });
+  const message = el('p', { id: 'step-message', class: 'message', role: 'status' });
+  const stops = el('div', { class: 'stops', 'aria-hidden': 'true' });
+  const reset = button('Reset', () => { store.change({ step: '' }); slider.focus(); refresh(); }, { class: 'icon-button reset', 'aria-label': 'Step: back to the model’s', title: 'Back to the model’s step' },
+    icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
+  const element = el('div', { class: 'dial step' },
+    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, 'Step ', el('i', {}, 'h'), ' ', suggested), el('span', { class: 'dial-value' }, reset, field, unit, steps)),
+    el('div', { class: 'dial-track' }, slider, stops), message);
+  let halves: number[] = [], last = '', empty = '';
+
+  const own = (): string => {
+    const value = store.description?.settings.step;
+    return value === null || value === undefined ? '' : short(value, 15);
+  };
+  /** From the largest stop, at the left, to the smallest. */
+  const positionOf = (h: number): number => Math.round(positions * Math.log(halves[0]! / h) / Math.log(halves[0]! / halves[halves.length - 1]!));
+  const stepOf = (position: number): number => halves[0]! * (halves[halves.length - 1]! / halves[0]!) ** (position / positions);
+  const written = (h: number): string => short(Number(h.toPrecision(halves.some((s) => Math.abs(s - h) < 1e-9 * s) ? 6 : 2)));
+
+  function limits(): void {
+    const { settings } = store.description ?? {};
+    if (!settings || settings.step === null) return;
+    const [largest, count] = stagingOf(store.state.preset).stops ?? [4, 5];
+    const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
+    let first = settings.step * largest;
+    while (first > span && first > settings.step) first /= 2;
+    halves = Array.from({ length: count }, (_, k) => first / 2 ** k);
+    stops.replaceChildren(...halves.map((h, k) => el('span', { style: `left:${100 * k / (count - 1)}%` }, compact(Number(h.toPrecision(3))))));
+  }
+  function refresh(): void {
+    const { state, trouble, numbers, description } = store;
+    if (document.activeElement !== field) { field.value = state.step || (own().length > 9 ? compact(Number(own())) : own()); empty = ''; }
+    const wrong = empty || trouble.step, h = numbers.step ?? description?.settings.step ?? null;
+    say(message, wrong || trouble.remark);
+    message.classList.toggle('mild', wrong === '');
+    field.setAttribute('aria-invalid', String(wrong !== ''));
+    field.style.width = `${Math.max(3, field.value.length + 0.5)}ch`;
+    reset.hidden = state.step === '';
+    say(suggested, description?.settings.suggested && state.step === '' ? 'suggested' : '');
+    const { units } = stagingOf(state.preset);
+    say(unit, units ? `\u2009${units.t}` : '');
+    const track = store.scene?.solution.tracks[0];
+    say(steps, track && !wrong ? `\u2009·\u2009${track.total.toLocaleString('en').replace(/,/g, '\u2009')} ${track.total === 1 ? 'step' : 'steps'}` : '');
+    if (h === null || !halves.length) return;
+    if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
+    slider.setAttribute('aria-valuetext', `${short(h, 4)}${units ? ` ${units.t}` : ''}${track ? `, ${track.total} steps` : ''}`);
+    [...stops.children].forEach((stop, k) => stop.classList.toggle('on', Math.abs(halves[k]! - h) < 1e-6 * h));
+  }
+  const set = (h: number): void => {
+    const text = written(h);
+    field.value = text;
+    store.change({ step: Math.abs(Number(text) - Number(own())) < 1e-12 * Number(own()) ? '' : text });
+  };
+  slider.addEventListener('input', () => {
+    if (!halves.length) return;
+    const width = slider.clientWidth || 400, position = slider.valueAsNumber, near = halves.findIndex((_, k) => Math.abs(position / positions - k / (halves.length - 1)) * width <= catching);
+    set(near >= 0 ? halves[near]! : stepOf(position));
+  });
+  slider.addEventListener('change', () => { slider.value = String(positionOf(store.numbers.step ?? halves[0]!)); });
+  slider.addEventListener('keydown', (event) => {
+    const way = event.key === 'ArrowRight' || event.key === 'ArrowUp' ? 1 : event.key === 'ArrowLeft' || event.key === 'ArrowDown' ? -1 : 0;
+    if (!way || event.ctrlKey || event.altKey || event.metaKey || !halves.length) return;
+    event.preventDefault();
+    const h = Number(field.value) || store.numbers.step || halves[0]!;
+    if (event.shiftKey) { set(h * (way > 0 ? 0.99 : 1.01)); return; }
+    const at = way > 0 ? halves.find((s) => s < h * (1 - 1e-9)) : [...halves].reverse().find((s) => s > h * (1 + 1e-9));
+    if (at !== undefined) set(at);
+  });
+  field.addEventListener('input', () => {
+    const text = normal(field.value);
+    empty = text ? (text.length > 200 ? 'This is too long.' : '') : `A step is needed${own() ? `; the model has ${own()}` : ''}.`;
+    if (empty) refresh(); else store.change({ step: text === own() ? '' : text });
+  });
+  field.addEventListener('focus', () => { if (!store.state.step) { field.value = own(); field.select(); } });
+  field.addEventListener('blur', refresh);
+  store.subscribe((what) => {
+    const key = `${store.state.preset} ${store.description?.settings.step} ${store.description?.settings.until}`;
+    if (what === 'description' && last !== key && store.description) { last = key; limits(); }
+    if (what !== 'view' && what !== 'busy') refresh();
+  });
+  return element;
+}

@@ -1,0 +1,114 @@
+/* The curves of a motion in a plot, in pixels: where each lies, which coincide, where a runaway leaves.
+ *
+ * Invariant: a method coincides with another curve only where every step of it does, to NEAR pixels; it leaves only where it does not come back, or goes
+ * far out. Markers stand at computed rows, never between them.
+ */
+import type { Line, Motion, Rows } from './motion';
+import { lengthOf, path, type Path } from './path';
+import type { Plot, Way } from './plot';
+import { inside } from './plot';
+import { placeAt } from './rows';
+import type { Box } from './place';
+
+const NEAR = 2;
+/** Beyond so much of the frame outside of it, a method has left, also where it comes back once more. */
+const FAR = 0.35;
+/* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */
+const MARKED_ROWS = 240, SPACING = 8, SPARSE = 9;
+/** Beyond so many times the stage's size a line is a band, whose dashes nobody sees. */
+const BAND = 5;
+
+export interface Exit { readonly row: number; readonly time: number; readonly x: number; readonly y: number; readonly dx: number; readonly dy: number }
+export interface Curve {
+  readonly line: Line; readonly body: number; readonly way: Way; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean; readonly exit: Exit | null;
+}
+export interface Curves {
+  readonly exact: readonly { readonly way: Way; readonly path: Path }[];
+  /** Line by line, and of each body by body. */
+  readonly methods: readonly (readonly Curve[])[];
+  /** Of line i: -1: it is the exact motion; else the first line it coincides with (i: itself). */
+  readonly same: readonly number[];
+}
+
+export interface Point { x: number; y: number }
+/** Where a way is at a time: between two rows on the straight line that is drawn there. */
+export function pointAt(way: Way, times: ArrayLike<number>, time: number, out: Point = { x: 0, y: 0 }): Point {
+  const at = placeAt(times, time), x = way.x(at.row), y = way.y(at.row);
+  out.x = x; out.y = y;
+  if (at.part > 0) { out.x = at.part === 1 ? way.x(at.row + 1) : x + at.part * (way.x(at.row + 1) - x); out.y = at.part === 1 ? way.y(at.row + 1) : y + at.part * (way.y(at.row + 1) - y); }
+  return out;
+}
+
+/** Where a line from a point inside a box to one outside crosses its edge. */
+function crossing(box: Box, x0: number, y0: number, x1: number, y1: number): Point {
+  let part = 1;
+  const cut = (from: number, to: number, low: number, high: number): void => {
+    if (to > high) part = Math.min(part, (high - from) / (to - from));
+    if (to < low) part = Math.min(part, (low - from) / (to - from));
+  };
+  cut(x0, x1, box.left, box.right);
+  cut(y0, y1, box.top, box.bottom);
+  const p = Number.isFinite(part) && part >= 0 ? part : 0;
+  return { x: x0 + p * (x1 - x0), y: y0 + p * (y1 - y0) };
+}
+
+function exitOf(way: Way, rows: number, times: ArrayLike<number>, box: Box): Exit | null {
+  const width = box.right - box.left, height = box.bottom - box.top;
+  let first = -1, far = false;
+  for (let i = 0; i < rows; i++) {
+    const x = way.x(i), y = way.y(i);
+    if (x >= box.left && x <= box.right && y >= box.top && y <= box.bottom) continue;
+    if (first < 0) first = i;
+    if (!(x > box.left - FAR * width && x < box.right + FAR * width && y > box.top - FAR * height && y < box.bottom + FAR * height)) { far = true; break; }
+  }
+  if (first < 1 || !(far || !inside(box, way.x(rows - 1), way.y(rows - 1)))) return null;
+  const x0 = way.x(first - 1), y0 = way.y(first - 1), clamp = (v: number): number => Math.min(1e6, Math.max(-1e6, v));
+  const x1 = clamp(way.x(first)), y1 = clamp(way.y(first));
+  if (Number.isNaN(x1 + y1)) return null;
+  const at = crossing(box, x0, y0, x1, y1), length = Math.hypot(x1 - x0, y1 - y0) || 1;
+  return { row: first, time: times[first]!, ...at, dx: (x1 - x0) / length, dy: (y1 - y0) / length };
+}
+
+function marksOf(motion: Motion, line: Line, way: Way, rank: number): number[] {
+  const n = line.track.times.length, bodies = motion.subject.bodies.length;
+  if (line.track.every === 1 && bodies * n <= MARKED_ROWS) {
+    let length = 0;
+    for (let i = 1; i < n; i++) {
+      const d = Math.hypot(way.x(i) - way.x(i - 1), way.y(i) - way.y(i - 1));
+      if (Number.isFinite(d)) length += Math.min(d, 50);
+    }
+    if (length >= SPACING * (n - 1)) return Array.from({ length: n }, (_, i) => i);
+  }
+  if (bodies > 1) return [];
+  // Each method's marks at other places than the next one's, so that lines on top of one another show who they are.
+  return Array.from({ length: SPARSE }, (_, i) => Math.round((i + (rank + 1) / (motion.lines.length + 1)) * (n - 1) / SPARSE)).filter((i) => i < n);
+}
+
+/** Whether each row of `a` lies where `b` is at its time. */
+function coincide(a: Way, aTimes: ArrayLike<number>, b: Way, bTimes: ArrayLike<number>): boolean {
+  const at: Point = { x: 0, y: 0 };
+  for (let i = 0; i < aTimes.length; i++) {
+    pointAt(b, bTimes, aTimes[i]!, at);
+    if (!(Math.abs(a.x(i) - at.x) <= NEAR && Math.abs(a.y(i) - at.y) <= NEAR)) return false;
+  }
+  return aTimes.length > 0;
+}
+
+export function curvesOf(motion: Motion, plot: Plot): Curves {
+  const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
+  const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y) })) : [];
+  const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
+  const methods = lines.map((line, rank) => waysOf(line.track).map((way, body): Curve => {
+    const { times } = line.track, exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y);
+    return { line, body, way, path: made, marks: marksOf(motion, line, way, rank), band: lengthOf(made) > BAND * size, exit };
+  }));
+  const same = methods.map((own, i) => {
+    if (truth && own.every((c, k) => coincide(c.way, c.line.track.times, exact[k]!.way, truth.times))) return -1;
+    for (let j = 0; j < i; j++) {
+      const other = methods[j]!;
+      if (own.every((c, k) => c.line.track.times.length === other[k]!.line.track.times.length && coincide(c.way, c.line.track.times, other[k]!.way, other[k]!.line.track.times))) return j;
+    }
+    return i;
+  });
+  return { exact, methods, same };
+}

@@ -1,0 +1,436 @@
+/* The picture of a motion for one size of the stage: what keeps still, and what is drawn for a time.
+ *
+ * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
+ * scene and that time alone.
+ */
+import { exactAt } from '../panel/columns';
+import { brief } from '../figure/number';
+import type { Ink, Pen, Span } from '../figure/types';
+import type { Scene } from '../scene';
+import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
+import { curvesOf, pointAt, type Curve, type Curves, type Exit, type Point } from './curves';
+import { person, rod, spring } from './decor';
+import { motionOf, type Line, type Motion } from './motion';
+import { drawNames, missText, type Named } from './names';
+import { trail } from './path';
+import type { Box, Place } from './place';
+import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
+import { isOver, placeAt } from './rows';
+import { shapePicture } from './shape';
+import type { Staging } from './staging';
+import { velocityColumn, type Subject } from './subject';
+
+export interface Setting {
+  readonly scene: Scene; readonly subject: Subject; readonly staging: Staging; readonly place: Place; readonly bounds: Bounds; readonly camera: Camera;
+  /** The picture before, whose curves stay as ghosts. */
+  readonly before: Picture | null;
+}
+/** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
+export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
+export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Picture {
+  still(pen: Pen, ink: Ink): void;
+  moving(pen: Pen, ink: Ink, time: number): void;
+  ghost(pen: Pen, ink: Ink): void;
+  readonly handle: Handle | null;
+  readonly leaving: readonly Leaving[];
+  /** Sentences for those who do not see it. */
+  remarks(): string[];
+}
+
+const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
+const LIVE_MARKS = 400, STEPS_SEEN = 40;
+
+/** Which other plot stands beside a number against time. */
+export type Side = 'phase' | 'rod' | '';
+const ANGLES = new Set(['theta', 'phi', 'alpha', 'varphi', 'θ', 'φ', 'ϑ']);
+export function sideOf(scene: Scene, subject: Subject, staging: Staging, place: Place): Side {
+  if (subject.kind !== 'time' || place.frame.right - place.frame.left < 600) return '';
+  const positions = scene.description.variables.reduce((sum, v) => sum + (v.order === 2 ? v.count * Math.max(1, v.components) : 0), 0);
+  if (positions !== 1) return '';
+  if (staging.decor === 'pendulum' || ANGLES.has(subject.axes[1] ?? '')) return 'rod';
+  return scene.description.time_dependent || velocityColumn(scene.solution, subject.bodies[0]!.columns[0]!) < 0 ? '' : 'phase';
+}
+
+const axisOf = (name: string, unit = ''): Axis => ({ name, unit });
+
+/** The bounds that a scene begins with, and whether an old frame still serves it. all: every method is to be seen. */
+export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all: boolean, old: Bounds | null): Bounds {
+  const motion = motionOf(scene, subject), time = subject.kind === 'time';
+  if (all) return allOf(motion);
+  const { ranges } = extentOf(motion);
+  if (old && old.length === ranges.length && suits(old, ranges, time, subject.kind === 'plane')) return old;
+  const own = staging.frame && !time ? [staging.frame.x, staging.frame.y] : null;
+  if (own && suits(own, ranges, false, true)) return own;
+  const wide = roomy(ranges, time);
+  // Whoever throws stands on the ground, which is part of the picture.
+  return staging.decor === 'throw' ? [wide[0]!, join(wide[1]!, [0, 0])] : wide;
+}
+
+/** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
+export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
+  if (subject.kind !== 'plane') return false;
+  const [w, h] = bounds.map(([low, high]) => high - low) as [number, number];
+  return staging.equal ?? (w <= 4 * h && h <= 4 * w);
+}
+
+function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, side: Side): Plot[] {
+  const { frame, scale: letters } = place, { solution } = scene, units = staging.units;
+  if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
+  const common = { solution, subject, letters };
+  if (subject.kind === 'time') {
+    const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
+    const whole: Box = { left, top, right: small ? frame.right + 30 : place.width - 240 * letters, bottom: frame.bottom };
+    const axes = [axisOf('t', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
+    if (!side) return [flatPlot({ ...common, bounds, box: whole, equal: false, style: 'time', axes })];
+    const right = place.width - 37 * letters, width = Math.min(0.4 * (right - left), 1.05 * (frame.bottom - top), side === 'rod' ? 220 * letters : Infinity), from = right - width;
+    const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - 104 * letters }, equal: false, style: 'time', axes });
+    if (side === 'rod') return [main];
+    const y = bounds[1]!, box = { left: from, top, right, bottom: frame.bottom }, unit = (box.bottom - top) / (y[1] - y[0]);
+    const fastest = velocityRange(scene, subject), need = 1.12 * Math.max(Math.abs(fastest[0]), Math.abs(fastest[1]), 1e-300), same = width / 2 / unit;
+    const half = same >= need / 1.1 && same <= 2.2 * need ? same : need;
+    const name = solution.columns[velocityColumn(solution, subject.bodies[0]!.columns[0]!)] ?? '';
+    return [main, flatPlot({ ...common, bounds: [[-half, half], y], box, equal: false, style: 'phase', axes: [axisOf(name), axisOf('')] })];
+  }
+  const equal = equalFor(subject, staging, bounds), ground = staging.decor === 'throw';
+  const axes = [axisOf(subject.axes[0] ?? 'x', units?.x), axisOf(subject.axes[1] ?? 'y', units?.x)] as const;
+  const small = !place.names, box = ground ? frame : { ...frame, left: frame.left + (small ? 14 : 44), top: frame.top + 22, bottom: frame.bottom - (small ? 4 : 8) };
+  return [flatPlot({ ...common, bounds, box, equal, style: ground ? 'ground' : 'plane', axes })];
+}
+function velocityRange(scene: Scene, subject: Subject): Range {
+  const column = velocityColumn(scene.solution, subject.bodies[0]!.columns[0]!), { truth } = scene.solution;
+  const of = truth?.columns[column]?.length ? truth.columns[column] : scene.solution.tracks[0]?.columns[column];
+  let low = 0, high = 0;
+  for (const v of of ?? []) { if (v < low) low = v; if (v > high && v < Infinity) high = v; }
+  return [low, high];
+}
+
+export function pictureOf(setting: Setting): Picture {
+  const { scene, subject, staging, place, bounds, before } = setting;
+  const motion = motionOf(scene, subject), { lines, truth } = motion;
+  if (subject.kind === 'shape') return shapePicture(setting, motion);
+  const side = sideOf(scene, subject, staging, place), plots = plotsOf(setting, side), main = plots[0]!;
+  const drawn = plots.map((plot) => ({ plot, curves: curvesOf(motion, plot) })), { curves } = drawn[0]!;
+  const single = subject.bodies.length === 1, flat = main.up !== null;
+  const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
+  const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
+  const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
+  const ghosts = (of: Curves): readonly Curve[] => of.methods.flat();
+  const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
+
+  /** The points of a line where all methods and the exact motion are at a step, lowest and highest: a rung of the ladder. */
+  function ladder(pen: Pen, ink: Ink, upTo: number): void {
+    const first = lines[0]?.track;
+    if (!staging.upright || !single || !truth || !first || first.every !== 1 || first.times.length > STEPS_SEEN * 2 || lines.length < 2) return;
+    const at: Point = { x: 0, y: 0 };
+    let last = -Infinity;
+    for (let i = 1; i < first.times.length - 1 && first.times[i]! <= upTo; i++) {
+      let low = Infinity, high = -Infinity, x = 0;
+      pointAt(curves.exact[0]!.way, truth.times, first.times[i]!, at);
+      low = high = at.y;
+      for (const [curve] of curves.methods) {
+        if (!curve || curve.line.track.times[i] !== first.times[i]) continue;
+        low = Math.min(low, curve.way.y(i)); high = Math.max(high, curve.way.y(i));
+        x = curve.way.x(i);
+        if (Math.abs(x - at.x) > 2) return;
+      }
+      if (at.x - last < SPACING_LADDER || high - low < 3) continue;
+      last = at.x;
+      pen.line([at.x, low, at.x, high], { colour: ink.ghost, width: 1 });
+    }
+  }
+  function strobe(pen: Pen, ink: Ink, upTo: number): void {
+    const first = lines[0]?.track;
+    if (!single || !truth || !first || first.every !== 1 || first.times.length > STEPS_SEEN + 2 || subject.kind !== 'plane') return;
+    const at: Point = { x: 0, y: 0 };
+    for (let i = 1; i < first.times.length - 1 && first.times[i]! <= upTo; i++) {
+      pointAt(curves.exact[0]!.way, truth.times, first.times[i]!, at);
+      const ring = Array.from({ length: 50 }, (_, k) => (k % 2 ? at.y : at.x) + (place.ball + 0.5) * (k % 2 ? Math.sin : Math.cos)(Math.PI * (k >> 1) / 12));
+      pen.area(ring, ink.exact, STROBE);
+    }
+  }
+  function marks(pen: Pen, ink: Ink, curve: Curve, upTo: number, plot: Plot): void {
+    for (const i of curve.marks) {
+      if (i > upTo) break;
+      if (i === 0 && curve.marks.length > 12) continue;
+      const x = curve.way.x(i), y = curve.way.y(i);
+      if (!inside(plot.box, x, y, 4) || (curve.exit && i >= curve.exit.row)) continue;
+      pen.mark(curve.line.look.marker, x, y, place.marker + 1.5, ink.surface);
+      pen.mark(curve.line.look.marker, x, y, place.marker, curve.line.look.colour);
+    }
+  }
+  function arrowhead(pen: Pen, curve: Curve, exit: Exit): void {
+    const { dx, dy } = exit, s = 9, x = exit.x - 2 * dx, y = exit.y - 2 * dy;
+    pen.line([x - s * dx + 0.6 * s * dy, y - s * dy - 0.6 * s * dx, x, y, x - s * dx - 0.6 * s * dy, y - s * dy + 0.6 * s * dx], { colour: curve.line.look.colour, width: 2 });
+  }
+  function arrow(): Handle | null {
+    if (!single || subject.kind !== 'plane' || !flat) return null;
+    const from = truth ?? lines[0]?.track, body = subject.bodies[0]!;
+    if (!from) return null;
+    const at = { x: (truth ? curves.exact[0]! : curves.methods[0]![0]!).way.x(0), y: (truth ? curves.exact[0]! : curves.methods[0]![0]!).way.y(0) };
+    const v = body.columns.map((c) => { const k = velocityColumn(scene.solution, c); return scene.solution.tracks[0]?.columns[k]?.[0] ?? truth?.columns[k]?.[0] ?? NaN; });
+    const speed = Math.hypot(...v), unit = main.unit !== null && staging.arrow ? staging.arrow * main.unit : 0.22 * Math.min(place.width, place.height) / speed;
+    if (!(speed > 0) || !Number.isFinite(unit)) return null;
+    return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
+  }
+  const handle = arrow();
+  function drawArrow(pen: Pen, ink: Ink): void {
+    if (!handle) return;
+    const { x, y, fromX, fromY } = handle, r = place.names ? 6.5 : 5, speed = Math.hypot(x - fromX, y - fromY) / handle.unit, letters = place.scale;
+    pen.line([fromX, fromY, x, y], { colour: ink.quiet, width: 1.5 });
+    for (const [px, py, radius] of [[x, y, r], [fromX, fromY, r - 1.5]] as const) {
+      pen.mark('circle', px, py, radius + 1, ink.text);
+      pen.mark('circle', px, py, radius - 1, ink.surface);
+    }
+    if (!place.names) return;
+    const way = x >= fromX ? -1 : 1, anchor = way < 0 ? 'end' as const : 'start' as const;
+    pen.text(x + way * 14, y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
+    pen.text(x + way * 14, y + 15 * letters, `${missText(speed, 100 * speed)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+  }
+
+  function still(pen: Pen, ink: Ink): void {
+    if (staging.decor === 'throw' && main.up && main.along && main.unit && main.unit >= 30 && truth) {
+      const last = truth.times.length - 1, { way } = curves.exact[0]!, ground = main.up(0);
+      person(pen, ink, way.x(0), way.y(0), ground, main.unit, 1);
+      if (way.y(last) < ground - 1.2 * main.unit && way.y(last) > ground - 2.4 * main.unit) person(pen, ink, way.x(last), way.y(last), ground, main.unit, -1);
+    }
+    for (const { plot } of drawn) plot.draw(pen, ink);
+    before?.ghost(pen, ink);
+    for (const { plot, curves: own } of drawn) {
+      clipped(pen, plot, () => {
+        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: EXACT_WIDTH, alpha: TO_COME_EXACT }, 2 * path.count);
+        own.methods.forEach((of, i) => {
+          if (nowhere.has(i)) return;
+          for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: WIDTH, dash: c.band ? [] : c.line.look.dash, alpha: TO_COME }, 2 * c.path.count);
+        });
+      });
+    }
+  }
+  function ghost(pen: Pen, ink: Ink): void {
+    for (const { plot, curves: own } of drawn) {
+      clipped(pen, plot, () => {
+        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1.5, alpha: 0.4 }, 2 * path.count);
+        for (const c of ghosts(own)) if (!nowhere.has(c.line.index)) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.5, alpha: 0.4 }, 2 * c.path.count);
+      });
+    }
+  }
+
+  const present: Point = { x: 0, y: 0 };
+  const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
+  const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
+
+  /** The error of a line at the last step that was made by then; null: not known. */
+  function miss(line: Line, time: number, y: number, exactY: number): Named['miss'] {
+    const errors = scene.solution.errors[line.index]?.x;
+    if (!errors?.length || !truth) return null;
+    const at = placeAt(line.track.times, time), row = at.part === 1 ? at.row + 1 : at.row, value = errors[row];
+    if (value === undefined || !Number.isFinite(value)) return null;
+    const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
+    if (value <= 1e-12 * size) return { size: 0, text: 'on it', words: '' };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, words: upright ? (y < exactY ? 'too high' : 'too low') : 'off' };
+  }
+
+  function moving(pen: Pen, ink: Ink, time: number): void {
+    clipped(pen, main, () => { ladder(pen, ink, time); strobe(pen, ink, time); });
+    for (const { plot, curves: own } of drawn) {
+      clipped(pen, plot, () => {
+        if (truth) {
+          own.exact.forEach(({ path, way }) => {
+            const { row, part } = placeAt(truth.times, time);
+            pointAt(way, truth.times, time, present);
+            const so = trail(path, part === 1 ? row + 1 : row, present.x, present.y);
+            pen.line(so.xy, { colour: ink.exact, width: EXACT_WIDTH }, so.count);
+          });
+        }
+        let live = 0;
+        for (const of of own.methods) for (const c of of) live += c.marks.length;
+        for (let i = own.methods.length - 1; i >= 0; i--) {
+          for (const c of own.methods[i]!) {
+            const { times } = c.line.track, at = placeAt(times, time), over = c.exit !== null && at.row >= c.exit.row;
+            const row = over ? c.exit!.row : at.part === 1 ? at.row + 1 : at.row;
+            if (over) { present.x = c.way.x(c.exit!.row); present.y = c.way.y(c.exit!.row); } else pointAt(c.way, times, time, present);
+            if (!nowhere.has(i)) {
+              const so = trail(c.path, row, present.x, present.y);
+              pen.line(so.xy, { colour: c.line.look.colour, width: WIDTH, dash: c.band ? [] : c.line.look.dash }, so.count);
+            }
+            if (live <= LIVE_MARKS) marks(pen, ink, c, row, plot);
+          }
+        }
+      });
+      own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) if (c.exit && time >= c.exit.time) arrowhead(pen, c, c.exit); });
+    }
+    drawArrow(pen, ink);
+    const labels = balls(pen, ink, time);
+    const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
+    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : side === 'rod' ? place.width - 250 * place.scale : place.width - 8;
+    drawNames(pen, ink, place, labels, upright, bounds[1]![1] - bounds[1]![0], Math.max(right, farthest + 20));
+    if (!place.names) atCurves(pen, ink, time);
+    leavers(pen, ink, time);
+    beside(pen, ink, time);
+  }
+
+  /** Where everybody is now; answers the labels that belong there. */
+  function balls(pen: Pen, ink: Ink, time: number): Named[] {
+    const labels: Named[] = [], groups = new Map<number, Line[]>();
+    lines.forEach((line, i) => { const k = curves.same[i]!; groups.set(k, [...(groups.get(k) ?? []), line]); });
+    const exactPoint: Point = { x: NaN, y: NaN };
+    if (truth) pointAt(curves.exact[0]!.way, truth.times, time, exactPoint);
+    for (const { plot, curves: own } of drawn) {
+      // Methods first, as the exact motion's ball is larger; those that are on it stand on top.
+      own.methods.forEach((of, i) => {
+        if (nowhere.has(i)) return;
+        for (const c of of) {
+          if (gone(c, time)) continue;
+          pointAt(c.way, c.line.track.times, time, present);
+          if (!inside(plot.box, present.x, present.y, 8)) continue;
+          const r = (single ? place.ball : place.ball * 0.62) * (c.line.look.marker === 'circle' ? 1 : 0.86);
+          pen.mark(c.line.look.marker, present.x, present.y, r + 1.5, ink.surface);
+          pen.mark(c.line.look.marker, present.x, present.y, r, c.line.look.colour);
+        }
+      });
+      if (truth) own.exact.forEach(({ way }, body) => {
+        pointAt(way, truth.times, time, present);
+        if (!inside(plot.box, present.x, present.y, 8)) return;
+        const r = single ? place.ball + 1 : place.ball * 0.8;
+        pen.mark('circle', present.x, present.y, r + 2, ink.surface);
+        pen.mark('circle', present.x, present.y, r, ink.exact);
+        for (const i of nowhere) {
+          const c = own.methods[i]![body]!;
+          if (isOver(c.line.track.times, time)) continue;
+          pen.mark(c.line.look.marker, present.x, present.y, 0.62 * r, ink.surface);
+          pen.mark(c.line.look.marker, present.x, present.y, 0.5 * r, c.line.look.colour);
+        }
+      });
+    }
+    if (drawn.length > 1 && truth) {
+      const other = pointAt(drawn[1]!.curves.exact[0]!.way, truth.times, time);
+      pen.line([staging.decor === 'spring' ? place.frame.left + 52 : exactPoint.x, exactPoint.y, other.x, exactPoint.y], { colour: ink.exact, width: 1, dash: [2, 3], alpha: 0.6 });
+    }
+    if (truth) {
+      const joined = groups.get(-1) ?? [];
+      labels.push({
+        names: [{ text: exactName, colour: ink.exact }, ...joined.map((l) => ({ text: short(l.look.label), colour: l.look.tone }))], colour: ink.exact, line: ink.exact,
+        ...exactPoint, miss: null, exact: true,
+      });
+    }
+    for (const [k, own] of groups) {
+      if (k < 0) continue;
+      const curve = curves.methods[k]![0]!;
+      if (gone(curve, time)) continue;
+      const at = pointAt(curve.way, curve.line.track.times, time);
+      if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
+      labels.push({
+        names: own.map((l) => ({ text: short(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
+        miss: miss(own[0]!, time, at.y, exactPoint.y), exact: false,
+      });
+    }
+    return labels.length > 14 ? labels.slice(0, 14) : labels;
+  }
+
+  /** On a small stage: names where a curve is farthest from the exact one, outside of it. */
+  function atCurves(pen: Pen, ink: Ink, time: number): void {
+    if (!truth || !single || lines.length > 5) return;
+    const taken: Box[] = [];
+    curves.methods.forEach((of, i) => {
+      const c = of[0]!;
+      if (nowhere.has(i) || curves.same[i] !== i || c.exit) return;
+      const { times } = c.line.track, n = times.length, at: Point = { x: 0, y: 0 };
+      if (time < last(c.line) && time > (times[0] ?? 0)) return;
+      let best = -1, most = 6;
+      for (let row = Math.floor(n * 0.2); row < n * 0.85; row++) {
+        pointAt(curves.exact[0]!.way, truth.times, times[row]!, at);
+        // The middle of the curve is better than its end, where numbers stand.
+        const d = Math.abs(c.way.y(row) - at.y) * (1 - Math.abs(row / n - 0.5));
+        if (d > most && inside(main.box, c.way.x(row), c.way.y(row), -20)) { most = d; best = row; }
+      }
+      if (best < 0) return;
+      pointAt(curves.exact[0]!.way, truth.times, times[best]!, at);
+      const above = c.way.y(best) < at.y, x = c.way.x(best), y = c.way.y(best) + (above ? -12 : 18), half = 3.9 * short(c.line.look.label).length;
+      const box = { left: x - half, right: x + half, top: y - 12, bottom: y + 3 };
+      if (taken.some((t) => t.left < box.right && box.left < t.right && t.top < box.bottom && box.top < t.bottom)) return;
+      taken.push(box);
+      pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, c.line.look.label, { colour: c.line.look.tone, size: 13, bold: true, anchor: 'middle', halo: ink.surface });
+    });
+  }
+
+  const leaving: Leaving[] = [];
+  curves.methods.forEach((of, i) => {
+    const c = of.find((curve) => curve.exit);
+    if (!c?.exit || nowhere.has(i)) return;
+    const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
+    const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
+    leaving.push({ name: short(c.line.look.label), more: told(motion, c, main, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 26 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+  });
+  function leavers(pen: Pen, ink: Ink, time: number): void {
+    for (const l of leaving) {
+      if (time < l.time) continue;
+      const size = (place.names ? 14 : 12) * place.scale, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
+      pen.text(l.x, l.y, [{ text: `${l.name} leaves`, bold: true }], letters);
+      if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
+    }
+  }
+
+  /** The spring, the pendulum's rod. */
+  function beside(pen: Pen, ink: Ink, time: number): void {
+    if (!truth && !lines.length) return;
+    const curve = curves.exact[0] ?? curves.methods[0]![0]!, times = truth?.times ?? lines[0]!.track.times, at = pointAt(curve.way, times, time);
+    const colour = truth ? ink.exact : lines[0]!.look.colour;
+    if (side === 'phase' && staging.decor === 'spring' && Number.isFinite(at.y)) {
+      const x = place.frame.left + 39, y = Math.min(main.box.bottom, Math.max(main.box.top + 40, at.y));
+      spring(pen, ink, x, place.frame.top + 12, y);
+      pen.mark('circle', x, y, 1.4 * place.ball + 1.5, ink.surface);
+      pen.mark('circle', x, y, 1.4 * place.ball, colour);
+    }
+    if (side !== 'rod') return;
+    const column = subject.bodies[0]!.columns[0]!, of = truth?.columns[column]?.length ? truth : lines[0]!.track, length = 80 * place.scale;
+    const x = place.width - 118 * place.scale, y = (main.box.top + main.box.bottom) / 2 + 20, place_ = placeAt(of.times, time), values = of.columns[column]!;
+    const angleAt = (t: number): number => { const p = placeAt(of.times, t, place_), a = values[p.row]!, b = values[p.row + 1] ?? a; return a + p.part * (b - a); };
+    const span = Math.abs((of.times[of.times.length - 1] ?? 1) - of.times[0]!), way = Math.sign((of.times[of.times.length - 1] ?? 1) - of.times[0]!) || 1;
+    for (let k = 9; k >= 1; k--) {
+      const t = time - way * k * span / 110;
+      if ((t - of.times[0]!) * way < 0) continue;
+      const angle = angleAt(t), r = place.ball * 0.95;
+      pen.area(Array.from({ length: 40 }, (_, j) => (j % 2 ? y + length * Math.cos(angle) : x + length * Math.sin(angle)) + r * (j % 2 ? Math.sin : Math.cos)(Math.PI * (j >> 1) / 10)), colour, 0.3 - 0.026 * k);
+    }
+    const end = rod(pen, ink, x, y, length, angleAt(time));
+    pen.mark('circle', ...end, place.ball + 3, ink.surface);
+    pen.mark('circle', ...end, place.ball + 1.5, colour);
+  }
+
+  return {
+    still, moving, ghost, handle, leaving,
+    remarks: () => lines.map((line) => {
+      const { problem, times } = line.track;
+      if (problem) return `${line.look.label} stops at t = ${brief(problem.time ?? times[times.length - 1] ?? 0)}${problem.variable ? `: ${problem.variable} is no finite number` : ''}`;
+      const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
+      return c?.exit ? `${line.look.label} leaves the picture at t = ${brief(c.exit.time)}` : '';
+    }).filter(Boolean),
+  };
+}
+const SPACING_LADDER = 8;
+
+/** "midpoint" of "explicit midpoint rule (RK2)": a name for a label. */
+export function short(label: string): string {
+  return label.replace(/\s*\(.*\)$/, '');
+}
+
+/** How a runaway ends: by how much too wide it swings, or when it left. */
+function told(motion: Motion, curve: Curve, plot: Plot, staging: Staging): string {
+  const { track, look } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
+  void look;
+  const end = track.times[track.times.length - 1] ?? 0;
+  if (track.problem) return `and ends at ${brief(track.problem.time ?? end, 3)}${unit}, no longer a number`;
+  if (motion.subject.kind === 'time' && truth && plot.up) {
+    const column = motion.subject.bodies[curve.body]!.columns[0]!, exact = truth.columns[column]!, own = track.columns[column]!;
+    let low = Infinity, high = -Infinity, far = 0;
+    for (const v of exact) { low = Math.min(low, v); high = Math.max(high, v); }
+    for (let i = Math.floor(0.85 * own.length); i < own.length; i++) far = Math.max(far, Math.abs(own[i]! - (low + high) / 2));
+    const times = far / ((high - low) / 2);
+    if (Number.isFinite(times) && times >= 1.5) return `${brief(times, 2)} times too wide at ${brief(end, 3)}${unit}`;
+  }
+  return `at ${brief(curve.exit!.time, 3)}${unit}`;
+}
+
+/** For tables and sentences: the exact value of a column at a time. */
+export const exactValue = (scene: Scene, name: string, time: number): number => exactAt(scene, name, time);
+export type { Span };

@@ -1,0 +1,28 @@
+/* Where things stand on the stage, for a size of it: the frame that the motion fills, room for names at its right, letters, strokes.
+ *
+ * Invariant: lengths are CSS pixels of the stage; the frame has a width and a height however small the stage is.
+ */
+export type Mode = 'phone' | 'landscape' | 'tablet' | 'desk' | 'wide';
+export interface Box { readonly left: number; readonly top: number; readonly right: number; readonly bottom: number }
+export interface Place {
+  readonly mode: Mode; readonly width: number; readonly height: number;
+  /** Where the motion is drawn; axes stand below and at its left, names at its right. */
+  readonly frame: Box;
+  /** Letters, times what they are on a desk. */
+  readonly scale: number;
+  /** Names stand in a column at the right; else at the curves, and only numbers at the right. */
+  readonly names: boolean;
+  readonly marker: number; readonly ball: number;
+}
+
+/** width, height: of the stage; column: the right edge of the text that stands on it, 0 where the text stands above. window: the width of the page. */
+export function placeOf(width: number, height: number, column: number, page: { readonly width: number; readonly height: number }): Place {
+  const landscape = page.height <= 480 && page.width > page.height;
+  const mode: Mode = landscape ? 'landscape' : page.width < 768 ? 'phone' : page.width < 1280 ? 'tablet' : page.width < 1600 ? 'desk' : 'wide';
+  // left, top, and what is kept free at the right and below.
+  const [left, top, right, below] = mode === 'phone' ? [24, 8, 62, 34] : mode === 'landscape' ? [24, 52, 66, 28]
+    : mode === 'tablet' ? [64, 14, 186, 40] : mode === 'desk' ? [column ? column + 9 : 64, 17, 186, 40] : [column ? column - 60 : 120, 17, 217, 44];
+  const frame = { left, top, right: Math.max(left + 60, width - right), bottom: Math.max(top + 60, height - below) };
+  const small = mode === 'phone' || mode === 'landscape';
+  return { mode, width, height, frame, scale: mode === 'wide' ? 1.2 : 1, names: !small, marker: small ? 3.6 : 4.6, ball: small ? 7.5 : mode === 'wide' ? 11 : 9 };
+}

@@ -1,0 +1,309 @@
+/* The stage: the picture of the motion, as large as the page gives room. The build draws the first one into the page with the same code.
+ *
+ * Invariant: the frame keeps still while sliders move; it moves once, afterwards, where the exact motion has left it or become small in it. Methods never
+ * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
+ */
+import { button, el, say } from '../dom';
+import { csv, downloadText, fileName } from '../figure/export';
+import { ink } from '../figure/ink';
+import { brief } from '../figure/number';
+import { canvasPen, svgPen } from '../figure/pen';
+import { rowAt } from '../figure/track';
+import { tableElement } from '../figure/table';
+import type { Ink, Pen, Table } from '../figure/types';
+import { download } from '../figure/export';
+import type { Panel, Scene, Store } from '../scene';
+import { short as shortNumber } from '../shell/number';
+import { boundsFor, pictureOf, type Picture } from './picture';
+import { extentOf, suits, type Bounds } from './bounds';
+import { motionOf } from './motion';
+import { placeOf, type Place } from './place';
+import { HOME, turned } from './plot';
+import { stagingOf } from './staging';
+import { subjects, type Subject } from './subject';
+import { turnable } from './turnable';
+
+/** Milliseconds: a ghost stays after the last change; the frame takes to move. */
+const GHOST = 1200, MOVE = 300;
+const PNG_SCALE = 2;
+
+export interface Stage extends Panel {
+  /** Chooses the view: which of the ways to look at the motion. */
+  readonly choice: HTMLElement;
+  save(kind: 'PNG' | 'SVG' | 'CSV'): void;
+  /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
+  relayout(): void;
+}
+
+export function stage(store: Store, room: { column(): number }): Stage {
+  const still = el('canvas', { class: 'stage-still', role: 'img' }), moving = el('canvas', { class: 'stage-moving', 'aria-hidden': 'true' });
+  const aim = button('', () => {}, { class: 'stage-aim', role: 'slider', hidden: true });
+  const all = button('show all', () => { showAll = !showAll; bounds = null; refresh(true); }, { class: 'stage-all', hidden: true });
+  const message = el('p', { class: 'stage-message', hidden: true });
+  const caption = el('figcaption', { class: 'unseen' });
+  const holder = document.getElementById('stage-picture') ?? el('div', { id: 'stage-picture' });
+  holder.append(still, moving, aim, all, message);
+  const element = el('figure', { class: 'stage-figure', 'aria-labelledby': 'motion-title' }, el('h2', { id: 'motion-title', class: 'unseen' }, 'Motion'), holder, caption);
+
+  let scene: Scene | null = null, subject: Subject | null = null, choices: readonly Subject[] = [], chosen = '', showAll = false;
+  let picture: Picture | null = null, ghost: Picture | null = null, bounds: Bounds | null = null, place: Place | null = null, frameKey = '';
+  let time = 0, asked = 0, colours: Ink | null = null, scale = 1, ghostTimer = 0, moveFrame = 0, sentence = 0, dirty = false, pressed = false, visible = true;
+  const camera = { ...HOME };
+  const calm = matchMedia('(prefers-reduced-motion: reduce)');
+
+  // --- the views ---------------------------------------------------------------------------------------------------------------------
+  const select = el('select', { id: 'stage-view', 'aria-label': 'View' });
+  const choice = el('label', { class: 'view-choice' }, el('span', {}, 'View'), select);
+  select.addEventListener('change', () => {
+    chosen = select.value;
+    const kind = choices.find((s) => s.id === chosen)?.kind;
+    bounds = null;
+    showAll = false;
+    // The address remembers the kind of view; which of several planes is a matter of the moment.
+    if (kind) store.look({ plane: kind === 'shape' ? 'auto' : kind });
+    if (scene) show(scene);
+  });
+  function pick(): Subject | null {
+    const wanted = store.state.view.plane;
+    return choices.find((s) => s.id === chosen) ?? choices.find((s) => wanted !== 'auto' && s.kind === wanted) ?? choices[0] ?? null;
+  }
+  function offer(): void {
+    const same = select.options.length === choices.length && choices.every((s, i) => select.options[i]?.value === s.id && select.options[i]?.text === s.label);
+    if (!same) select.replaceChildren(...choices.map((s) => new Option(s.label, s.id)));
+    if (subject) select.value = subject.id;
+    choice.hidden = choices.length < 2;
+  }
+
+  // --- drawing -----------------------------------------------------------------------------------------------------------------------
+  function fit(): boolean {
+    const width = holder.clientWidth, height = holder.clientHeight;
+    if (!width || !height) return false;
+    const s = Math.min(4, Math.max(1, devicePixelRatio || 1)), column = room.column();
+    const next = placeOf(width, height, column, { width: innerWidth, height: innerHeight });
+    if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
+    scale = s;
+    for (const canvas of [still, moving]) {
+      const w = Math.round(width * s), h = Math.round(height * s);
+      if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
+    }
+    return true;
+  }
+  function onto(canvas: HTMLCanvasElement, draw: (pen: Pen, ink: Ink) => void): void {
+    const context = canvas.getContext('2d');
+    if (!context || !place || !colours) return;
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, place.width, place.height);
+    draw(canvasPen(context, place.width, place.height), colours);
+  }
+  function make(of: Bounds): void {
+    if (!scene || !subject || !place) return;
+    picture = pictureOf({ scene, subject, staging: staging(), place, bounds: of, camera, before: ghost });
+  }
+  const staging = () => stagingOf(scene && scene.state.preset && scene.state.text === store.state.text ? scene.state.preset : '');
+  function draw(): void {
+    asked = 0;
+    if (!dirty || !visible || !scene || !fit() || !subject) return;
+    dirty = false;
+    colours = ink();
+    bounds ??= boundsFor(scene, subject, staging(), showAll, null);
+    if (!picture) make(bounds);
+    if (!picture) return;
+    onto(still, (pen, i) => picture!.still(pen, i));
+    drawMoving();
+    // The build's picture has done its work.
+    holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
+    attach();
+    if (!sentence) sentence = window.setTimeout(describe, 150);
+  }
+  let busy = false, again = false;
+  function drawMoving(): void {
+    if (picture) onto(moving, (pen, i) => picture!.moving(pen, i, time));
+  }
+  /** At once where this frame has not had it yet: a moving thing must not lag a frame behind its clock. */
+  function redrawMoving(): void {
+    if (dirty || !visible) return;
+    if (busy) { again = true; return; }
+    busy = true;
+    drawMoving();
+    requestAnimationFrame(() => { busy = false; if (again) { again = false; redrawMoving(); } });
+  }
+  function refresh(anew = false): void {
+    if (anew) picture = null;
+    dirty = true;
+    if (!asked) asked = requestAnimationFrame(draw);
+  }
+  /** The frame goes to where it belongs, once. */
+  function settle(): void {
+    if (!scene || !subject || !bounds || showAll) return;
+    const { ranges } = extentOf(motionOf(scene, subject)), inTime = subject.kind === 'time';
+    if (suits(bounds, ranges, inTime, subject.kind === 'plane')) return;
+    const from = bounds, to = boundsFor(scene, subject, staging(), false, null), began = performance.now();
+    cancelAnimationFrame(moveFrame);
+    const step = (now: number): void => {
+      const part = calm.matches ? 1 : Math.min(1, Math.max(0, (now - began) / MOVE)), eased = 1 - (1 - part) ** 3;
+      bounds = from.map(([a, b], k): readonly [number, number] => [a + eased * (to[k]![0] - a), b + eased * (to[k]![1] - b)]);
+      if (part === 1) bounds = to;
+      refresh(true);
+      if (part < 1) moveFrame = requestAnimationFrame(step);
+    };
+    ghost = null;
+    moveFrame = requestAnimationFrame(step);
+  }
+  function endGhost(): void {
+    if (pressed) { ghostTimer = window.setTimeout(endGhost, 300); return; }
+    ghostTimer = 0;
+    ghost = null;
+    refresh(true);
+    settle();
+  }
+  document.addEventListener('pointerdown', ({ target }) => { pressed = target === aim || (target instanceof HTMLInputElement && target.type === 'range'); }, { capture: true });
+  for (const kind of ['pointerup', 'pointercancel']) document.addEventListener(kind, () => { pressed = false; }, { capture: true });
+
+  function show(next: Scene): void {
+    const key = `${next.state.preset}`, other = key !== frameKey;
+    if (other) { chosen = ''; showAll = false; Object.assign(camera, HOME); bounds = null; ghost = null; cancelAnimationFrame(moveFrame); }
+    frameKey = key;
+    const before = scene, old = subject;
+    scene = next;
+    choices = subjects(next.description, next.solution);
+    subject = pick();
+    offer();
+    turning.enable(subject?.kind === 'space');
+    if (subject?.id !== old?.id) bounds = null;
+    // What moved: the curve of before stays for a while. A finer answer to the same question is no change.
+    const changed = before && !other && subject && (JSON.stringify(before.state.set) !== JSON.stringify(next.state.set) || before.state.step !== next.state.step);
+    if (changed && bounds) {
+      if (!ghost) ghost = picture;
+      clearTimeout(ghostTimer);
+      ghostTimer = window.setTimeout(endGhost, GHOST);
+    } else if (bounds && subject && before && !other && !ghost) {
+      const until = next.state.until !== before.state.until, { ranges } = extentOf(motionOf(next, subject));
+      if (until || next.state.text !== before.state.text || !before.solution.truth) {
+        if (!suits(bounds, ranges, subject.kind === 'time', subject.kind === 'plane')) bounds = showAll ? null : boundsFor(next, subject, staging(), false, null);
+      }
+    }
+    const words = !subject ? 'This model has no positions to show.' : next.solution.tracks.length === 0 && !next.solution.truth ? 'Choose a method to see its motion.' : '';
+    message.textContent = words;
+    message.hidden = !words;
+    still.hidden = moving.hidden = !!words;
+    refresh(true);
+  }
+
+  // --- what one takes hold of ---------------------------------------------------------------------------------------------------------
+  const turning = turnable(still, (turn, rise) => {
+    if (turn === null) Object.assign(camera, HOME); else turned(camera, turn, rise);
+    refresh(true);
+  });
+  function attach(): void {
+    const handle = picture?.handle, settable = handle && scene && subject ? velocity() : null;
+    aim.hidden = !settable;
+    if (handle && settable) {
+      aim.style.transform = `translate(${handle.x - 22}px, ${handle.y - 22}px)`;
+      aim.setAttribute('aria-label', 'Initial velocity: arrow keys turn it up, down, left and right');
+      aim.setAttribute('aria-valuetext', `${settable.values.map((v) => shortNumber(v, 4)).join(', ')}`);
+      aim.setAttribute('aria-valuenow', String(Math.hypot(...settable.values)));
+    }
+    const leaving = picture?.leaving[0];
+    all.hidden = !leaving && !showAll;
+    say(all, showAll ? 'show the exact motion' : 'show all');
+    const at = leaving ?? { x: (place?.width ?? 0) - 160, y: 24, anchor: 'start' as const, more: '' };
+    all.style.left = leaving ? `${at.anchor === 'end' ? at.x - 62 : at.x}px` : 'auto';
+    all.style.right = leaving ? 'auto' : '24px';
+    all.style.top = `${leaving ? at.y + (at.more ? 24 : 8) : 12}px`;
+  }
+  /** The initial velocity as a parameter that a slider may set: its name and two numbers. */
+  function velocity(): { readonly name: string; readonly values: readonly number[] } | null {
+    const body = subject?.bodies[0], name = body ? scene?.solution.columns[body.columns[0]!] : undefined, of = name?.replace(/\.\w+$/, '');
+    const parameter = scene?.solution.description.parameters.find((p) => p.initial && p.name === `${of}'(0)` && p.values.length === 2);
+    return parameter && subject?.bodies.length === 1 ? { name: parameter.name, values: parameter.values } : null;
+  }
+  const round = (v: number): string => shortNumber(Number(v.toFixed(Math.max(0, 2 - Math.floor(Math.log10(Math.max(Math.abs(v), 1e-3)))))), 4);
+  function throwAt(vx: number, vy: number): void {
+    const of = velocity();
+    if (of && Number.isFinite(vx + vy)) store.change({ set: { ...store.state.set, [of.name]: `(${round(vx)}, ${round(vy)})` } });
+  }
+  aim.addEventListener('pointerdown', (event) => {
+    if (!event.isPrimary || event.button !== 0) return;
+    aim.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    aim.focus({ preventScroll: true });
+  });
+  aim.addEventListener('pointermove', (event) => {
+    const handle = picture?.handle;
+    if (!aim.hasPointerCapture(event.pointerId) || !handle) return;
+    const box = holder.getBoundingClientRect();
+    throwAt((event.clientX - box.left - handle.fromX) / handle.unit, -(event.clientY - box.top - handle.fromY) / handle.unit);
+  });
+  aim.addEventListener('keydown', (event) => {
+    const of = velocity(), by = event.shiftKey ? 0.01 : 0.05;
+    if (!of || event.ctrlKey || event.altKey || event.metaKey) return;
+    const [vx, vy] = of.values as [number, number], step = by * Math.hypot(vx, vy);
+    switch (event.key) {
+      case 'ArrowLeft': throwAt(vx - step, vy); break;
+      case 'ArrowRight': throwAt(vx + step, vy); break;
+      case 'ArrowUp': throwAt(vx, vy + step); break;
+      case 'ArrowDown': throwAt(vx, vy - step); break;
+      default: return;
+    }
+    event.preventDefault();
+  });
+
+  // --- words, numbers, files -----------------------------------------------------------------------------------------------------------
+  function describe(): void {
+    sentence = 0;
+    const words = summary();
+    say(caption, words);
+    still.setAttribute('aria-label', words);
+  }
+  function summary(): string {
+    if (!scene || !subject || !picture) return 'Nothing to show yet.';
+    const { solution, looks } = scene, times = solution.truth?.times ?? solution.tracks[0]?.times ?? new Float64Array([0]);
+    const seen = subject.kind === 'shape' ? `Shape of the family ${subject.bodies[0]?.label ?? ''}, number by number`
+      : subject.kind === 'time' ? `${subject.axes[1] ?? ''} over time` : subject.kind === 'space' ? 'Path in space' : `Path in the plane of ${subject.axes[0]} and ${subject.axes[1]}`;
+    const errors = solution.errors.map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
+    const told = errors.length === 0 ? '' : ` At the end the distance from the ${scene.description.has_exact ? 'exact motion' : 'reference'} is ${errors.map((e) => `${brief(e.last, 3)} for ${e.name}`).join(', ')}.`;
+    return `${seen}, from t = ${brief(times[0] ?? 0)} to ${brief(times[times.length - 1] ?? 0)}.${told}${picture.remarks().map((r) => ` ${r.charAt(0).toUpperCase()}${r.slice(1)}.`).join('')}`;
+  }
+  function table(): Table {
+    if (!scene || !subject) return { head: [], rows: [] };
+    const { solution, looks } = scene, columns = subject.bodies.flatMap((b) => b.columns), head = ['motion', 't', ...columns.map((c) => solution.columns[c] ?? '')];
+    const rows: (string | number)[][] = [];
+    const add = (name: string, of: { readonly times: Float64Array; readonly columns: readonly Float64Array[] }): void => of.times.forEach((t, i) => rows.push([name, t, ...columns.map((c) => of.columns[c]?.[i] ?? NaN)]));
+    solution.tracks.forEach((track, k) => add(looks[k]?.label ?? track.method, track));
+    if (solution.truth && columns.every((c) => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? 'exact' : 'reference', solution.truth);
+    return { head, rows };
+  }
+  function save(kind: 'PNG' | 'SVG' | 'CSV'): void {
+    const file = fileName('motion', kind.toLowerCase());
+    if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', file); return; }
+    if (!picture || !place) return;
+    const now = ink(), both = (pen: Pen): void => { picture!.still(pen, now); picture!.moving(pen, now, time); };
+    if (kind === 'SVG') {
+      const pen = svgPen(place.width, place.height);
+      both(pen);
+      downloadText(pen.svg('Motion', summary(), now.surface), 'image/svg+xml', file);
+      return;
+    }
+    const sheet = el('canvas', { width: place.width * PNG_SCALE, height: place.height * PNG_SCALE }), context = sheet.getContext('2d');
+    if (!context) return;
+    context.scale(PNG_SCALE, PNG_SCALE);
+    context.fillStyle = now.surface;
+    context.fillRect(0, 0, place.width, place.height);
+    both(canvasPen(context, place.width, place.height));
+    sheet.toBlob((blob) => { if (blob) download(blob, file); }, 'image/png');
+  }
+
+  new ResizeObserver(() => refresh()).observe(holder);
+  new IntersectionObserver((entries) => {
+    visible = entries[entries.length - 1]?.isIntersecting ?? false;
+    if (visible) { if (dirty) refresh(); else redrawMoving(); }
+  }).observe(holder);
+  void rowAt; void tableElement;
+
+  return {
+    id: 'motion', title: 'Motion', element, choice, show, save,
+    at(now) { if (now !== time) { time = now; redrawMoving(); } },
+    redraw() { refresh(true); },
+    relayout() { if (scene) refresh(); },
+  };
+}
