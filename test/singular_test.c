@@ -173,9 +173,10 @@ static void steps_that_do_not_resolve(void **unused)
 static void no_example_is_accused(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"arenstorf",  "charged-particle", "damped-cubic", "double-pendulum",
-                                        "duffing",    "kepler",           "pendulum",     "penning-trap",
-                                        "projectile", "spring",           "van-der-pol"};
+    static const char *const names[] = {
+        "arenstorf", "charged-particle", "comet",           "crossed-fields", "damped-cubic", "double-pendulum",
+        "duffing",   "kepler",           "pendulum",        "penning-trap",   "projectile",   "resonance",
+        "spring",    "thrown-ball",      "thrown-ball-air", "ueda",           "van-der-pol"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         char path[1024];
         motus_error err = motus_default_error();

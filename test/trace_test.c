@@ -118,6 +118,8 @@ static int every_method(motus_system *s, double h, double way, const char *machi
 static const char *const models[] = {"arenstorf",
                                      "chain",
                                      "charged-particle",
+                                     "comet",
+                                     "crossed-fields",
                                      "damped-cubic",
                                      "damped-spring",
                                      "double-pendulum",
@@ -130,8 +132,12 @@ static const char *const models[] = {"arenstorf",
                                      "penning-trap",
                                      "projectile-drag",
                                      "projectile",
+                                     "resonance",
                                      "spring",
                                      "three-body-figure-eight",
+                                     "thrown-ball",
+                                     "thrown-ball-air",
+                                     "ueda",
                                      "van-der-pol"};
 
 static void every_model(void **state)
