@@ -71,9 +71,18 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'shell/transport.css', 'panel/steps.css'];
-const style = await minify([made.fontCss, ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
-const template = put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- theory -->', made.html);
+const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css'];
+/** What the build draws with the page's own code: bundled for node, and run here. */
+const drawn = await (async () => {
+  const code = await bundle('stage/first.ts', 'esm', {});
+  return import(`data:text/javascript;base64,${Buffer.from(code).toString('base64')}`);
+})();
+const first = presets.find(({ name }) => name === 'thrown-ball');
+const scene = drawn.sceneOf(new WebAssembly.Module(wasm), first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
+const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
+const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p></div>`;
+const marked = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
+const template = put(marked, '<!-- theory -->', made.html);
 const page = ({ script, element, connect, worker }) => {
   const policy = ["default-src 'none'", `script-src ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');

@@ -165,8 +165,8 @@ export function scaleOf(definition: AxisDefinition, from: number, to: number, co
 }
 
 /** Fewer and fewer ticks until the labels along x leave each other room. */
-export function scaleAlong(definition: AxisDefinition, left: number, right: number): Built {
-  let scale = scaleOf(definition, left, right, Math.max(2, Math.round((right - left) / 80)));
+export function scaleAlong(definition: AxisDefinition, left: number, right: number, apart = 80): Built {
+  let scale = scaleOf(definition, left, right, Math.max(2, Math.round((right - left) / apart)));
   for (let count = scale.ticks.length - 1; count >= 1; count--) {
     let free = -Infinity, fits = true;
     for (const tick of scale.ticks) {

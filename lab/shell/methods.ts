@@ -23,10 +23,9 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
   const message = el('p', { class: 'message mild', role: 'status' });
   const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All methods' }, el('label', { for: 'method-search' }, 'All methods'), search, found, more);
   const opener = button('more', () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
-  list.append(opener);
-  const element = el('div', { class: 'methods', role: 'group', 'aria-label': 'Methods' }, list, sheet, message);
+  const element = el('div', { class: 'methods', role: 'group', 'aria-label': 'Methods' }, el('div', { class: 'chips-row' }, list, opener), sheet, message);
 
-  let toggles: Toggle[] = [], shown = '', limitReached = false, last: readonly unknown[] = [];
+  let toggles: Toggle[] = [], shown = '', opened = '', front: readonly string[] = [], limitReached = false, last: readonly unknown[] = [];
   /** What is drawn: the state's, or the model's own where the state names none. */
   const chosen = (): readonly string[] => {
     if (store.state.methods.length) return store.state.methods;
@@ -73,7 +72,10 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     };
   }
   function build(): void {
-    const now = chosen(), names = [...common, ...now.filter(name => !common.includes(name))];
+    const now = chosen();
+    // Those that a scene opens with come first, and stay there.
+    if (store.state.preset !== opened || !front.length) { opened = store.state.preset; front = now; }
+    const first = [...front, ...common.filter(name => !front.includes(name))].slice(0, Math.max(5, front.length)), names = [...first, ...now.filter(name => !first.includes(name))];
     const admitted = (name: string): boolean => store.description?.methods.find(m => m.name === name)?.admitted ?? true;
     const unused = store.catalogue.map(m => m.name).filter(name => !names.includes(name) && name !== 'exact');
     const others = [...unused.filter(admitted), ...unused.filter(name => !admitted(name))];
@@ -83,7 +85,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     const held = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.method : undefined;
     toggles = [...names, ...others].map(toggle);
     for (const t of toggles) t.element.dataset.method = t.name;
-    list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element), opener);
+    list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element));
     say(opener, `${others.length} more`);
     more.replaceChildren(...toggles.slice(names.length).map(t => t.element));
     if (held !== undefined) toggles.find(t => t.name === held)?.element.focus({ preventScroll: true });

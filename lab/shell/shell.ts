@@ -20,8 +20,7 @@ import { words } from './words';
 export function mountShell(store: LiveStore, stage: Stage, panels: readonly PanelName[], themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
   const said = words(store, toasts, () => stage.relayout());
-  const places = nav([{ label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
-  place('nav').append(places.element);
+  nav([{ label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
   place('share').append(shareMenu(store, presets, stage, toasts));
   place('theme').append(themeButton(() => { store.recolour(); chosen.repaint(); themeChanged(); }));
   place('words').replaceChildren(said.element);

@@ -40,7 +40,11 @@ export function stepSlider(store: LiveStore): HTMLElement {
     let first = settings.step * largest;
     while (first > span && first > settings.step) first /= 2;
     halves = Array.from({ length: count }, (_, k) => first / 2 ** k);
-    stops.replaceChildren(...halves.map((h, k) => el('span', { style: `left:${100 * k / (count - 1)}%` }, compact(Number(h.toPrecision(3))))));
+    stops.replaceChildren(...halves.map((h, k) => {
+      const stop = el('span', {}, compact(Number(h.toPrecision(3))));
+      stop.style.left = `${100 * k / (count - 1)}%`;
+      return stop;
+    }));
   }
   function refresh(): void {
     const { state, trouble, numbers, description } = store;

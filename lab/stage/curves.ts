@@ -11,10 +11,12 @@ import { placeAt } from './rows';
 import type { Box } from './place';
 
 const NEAR = 2;
+/** The exact curve is smooth: its corners lie nearer to it than can be seen. */
+const SMOOTH = 0.03;
 /** Beyond so much of the frame outside of it, a method has left, also where it comes back once more. */
 const FAR = 0.35;
 /* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */
-const MARKED_ROWS = 240, SPACING = 8, SPARSE = 9;
+const MARKED_ROWS = 240, SPACING = 15, SPARSE = 11;
 /** Beyond so many times the stage's size a line is a band, whose dashes nobody sees. */
 const BAND = 5;
 
@@ -96,7 +98,7 @@ function coincide(a: Way, aTimes: ArrayLike<number>, b: Way, bTimes: ArrayLike<n
 
 export function curvesOf(motion: Motion, plot: Plot): Curves {
   const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
-  const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y) })) : [];
+  const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH) })) : [];
   const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
   const methods = lines.map((line, rank) => waysOf(line.track).map((way, body): Curve => {
     const { times } = line.track, exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y);

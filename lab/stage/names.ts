@@ -27,7 +27,13 @@ export function missText(value: number, frame: number): string {
   return value.toFixed(Math.max(0, decimals));
 }
 
-/** "exact = midpoint"; three and more are counted. */
+/** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. */
+function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean): Span[][] {
+  const full = namesOf(label, ink), { miss } = label, first = label.names[0];
+  const words = first?.text.split(/[ ,]/)[0] ?? '', brief: Span[] = [{ text: words, colour: first?.colour, bold: true }], rest = full.slice(1);
+  const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.words ? ` ${miss.words}` : ''}`, size: size - 2 }] : [];
+  return [...(number.length ? [[...full, ...number]] : []), full, ...(rest.length ? [[...brief, ...rest]] : []), brief];
+}
 function namesOf(label: Named, ink: Ink): Span[] {
   const [first, second] = label.names, more = label.names.length;
   if (!first) return [];
@@ -40,7 +46,7 @@ function namesOf(label: Named, ink: Ink): Span[] {
 const BRACKET = 58, GAP = 14, LEAST = 20;
 
 /** Draws the labels of these points; says where the words of each begin. upright: misses are bracketed. */
-export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], upright: boolean, frameSize: number, right: number): void {
+export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], upright: boolean, right: number): void {
   if (!labels.length) return;
   const { scale } = place, size = (place.names ? 15 : 13) * scale, lineHeight = (place.names ? 20 : 15) * scale, box = place.frame;
   const sorted = [...labels].sort((a, b) => a.y - b.y), exact = sorted.find((l) => l.exact);
@@ -49,7 +55,8 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
   const lead = upright && exact ? (place.names ? BRACKET * scale : 16) + (place.names ? GAP : 8) : place.ball + 8;
   const from = Math.max(...sorted.map((l) => l.x)), reach = (name: Span[]): number => textWidth(name, size) * 1.04;
   const numberWidth = upright ? 116 * scale : 0;
-  const widest = place.names ? Math.max(...sorted.map((l) => reach(namesOf(l, ink))), bracketed.length ? numberWidth : 0) : 62;
+  const ways = sorted.map((l) => waysOf(l, ink, size, !bracketed.includes(l)));
+  const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), bracketed.length ? numberWidth : 0) : 46;
   // Where the right is too narrow, everything stands at the left of the points.
   const flipped = from + lead + widest > right && Math.min(...sorted.map((l) => l.x)) - lead - widest > 0;
   const way = flipped ? -1 : 1, base = flipped ? Math.min(...sorted.map((l) => l.x)) : from, anchor = flipped ? 'end' as const : 'start' as const;
@@ -71,7 +78,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     } else pen.text(textX, label.y, [{ text, bold: true }], { ...letters, size: 13, baseline: down > 0 ? 'top' : 'bottom' });
   });
   sorted.forEach((label, k) => {
-    const y = heights[k]!, bracket = bracketed.includes(label);
+    const y = heights[k]!;
     if (place.names && upright && exact) {
       pen.line([label.x + way * (place.ball + 4), label.y, bracketX + way * 5, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
     }
@@ -80,10 +87,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
       return;
     }
     if (!named) return;
-    const spans = namesOf(label, ink);
-    if (!bracket && label.miss && !label.exact) spans.push({ text: `  ${label.miss.text}${label.miss.words ? ` ${label.miss.words}` : ''}`, size: 13 * scale });
-    const fits = textX + (flipped ? 0 : reach(spans)) <= right + 4 ? spans : namesOf(label, ink);
-    pen.text(textX, y, fits, { colour: label.colour, size, anchor, baseline: 'middle', halo: ink.surface });
+    const free = flipped ? textX - box.left : right - textX;
+    pen.text(textX, y, ways[k]!.find((spans) => reach(spans) <= free) ?? ways[k]![ways[k]!.length - 1]!, { colour: label.colour, size, anchor, baseline: 'middle', halo: ink.surface });
   });
-  void frameSize;
 }

@@ -60,8 +60,8 @@ export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all:
   if (all) return allOf(motion);
   const { ranges } = extentOf(motion);
   if (old && old.length === ranges.length && suits(old, ranges, time, subject.kind === 'plane')) return old;
-  const own = staging.frame && !time ? [staging.frame.x, staging.frame.y] : null;
-  if (own && suits(own, ranges, false, true)) return own;
+  const own = staging.frame && [time ? ranges[0]! : staging.frame.x ?? ranges[0]!, staging.frame.y];
+  if (own && suits(own, ranges, time, !time)) return own;
   const wide = roomy(ranges, time);
   // Whoever throws stands on the ground, which is part of the picture.
   return staging.decor === 'throw' ? [wide[0]!, join(wide[1]!, [0, 0])] : wide;
@@ -84,7 +84,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
     const axes = [axisOf('t', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
     if (!side) return [flatPlot({ ...common, bounds, box: whole, equal: false, style: 'time', axes })];
     const right = place.width - 37 * letters, width = Math.min(0.4 * (right - left), 1.05 * (frame.bottom - top), side === 'rod' ? 220 * letters : Infinity), from = right - width;
-    const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - 104 * letters }, equal: false, style: 'time', axes });
+    const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - (side === 'rod' ? 150 : 116) * letters }, equal: false, style: 'time', axes });
     if (side === 'rod') return [main];
     const y = bounds[1]!, box = { left: from, top, right, bottom: frame.bottom }, unit = (box.bottom - top) / (y[1] - y[0]);
     const fastest = velocityRange(scene, subject), need = 1.12 * Math.max(Math.abs(fastest[0]), Math.abs(fastest[1]), 1e-300), same = width / 2 / unit;
@@ -185,7 +185,7 @@ export function pictureOf(setting: Setting): Picture {
     if (!place.names) return;
     const way = x >= fromX ? -1 : 1, anchor = way < 0 ? 'end' as const : 'start' as const;
     pen.text(x + way * 14, y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
-    pen.text(x + way * 14, y + 15 * letters, `${missText(speed, 100 * speed)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+    pen.text(x + way * 14, y + 15 * letters, `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
   }
 
   function still(pen: Pen, ink: Ink): void {
@@ -262,8 +262,8 @@ export function pictureOf(setting: Setting): Picture {
     drawArrow(pen, ink);
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
-    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : side === 'rod' ? place.width - 250 * place.scale : place.width - 8;
-    drawNames(pen, ink, place, labels, upright, bounds[1]![1] - bounds[1]![0], Math.max(right, farthest + 20));
+    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
+    drawNames(pen, ink, place, labels, upright, Math.max(right, farthest + 20));
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     beside(pen, ink, time);
@@ -337,7 +337,7 @@ export function pictureOf(setting: Setting): Picture {
       const { times } = c.line.track, n = times.length, at: Point = { x: 0, y: 0 };
       if (time < last(c.line) && time > (times[0] ?? 0)) return;
       let best = -1, most = 6;
-      for (let row = Math.floor(n * 0.2); row < n * 0.85; row++) {
+      for (let row = Math.floor(n * 0.3); row < n * 0.62; row++) {
         pointAt(curves.exact[0]!.way, truth.times, times[row]!, at);
         // The middle of the curve is better than its end, where numbers stand.
         const d = Math.abs(c.way.y(row) - at.y) * (1 - Math.abs(row / n - 0.5));
@@ -345,7 +345,11 @@ export function pictureOf(setting: Setting): Picture {
       }
       if (best < 0) return;
       pointAt(curves.exact[0]!.way, truth.times, times[best]!, at);
-      const above = c.way.y(best) < at.y, x = c.way.x(best), y = c.way.y(best) + (above ? -12 : 18), half = 3.9 * short(c.line.look.label).length;
+      const above = c.way.y(best) < at.y, x = c.way.x(best), half = 3.9 * short(c.line.look.label).length;
+      // Clear of its own curve over the whole width of the letters.
+      let y = c.way.y(best);
+      for (let row = 0; row < n; row++) if (Math.abs(c.way.x(row) - x) < half + 12) y = above ? Math.min(y, c.way.y(row)) : Math.max(y, Math.min(c.way.y(row), c.way.y(best) + 20));
+      y += above ? -12 : 18;
       const box = { left: x - half, right: x + half, top: y - 12, bottom: y + 3 };
       if (taken.some((t) => t.left < box.right && box.left < t.right && t.top < box.bottom && box.top < t.bottom)) return;
       taken.push(box);
@@ -359,7 +363,7 @@ export function pictureOf(setting: Setting): Picture {
     if (!c?.exit || nowhere.has(i)) return;
     const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
     const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
-    leaving.push({ name: short(c.line.look.label), more: told(motion, c, main, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 26 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+    leaving.push({ name: short(c.line.look.label), more: told(motion, c, main, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {

@@ -42,13 +42,13 @@ export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equ
 
 export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, subject, letters }: Flat): Plot {
   const x = bounds[0]!, y = bounds[1]!, frame = equal ? fitted(box, x, y, style === 'ground') : box;
-  const size = 12 * letters, count = Math.max(2, Math.round((frame.bottom - frame.top) / (style === 'ground' ? 110 : 64)));
+  const size = 12 * letters, small = frame.right - frame.left < 480, count = Math.max(2, Math.round((frame.bottom - frame.top) / ((small ? 56 : style === 'ground' ? 118 : 64) * letters)));
   const up = scaleOf({ min: y[0], max: y[1], label: '' }, frame.bottom, frame.top, count);
-  const along = scaleAlong({ min: x[0], max: x[1], label: '' }, frame.left, frame.right);
+  const along = scaleAlong({ min: x[0], max: x[1], label: '' }, frame.left, frame.right, (small ? 48 : 110) * letters);
   const quiet = (ink: Ink) => ({ colour: ink.quiet, size });
 
   function ground(pen: Pen, ink: Ink): void {
-    const zero = crisp(up(Math.max(0, y[0]))), last = along.ticks[along.ticks.length - 1] ?? x[1], heights = up.ticks.filter((v) => v > y[0] && up(v) > 14);
+    const zero = crisp(up(Math.max(0, y[0]))), last = along.ticks[along.ticks.length - 1] ?? x[1], heights = up.ticks.filter((v) => v > y[0] && up(v) > frame.top + (small ? 14 : 40));
     heights.forEach((v, k) => {
       const at = crisp(up(v));
       pen.line([frame.left + 4, at, along(last), at], { colour: ink.grid, width: 1 });

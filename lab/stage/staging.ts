@@ -13,7 +13,7 @@ export interface Staging {
   readonly ask?: { readonly text: string; readonly lesson: number };
   readonly decor?: Decor;
   /** What the frame shows, in the model's numbers; else the exact motion and some room. */
-  readonly frame?: { readonly x: readonly [number, number]; readonly y: readonly [number, number] };
+  readonly frame?: { readonly x?: readonly [number, number]; readonly y: readonly [number, number] };
   readonly equal?: boolean;
   /** Of lengths, of time, of velocities. */
   readonly units?: { readonly x: string; readonly t: string; readonly v: string };
@@ -55,7 +55,7 @@ export const stagings: Readonly<Record<string, Staging>> = {
   },
   'spring': {
     words: 'On the left against time, on the right how fast against how far. Both share one height.',
-    ask: { text: 'Who gains energy, and why?', lesson: 5 }, decor: 'spring', units: metres,
+    ask: { text: 'Who gains energy, and why?', lesson: 5 }, decor: 'spring', units: metres, frame: { y: [-1.9, 1.9] },
     dials: [{ name: 'k', label: 'Stiffness', unit: 'N/m', low: 0.1, high: 4 }, { name: 'm', label: 'Mass', unit: 'kg', low: 0.1, high: 4 }],
   },
 };
