@@ -26,6 +26,14 @@ const presets = await Promise.all((await readdir(models)).filter((name) => name.
   .map(async (name) => ({ name: name.slice(0, -'.motus'.length), text: await readFile(join(models, name), 'utf8') })));
 const made = await theory();
 
+// Its sources, so that what is not used falls away.
+const alias = { 'ml-matrix': join(here, 'node_modules/ml-matrix/src/index.js') };
+
+/** The pictures of the gallery, by the page's own code, which runs here. */
+const { outputFiles: [{ text: drawing }] } = await build({ entryPoints: [join(here, 'thumbs.ts')], bundle: true, write: false, format: 'esm', target: 'es2022', alias });
+const { thumbnails } = await import(`data:text/javascript;base64,${Buffer.from(drawing).toString('base64')}`);
+const thumbs = thumbnails(await WebAssembly.compile(wasm), presets);
+
 /** Modules that exist in the build only. */
 const virtual = (modules) => ({
   name: 'virtual',
@@ -36,10 +44,8 @@ const virtual = (modules) => ({
 });
 const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
-    entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none',
-    // Its sources, so that what is not used falls away.
-    alias: { 'ml-matrix': join(here, 'node_modules/ml-matrix/src/index.js') },
-    plugins: [theoryPlugin(made), virtual({ 'virtual:presets': `export default ${JSON.stringify(presets)}`, ...modules })],
+    entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
+    plugins: [theoryPlugin(made), virtual({ 'virtual:presets': `export default ${JSON.stringify(presets)}`, 'virtual:thumbs': `export default ${JSON.stringify(thumbs)}`, ...modules })],
   });
   return outputFiles[0].text;
 };

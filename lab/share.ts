@@ -16,6 +16,8 @@ export interface Presets {
   /** undefined: no such preset. */
   text(name: string): string | undefined;
   methods(name: string): readonly string[];
+  /** Numbers that the preset replaces in its model, if any. */
+  set?(name: string): Readonly<Record<string, string>>;
   readonly first: string;
 }
 export interface Decoded { readonly state: State; readonly problem: string }
@@ -27,7 +29,7 @@ const defaultPanels: readonly string[] = ['time', 'error', 'drift', 'phase'];
 export const defaultView: View = { plane: 'auto', quantities: [], phase: null, panels: defaultPanels, exact: true, speed: 1 };
 
 export function presetState(presets: Presets, name: string): State {
-  return { preset: name, text: presets.text(name) ?? '', set: {}, methods: presets.methods(name), step: '', until: '', view: defaultView };
+  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: '', view: defaultView };
 }
 
 const free = /^[A-Za-z0-9\-._~(),*]$/;
