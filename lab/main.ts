@@ -3,7 +3,8 @@
  * Invariant: panels that are closed cost nothing; those that are open are shown each new scene once, and told the time as it passes.
  */
 import { createClient } from './client';
-import { STEP_EVENT, transport } from './shell/transport';
+import { mini } from './shell/mini';
+import { STEP_EVENT, transport, type Transport } from './shell/transport';
 import { SEEK } from './figure/cursor';
 import { nameExports } from './figure/export';
 import { convergence } from './panel/convergence';
@@ -59,12 +60,14 @@ async function start(): Promise<void> {
   const always: readonly Panel[] = [motion, steps];
   const open = new Set<Panel>(always);
 
-  const clock = transport({
-    onTime: (t) => each(open, (panel) => panel.at(t)),
+  const small = mini(() => clock);
+  const clock: Transport = transport({
+    onTime: (t) => { each(open, (panel) => panel.at(t)); small.at(t); },
+    onPlay: (playing) => small.playing(playing),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, closer.map(({ id, title }) => ({ id, title })), () => each(open, (panel) => panel.redraw()));
+  const toasts = mountShell(store, motion, closer.map(({ id, title }) => ({ id, title })), () => { each(open, (panel) => panel.redraw()); small.redraw(); });
   if (problem) toasts.say(problem);
   place('stage-figure').replaceChildren(motion.element);
   place('step-view').append(steps.element);
@@ -128,6 +131,7 @@ async function start(): Promise<void> {
     const end = store.numbers.until ?? Math.max(...ends);
     nameExports(scene.state.preset || 'model');
     each(open, (panel) => panel.show(scene));
+    small.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(scene.state.preset).units?.t ?? '');

@@ -201,22 +201,15 @@ export interface Command { readonly text: string; readonly problem: string }
 /** A number as the program reads it, whatever the reader's decimal sign; an expression as it is. */
 const number = (typed: string): string => (!lineControls.test(typed) && plain(normal(typed)) ? normal(typed) : typed);
 
-/** The command line that computes the same bits. methods: those in use, resolved; state.methods may be empty. */
-export function command(state: State, methods: readonly string[], presets: Presets): Command {
-  const isPreset = state.preset !== '' && presets.text(state.preset) === state.text;
-  const words = methods.length > 1 ? ['motus', 'compare'] : ['motus', 'run'];
-  words.push(isPreset ? `models/${state.preset}.motus` : '-');
-  if (methods.length > 1) words.push('--methods', methods.join(','));
-  else if (methods[0]) words.push('--method', methods[0]);
+/** The command that computes the same bits wherever motus is installed: the model comes with it. methods: those in use, resolved; state.methods may be empty. */
+export function command(state: State, methods: readonly string[]): Command {
+  const words = methods.length > 1 ? ['motus', 'compare', '-', '--methods', methods.join(',')] : ['motus', 'run', '-'];
+  if (methods.length === 1) words.push('--method', methods[0]!);
   if (state.step) words.push('--step', number(state.step));
   if (state.until) words.push('--until', number(state.until));
   for (const [name, expression] of Object.entries(state.set)) words.push('--set', `${name}=${expression}`);
   const text = state.text.endsWith('\n') || state.text === '' ? state.text : state.text + '\n';
-  if (words.some(w => lineControls.test(w)) || (!isPreset && controls.test(text))) {
-    return { text: '', problem: 'There is no safe command: the model holds a control character.' };
-  }
-  const line = words.map(quote).join(' ');
-  if (isPreset) return { text: line, problem: '' };
+  if (words.some(w => lineControls.test(w)) || controls.test(text)) return { text: '', problem: 'There is no safe command: the model holds a control character.' };
   const end = delimiter(text);
-  return { text: `${line} <<'${end}'\n${text}${end}\n`, problem: '' };
+  return { text: `${words.map(quote).join(' ')} <<'${end}'\n${text}${end}\n`, problem: '' };
 }

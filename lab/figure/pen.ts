@@ -46,9 +46,10 @@ export function canvasPen(context: CanvasRenderingContext2D, width: number, heig
       c.fill();
       plain();
     },
-    mark(shape, x, y, radius, colour) {
+    mark(shape, x, y, radius, colour, alpha = 1) {
       if (!finite(x, y)) return;
       const outline = OUTLINES[shape];
+      c.globalAlpha = alpha;
       c.beginPath();
       if (outline === 'disc' || outline === 'ring') {
         c.arc(x, y, radius, 0, 2 * Math.PI);
@@ -70,6 +71,7 @@ export function canvasPen(context: CanvasRenderingContext2D, width: number, heig
         c.fillStyle = colour;
         c.fill();
       }
+      plain();
     },
     arrow(x0, y0, x1, y1, stroke) {
       const h = finite(x0, y0, x1, y1) ? head(x0, y0, x1, y1, stroke.width) : null;

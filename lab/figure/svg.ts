@@ -12,14 +12,14 @@ export function escape(text: string): string {
   return text.replace(/[\u0000-\u0008\u000B\u000C\u000E-\u001F\uFFFE\uFFFF\p{Cs}]/gu, '\uFFFD').replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
-/** A length, to a hundredth of a pixel. */
-function n(value: number): string {
-  const r = Math.round(100 * value) / 100;
+/** A number to so many decimals. */
+function rounded(value: number, decimals: number): string {
+  const unit = 10 ** decimals, r = Math.round(unit * value) / unit;
   return Number.isFinite(r) ? String(r === 0 ? 0 : r) : '0';
 }
 
 function opacity(alpha: number | undefined): string {
-  return alpha === undefined || alpha === 1 ? '' : ` opacity="${n(alpha)}"`;
+  return alpha === undefined || alpha === 1 ? '' : ` opacity="${rounded(alpha, 2)}"`;
 }
 
 export interface SvgPen extends Pen {
@@ -27,7 +27,9 @@ export interface SvgPen extends Pen {
   svg(title?: string, description?: string, background?: string): string;
 }
 
-export function svgPen(width: number, height: number): SvgPen {
+/** decimals: of a pixel, to which lengths are written. */
+export function svgPen(width: number, height: number, decimals = 2): SvgPen {
+  const n = (value: number): string => rounded(value, decimals);
   const out: string[] = [];
   let clips = 0;
 
@@ -59,17 +61,17 @@ export function svgPen(width: number, height: number): SvgPen {
       const d = path(xy, count);
       filled(d && `${d}Z`, fill, alpha);
     },
-    mark(shape, x, y, radius, colour) {
+    mark(shape, x, y, radius, colour, alpha) {
       if (!finite(x, y, radius)) return;
       const outline = OUTLINES[shape];
       const width = Math.max(1.25, STROKE * radius);
       if (outline === 'disc' || outline === 'ring') {
         const paint = outline === 'disc' ? `fill="${escape(colour)}"` : `fill="none" stroke="${escape(colour)}" stroke-width="${n(width)}"`;
-        out.push(`<circle cx="${n(x)}" cy="${n(y)}" r="${n(radius)}" ${paint}/>`);
+        out.push(`<circle cx="${n(x)}" cy="${n(y)}" r="${n(radius)}" ${paint}${opacity(alpha)}/>`);
         return;
       }
       const d = outline.parts.map((part) => path(part.map((u, i) => (i % 2 ? y : x) + radius * u), part.length) + (outline.closed ? 'Z' : '')).join('');
-      if (outline.closed) filled(d, colour); else stroked(d, { colour, width });
+      if (outline.closed) filled(d, colour, alpha); else stroked(d, { colour, width, alpha });
     },
     arrow(x0, y0, x1, y1, stroke) {
       const h = finite(x0, y0, x1, y1) ? head(x0, y0, x1, y1, stroke.width) : null;

@@ -43,7 +43,7 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     remark.hidden = remark.textContent === '';
     // The command computes what is seen: the last state that could be computed.
     const seen = store.scene?.state ?? store.state, { model, step, until, run } = store.trouble;
-    const { text, problem } = command(seen, seen.methods, presets);
+    const { text, problem } = command(seen, seen.methods);
     line.value = text;
     say(commandLabel, seen.methods.length > 1 ? 'The same runs, compared by the program' : 'The same bits from the program');
     say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');

@@ -5,7 +5,7 @@
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
-import { button, el, icon, place, say } from '../dom';
+import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
 import { described, presets, titleOf } from './presets';
 import type { Toasts } from './toasts';
@@ -27,7 +27,7 @@ export interface Words { readonly element: HTMLElement; openEditor(open: boolean
 export function words(store: LiveStore, toasts: Toasts, changed: () => void): Words {
   const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
   const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' });
-  const pill = button('', () => openEditor(true), { class: 'pill', 'aria-label': 'Type your own equation' }, pillMath, el('small', {}, 'Type your own'));
+  const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, 'Type your own'));
   const began = document.createTextNode(''), revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
   const edited = el('p', { class: 'edited', hidden: true }, began, revert);
   const close = button('Close', () => openEditor(false), { class: 'text-button close' });
@@ -46,7 +46,6 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     changed();
     if (now) own.querySelector('textarea')?.focus({ preventScroll: innerWidth >= 768 }); else pill.focus({ preventScroll: true });
   }
-  close.hidden = false;
 
   let shown = '', typeset = '';
   function show(): void {
@@ -77,6 +76,5 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     if (what === 'description' || what === 'scene') equation();
   });
   show();
-  void place;
   return { element, openEditor, editing: () => !own.hidden };
 }

@@ -35,8 +35,8 @@ export function firstPictures(scene: Scene): string {
   const subject = subjects(scene.description, scene.solution)[0]!, staging = stagingOf(scene.state.preset), { times } = scene.solution.tracks[0]!;
   return SIZES.map(({ name, stage: [width, height], page: [w, h], column }) => {
     const place = placeOf(width, height, column, { width: w, height: h }), bounds = boundsFor(scene, subject, staging, false, null);
-    const picture = pictureOf({ scene, subject, staging, place, bounds, camera: HOME, before: null }), pen = svgPen(width, height);
-    picture.still(pen, named.ink);
+    const picture = pictureOf({ scene, subject, staging, place, bounds, camera: HOME, before: null, pinned: null }), pen = svgPen(width, height, 1);
+    picture.still(pen, named.ink, true);
     picture.moving(pen, named.ink, times[times.length - 1]!);
     return pen.svg().replace('<svg ', `<svg class="first first-${name}" aria-hidden="true" preserveAspectRatio="xMidYMid slice" `).replace(/id="c(\d+)"/g, `id="${name}-c$1"`).replace(/url\(#c(\d+)\)/g, `url(#${name}-c$1)`).replace(/ role="img"| font-family="[^"]*"/g, '');
   }).join('');

@@ -18,10 +18,12 @@ import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from '
 import { isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
-import { velocityColumn, type Subject } from './subject';
+import { subjects, velocityColumn, type Subject } from './subject';
 
 export interface Setting {
   readonly scene: Scene; readonly subject: Subject; readonly staging: Staging; readonly place: Place; readonly bounds: Bounds; readonly camera: Camera;
+  /** A run to compare with, whose curves stay until they are let go. */
+  readonly pinned: Scene | null;
   /** The picture before, whose curves stay as ghosts. */
   readonly before: Picture | null;
 }
@@ -29,7 +31,8 @@ export interface Setting {
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
 export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
-  still(pen: Pen, ink: Ink): void;
+  /** finished: nothing is to come, so what is to come need not be drawn. */
+  still(pen: Pen, ink: Ink, finished?: boolean): void;
   moving(pen: Pen, ink: Ink, time: number): void;
   ghost(pen: Pen, ink: Ink): void;
   readonly handle: Handle | null;
@@ -111,6 +114,8 @@ export function pictureOf(setting: Setting): Picture {
   if (subject.kind === 'shape') return shapePicture(setting, motion);
   const side = sideOf(scene, subject, staging, place), plots = plotsOf(setting, side), main = plots[0]!;
   const drawn = plots.map((plot) => ({ plot, curves: curvesOf(motion, plot) })), { curves } = drawn[0]!;
+  const other = setting.pinned && motionOf(setting.pinned, subjects(setting.pinned.description, setting.pinned.solution).find((s) => s.id === subject.id) ?? subject);
+  const pinned = other ? plots.map((plot) => ({ plot, motion: other, curves: curvesOf(other, plot) })) : [];
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
   const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
@@ -145,8 +150,7 @@ export function pictureOf(setting: Setting): Picture {
     const at: Point = { x: 0, y: 0 };
     for (let i = 1; i < first.times.length - 1 && first.times[i]! <= upTo; i++) {
       pointAt(curves.exact[0]!.way, truth.times, first.times[i]!, at);
-      const ring = Array.from({ length: 50 }, (_, k) => (k % 2 ? at.y : at.x) + (place.ball + 0.5) * (k % 2 ? Math.sin : Math.cos)(Math.PI * (k >> 1) / 12));
-      pen.area(ring, ink.exact, STROBE);
+      pen.mark('circle', at.x, at.y, place.ball + 0.5, ink.exact, STROBE);
     }
   }
   function marks(pen: Pen, ink: Ink, curve: Curve, upTo: number, plot: Plot): void {
@@ -169,8 +173,12 @@ export function pictureOf(setting: Setting): Picture {
     if (!from) return null;
     const at = { x: (truth ? curves.exact[0]! : curves.methods[0]![0]!).way.x(0), y: (truth ? curves.exact[0]! : curves.methods[0]![0]!).way.y(0) };
     const v = body.columns.map((c) => { const k = velocityColumn(scene.solution, c); return scene.solution.tracks[0]?.columns[k]?.[0] ?? truth?.columns[k]?.[0] ?? NaN; });
-    const speed = Math.hypot(...v), unit = main.unit !== null && staging.arrow ? staging.arrow * main.unit : 0.22 * Math.min(place.width, place.height) / speed;
-    if (!(speed > 0) || !Number.isFinite(unit)) return null;
+    const speed = Math.hypot(...v);
+    let unit = main.unit !== null && staging.arrow ? staging.arrow * main.unit : 0.22 * Math.min(place.width, place.height) / speed;
+    // The ring stays on the stage.
+    if (at.y - unit * v[1]! < 24 && v[1]! > 0) unit = Math.max(0, at.y - 24) / v[1]!;
+    if (at.x + unit * v[0]! > place.width - 24 && v[0]! > 0) unit = Math.max(0, place.width - 24 - at.x) / v[0]!;
+    if (!(unit * speed > 16) || !(speed > 0) || !Number.isFinite(unit)) return null;
     return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
   }
   const handle = arrow();
@@ -188,7 +196,7 @@ export function pictureOf(setting: Setting): Picture {
     pen.text(x + way * 14, y + 15 * letters, `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
   }
 
-  function still(pen: Pen, ink: Ink): void {
+  function still(pen: Pen, ink: Ink, finished = false): void {
     if (staging.decor === 'throw' && main.up && main.along && main.unit && main.unit >= 30 && truth) {
       const last = truth.times.length - 1, { way } = curves.exact[0]!, ground = main.up(0);
       person(pen, ink, way.x(0), way.y(0), ground, main.unit, 1);
@@ -196,6 +204,8 @@ export function pictureOf(setting: Setting): Picture {
     }
     for (const { plot } of drawn) plot.draw(pen, ink);
     before?.ghost(pen, ink);
+    drawPinned(pen, ink);
+    if (finished) return;
     for (const { plot, curves: own } of drawn) {
       clipped(pen, plot, () => {
         for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: EXACT_WIDTH, alpha: TO_COME_EXACT }, 2 * path.count);
@@ -204,6 +214,21 @@ export function pictureOf(setting: Setting): Picture {
           for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: WIDTH, dash: c.band ? [] : c.line.look.dash, alpha: TO_COME }, 2 * c.path.count);
         });
       });
+    }
+  }
+  /** The run A: its methods in full, but thin, each with its letter. */
+  function drawPinned(pen: Pen, ink: Ink): void {
+    for (const { plot, motion: { truth: exact }, curves: own } of pinned) {
+      clipped(pen, plot, () => {
+        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1.5, alpha: 0.5 }, 2 * path.count);
+        own.methods.forEach((of, i) => {
+          for (const c of of) if (own.same[i] !== -1) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.25, alpha: 0.6 }, 2 * c.path.count);
+        });
+      });
+      if (plot !== main) continue;
+      const ends = [...own.methods.flatMap((of, i) => (own.same[i] === i ? of.map((c) => ({ c, colour: c.line.look.tone, times: c.line.track.times })) : [])).map(({ c, colour, times }) => ({ x: c.way.x(times.length - 1), y: c.way.y(times.length - 1), colour })),
+        ...(exact ? own.exact.map(({ way }) => ({ x: way.x(exact.times.length - 1), y: way.y(exact.times.length - 1), colour: ink.exact })) : [])];
+      for (const { x, y, colour } of ends) if (inside(plot.box, x, y, 2)) pen.text(x - 10, y - 8, 'A', { colour, size: 13, bold: true, anchor: 'end', halo: ink.surface });
     }
   }
   function ghost(pen: Pen, ink: Ink): void {
@@ -393,8 +418,8 @@ export function pictureOf(setting: Setting): Picture {
     for (let k = 9; k >= 1; k--) {
       const t = time - way * k * span / 110;
       if ((t - of.times[0]!) * way < 0) continue;
-      const angle = angleAt(t), r = place.ball * 0.95;
-      pen.area(Array.from({ length: 40 }, (_, j) => (j % 2 ? y + length * Math.cos(angle) : x + length * Math.sin(angle)) + r * (j % 2 ? Math.sin : Math.cos)(Math.PI * (j >> 1) / 10)), colour, 0.3 - 0.026 * k);
+      const angle = angleAt(t);
+      pen.mark('circle', x + length * Math.sin(angle), y + length * Math.cos(angle), place.ball * 0.95, colour, 0.3 - 0.026 * k);
     }
     const end = rod(pen, ink, x, y, length, angleAt(time));
     pen.mark('circle', ...end, place.ball + 3, ink.surface);

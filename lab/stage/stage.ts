@@ -33,6 +33,8 @@ export interface Stage extends Panel {
   save(kind: 'PNG' | 'SVG' | 'CSV'): void;
   /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
   relayout(): void;
+  /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
+  pin(scene: Scene | null): void;
 }
 
 export function stage(store: Store, room: { column(): number }): Stage {
@@ -49,6 +51,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   let picture: Picture | null = null, ghost: Picture | null = null, bounds: Bounds | null = null, place: Place | null = null, frameKey = '';
   let time = 0, asked = 0, colours: Ink | null = null, scale = 1, ghostTimer = 0, moveFrame = 0, sentence = 0, dirty = false, pressed = false, visible = true;
   const camera = { ...HOME };
+  let pinned: Scene | null = null;
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   // --- the views ---------------------------------------------------------------------------------------------------------------------
@@ -97,7 +100,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
   function make(of: Bounds): void {
     if (!scene || !subject || !place) return;
-    picture = pictureOf({ scene, subject, staging: staging(), place, bounds: of, camera, before: ghost });
+    picture = pictureOf({ scene, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
   }
   const staging = () => stagingOf(scene && scene.state.preset && scene.state.text === store.state.text ? scene.state.preset : '');
   function draw(): void {
@@ -305,5 +308,6 @@ export function stage(store: Store, room: { column(): number }): Stage {
     at(now) { if (now !== time) { time = now; redrawMoving(); } },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
+    pin(of) { pinned = of; refresh(true); },
   };
 }

@@ -2,9 +2,25 @@
  *
  * Invariant: every number here is the program's, for the model as it stands in models/.
  */
-export interface Note { readonly title: string; readonly text: readonly string[] }
+/** Parts of a sentence; a button goes to another example. */
+export type Linked = readonly (string | { readonly to: string; readonly label: string })[];
+export interface Note { readonly title: string; readonly text: readonly (string | Linked)[] }
 
 export const notes: Readonly<Record<string, Note>> = {
+  projectile: {
+    title: 'A thrown ball, as the first page had it',
+    text: [[
+      'Thrown like this, with g = 9.81 and the step 0.05, explicit Euler is after three seconds 0.7357 above the green parabola and symplectic Euler 0.7357 below it; the midpoint rule and Verlet are exact, because the ',
+      'acceleration never changes. So this scene cannot tell which method is good: on ',
+      { to: 'spring', label: 'the spring' }, ' they differ. Nor can it tell heavy from light: under gravity alone the mass cancels, and m changes the energy but not the path. ',
+      { to: 'thrown-ball-air', label: 'With air drag' }, ' it matters.',
+    ]],
+  },
+  'projectile-drag': {
+    title: 'A ball in air',
+    text: [['Drag divided by mass is what slows the ball, so a heavier one flies further. No formula gives this motion; the green line is a reference, computed with its own error. Back to ',
+      { to: 'thrown-ball', label: 'the ball without air' }, '.']],
+  },
   spring: {
     title: 'A mass on a spring',
     text: [

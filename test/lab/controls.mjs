@@ -1,5 +1,5 @@
 /* Every control does what it says: seen in the address, in the figures' summaries and in their numbers. */
-import { attempt, clean, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf, valuesOf } from './help.mjs';
 
 const last = ({ head, rows }, column) => Number(rows.at(-1)[head.indexOf(column)]);
 const press = (page, name) => page.getByRole('button', { name, exact: true }).click();
@@ -7,11 +7,10 @@ const shown = (page, selector) => page.locator(selector).evaluate((canvas) => ca
 
 let page = await open(singleFile + '#v=1&p=projectile');
 await attempt('examples', async () => {
-  await page.locator('#preset').selectOption('spring');
-  await settled(page);
+  await example(page, 'spring');
   same('Example: the title', await page.locator('#scene-title').textContent(), 'Mass on a spring');
   same('Example: the address', (await fields(page)).p, 'spring');
-  await page.locator('#model-text').fill("x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 5\n");
+  await (await editorOf(page)).fill("x'' = -x\nx(0) = 1\nx'(0) = 0\nmethod verlet\nstep 0.1\nuntil 5\n");
   await settled(page);
   judge('a typed model: shown', (await summaryOf(page, 'Motion')).includes('from t = 0 to 5'));
   judge('a typed model: “Back to the example”', await page.getByText('Back to the example').isVisible());
@@ -24,7 +23,7 @@ await attempt('examples', async () => {
 });
 
 await attempt('the model: undo, typeset, errors under the caret', async () => {
-  const area = page.locator('#model-text');
+  const area = await editorOf(page);
   await area.focus();
   await page.keyboard.press('Control+End');
   await page.keyboard.type("# more");
@@ -40,14 +39,14 @@ await attempt('the model: undo, typeset, errors under the caret', async () => {
   judge('the pendulum as textbooks print it: a fraction before the sine', printed.some((one) => /<mfrac><mi>g<\/mi><mi>L<\/mi><\/mfrac>.*sin/.test(one)), printed.join(' | '));
   await area.fill("x'' = -k x^2/3\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
   await settled(page);
-  const before = await summaryOf(page, 'Motion'), picture = await shown(page, '#stage-figure canvas.figure-still');
+  const before = await summaryOf(page, 'Motion'), picture = await shown(page, '#stage-figure canvas.stage-still');
   await area.fill("x'' = -k x^2/3 + foo\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
   await settled(page);
   const message = await page.locator('#model-problem').textContent();
   judge('an error: line, column and what is wrong', /Line 1, column 18: .*foo/.test(message), message);
   same('an error: aria-invalid', await area.getAttribute('aria-invalid'), 'true');
   same('an error: the mark stands under the word', await page.locator('.mirror mark').textContent(), 'foo');
-  same('an error: the last picture stays', [await summaryOf(page, 'Motion'), await shown(page, '#stage-figure canvas.figure-still')], [before, picture]);
+  same('an error: the last picture stays', [await summaryOf(page, 'Motion'), await shown(page, '#stage-figure canvas.stage-still')], [before, picture]);
   await area.fill("x'' = -k x^2/3 + \nk = 2\n");
   await settled(page);
   judge('another error: another message', (await page.locator('#model-problem').textContent()) !== message && await page.locator('#model-problem').isVisible());
@@ -57,7 +56,7 @@ await attempt('the model: undo, typeset, errors under the caret', async () => {
 });
 
 await attempt('the model names its method', async () => {
-  const area = page.locator('#model-text');
+  const area = await editorOf(page);
   const model = (method, start = 1) => `x'' = -x\nx(0) = ${start}\nx'(0) = 0\nmethod ${method}\nstep 0.1\nuntil 5\n`;
   const chosen = async () => (await fields(page)).a;
   for (const [written, name] of [['verlet', 'verlet'], ['rk4', 'rk4'], ['Euler', 'explicit-euler']]) {
@@ -72,13 +71,12 @@ await attempt('the model names its method', async () => {
   same('… and not chosen', [await page.locator('.mirror mark').textContent(), await chosen()], ['rk', before]);
   await area.fill(model('rk4', 3));
   await settled(page);
-  same('an initial value in the text moves its slider', await page.getByLabel('x(0), as a number', { exact: true }).inputValue(), '3');
+  same('an initial value in the text moves its slider', await page.locator('#all-values').getByLabel('x(0), as a number', { exact: true }).inputValue(), '3');
 });
 
 await attempt('methods', async () => {
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
-  const toggle = (name) => page.locator(`.toggle[data-method="${name}"]`);
+  await example(page, 'projectile');
+  const toggle = (name) => page.locator(`.chip[data-method="${name}"]`);
   await toggle('rk4').click();
   await settled(page);
   same('a method is added', [(await fields(page)).a, await toggle('rk4').getAttribute('aria-pressed')], ['explicit-euler,symplectic-euler,midpoint,rk4', 'true']);
@@ -86,25 +84,24 @@ await attempt('methods', async () => {
   await toggle('explicit-euler').click();
   await settled(page);
   judge('a method is taken away', (await fields(page)).a === 'symplectic-euler,midpoint,rk4' && !(await tableOf(page, 'Against time')).head.includes('r.y (explicit-euler)'));
-  await page.getByText('All methods').click();
-  await page.locator('#main-method').selectOption('rk4');
+    await page.locator('#main-method').selectOption('rk4');
   await settled(page);
   same('Step by step: the main method comes first', (await fields(page)).a, 'rk4,symplectic-euler,midpoint');
   judge('… and its card is shown', /Runge|RK4/.test(await page.locator('#method-card').textContent()));
+  await page.locator('.chip-more').click();
   await page.locator('#method-search').fill('order 4 symplectic');
-  const found = await page.locator('.toggle:visible[data-method]').evaluateAll((all) => all.map((t) => t.dataset.method));
+  const found = await page.locator('.toggles .chip:visible[data-method]').evaluateAll((all) => all.map((t) => t.dataset.method));
   judge('search: order 4, symplectic', found.includes('forest-ruth') || found.some((name) => /pefrl|gauss4|yoshida/.test(name)), found.join());
   judge('search: says how many', /\d+ methods/.test(await page.locator('.methods .quiet[role=status]').textContent()));
   await page.locator('#method-search').fill('');
-  const more = await page.locator('.more .toggle:visible:not([aria-disabled="true"])').evaluateAll((all) => all.map((t) => t.dataset.method));
-  for (const name of more.slice(0, 11)) await toggle(name).click();
+  const more = await page.locator('.toggles .chip:visible:not([aria-disabled="true"])').evaluateAll((all) => all.map((t) => t.dataset.method));
+  for (const name of more.slice(0, 11)) await toggle(name).evaluate((chip) => chip.click());
   await settled(page);
   const chosen = (await fields(page)).a.split(',').length;
   judge('twelve methods at most, and it says so', chosen === 12 && /12 methods/.test(await page.locator('.methods .message').textContent()), `${chosen}: ${await page.locator('.methods .message').textContent()}`);
-  const looks = await page.locator('.toggle[aria-pressed="true"] .picture').evaluateAll((all) => all.map((p) => p.innerHTML));
+  const looks = await page.locator('.methods .chip[aria-pressed="true"] .picture').evaluateAll((all) => all.map((p) => p.innerHTML));
   same('each has a line and marker of its own', new Set(looks).size, looks.length);
-  await page.locator('#preset').selectOption('damped-cubic');
-  await settled(page);
+  await example(page, 'damped-cubic');
   const refused = toggle('symplectic-euler');
   same('a refused method: cannot be chosen', await refused.getAttribute('aria-disabled'), 'true');
   judge('… and says why', (await refused.textContent()).includes('velocity'), await refused.textContent());
@@ -114,8 +111,7 @@ await attempt('methods', async () => {
 });
 
 await attempt('step and end', async () => {
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
+  await example(page, 'projectile');
   const step = page.locator('#step'), until = page.locator('#until'), message = () => page.locator('#step-message').textContent();
   await step.fill('0.1');
   await settled(page);
@@ -138,67 +134,73 @@ await attempt('step and end', async () => {
   await step.fill('1e9');
   await settled(page);
   judge('a huge step: one step, and a remark', /one step/.test(await message()) && (await tableOf(page, 'Against time')).rows.length === 2, await message());
-  await page.getByRole('button', { name: 'Time step: back to the model’s' }).click();
+  await page.getByRole('button', { name: 'Step: back to the model’s' }).click();
   await settled(page);
   same('reset', [await step.inputValue(), (await fields(page)).h], ['0.05', undefined]);
-  await page.getByLabel('Time step h, slider').focus();
+  await page.locator('#step-slider').focus();
   await page.keyboard.press('ArrowRight');
   await settled(page);
-  judge('the slider of the step', Number((await fields(page)).h) > 0.05, (await fields(page)).h);
+  same('the slider of the step halves it', (await fields(page)).h, '0.025');
+  await valuesOf(page);
   for (const [typed, end] of [['2', '2'], ['1.01', '1.01'], ['2 pi', String(2 * Math.PI)], ['-1', '-1']]) {
+    await valuesOf(page);
     await until.fill(typed);
     await settled(page);
     same(`an end of ${typed}: the run ends there exactly`, (await tableOf(page, 'Against time')).rows.at(-1)[0], end);
   }
   for (const typed of ['0', '', 'x', '1e300']) {
+    await valuesOf(page);
     await until.fill(typed);
     await settled(page, 150);
     const said = await page.locator('#until-message').textContent() + await message();
     judge(`an end of “${typed}”: a message`, said.length > 10, said);
   }
+  await valuesOf(page);
   await page.getByRole('button', { name: 'End: back to the model’s' }).click();
   await settled(page);
   same('reset of the end', (await fields(page)).T, undefined);
 });
 
 await attempt('parameters and initial values', async () => {
-  await page.locator('#preset').selectOption('projectile-drag');
-  await settled(page);
-  const rows = await page.locator('#parameters .row label').allTextContents();
+  await example(page, 'projectile-drag');
+  await valuesOf(page);
+  const rows = await page.locator('#all-values .row label').allTextContents();
   judge('a slider for each number', ['m', 'c'].every((name) => rows.includes(name)) && rows.some((name) => name.startsWith("r'(0)")), rows.join());
-  const field = (name) => page.getByLabel(`${name}, as a number`, { exact: true });
+  const field = (name) => page.locator('#all-values').getByLabel(`${name}, as a number`, { exact: true });
   const before = await tableOf(page, 'Against time');
+  await valuesOf(page);
   await field('m').fill('2,5');
   await settled(page);
   same('a number with a comma', (await fields(page)).s, 'm=2.5');
   judge('mass matters: another motion', JSON.stringify(before.rows) !== JSON.stringify((await tableOf(page, 'Against time')).rows));
+  await valuesOf(page);
   await field('m').fill('2..5');
   await settled(page, 150);
-  judge('no number: a message, the state stays', /number/.test(await page.locator('#parameters').textContent()) && (await fields(page)).s === 'm=2.5' && await field('m').getAttribute('aria-invalid') === 'true');
+  judge('no number: a message, the state stays', /number/.test(await page.locator('#all-values').textContent()) && (await fields(page)).s === 'm=2.5' && await field('m').getAttribute('aria-invalid') === 'true');
   await field('m').fill('2.5');
   await page.getByRole('button', { name: /^m: back to/ }).click();
   await settled(page);
   same('reset', (await fields(page)).s, undefined);
-  const slider = page.getByLabel("r'(0).x", { exact: true });
+  const slider = page.locator('#all-values').getByLabel("r'(0).x", { exact: true });
   await slider.focus();
   await page.keyboard.press('ArrowRight');
   await settled(page);
   judge('a slider of an initial value', /^r'\(0\)=\(/.test((await fields(page)).s), (await fields(page)).s);
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
+  await example(page, 'projectile');
   const first = await tableOf(page, 'Against time');
+  await valuesOf(page);
   await field('m').fill('7');
   await settled(page);
   same('without drag the mass cancels', (await tableOf(page, 'Against time')).rows, first.rows);
+  await valuesOf(page);
   await field('g.y').fill('-1.62');
   await settled(page);
   judge('gravity', Math.abs(last(await tableOf(page, 'Against time'), 'exact r.y') - (4.5 * 3 - 1.62 * 4.5)) < 1e-12);
 });
 
 await attempt('a slider is dragged', async () => {
-  await page.locator('#preset').selectOption('damped-spring');
-  await settled(page);
-  await page.locator('#parameters input[type=range]').first().evaluate((slider) => new Promise((done) => {
+  await example(page, 'damped-spring');
+  await page.locator('#all-values input[type=range]').first().evaluate((slider) => new Promise((done) => {
     const from = slider.valueAsNumber, part = (Number(slider.max) - Number(slider.min)) / 100;
     let moves = 0;
     const move = () => {
@@ -218,18 +220,13 @@ await attempt('a slider is dragged', async () => {
 });
 
 await attempt('the pictures’ own controls', async () => {
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
-  const motion = figureOf(page, 'Motion');
-  await motion.getByLabel('view').selectOption({ label: 'r.y over t' });
+  await example(page, 'projectile');
+  const view = page.locator('#stage-view');
+  await view.selectOption({ label: 'r.y over t' });
   await settled(page);
   judge('Motion: view', (await summaryOf(page, 'Motion')).startsWith('r.y over time') && (await fields(page)).w === 'time', await summaryOf(page, 'Motion'));
-  await motion.getByLabel('view').selectOption({ index: 0 });
+  await view.selectOption({ index: 0 });
   await settled(page);
-  const narrow = await shown(page, '#stage-figure canvas.figure-still');
-  await motion.getByLabel('equal scales').click();
-  await page.waitForTimeout(150);
-  judge('Motion: equal scales', narrow !== await shown(page, '#stage-figure canvas.figure-still'));
   const time = figureOf(page, 'Against time');
   await time.locator('.figure-choice summary').click();
   await time.getByLabel('energy', { exact: true }).check();
@@ -255,22 +252,21 @@ await attempt('the pictures’ own controls', async () => {
 });
 
 await attempt('a picture in space is turned', async () => {
-  await page.locator('#preset').selectOption('charged-particle');
-  await settled(page);
+  await example(page, 'charged-particle');
   await page.evaluate(() => scrollTo(0, 0));
-  const canvas = page.locator('#stage-figure canvas.figure-still'), box = await canvas.boundingBox();
-  const first = await shown(page, '#stage-figure canvas.figure-still');
+  const canvas = page.locator('#stage-figure canvas.stage-still'), box = await canvas.boundingBox();
+  const first = await shown(page, '#stage-figure canvas.stage-still');
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
   await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 30, { steps: 4 });
   await page.mouse.up();
   await page.waitForTimeout(150);
-  const dragged = await shown(page, '#stage-figure canvas.figure-still');
+  const dragged = await shown(page, '#stage-figure canvas.stage-still');
   judge('by the pointer', dragged !== first);
   await canvas.focus();
   await page.keyboard.press('ArrowLeft');
   await page.waitForTimeout(150);
-  judge('by the keys', await shown(page, '#stage-figure canvas.figure-still') !== dragged);
+  judge('by the keys', await shown(page, '#stage-figure canvas.stage-still') !== dragged);
 });
 
 await attempt('colours', async () => {
@@ -291,21 +287,18 @@ await attempt('colours', async () => {
 });
 
 await attempt('the links of the theory and of the notes', async () => {
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
+  await example(page, 'projectile');
   await page.locator('#scene-note').getByRole('button', { name: 'the spring' }).click();
   await settled(page);
   same('the note leads to the spring', await page.locator('#scene-title').textContent(), 'Mass on a spring');
-  await page.locator('#preset').selectOption('projectile');
-  await settled(page);
+  await example(page, 'projectile');
   for (const link of await page.locator('#theory a, #theory button').all()) {
     const words = await link.textContent();
     await link.scrollIntoViewIfNeeded();
     await link.click();
     await settled(page);
     judge(`the theory's “${words}” leads somewhere`, await page.evaluate(() => location.protocol) === 'file:' && await page.locator('#scene-title').isVisible());
-    await page.locator('#preset').selectOption('projectile');
-    await settled(page);
+    await example(page, 'projectile');
   }
 });
 await clean('controls', page);
@@ -325,8 +318,7 @@ await attempt('a panel by itself', async () => {
 await attempt('back to where one began', async () => {
   page = await open(singleFile);
   const title = await page.locator('#scene-title').textContent();
-  await page.locator('#preset').selectOption('spring');
-  await settled(page);
+  await example(page, 'spring');
   await page.waitForTimeout(600);          // the address follows
   await page.goBack();
   await settled(page);

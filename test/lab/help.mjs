@@ -94,7 +94,7 @@ function watch() {
 
 /** A page, watched. address: with its fragment. `wrong` collects what should not be; call `clean` at the end. */
 export async function open(address = singleFile, options = {}) {
-  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined } = options;
+  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false } = options;
   const context = await (await launch()).newContext({
     viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB',
     ...(kept ? { storageState: kept } : {}),
@@ -104,6 +104,8 @@ export async function open(address = singleFile, options = {}) {
   page.wrong = [];
   page.asked = [];
   await page.addInitScript(watch);
+  // A first visit begins by itself with a run of the motion, which most tests do not want.
+  if (!first) await page.addInitScript(() => { try { localStorage.setItem('motus-lab-1:seen', '1'); } catch { /* about:blank */ } });
   if (before) await page.addInitScript(before);
   page.on('console', (message) => { if (message.type() === 'error' || message.type() === 'warning') page.wrong.push(`${message.type()}: ${message.text()}`); });
   page.on('pageerror', (error) => page.wrong.push(`thrown: ${error.message}`));
@@ -142,8 +144,37 @@ export async function fields(page) {
   return found;
 }
 export const figureOf = (page, title) => page.locator('figure', { has: page.locator('h3', { hasText: new RegExp(`^${title}$`) }) });
+/** Another example, as its address opens it; the gallery is tested by itself. */
+export async function example(page, name) {
+  await page.evaluate((hash) => { if (location.hash === hash) history.replaceState(null, '', '#'); location.hash = hash; }, `#v=1&p=${name}`);
+  await settled(page, 300, 40000);
+}
+/** The text of the model, in the open editor. */
+export async function editorOf(page) {
+  const area = page.locator('#model-text');
+  if (!await area.isVisible()) await page.locator('.pill').click();
+  return area;
+}
+/** The sheet with all numbers of the model. */
+export async function valuesOf(page) {
+  const sheet = page.locator('#all-values');
+  // A change of the model may rebuild the dock; the sheet is opened by its button, as readers do.
+  if (!await sheet.isVisible()) { await page.evaluate(() => scrollTo(0, 0)); await page.getByRole('button', { name: 'All values' }).click(); }
+  return sheet;
+}
+export async function shareOf(page) {
+  const popup = page.locator('.share .popup');
+  if (await popup.isVisible()) return popup;
+  if (await page.locator('#menu-button').isVisible() && !await page.locator('.share').isVisible()) await page.locator('#menu-button').click();
+  await page.getByRole('button', { name: 'Share', exact: true }).click();
+  return popup;
+}
 /** What a figure says of itself; one that is out of sight is not kept up to date. */
 export async function summaryOf(page, title) {
+  if (title === 'Motion') {
+    await page.waitForTimeout(200);
+    return page.locator('#stage-figure figcaption').textContent();
+  }
   await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
   await page.waitForTimeout(100);
   return figureOf(page, title).locator('figcaption').textContent();
@@ -170,7 +201,8 @@ export function readCsv(text) {
 
 /** A file that a button of a figure saves. */
 export async function saved(page, title, kind) {
-  const button = figureOf(page, title).getByRole('button', { name: `Save “${title}” as ${kind}` });
+  if (title === 'Motion') await shareOf(page);
+  const button = (title === 'Motion' ? page : figureOf(page, title)).getByRole('button', { name: `Save “${title}” as ${kind}` });
   const once = () => Promise.all([page.waitForEvent('download', { timeout: 10000 }), button.click()]);
   // A page that is being laid out anew may move from under a pointer.
   const [download] = await once().catch(once);

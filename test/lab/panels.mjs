@@ -3,7 +3,7 @@
  */
 import { attempt, clean, figureOf, finish, judge, open, readCsv, same, saved, settled, singleFile, summaryOf } from './help.mjs';
 
-const titles = ['Motion', 'Step by step', 'Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Convergence', 'Work and precision', 'Stability'];
+const titles = ['Step by step', 'Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Convergence', 'Work and precision', 'Stability'];
 const all = '&o=time,error,drift,phase,convergence,precision,stability';
 const colours = { light: /#15803D/i, dark: /#4ADE80/i };
 
@@ -39,12 +39,12 @@ const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {
 for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 'dark', 375], ['three-body-figure-eight', 'light', 800]]) {
   const page = await open(`${singleFile}#v=1&p=${preset}${all}`, { theme, width });
   // Studies begin when they come into view.
-  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(6)) {
+  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(5)) {
     await figureOf(page, title).scrollIntoViewIfNeeded();
     await settled(page, 600, 60000);
     await compute(page, title);
   }
-  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 6) : titles) {
+  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 5) : titles) {
     const name = `${preset}, ${theme}, “${title}”`;
     await attempt(name, async () => {
       const figure = figureOf(page, title);
@@ -86,7 +86,7 @@ for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 
       judge(`${name}: SVG: well-formed, with title and description, nothing that runs`, read.error === '' && read.root === 'svg' && read.title === title && read.desc === summary && read.unsafe === 0 && read.parts > 4 && !/NaN|undefined/.test(svg.replace(/<desc>.*?<\/desc>/s, '')), JSON.stringify(read));
       const drawn = await decoded(page, Buffer.from(svg), 'image/svg+xml');
       judge(`${name}: SVG: can be drawn`, drawn.width > 100 && drawn.colours > 5, JSON.stringify(drawn));
-      if (title === 'Motion' || title === 'Against time') judge(`${name}: the exact line is green and thick`, colours[theme].test(svg) && new RegExp(`stroke="${colours[theme].source}"[^>]*stroke-width="[3-9]|stroke-width="[3-9][^>]*stroke="${colours[theme].source}"`, 'i').test(svg));
+      if (title === 'Against time') judge(`${name}: the exact line is green and thick`, colours[theme].test(svg) && new RegExp(`stroke="${colours[theme].source}"[^>]*stroke-width="[3-9]|stroke-width="[3-9][^>]*stroke="${colours[theme].source}"`, 'i').test(svg));
     });
   }
   await clean(`panels, ${preset}`, page, /readback/);

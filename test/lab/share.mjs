@@ -2,7 +2,7 @@
  * `motus run --share` prints. Addresses that are broken or hostile get a message, and the page lives.
  */
 import { spawnSync } from 'node:child_process';
-import { attempt, clean, fields, figureOf, finish, judge, motus, open, program, readCsv, root, same, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, motus, open, program, readCsv, root, same, settled, singleFile, shareOf, summaryOf, tableOf, valuesOf } from './help.mjs';
 
 const numbers = async (page) => tableOf(page, 'Against time');
 const hash = (page) => new URL(page.url()).hash;
@@ -10,14 +10,15 @@ const hash = (page) => new URL(page.url()).hash;
 // --- an address brings everything back ------------------------------------------------------------------------------------------------
 await attempt('share and reload', async () => {
   const page = await open(singleFile + '#v=1&p=spring');
-  await page.locator('.toggle[data-method="rk4"]').click();
+  await page.locator('.chip[data-method="rk4"]').click();
   await page.locator('#step').fill('0,1');
+  const values = await valuesOf(page);
   await page.locator('#until').fill('3 pi');
-  await page.getByLabel('k, as a number', { exact: true }).fill('2.25');
-  await page.getByLabel("x'(0), as a number", { exact: true }).fill('-0.5');
+  await values.getByLabel('k, as a number', { exact: true }).fill('2.25');
+  await values.getByLabel("x'(0), as a number", { exact: true }).fill('-0.5');
+  await page.keyboard.press('Escape');
   await page.locator('.panel-picker button', { hasText: 'Stability' }).click();
   await page.locator('.transport select').selectOption('2');
-  await figureOf(page, 'Motion').scrollIntoViewIfNeeded();
   await settled(page);
   const state = await fields(page), before = await numbers(page);
   same('the address holds what differs, and nothing else', state,
@@ -27,7 +28,7 @@ await attempt('share and reload', async () => {
   await settled(page);
   same('reload: the same address', page.url(), address);
   same('reload: the same numbers', await numbers(page), before);
-  same('reload: the fields', [await page.locator('#step').inputValue(), await page.locator('#until').inputValue(), await page.getByLabel('k, as a number', { exact: true }).inputValue(), await page.locator('.transport select').inputValue()], ['0.1', '3 pi', '2.25', '2']);
+  same('reload: the fields', [await page.locator('#step').inputValue(), await page.locator('#until').inputValue(), await page.locator('#all-values').getByLabel('k, as a number', { exact: true }).inputValue(), await page.locator('.transport select').inputValue()], ['0.1', '3 pi', '2.25', '2']);
   const other = await open(address);
   same('somebody else: the same numbers', await numbers(other), before);
   same('somebody else: the same panels', await other.locator('.panel-picker button[aria-pressed="true"]').allTextContents(), ['Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Stability']);
@@ -35,7 +36,7 @@ await attempt('share and reload', async () => {
 
   // The text survives, with or without an address.
   const text = "# grün θ </script><!-- 'q' \"d\" & % # +\nx'' = -x\nx(0) = 1\nx'(0) = 0\nmethod rk4\nstep 0.1\nuntil 2\n";
-  await page.locator('#model-text').fill(text);
+  await (await editorOf(page)).fill(text);
   await settled(page);
   await fields(page);
   await page.reload();
@@ -47,10 +48,10 @@ await attempt('share and reload', async () => {
   same('… and a new visit without an address', await page.locator('#model-text').inputValue(), text);
   await page.evaluate(() => { location.hash = '#v=1&p=kepler'; });
   await settled(page);
-  same('a new address in the same page', await page.locator('#scene-title').textContent(), 'Planet and sun');
+  same('a new address in the same page', await page.locator('#scene-title').textContent(), 'Planet');
   await page.evaluate(() => { location.hash = '#theory'; });
   await page.waitForTimeout(700);
-  same('a place in the page is no address', await page.locator('#scene-title').textContent(), 'Planet and sun');
+  same('a place in the page is no address', await page.locator('#scene-title').textContent(), 'Planet');
   await clean('share', page);
 });
 
@@ -79,10 +80,10 @@ function agree(name, table, method, csv) {
 await attempt('copy as command', async () => {
   const page = await open(singleFile);
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
-  await page.getByRole('button', { name: 'Share', exact: true }).click();
+  await shareOf(page);
   same('the menu opens, and has the focus', [await page.locator('.share .popup').isVisible(), await page.evaluate(() => document.activeElement.textContent)], [true, 'Copy link']);
   const link = await page.getByLabel('The address holds all that you see').inputValue();
-  judge('the link is this state', link.endsWith('#v=1&p=projectile'), link);
+  judge('the link is this state', link.endsWith('#v=1&p=thrown-ball'), link);
   await page.getByRole('button', { name: 'Copy link' }).click();
   await page.waitForTimeout(100);
   const copied = await page.evaluate(() => navigator.clipboard.readText()).catch(() => '');
@@ -99,7 +100,7 @@ await attempt('copy as command', async () => {
     await page.goto('about:blank');
     await page.goto(singleFile + fragment);
     await settled(page);
-    await page.getByRole('button', { name: 'Share', exact: true }).click();
+    await shareOf(page);
     const line = await page.getByLabel(/^The same (bits|runs)/).inputValue();
     await page.keyboard.press('Escape');
     const run = shell(line, root);
@@ -109,7 +110,7 @@ await attempt('copy as command', async () => {
   await page.goto('about:blank');
   await page.goto(singleFile + '#v=1&p=projectile&h=0.01');
   await settled(page);
-  await page.getByRole('button', { name: 'Share', exact: true }).click();
+  await shareOf(page);
   const line = await page.getByLabel(/^The same (bits|runs)/).inputValue();
   const compared = shell(line, root);
   const { rows } = JSON.parse(compared.stdout || '{"rows":[]}');
@@ -162,12 +163,11 @@ await attempt('hostile links', async () => {
         await page.locator('#status button', { hasText: 'Cancel' }).click();
       }
       await settled(page, 300, 40000);
-      const said = await page.evaluate(() => ['#toasts', '#status', '#model-problem', '#step-message', '#until-message', '#parameters .sliders > .message', '.methods > .message'].map((s) => document.querySelector(s)?.textContent ?? '').join(' '));
+      const said = await page.evaluate(() => ['#toasts', '#status', '#model-problem', '#step-message', '#until-message', '#all-values .sliders > .message', '.methods > .message'].map((s) => document.querySelector(s)?.textContent ?? '').join(' '));
       if (words) judge(`a link with ${what}: a message`, words.test(said.trim()), said.slice(0, 200));
       judge(`a link with ${what}: nothing of it runs`, await page.evaluate(() => window.hit === undefined && document.querySelectorAll('main img, main script').length === 0));
       if (k % 3 && k < links.length - 2) return;
-      await page.locator('#preset').selectOption('pendulum');
-      await settled(page, 300, 40000);
+      await example(page, 'pendulum');
       same(`a link with ${what}: the page lives`, await page.locator('#scene-title').textContent(), 'Pendulum');
       judge(`a link with ${what}: and computes`, (await summaryOf(page, 'Motion')).includes('from t = 0 to'), await summaryOf(page, 'Motion'));
     });
@@ -181,8 +181,7 @@ await attempt('a motion that diverges', async () => {
   const said = await page.locator('#status').textContent();
   judge('it stops with the time and the name', /t = \d/.test(said) && /\bx\b/.test(said), said);
   judge('what was computed until then is shown', (await summaryOf(page, 'Motion')).length > 20);
-  await page.locator('#preset').selectOption('spring');
-  await settled(page);
+  await example(page, 'spring');
   same('the message goes with the model', (await page.locator('#status .message').textContent()), '');
   await clean('a motion that diverges', page);
 });

@@ -89,12 +89,13 @@ test('a word stays one word in a shell', () => {
 const heard = text => execFileSync('sh', ['-c', `motus() { printf '%s\\0' "$@"; printf 'INPUT\\0'; cat; }\n${text}`], { encoding: 'utf8', input: '' }).split('\0');
 
 test('the command says what the page computed', () => {
-  assert.equal(share.command(start, start.methods, presets).text, 'motus compare models/projectile.motus --methods explicit-euler,symplectic-euler,midpoint');
-  assert.equal(share.command({ ...start, step: 'pi/100', set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' } }, ['verlet'], presets).text,
-    "motus run models/projectile.motus --method verlet --step pi/100 --set 'g=(0, -1.62)' --set 'r'\\''(0)=(1, 2)'");
+  assert.equal(share.command(start, start.methods).text.split('\n')[0], "motus compare - --methods explicit-euler,symplectic-euler,midpoint <<'MOTUS_END'");
+  assert.equal(heard(share.command(start, start.methods).text).at(-1), start.text.endsWith('\n') ? start.text : start.text + '\n');
+  assert.equal(share.command({ ...start, step: 'pi/100', set: { g: '(0, -1.62)', "r'(0)": '(1, 2)' } }, ['verlet']).text.split('\n')[0],
+    "motus run - --method verlet --step pi/100 --set 'g=(0, -1.62)' --set 'r'\\''(0)=(1, 2)' <<'MOTUS_END'");
   for (const text of nasty) {
     const one = /[\n\t]/.test(text) ? 'y' : text;
-    const got = heard(share.command({ ...start, text, step: one || '1', set: { x: one } }, ['rk4'], presets).text);
+    const got = heard(share.command({ ...start, text, step: one || '1', set: { x: one } }, ['rk4']).text);
     const input = text.endsWith('\n') || text === '' ? text : text + '\n';
     assert.deepEqual(got, ['run', '-', '--method', 'rk4', '--step', one || '1', '--set', `x=${one}`, 'INPUT', input]);
   }
@@ -102,13 +103,13 @@ test('the command says what the page computed', () => {
 
 test('a decimal comma is the reader’s, not the program’s', () => {
   const { state } = share.decode('#v=1&p=spring&h=0,05&T=1,5', presets);
-  assert.equal(share.command(state, ['verlet'], presets).text, 'motus run models/spring.motus --method verlet --step 0.05 --until 1.5');
+  assert.equal(share.command(state, ['verlet']).text.split('\n')[0], "motus run - --method verlet --step 0.05 --until 1.5 <<'MOTUS_END'");
 });
 
 test('control characters are refused', () => {
   for (const c of ['\0', '\x1b', '\x7f', '\x9b', '\r']) {
-    assert.equal(share.command({ ...start, text: `x${c}` }, ['rk4'], presets).text, '');
-    assert.equal(share.command({ ...start, step: `1${c}` }, ['rk4'], presets).text, '');
-    assert.notEqual(share.command({ ...start, text: `x${c}` }, ['rk4'], presets).problem, '');
+    assert.equal(share.command({ ...start, text: `x${c}` }, ['rk4']).text, '');
+    assert.equal(share.command({ ...start, step: `1${c}` }, ['rk4']).text, '');
+    assert.notEqual(share.command({ ...start, text: `x${c}` }, ['rk4']).problem, '');
   }
 });

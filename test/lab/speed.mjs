@@ -10,7 +10,7 @@ const middle = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
 /** Milliseconds from an input event to the first frame in which the still layer of the motion was drawn anew after the answer. */
 function redrawn(selector, value) {
   return new Promise((done) => {
-    const canvas = document.querySelector('#stage-figure canvas.figure-still'), context = canvas.getContext('2d'), clear = context.clearRect;
+    const canvas = document.querySelector('#stage-figure canvas.stage-still'), context = canvas.getContext('2d'), clear = context.clearRect;
     const field = document.querySelector(selector), began = performance.now();
     context.clearRect = function (...box) {
       delete context.clearRect;
@@ -42,7 +42,7 @@ function follow() {
 /** Moves a slider once a frame, as a hand does; redraws: milliseconds from an event to the end of the frame that first shows it. */
 function dragged({ low, high, value, frames }) {
   return new Promise((done) => {
-    const canvas = document.querySelector('#stage-figure canvas.figure-still'), context = canvas.getContext('2d'), clear = context.clearRect;
+    const canvas = document.querySelector('#stage-figure canvas.stage-still'), context = canvas.getContext('2d'), clear = context.clearRect;
     const slider = document.querySelector('#dragged'), redraws = [];
     let moved = 0, shown = 0;
     context.clearRect = function (...box) {
@@ -80,7 +80,7 @@ await attempt('figures', async () => {
   await page.goto(`${singleFile}#v=1&p=kepler&a=${ten}`);
   await settled(page);
   await page.keyboard.press('Home');
-  const methods = (await page.locator('.toggle[aria-pressed="true"]').count());
+  const methods = (await page.locator('#methods .chips .chip[aria-pressed="true"]').count());
   await page.keyboard.press('Space');
   const stamps = await page.evaluate(() => new Promise((done) => {
     const all = [], began = performance.now();
@@ -96,7 +96,7 @@ await attempt('figures', async () => {
     await page.goto('about:blank');
     await page.goto(`${singleFile}#v=1&p=${preset}`);
     await settled(page, 400, 60000);
-    const [low, high, value] = await page.locator('#parameters input[type=range]').first().evaluate((s) => { s.id = 'dragged'; return [s.min, s.max, s.value].map(Number); });
+    const [low, high, value] = await page.locator('#all-values input[type=range]').first().evaluate((s) => { s.id = 'dragged'; return [s.min, s.max, s.value].map(Number); });
     const { frames, redraws } = await page.evaluate(dragged, { low, high, value, frames: 60 });
     const late = redraws.length ? `${middle(redraws).toFixed(0)} ms from the event to the end of the frame that shows it` : 'the model admits no other value of it';
     console.log(`# a slider of ${preset} dragged for ${frames} frames: ${redraws.length} pictures, ${late}`);

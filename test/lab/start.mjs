@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, fields, finish, judge, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, built, clean, editorOf, fields, finish, judge, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -82,7 +82,7 @@ await attempt('motus lab', async () => {
   const page = await open(pathToFileURL(out).href);
   same('motus lab: the model is in the page', await page.locator('#model-text').inputValue(), readFileSync(join(root, 'models/pendulum.motus'), 'utf8'));
   judge('motus lab: its motion is shown', /^Path|over time/.test(await summaryOf(page, 'Motion')));
-  await page.locator('#model-text').fill(`${await page.locator('#model-text').inputValue()}# mine\n`);
+  await (await editorOf(page)).fill(`${await page.locator('#model-text').inputValue()}# mine\n`);
   await settled(page);
   await fields(page);
   await page.goto('about:blank');
@@ -91,7 +91,7 @@ await attempt('motus lab', async () => {
   judge('motus lab: what was typed there survives', (await page.locator('#model-text').inputValue()).endsWith('# mine\n'));
   await page.goto(singleFile);
   await settled(page);
-  same('motus lab: and stays there', await page.locator('#scene-title').textContent(), 'Thrown ball');
+  same('motus lab: and stays there', await page.locator('#scene-title').textContent(), 'A thrown ball');
   await clean('motus lab', page);
 });
 

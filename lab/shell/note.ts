@@ -1,0 +1,26 @@
+/* What to try on an example, and what to see: above the pictures that look closer.
+ *
+ * Invariant: what is said of an example holds for its own text only.
+ */
+import { notes } from '../theory/presets';
+import type { LiveStore } from '../state';
+import { presetState } from '../share';
+import { button, el } from '../dom';
+import { presets } from './presets';
+
+export function note(store: LiveStore): HTMLElement {
+  const element = el('div', { class: 'note', hidden: true });
+  let shown = '';
+  store.subscribe((what) => {
+    if (what !== 'state' && what !== 'scene') return;
+    const { preset, text } = store.state, name = presets.text(preset) === text ? preset : '';
+    if (name === shown) return;
+    shown = name;
+    const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];
+    const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? of
+      : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
+    element.replaceChildren(...written.map((paragraph) => el('p', {}, ...(typeof paragraph === 'string' ? [paragraph] : paragraph.map(part)))));
+    element.hidden = written.length === 0;
+  });
+  return element;
+}

@@ -1,0 +1,162 @@
+/* The stage: the first picture before any script, what fills the screen at each size, that nothing moves when it should not, frames that hold still, names and
+ * brackets with the program's numbers, runaways, ghosts, undo, pinned runs.
+ */
+import { attempt, clean, example, fields, finish, judge, launch, motus, open, same, saved, settled, singleFile } from './help.mjs';
+
+/** All texts of the picture, and its paths, as its SVG has them. */
+async function drawn(page) {
+  const svg = (await saved(page, 'Motion', 'SVG')).bytes.toString('utf8');
+  await page.keyboard.press('Escape');
+  const texts = [...svg.matchAll(/<text ([^>]*)>(.*?)<\/text>/g)].map(([, attributes, inside]) => ({
+    text: inside.replace(/<[^>]*>/g, '').replaceAll('\u2009', ' '), x: Number(/ ?x="([^"]*)"/.exec(attributes)?.[1]), y: Number(/ y="([^"]*)"/.exec(attributes)?.[1]),
+  }));
+  return { svg, texts, words: texts.map((t) => t.text) };
+}
+const numbersOf = ({ texts }) => texts.filter((t) => /^−?[\d.]+( m)?$/.test(t.text));
+const time = async (page) => (await page.locator('.transport-now').textContent());
+
+// --- before any script --------------------------------------------------------------------------------------------------------------------
+await attempt('without scripts', async () => {
+  for (const [name, width, height] of [['desk', 1280, 800], ['wide', 1920, 1080], ['tablet', 820, 1180], ['phone', 390, 844], ['landscape', 844, 390]]) {
+    const context = await (await launch()).newContext({ viewport: { width, height }, javaScriptEnabled: false }), page = await context.newPage();
+    await page.goto(singleFile);
+    const seen = await page.locator('#stage-picture > svg').evaluateAll((all) => all.filter((s) => getComputedStyle(s).display !== 'none').map((s) => s.getAttribute('class'))).catch(() => null);
+    // Scripts are off for the page, not for the test.
+    same(`${name}: one picture, its own`, seen, [`first first-${name}`]);
+    const svg = page.locator(`#stage-picture > .first-${name}`);
+    judge(`${name}: with the misses`, /1\.96/.test(await svg.textContent()) && /too high/.test(await svg.textContent()));
+    judge(`${name}: the words are there`, await page.locator('#scene-title').textContent() === 'A thrown ball');
+    await context.close();
+  }
+});
+
+// --- it fills the screen, and nothing shifts ----------------------------------------------------------------------------------------------
+function shifts() {
+  window.shift = 0;
+  new PerformanceObserver((list) => { for (const entry of list.getEntries()) if (!entry.hadRecentInput) window.shift += entry.value; }).observe({ type: 'layout-shift', buffered: true });
+}
+for (const [width, height] of [[320, 640], [390, 844], [844, 390], [820, 1180], [1024, 768], [1280, 800], [1920, 1080], [3840, 2160]]) {
+  await attempt(`${width} × ${height}`, async () => {
+    const page = await open(singleFile, { width, height, touch: width < 1000, calm: true, before: shifts }), name = `${width} × ${height}`;
+    await page.waitForTimeout(300);
+    const shift = await page.evaluate(() => window.shift);
+    judge(`${name}: nothing shifts while it loads`, shift <= 0.02, shift);
+    const box = (selector) => page.locator(selector).evaluate((e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; });
+    const [left, top, right, bottom] = await box('#stage-picture'), area = (right - left) * (bottom - top) / (width * height);
+    judge(`${name}: the picture is the largest thing on the first screen`, area > 0.36 && bottom <= height + 1 && right <= width + 1 && top >= 0, [left, top, right, bottom, area].join());
+    for (const what of ['.transport-play', '#step-slider', '#methods .chip']) {
+      const [l, t, r, b] = await box(what);
+      judge(`${name}: ${what} is on the first screen`, l >= 0 && t >= 0 && b <= height && l < width && (r <= width || what.includes('chip')), [l, t, r, b].join());
+    }
+    if (width < 500) { const [, , , b] = await box('.transport-play'); judge(`${name}: Play is in thumb's reach`, b > height - 130, b); }
+    same(`${name}: no scrolling sideways`, await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth), 0);
+    const before = await Promise.all(['#stage-picture', '#dock', '#words', '.transport-play'].map(box));
+    await page.locator('.transport-play').click();
+    await page.waitForTimeout(400);
+    same(`${name}: Play moves nothing on the page`, await Promise.all(['#stage-picture', '#dock', '#words', '.transport-play'].map(box)), before);
+    same(`${name}: and does not scroll it`, await page.evaluate(() => scrollY), 0);
+    await clean(name, page);
+  });
+}
+
+// --- the founding scene ---------------------------------------------------------------------------------------------------------------------
+await attempt('the founding scene', async () => {
+  const page = await open(singleFile, { calm: true, height: 800 });
+  const first = await drawn(page);
+  const { rows } = JSON.parse(motus('compare', 'models/thrown-ball.motus', '--methods', 'explicit-euler,symplectic-euler,midpoint', '--json'));
+  const off = rows.find((row) => row.method === 'explicit-euler').error_final.toFixed(2);
+  same('the bracket has the program’s error', [off, first.words.includes(`${off} m too high`), first.words.includes(`${off} m too low`)], ['1.96', true, true]);
+  judge('the names stand at the ends, what coincides together', ['explicit Euler', 'symplectic Euler', 'exact = midpoint'].every((w) => first.words.includes(w)), first.words.join(' | '));
+  const order = ['explicit Euler', 'exact = midpoint', 'symplectic Euler'].map((w) => first.texts.find((t) => t.text === w).y);
+  judge('… in the order of the balls', order[0] < order[1] && order[1] < order[2], order.join());
+  same('it is seen from its end', await time(page), '2.00');
+  await page.locator('#step-slider').focus();
+  await page.keyboard.press('ArrowRight');
+  await settled(page);
+  const half = await drawn(page);
+  same('half the step, half the miss', [(await fields(page)).h, half.words.includes('0.98 m too high')], ['0.1', true]);
+  same('the axes hold still', numbersOf(half), numbersOf(first));
+  judge('the curve of before stays as a ghost', /opacity="0.4"/.test(half.svg));
+  await page.waitForTimeout(1600);
+  judge('… for a while', !/opacity="0.4"/.test((await drawn(page)).svg));
+  await page.keyboard.press('Control+z');
+  await settled(page);
+  same('undo', [(await fields(page)).h, await page.locator('#step').inputValue()], [undefined, '0.2']);
+  await page.keyboard.press('Control+y');
+  await settled(page);
+  same('redo', (await fields(page)).h, '0.1');
+  await page.keyboard.press('Control+z');
+  await settled(page);
+  // The frame goes along once a motion leaves it, and only afterwards.
+  const up = page.getByLabel('Upwards', { exact: true });
+  await up.evaluate((slider) => { slider.value = '16'; slider.dispatchEvent(new Event('input', { bubbles: true })); });
+  await settled(page);
+  same('a motion that leaves: the frame still holds', numbersOf(await drawn(page)), numbersOf(first));
+  await page.waitForTimeout(2200);
+  judge('… and has moved when the hand rests', JSON.stringify(numbersOf(await drawn(page))) !== JSON.stringify(numbersOf(first)));
+  await page.locator('#undo button').click();
+  await settled(page);
+  await page.locator('.switch').click();
+  await settled(page, 400);
+  same('air: another model, the same throw', [(await fields(page)).p, (await drawn(page)).words.some((w) => w.startsWith('exact, computed'))], ['thrown-ball-air', true]);
+  judge('… in which mass matters', await page.getByLabel('Mass', { exact: true }).isVisible());
+  await page.locator('.switch').click();
+  await settled(page);
+  same('and back', (await fields(page)).p, 'thrown-ball');
+  // The initial velocity is taken hold of.
+  await page.locator('.stage-aim').focus();
+  await page.keyboard.press('ArrowUp');
+  await settled(page);
+  judge('the arrow of the throw, by keys', /^r'\(0\)=\(6, 10\.[0-9]+\)$/.test((await fields(page)).s), (await fields(page)).s);
+  const ring = await page.locator('.stage-aim').boundingBox();
+  await page.mouse.move(ring.x + 22, ring.y + 22);
+  await page.mouse.down();
+  await page.mouse.move(ring.x + 42, ring.y + 2, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  judge('… and by the pointer', !/\(6, /.test((await fields(page)).s), (await fields(page)).s);
+  await clean('the founding scene', page);
+});
+
+// --- runaways ---------------------------------------------------------------------------------------------------------------------------------
+await attempt('a runaway', async () => {
+  const page = await open(singleFile + '#v=1&p=spring&a=explicit-euler,symplectic-euler,verlet&h=0.16&T=20', { calm: true, height: 800 });
+  const first = await drawn(page);
+  judge('it is clipped with a word and a number', first.words.includes('explicit Euler leaves') && first.words.some((w) => /^4\.5 times too wide at 20 s$/.test(w)), first.words.join(' | '));
+  await page.locator('.stage-all').click();
+  await page.waitForTimeout(300);
+  const all = await drawn(page);
+  judge('“show all” shows all', !all.words.includes('explicit Euler leaves') && JSON.stringify(numbersOf(all)) !== JSON.stringify(numbersOf(first)));
+  same('… and offers the way back', await page.locator('.stage-all').textContent(), 'show the exact motion');
+  await page.locator('.stage-all').click();
+  await page.waitForTimeout(300);
+  same('… which is the frame of before', numbersOf(await drawn(page)), numbersOf(first));
+  await clean('a runaway', page);
+});
+
+// --- pinned -------------------------------------------------------------------------------------------------------------------------------------
+await attempt('a pinned run', async () => {
+  const page = await open(singleFile, { calm: true, height: 800 });
+  await page.getByRole('button', { name: /^Pin this run/ }).click();
+  await page.locator('#step').fill('0.1');
+  await settled(page);
+  await page.waitForTimeout(1500);
+  judge('A stays, B is what is changed', (await drawn(page)).words.filter((w) => w === 'A').length >= 2 && /A: h 0.2/.test(await page.locator('#dock-links').textContent()), await page.locator('#dock-links').textContent());
+  await example(page, 'spring');
+  judge('another example lets it go', !(await drawn(page)).words.includes('A'));
+  await clean('a pinned run', page);
+});
+
+// --- one gentle run -------------------------------------------------------------------------------------------------------------------------------
+await attempt('the first visit', async () => {
+  const page = await open(singleFile, { settle: false, first: true });
+  await page.waitForFunction(() => { const t = Number(document.querySelector('.transport-now')?.textContent); return t > 0 && t < 1.9; });
+  await page.waitForFunction(() => document.querySelector('.transport-now').textContent === '2.00');
+  judge('it runs once by itself and ends where it began', true);
+  await page.reload();
+  await settled(page);
+  await page.waitForTimeout(1200);
+  same('… and never again on this device', await time(page), '2.00');
+  await clean('the first visit', page);
+});
+await finish();
