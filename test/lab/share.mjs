@@ -47,10 +47,10 @@ await attempt('share and reload', async () => {
   same('… and a new visit without an address', await page.locator('#model-text').inputValue(), text);
   await page.evaluate(() => { location.hash = '#v=1&p=kepler'; });
   await settled(page);
-  same('a new address in the same page', await page.locator('#scene-title').textContent(), 'Planet and sun');
+  same('a new address in the same page', await page.locator('#scene-title').textContent(), 'Planet');
   await page.evaluate(() => { location.hash = '#theory'; });
   await page.waitForTimeout(700);
-  same('a place in the page is no address', await page.locator('#scene-title').textContent(), 'Planet and sun');
+  same('a place in the page is no address', await page.locator('#scene-title').textContent(), 'Planet');
   await clean('share', page);
 });
 
@@ -82,7 +82,7 @@ await attempt('copy as command', async () => {
   await page.getByRole('button', { name: 'Share', exact: true }).click();
   same('the menu opens, and has the focus', [await page.locator('.share .popup').isVisible(), await page.evaluate(() => document.activeElement.textContent)], [true, 'Copy link']);
   const link = await page.getByLabel('The address holds all that you see').inputValue();
-  judge('the link is this state', link.endsWith('#v=1&p=projectile'), link);
+  judge('the link is this state', link.endsWith('#v=1&p=thrown-ball'), link);
   await page.getByRole('button', { name: 'Copy link' }).click();
   await page.waitForTimeout(100);
   const copied = await page.evaluate(() => navigator.clipboard.readText()).catch(() => '');
