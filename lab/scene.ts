@@ -14,6 +14,8 @@ export interface State {
   readonly step: string;                        // '' : the model's
   readonly until: string;
   readonly view: View;
+  /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, '2.try.0'. */
+  readonly place: string;
 }
 export interface View {
   readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z

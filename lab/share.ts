@@ -6,6 +6,7 @@
  * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&T=UNTIL  and of the view
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              o=ID,ID              open panels         e=0  green line hidden    z=SPEED
+ *   l=gallery | LESSON.PART.ANSWER   where in the page one is
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
  */
 import type { State, View } from './scene';
@@ -29,7 +30,7 @@ const defaultPanels: readonly string[] = ['time', 'error', 'drift', 'phase'];
 export const defaultView: View = { plane: 'auto', quantities: [], phase: null, panels: defaultPanels, exact: true, speed: 1 };
 
 export function presetState(presets: Presets, name: string): State {
-  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: '', view: defaultView };
+  return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: '', view: defaultView, place: '' };
 }
 
 const free = /^[A-Za-z0-9\-._~(),*]$/;
@@ -92,10 +93,11 @@ export function encode(state: State, presets: Presets): string {
   if (!same(view.panels, defaultView.panels)) put('o', view.panels.join(','));
   if (!view.exact) put('e', '0');
   if (view.speed !== defaultView.speed) put('z', String(view.speed));
+  if (state.place) put('l', state.place);
   return out.join('&');
 }
 
-const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z']);
+const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z', 'l']);
 const several = new Set(['s', 'q', 'f']);
 
 /** What is wrong with an address: thrown and caught in this file only. */
@@ -168,9 +170,11 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   const methods = listed === undefined ? usual : [...new Set(splitList(listed))];
   if (methods.length > most.methods) throw new Wrong('it asks for too many methods');
   for (const method of methods) word(method, 'the name of a method');
+  const place = found.get('l')?.[0] ?? '';
+  if (!/^(gallery|\d{1,2}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
   return {
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
-    step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found),
+    step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found), place,
   };
 }
 

@@ -31,6 +31,8 @@ export interface LiveStore extends Store {
   /** Replace the whole state: a preset, an address. */
   load(state: State): void;
   cancel(): void;
+  /** To another place of the page (State.place). */
+  go(place: string): void;
   /** The theme has changed. */
   recolour(): void;
   subscribe(listener: (what: Happening) => void): () => void;
@@ -267,6 +269,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     get numbers() { return numbers; },
     change(part: Partial<State>) { state = { ...state, ...part }; tell('state'); ask(); },
     load(next: State) { ownMethod = null; state = next; tell('state'); tell('view'); ask(); },
+    go(place: string) { state = { ...state, place }; tell('view'); },
     look(part: Partial<View>) {
       state = { ...state, view: { ...state.view, ...part } };
       if (scene) scene = { ...scene, state: { ...scene.state, view: state.view } };

@@ -4,12 +4,13 @@
  */
 import { Answers } from './answers';
 import { Core } from './core';
+import { looksOf, named } from './figure/ink';
 import { svgPen } from './figure/svg';
 import type { Track } from './protocol';
 import { scenes, type Curve, type Picture, type SceneEntry } from './scenes';
 
-/** A moving body: which path of the picture it runs along, how far along it is at equal times, in thousandths, and where it is drawn at rest. */
-export interface Runner { readonly path: number; readonly pace: readonly number[]; readonly rest: number | null }
+/** A moving body: the path of the picture that it runs along, how far along it is at equal times, in thousandths, and where it is drawn at rest. */
+export interface Runner { readonly path: number; readonly pace: readonly number[]; readonly rest: readonly [x: number, y: number] | null }
 export interface Thumb { readonly svg: string; readonly runners: readonly Runner[] }
 
 /** In CSS pixels; the pictures' own unit is a tenth of one, so that whole numbers suffice. */
@@ -107,12 +108,17 @@ function simplified(xy: Float64Array): number[] {
   return out;
 }
 
-/** How far along the line the body is at equal times; one value for each 15 pixels or so. */
-function paceOf(xy: Float64Array): { pace: number[]; along: Float64Array } {
-  const n = xy.length / 2, along = new Float64Array(n);
-  for (let i = 1; i < n; i++) along[i] = along[i - 1]! + Math.hypot(xy[2 * i]! - xy[2 * i - 2]!, xy[2 * i + 1]! - xy[2 * i - 1]!);
-  const whole = along[n - 1] || 1, count = Math.max(8, Math.min(100, Math.round(whole / 150)));
-  return { pace: Array.from({ length: count + 1 }, (_, k) => Math.round(1000 * along[Math.round(k * (n - 1) / count)]! / whole)), along };
+/** The length of a line up to each of its points. */
+function alongOf(xy: Float64Array): Float64Array {
+  const along = new Float64Array(xy.length / 2);
+  for (let i = 1; i < along.length; i++) along[i] = along[i - 1]! + Math.hypot(xy[2 * i]! - xy[2 * i - 2]!, xy[2 * i + 1]! - xy[2 * i - 1]!);
+  return along;
+}
+
+/** How far along the line the body is at equal times, in thousandths; one value for each 15 pixels or so. */
+function paceOf(xy: Float64Array): number[] {
+  const along = alongOf(xy), last = along.length - 1, whole = along[last] || 1, count = Math.max(8, Math.min(100, Math.round(whole / 150)));
+  return Array.from({ length: count + 1 }, (_, k) => Math.round(1000 * along[Math.round(k * last / count)]! / whole));
 }
 
 /** A path in whole numbers, each relative to the one before: half as long. */
@@ -168,15 +174,14 @@ function draw(studio: Studio, scene: SceneEntry): Thumb {
     pen.line(simplified(within(xy)), { colour, width: TENTHS * width, dash: dash?.map(d => TENTHS * d), alpha });
     paths++;
   };
-  for (const points of aside) line(to(points), 'var(--ghost)', 1.4, DASH);
-  for (const { method, lines } of others) for (const points of lines) line(to(points), `var(--line-${method})`, 1.4, dashed.has(method) ? DASH : undefined);
-  const drawn = exact.map(to), lengths = drawn.map(xy => paceOf(xy).along[xy.length / 2 - 1] ?? 0), most = Math.max(...lengths) / TENTHS;
+  for (const points of aside) line(to(points), 'var(--ghost, var(--axis))', 1.4, DASH);
+  for (const { method, lines } of others) for (const points of lines) line(to(points), looksOf([method], [], named)[0]!.colour, 1.4, dashed.has(method) ? DASH : undefined);
+  const drawn = exact.map(to), most = Math.max(...drawn.map(xy => alongOf(xy).at(-1) ?? 0)) / TENTHS;
   // A long line fills the picture: thinner, or it is a patch.
   const width = most > 1500 ? 1.1 : most > 700 || curves.length > 3 ? 1.5 : 2, later = still ? { alpha: 0.5, width: 1.2 } : { width };
   const runners: Runner[] = [];
   drawn.forEach((xy, k) => {
-    const { pace, along } = paceOf(xy), whole = along[along.length - 1] || 1;
-    if (!still) runners.push({ path: paths, pace, rest: picture.at === undefined ? null : Math.round(1000 * along[now]! / whole) });
+    if (!still) runners.push({ path: paths, pace: paceOf(xy), rest: picture.at === undefined ? null : [Math.round(xy[2 * now]!), Math.round(xy[2 * now + 1]!)] });
     line(xy, 'var(--exact)', k ? later.width : width, undefined, k ? later.alpha : undefined);
   });
   for (const points of rods) line(to(points), 'var(--quiet)', 2);

@@ -37,16 +37,16 @@ export function addressOf(state: State, presets: Presets): string {
 }
 
 export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts): void {
-  let timer = 0, preset = store.state.preset;
+  let timer = 0, { preset, place } = store.state;
   const write = (): void => {
     window.clearTimeout(timer);
     timer = 0;
     remember('state', written() + '\n' + encode(store.state, presets));
     // An address of an older state would win over the memory at the next visit: rather none.
     const address = addressOf(store.state, presets) || location.href.replace(/#.*$/s, '');
-    // Another example is another page of the browser's history; each change of one is not.
-    const how = store.state.preset !== preset ? 'pushState' : 'replaceState';
-    preset = store.state.preset;
+    // Another example, or place, is another page of the browser's history; each change of one is not.
+    const how = store.state.preset !== preset || store.state.place !== place ? 'pushState' : 'replaceState';
+    ({ preset, place } = store.state);
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
   };
   store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
@@ -59,7 +59,7 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     window.clearTimeout(timer);
     timer = 0;
     if (problem) toasts.say(problem);
-    preset = state.preset;
+    ({ preset, place } = state);
     store.load(state);
   });
 }

@@ -1,10 +1,13 @@
 /* The controls of the page, put where index.html keeps room for them. Invariant: controls talk to the store, and to nothing else. */
 import type { LiveStore } from '../state';
+import { sceneOf } from '../scenes';
+import { presetState } from '../share';
 import type { Stage } from '../stage/stage';
 import { followAddress } from './address';
 import { place } from '../dom';
 import { dials } from './dials';
 import { dockLinks } from './dock';
+import { gallery as makeGallery } from './gallery';
 import { history } from './history';
 import { methods } from './methods';
 import { nav } from './nav';
@@ -23,7 +26,24 @@ import { words } from './words';
 export function mountShell(store: LiveStore, stage: Stage, panels: readonly PanelName[], themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
   const said = words(store, toasts, () => stage.relayout());
-  nav([{ label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  const galleryPlace = place('gallery');
+  let gallery: HTMLElement | null = null;
+  const go = (where: string): void => { if (store.state.place !== where) store.go(where); };
+  const places = nav([{ label: 'Gallery', id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  function arrive(): void {
+    const { place: where } = store.state, there = where === 'gallery';
+    places.current(there ? 'gallery' : '');
+    if (document.body.classList.contains('in-gallery') === there) return;
+    document.body.classList.toggle('in-gallery', there);
+    galleryPlace.hidden = !there;
+    if (there) {
+      gallery = makeGallery(store, { open: (name) => { store.load({ ...presetState(presets, name), set: sceneOf(name)?.set ?? {}, view: { ...store.state.view, plane: 'auto', quantities: [], phase: null } }); }, close: () => go('') });
+      galleryPlace.replaceChildren(gallery);
+      scrollTo(0, 0);
+      gallery.querySelector<HTMLElement>('input')?.focus({ preventScroll: true });
+    } else { galleryPlace.replaceChildren(); stage.relayout(); }
+  }
+  store.subscribe((what) => { if (what === 'state' || what === 'view') arrive(); });
   place('undo').append(history(store));
   place('share').append(shareMenu(store, presets, stage, toasts));
   place('theme').append(themeButton(() => { store.recolour(); chosen.repaint(); themeChanged(); }));
@@ -36,5 +56,6 @@ export function mountShell(store: LiveStore, stage: Stage, panels: readonly Pane
   place('status').append(status(store));
   place('panel-picker').append(panelPicker(store, panels));
   followAddress(store, presets, toasts);
+  arrive();
   return toasts;
 }
