@@ -86,7 +86,7 @@ const drawn = await (async () => {
 const first = presets.find(({ name }) => name === 'thrown-ball');
 const scene = drawn.sceneOf(new WebAssembly.Module(wasm), first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
-const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p></div>`;
+const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
 const marked = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
 const template = put(marked, '<!-- theory -->', made.html);
 const page = ({ script, element, connect, worker }) => {

@@ -22,7 +22,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
   const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Formula and steps of'), main);
   const message = el('p', { class: 'message mild', role: 'status' });
   const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All methods' }, el('label', { for: 'method-search' }, 'All methods'), search, found, more);
-  const opener = button('more', () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
+  const opener = button('28 more', () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
   const element = el('div', { class: 'methods', role: 'group', 'aria-label': 'Methods' }, el('div', { class: 'chips-row' }, list, opener), sheet, message);
 
   let toggles: Toggle[] = [], shown = '', opened = '', front: readonly string[] = [], limitReached = false, last: readonly unknown[] = [];

@@ -26,7 +26,7 @@ export interface Words { readonly element: HTMLElement; openEditor(open: boolean
 /** lesson: opens a lesson by its number, where there is one. */
 export function words(store: LiveStore, toasts: Toasts, changed: () => void): Words {
   const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
-  const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' });
+  const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' }, ...document.querySelectorAll('#words .pill-math > *'));
   const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, 'Type your own'));
   const began = document.createTextNode(''), revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
   const edited = el('p', { class: 'edited', hidden: true }, began, revert);

@@ -41,3 +41,6 @@ export function firstPictures(scene: Scene): string {
     return pen.svg().replace('<svg ', `<svg class="first first-${name}" aria-hidden="true" preserveAspectRatio="xMidYMid slice" `).replace(/id="c(\d+)"/g, `id="${name}-c$1"`).replace(/url\(#c(\d+)\)/g, `url(#${name}-c$1)`).replace(/ role="img"| font-family="[^"]*"/g, '');
   }).join('');
 }
+
+/** The equation under the title, typeset by the core. */
+export const equation = (scene: Scene): string => scene.description.statements.find((s) => s.kind === 'motion')?.mathml ?? '';

@@ -116,7 +116,7 @@ await attempt('the keyboard', async () => {
   const parts = seen.map((s) => s.part).filter((part, i, list) => part !== list[i - 1]);
   same('Tab: one part of the page after the other', parts.length, new Set(parts).size) || console.log(`# ${parts.join(' ')}`);
   console.log(`# ${seen.length} stops: ${parts.join(', ')}`);
-  const reached = await page.evaluate(() => [...document.querySelectorAll('button, select, textarea, input, summary, [tabindex="0"]')].filter((e) => e.checkVisibility() && !e.disabled && e.tabIndex >= 0 && !window.order.has(e)).map((e) => e.getAttribute('aria-label') || e.textContent.slice(0, 30) || e.id));
+  const reached = await page.evaluate(() => [...document.querySelectorAll('button, select, textarea, input, summary, [tabindex="0"]')].filter((e) => e.checkVisibility() && !e.disabled && e.tabIndex >= 0 && !window.order.has(e) && !e.closest('.mini')).map((e) => e.getAttribute('aria-label') || e.textContent.slice(0, 30) || e.id));
   judge('Tab: nothing is left out', reached.length === 0, reached.join(', '));
   await page.keyboard.press('Shift+Tab');
   judge('Shift+Tab goes back', await page.evaluate(() => document.activeElement !== document.body));

@@ -44,7 +44,7 @@ for (const [width, height] of [[320, 640], [390, 844], [844, 390], [820, 1180], 
     const box = (selector) => page.locator(selector).evaluate((e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; });
     const [left, top, right, bottom] = await box('#stage-picture'), area = (right - left) * (bottom - top) / (width * height);
     judge(`${name}: the picture is the largest thing on the first screen`, area > 0.36 && bottom <= height + 1 && right <= width + 1 && top >= 0, [left, top, right, bottom, area].join());
-    for (const what of ['.transport-play', '#step-slider', '#methods .chip']) {
+    for (const what of ['.transport-play', '#step-slider', '#methods .chips .chip:first-child']) {
       const [l, t, r, b] = await box(what);
       judge(`${name}: ${what} is on the first screen`, l >= 0 && t >= 0 && b <= height && l < width && (r <= width || what.includes('chip')), [l, t, r, b].join());
     }
