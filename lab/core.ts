@@ -20,6 +20,7 @@ interface Exports {
   lab_start(lab: number, method: number, step: number, until: number): number;
   lab_singular(lab: number, method: number, step: number, until: number): number;
   lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
+  lab_sample(lab: number, times: number, rows: number, columns: number, count: number, out: number): number;
   lab_progress(lab: number, out: number): void;
   lab_advance(lab: number, steps: number): number;
   lab_method(lab: number): number;
@@ -138,6 +139,15 @@ export class Core {
       const written = new DataView(this.exports.memory.buffer).getUint32(count, true);
       return { values: this.copy(out, written * columns.length), rows: written, problem: status === 0 ? null : this.problem(lab) };
     }));
+  }
+  /** The columns at times in the order of the run, row by row, by the method's dense output. */
+  sample(lab: number, times: Float64Array, columns: readonly number[]): Float64Array {
+    const count = columns.length;
+    return this.numbers(times, (at) => this.room(4 * count, (list) => this.room(8 * count * times.length, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, count).set(columns);
+      this.check(lab, this.exports.lab_sample(lab, at, times.length, list, count, out));
+      return this.copy(out, count * times.length);
+    })));
   }
   progress(lab: number): Progress {
     return this.room(56, (at) => {
