@@ -9,13 +9,15 @@ import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
-import { SEEN, sample, type Curve } from './sample';
+import { SEEN, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
 
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
 /* Of a curve that is drawn as the exact motion; times the rows that are asked for, while they are few. Milliseconds: of a draft, and of reading a curve. */
-const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 600, CURVE_LIMIT = { coarse: 300, certified: 3000 };
+const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 1500, CURVE_LIMIT = { coarse: 600, certified: 1500 };
+/* Times at which a reference is asked first, to see how long it takes. */
+const TRIED = 50;
 const REGION_MAX = 250_000;
 const EIGENVALUES_MAX = 64;
 
@@ -32,8 +34,12 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
 
 /** A run that was recorded: rows of numbers, and all of the track but its arrays. */
 interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'> }
-/** A curve of the state, all positions and then all velocities, for one model and end. most: the number of points that it was allowed. */
-interface Told { readonly key: string; readonly name: string; readonly error: number; readonly curve: Curve; readonly most: number; readonly milliseconds: number }
+/** A curve of the state, all positions and then all velocities, for one model and end. off, coarse: of the curve; most: the number of points that it was
+ *  allowed. */
+interface Told {
+  readonly key: string; readonly name: string; readonly error: number; readonly motion: Motion; readonly curve: Curve; readonly off: number; readonly coarse: boolean;
+  readonly most: number; readonly milliseconds: number;
+}
 
 /** The truth at some times, `of` the reference that told it. */
 interface Known { readonly of: object | null; readonly times: Float64Array; readonly x: Float64Array; readonly v: Float64Array }
@@ -119,7 +125,9 @@ export class Answers {
     if (whole) {
       try {
         truth = this.truth(ask, wanted, indices, nx, nv);
-        if (truth && !truth.coarse) tracks.forEach((track, k) => errors.push(this.errors(track, (runs.get(ask.methods[k] as string) as Recorded).values, all.length, states, nx, nv)));
+        // A coarse truth is nothing to measure by; a reference may have had to make way for one.
+        if (truth && !(truth.coarse && ask.coarse) && tracks.length > 0) this.openReference(ask);
+        if (truth && !(truth.coarse && ask.coarse)) tracks.forEach((track, k) => errors.push(this.errors(track, (runs.get(ask.methods[k] as string) as Recorded).values, all.length, states, nx, nv)));
       } catch (e) {
         if (!(e instanceof Refused)) throw e;
         problem = e.problem;
@@ -179,23 +187,19 @@ export class Answers {
     const { start, until } = this.span(ask), slopes = Array.from({ length: nx + nv }, (_, k) => (k < nx ? nx + k : -1));
     const most = Math.max(2, Math.min(POINTS_MAX, POINTS_A_ROW * ask.rows, Math.floor(TRUTH_NUMBERS_MAX / (nx + nv))));
     const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
-    let coarse = false, told = had(this.told.certified) ? this.told.certified : null;
+    let told = had(this.told.certified) ? this.told.certified : null;
     if (!told && ask.coarse && !this.description?.has_exact) {
-      coarse = true;
       told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, start, until, slopes, most);
       this.told.coarse = told;
       if (!told) return null;
     }
     if (!told) {
-      const { name, error, milliseconds } = this.openReference(ask), began = performance.now();
-      const limits = { tolerance: SEEN, noise: error, points: most, milliseconds: CURVE_LIMIT.certified };
-      // What a draft found out of where the motion bends is so still.
-      const curve = sample({ from: start, to: until, slopes, ask: (times) => this.states(times, nx, nv) }, limits, had(this.told.coarse) ? this.told.coarse!.curve.times : null);
-      this.told.certified = told = { key, name, error, curve, most, milliseconds: milliseconds + performance.now() - began };
+      told = this.certified(key, ask, { from: start, to: until, slopes, ask: (times) => this.states(times, nx, nv) }, most, had(this.told.coarse) ? this.told.coarse : null);
+      this.told.certified = told;
     }
     const { times, columns } = told.curve;
     return {
-      name: told.name, error: told.error, coarse, milliseconds: told.milliseconds, times: times.slice(),
+      name: told.name, error: told.error, off: told.off, coarse: told.coarse, milliseconds: told.milliseconds, times: times.slice(),
       columns: names.map((_, k) => {
         const index = indices[k] as number;
         return index === 0 ? times.slice() : columns[index - 1]?.slice() ?? new Float64Array(0);
@@ -203,12 +207,30 @@ export class Answers {
     };
   }
 
+  /** The curve of the reference; or that of the draft, where the reference would take too long to tell one, and is there for the errors alone. */
+  private certified(key: string, ask: Solve, motion: Motion, most: number, before: Told | null): Told {
+    const { name, error, milliseconds } = this.openReference(ask), began = performance.now(), known = before?.curve.times ?? null;
+    const spent = (): number => milliseconds + performance.now() - began;
+    if (before && known && known.length > TRIED) {
+      const every = Math.floor(known.length / TRIED), start = performance.now();
+      motion.ask(known.filter((_, i) => i % every === 0));
+      if ((performance.now() - start) * every > CURVE_LIMIT.certified) {
+        return { ...before, name, error, curve: sample(before.motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.certified }, known), milliseconds: spent() };
+      }
+    }
+    // What the draft found out of where the motion bends is so still.
+    const curve = sample(motion, { tolerance: SEEN, noise: error, points: most, milliseconds: CURVE_LIMIT.certified }, known);
+    return { key, name, error, motion, curve, off: error, coarse: false, most, milliseconds: spent() };
+  }
+
   private drafted(key: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
     const began = performance.now();
+    this.reference = null;
     const found = draft(this.core, this.lab, this.description as Description, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
     if (!found) return null;
-    const curve = sample({ from, to, slopes, ask: (times) => found.ask(times) }, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });
-    return { key, name: found.name, error: found.error, curve, most, milliseconds: performance.now() - began };
+    const motion = { from, to, slopes, ask: (times: Float64Array) => found.ask(times) };
+    const curve = sample(motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });
+    return { key, name: found.name, error: found.error, motion, curve, off: found.error, coarse: true, most, milliseconds: performance.now() - began };
   }
 
   /** When the motion starts, and when it ends. */

@@ -28,7 +28,7 @@ interface Exports {
   lab_positions(lab: number): number;
   lab_velocities(lab: number): number;
   lab_jacobian(lab: number, x: number, v: number): number;
-  lab_reference(lab: number, step: number, until: number): number;
+  lab_reference(lab: number, step: number, until: number, tolerance: number): number;
   lab_reference_name(lab: number): number;
   lab_reference_error(lab: number): number;
   lab_reference_at(lab: number, times: number, count: number, x: number, v: number): number;
@@ -173,8 +173,9 @@ export class Core {
       return { byX: this.copy(x, nv * nx), byV: this.copy(v, nv * nv) };
     }));
   }
-  reference(lab: number, step: number | null, until: number | null): { name: string; error: number } {
-    this.check(lab, this.exports.lab_reference(lab, NaNs(step), NaNs(until)));
+  /** tolerance: an error that need not be improved, of how far the motion moves. */
+  reference(lab: number, step: number | null, until: number | null, tolerance = 0): { name: string; error: number } {
+    this.check(lab, this.exports.lab_reference(lab, NaNs(step), NaNs(until), tolerance));
     return { name: this.string(this.exports.lab_reference_name(lab)), error: this.exports.lab_reference_error(lab) };
   }
   /** Row by row. */

@@ -70,7 +70,9 @@ export interface Track {
  *  cannot be told from the motion (sample.ts), not evenly. */
 export interface Truth {
   readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[];
-  /** Its error is below what can be seen, but no reference for numbers: draft.ts. */
+  /** Of the columns; `error` is that of what errors of methods are measured against. */
+  readonly off: number;
+  /** The columns are a draft's: they may be drawn, since what they are off cannot be seen, but are no numbers to be told. */
   readonly coarse: boolean;
   /** What it took to compute, when it was computed. */
   readonly milliseconds: number;

@@ -29,6 +29,8 @@ export const SEEN = 1 / 3 / 4000;
 const EVEN = 512, PARTS = 8, PASSES = 100;
 /* Of an interval: no oscillation whose half periods divide it evenly is at rest there. */
 const INSIDE = 0.381966;
+/* Of its bend: what was foretold so well is understood. */
+const FORETOLD = 0.25;
 /* Of the whole time: what changes within less is a jump. */
 const INSTANT = 2 ** -40;
 /* A column whose extent grows by so much in each of two passes is at a pole, where no number of points is enough. */
@@ -179,23 +181,23 @@ class Sampler {
     const become = new Map<number, number>();
     for (let n = 0; n < asked.length; n++) {
       const wish = kept[n]!, at = wish.at;
-      // A middle may lie as the ends do: halves are not taken for checked.
+      // A middle may lie as the ends do: where nothing else is known, halves are not taken for checked.
       if (wish.parts === 1) {
-        if (this.off(at, parts[n]!, found, n, false)) become.set(at, OPEN);
+        if (this.off(at, parts[n]!, found, n, 0)) become.set(at, OPEN);
         else this.states[at] = DONE;
-      } else if (become.get(at) !== OPEN) become.set(at, wish.parts === 2 || this.off(at, parts[n]!, found, n, true) ? OPEN : CHECKED);
+      } else if (become.get(at) !== OPEN) become.set(at, (wish.parts === 2 && this.states[at] === OPEN) || this.off(at, parts[n]!, found, n, Math.max(1, FORETOLD * wish.bend)) ? OPEN : CHECKED);
     }
     const points = asked.map((_, n) => n).filter((n) => become.has(kept[n]!.at));
     this.merge(points, (n) => kept[n]!.at, asked, found, become);
   }
 
-  /** Whether what was found as number n is further than the tolerance from the cubic of interval i, or from its straight line. */
-  private off(i: number, part: number, found: readonly Float64Array[], n: number, cubic: boolean): boolean {
+  /** Whether what was found as number n is further from the cubic of interval i than so many tolerances; 0: further than one from its straight line. */
+  private off(i: number, part: number, found: readonly Float64Array[], n: number, tolerances: number): boolean {
     const h = this.times[i + 1]! - this.times[i]!;
     return found.some((column, k) => {
       const p = this.columns[k]![i]!, q = this.columns[k]![i + 1]!, way = q - p;
       const bent = part * (1 - part) * ((1 - part) * (h * this.slopes[k]![i]! - way) - part * (h * this.slopes[k]![i + 1]! - way));
-      return !(Math.abs(column[n]! - p - part * way - (cubic ? bent : 0)) <= this.tolerances[k]!);
+      return !(Math.abs(column[n]! - p - part * way - (tolerances > 0 ? bent : 0)) <= Math.max(1, tolerances) * this.tolerances[k]!);
     });
   }
 
