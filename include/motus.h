@@ -746,6 +746,9 @@ typedef struct motus_study_def {
     int64_t evaluations; /* compare: > 0: each method's step is chosen so that it takes this many evaluations */
     int (*progress)(void *context, double fraction); /* as in motus_run_def, of the whole study */
     void *context;
+    /* motus_reference_create: >= 0: an error that need not be improved, in units of how far the variable moves. The
+     * reference is found sooner, and motus_reference_error tells its error in any case. 0: as small as possible. */
+    double tolerance;
 } motus_study_def;
 
 typedef struct motus_drift { /* the error of one invariant along a run (of its numbers the largest) */
@@ -815,10 +818,10 @@ MOTUS_API motus_status motus_converge(motus_system *, const motus_study_def *, m
 MOTUS_API void motus_convergence_destroy(motus_convergence *);
 
 /* The reference solution alone, from which motus_compare and motus_converge take errors, at any times: to draw the
- * error of several methods. The call reads `until`, `step`, `progress` and `context` of the definition. With a `step`
- * it is the reference of a motus_compare at this step; NaN: the model's step, or without one the call chooses. It calls
- * `progress` only until it returns. Fails as motus_compare does; and with MOTUS_DIVERGED: no method of high order
- * reached the end. */
+ * error of several methods. The call reads `until`, `step`, `tolerance`, `progress` and `context` of the definition.
+ * With a `step` and no tolerance it is the reference of a motus_compare at this step; NaN: the model's step, or without
+ * one the call chooses. It calls `progress` only until it returns. Fails as motus_compare does; and with
+ * MOTUS_DIVERGED: no method of high order reached the end. */
 typedef struct motus_reference motus_reference;
 MOTUS_API motus_status motus_reference_create(motus_system *, const motus_study_def *, motus_reference **,
                                               motus_error *);

@@ -4,15 +4,20 @@
  */
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
+import { draft } from './draft';
 import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
+import { SEEN, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
 
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
-const TRUTH_ROWS = 1200;
+/* Of a curve that is drawn as the exact motion; times the rows that are asked for, while they are few. Milliseconds: of a draft, and of reading a curve. */
+const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 1500, CURVE_LIMIT = { coarse: 600, certified: 1500 };
+/* Times at which a reference is asked first, to see how long it takes. */
+const TRIED = 50;
 const REGION_MAX = 250_000;
 const EIGENVALUES_MAX = 64;
 
@@ -27,6 +32,15 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
   return out;
 }
 
+/** A run that was recorded: rows of numbers, and all of the track but its arrays. */
+interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'> }
+/** A curve of the state, all positions and then all velocities, for one model and end. off, coarse: of the curve; most: the number of points that it was
+ *  allowed. */
+interface Told {
+  readonly key: string; readonly name: string; readonly error: number; readonly motion: Motion; readonly curve: Curve; readonly off: number; readonly coarse: boolean;
+  readonly most: number; readonly milliseconds: number;
+}
+
 /** The truth at some times, `of` the reference that told it. */
 interface Known { readonly of: object | null; readonly times: Float64Array; readonly x: Float64Array; readonly v: Float64Array }
 
@@ -34,9 +48,13 @@ export class Answers {
   private readonly lab: number;
   private opened = '';                   // the model that is open, as a key
   private description: Description | null = null;
-  private reference: { key: string; name: string; error: number } | null = null;
+  private reference: { key: string; name: string; error: number; milliseconds: number } | null = null;
 
   private known: Known | null = null;
+  /** Of the last question, by method: what is asked again with more is not computed again. */
+  private recorded = new Map<string, Recorded>();
+  private recordedFor = '';
+  private readonly told: { coarse: Told | null; certified: Told | null } = { coarse: null, certified: null };
 
   constructor(private readonly core: Core) {
     this.lab = core.create();
@@ -67,7 +85,7 @@ export class Answers {
     const key = JSON.stringify([model.text, model.set]);
     if (key !== this.opened || !this.description) {
       this.opened = '';
-      this.reference = null;
+      this.reference = this.told.coarse = this.told.certified = null;
       this.core.open(this.lab, model);
       this.description = this.core.describe(this.lab);
       this.opened = key;
@@ -96,20 +114,20 @@ export class Answers {
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab);
     // Errors need every position and velocity; small models are recorded whole.
     const whole = ask.truth && nx + nv <= COLUMNS_MAX;
-    const states = whole ? Array.from({ length: nx + nv }, (_, k) => 1 + k) : [];
-    const all = [0, ...indices, ...states];
-    const tracks: Track[] = [], recorded: Float64Array[] = [];
-    for (const method of ask.methods) {
-      const { track, values } = this.track(method, ask, all, indices.length);
-      tracks.push(track);
-      recorded.push(values);
-    }
+    const all = [0, ...indices], states = Array.from({ length: whole ? nx + nv : 0 }, (_, k) => {
+      if (!all.includes(1 + k)) all.push(1 + k);
+      return all.indexOf(1 + k);
+    });
+    const runs = this.record(ask, all);
+    const tracks = ask.methods.map((method) => this.track(runs.get(method) as Recorded, all.length, indices.length));
     let truth: Truth | null = null, problem: Problem | null = null;
     const errors: ErrorTrack[] = [];
-    if (whole && tracks.length > 0) {
+    if (whole) {
       try {
-        truth = this.truth(ask, wanted, indices, nx, nv, tracks);
-        tracks.forEach((track, k) => errors.push(this.errors(track, recorded[k] as Float64Array, all.length, 1 + indices.length, nx, nv)));
+        truth = this.truth(ask, wanted, indices, nx, nv);
+        // A coarse truth is nothing to measure by; a reference may have had to make way for one.
+        if (truth && !(truth.coarse && ask.coarse) && tracks.length > 0) this.openReference(ask);
+        if (truth && !(truth.coarse && ask.coarse)) tracks.forEach((track, k) => errors.push(this.errors(track, (runs.get(ask.methods[k] as string) as Recorded).values, all.length, states, nx, nv)));
       } catch (e) {
         if (!(e instanceof Refused)) throw e;
         problem = e.problem;
@@ -118,7 +136,25 @@ export class Answers {
     return { description, columns: wanted, tracks, truth, errors, problem, milliseconds: performance.now() - began };
   }
 
-  private track(method: string, ask: Solve, all: readonly number[], count: number): { track: Track; values: Float64Array } {
+  /** The runs of all methods. Those of the last question are kept: a picture is asked for first, then the same with the truth. */
+  private record(ask: Solve, all: readonly number[]): Map<string, Recorded> {
+    const key = JSON.stringify([this.opened, ask.step, ask.until, ask.rows, all]), runs = new Map<string, Recorded>();
+    const kept = key === this.recordedFor ? this.recorded : new Map<string, Recorded>();
+    let numbers = 0;
+    for (const method of ask.methods) {
+      const run = kept.get(method) ?? this.run(method, ask, all);
+      runs.set(method, run);
+      numbers += run.values.length;
+    }
+    // A question without methods is one for the truth alone.
+    if (ask.methods.length > 0) {
+      this.recorded = numbers <= NUMBERS_MAX ? runs : new Map();
+      this.recordedFor = key;
+    }
+    return runs;
+  }
+
+  private run(method: string, ask: Solve, all: readonly number[]): Recorded {
     this.start(method, ask.step, ask.until);
     const { total, step, last } = this.core.progress(this.lab);
     const enough = Math.max(ROWS_ENOUGH, Math.floor(NUMBERS_ENOUGH / all.length));
@@ -127,38 +163,86 @@ export class Answers {
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
     const singular = problem ? null : this.core.singular(this.lab, method, ask.step, ask.until);
-    const columns = Array.from({ length: count }, (_, c) => column(values, all.length, 1 + c));
-    return {
-      values,
-      track: {
-        method, times: column(values, all.length, 0), columns, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular,
-      },
-    };
+    return { values, track: { method, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular } };
+  }
+
+  private track({ values, track }: Recorded, width: number, count: number): Track {
+    return { ...track, times: column(values, width, 0), columns: Array.from({ length: count }, (_, c) => column(values, width, 1 + c)) };
   }
 
   /** The reference of one model and end serves every step: what a step says of it is but a hint. */
-  private openReference(ask: Solve): { name: string; error: number } {
+  private openReference(ask: Solve): { name: string; error: number; milliseconds: number } {
     const key = String(ask.until);
     if (this.reference?.key !== key) {
       this.reference = null;
-      this.reference = { key, ...this.core.reference(this.lab, ask.step, ask.until) };
+      const began = performance.now();
+      this.reference = { key, ...this.core.reference(this.lab, ask.step, ask.until), milliseconds: performance.now() - began };
     }
     return this.reference;
   }
 
-  private truth(ask: Solve, names: readonly string[], indices: readonly number[], nx: number, nv: number, tracks: readonly Track[]): Truth {
-    const { name, error } = this.openReference(ask);
-    const start = tracks[0]?.times[0] ?? 0;
-    const end = ask.until ?? this.description?.settings.until ?? tracks.reduce((t, track) => track.times[track.times.length - 1] ?? t, start);
-    const times = Float64Array.from({ length: TRUTH_ROWS }, (_, i) => (i === TRUTH_ROWS - 1 ? end : start + ((end - start) * i) / (TRUTH_ROWS - 1)));
+  /** null: a coarse one is asked for, and there is none. */
+  private truth(ask: Solve, names: readonly string[], indices: readonly number[], nx: number, nv: number): Truth | null {
+    // A run that knows where the motion starts and ends.
+    const { start, until } = this.span(ask), slopes = Array.from({ length: nx + nv }, (_, k) => (k < nx ? nx + k : -1));
+    const most = Math.max(2, Math.min(POINTS_MAX, POINTS_A_ROW * ask.rows, Math.floor(TRUTH_NUMBERS_MAX / (nx + nv))));
+    const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
+    let told = had(this.told.certified) ? this.told.certified : null;
+    if (!told && ask.coarse && !this.description?.has_exact) {
+      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, start, until, slopes, most);
+      this.told.coarse = told;
+      if (!told) return null;
+    }
+    if (!told) {
+      told = this.certified(key, ask, { from: start, to: until, slopes, ask: (times) => this.states(times, nx, nv) }, most, had(this.told.coarse) ? this.told.coarse : null);
+      this.told.certified = told;
+    }
+    const { times, columns } = told.curve;
+    return {
+      name: told.name, error: told.error, off: told.off, coarse: told.coarse, milliseconds: told.milliseconds, times: times.slice(),
+      columns: names.map((_, k) => {
+        const index = indices[k] as number;
+        return index === 0 ? times.slice() : columns[index - 1]?.slice() ?? new Float64Array(0);
+      }),
+    };
+  }
+
+  /** The curve of the reference; or that of the draft, where the reference would take too long to tell one, and is there for the errors alone. */
+  private certified(key: string, ask: Solve, motion: Motion, most: number, before: Told | null): Told {
+    const { name, error, milliseconds } = this.openReference(ask), began = performance.now(), known = before?.curve.times ?? null;
+    const spent = (): number => milliseconds + performance.now() - began;
+    if (before && known && known.length > TRIED) {
+      const every = Math.floor(known.length / TRIED), start = performance.now();
+      motion.ask(known.filter((_, i) => i % every === 0));
+      if ((performance.now() - start) * every > CURVE_LIMIT.certified) {
+        return { ...before, name, error, curve: sample(before.motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.certified }, known), milliseconds: spent() };
+      }
+    }
+    // What the draft found out of where the motion bends is so still.
+    const curve = sample(motion, { tolerance: SEEN, noise: error, points: most, milliseconds: CURVE_LIMIT.certified }, known);
+    return { key, name, error, motion, curve, off: error, coarse: false, most, milliseconds: spent() };
+  }
+
+  private drafted(key: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
+    const began = performance.now();
+    this.reference = null;
+    const found = draft(this.core, this.lab, this.description as Description, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
+    if (!found) return null;
+    const motion = { from, to, slopes, ask: (times: Float64Array) => found.ask(times) };
+    const curve = sample(motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });
+    return { key, name: found.name, error: found.error, motion, curve, off: found.error, coarse: true, most, milliseconds: performance.now() - began };
+  }
+
+  /** When the motion starts, and when it ends. */
+  private span(ask: Solve): { start: number; until: number } {
+    const settings = (this.description as Description).settings, until = ask.until ?? settings.until;
+    if (until === null) throw limit('the model names no end', 'an end');
+    return { start: settings.start, until };
+  }
+
+  private states(times: Float64Array, nx: number, nv: number): Float64Array[] {
     const { x, v } = this.core.referenceAt(this.lab, times);
-    const columns = names.map((_, k) => {
-      const index = indices[k] as number;
-      if (index === 0) return times;
-      if (index <= nx) return column(x, nx, index - 1);
-      return index <= nx + nv ? column(v, nv, index - 1 - nx) : new Float64Array(0);
-    });
-    return { name, error, times, columns };
+    return [...Array.from({ length: nx }, (_, k) => column(x, nx, k)), ...Array.from({ length: nv }, (_, k) => column(v, nv, k))];
   }
 
   /** Methods with the same step are looked at at the same times: the truth there is asked for once. */
@@ -170,16 +254,17 @@ export class Answers {
     return known;
   }
 
-  private errors(track: Track, values: Float64Array, width: number, first: number, nx: number, nv: number): ErrorTrack {
+  /** states: where in a row of values each position and velocity stands. */
+  private errors(track: Track, values: Float64Array, width: number, states: readonly number[], nx: number, nv: number): ErrorTrack {
     const rows = track.times.length, truth = this.truthAt(track.times);
-    /* Of the numbers from … to-1 of a row of `of`, which stands at column `at` in `values`. */
+    /* Of the numbers from … to-1 of a row of `of`, the first of which is the state number `at`. */
     const largest = (from: number, to: number, of: Float64Array, each: number, at: number): Float64Array => Float64Array.from({ length: to > from ? rows : 0 }, (_, i) => {
       let worst = 0;
-      for (let k = from; k < to; k++) worst = Math.max(worst, Math.abs((values[i * width + at + k] as number) - (of[i * each + k] as number)));
+      for (let k = from; k < to; k++) worst = Math.max(worst, Math.abs((values[i * width + (states[at + k] as number)] as number) - (of[i * each + k] as number)));
       return worst;
     });
     return {
-      method: track.method, x: largest(0, nx, truth.x, nx, first), v: largest(0, nx, truth.v, nv, first + nx), s: largest(nx, nv, truth.v, nv, first + nx),
+      method: track.method, x: largest(0, nx, truth.x, nx, 0), v: largest(0, nx, truth.v, nv, nx), s: largest(nx, nv, truth.v, nv, nx),
     };
   }
 

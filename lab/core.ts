@@ -20,6 +20,7 @@ interface Exports {
   lab_start(lab: number, method: number, step: number, until: number): number;
   lab_singular(lab: number, method: number, step: number, until: number): number;
   lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
+  lab_sample(lab: number, times: number, rows: number, columns: number, count: number, out: number): number;
   lab_progress(lab: number, out: number): void;
   lab_advance(lab: number, steps: number): number;
   lab_method(lab: number): number;
@@ -27,7 +28,7 @@ interface Exports {
   lab_positions(lab: number): number;
   lab_velocities(lab: number): number;
   lab_jacobian(lab: number, x: number, v: number): number;
-  lab_reference(lab: number, step: number, until: number): number;
+  lab_reference(lab: number, step: number, until: number, tolerance: number): number;
   lab_reference_name(lab: number): number;
   lab_reference_error(lab: number): number;
   lab_reference_at(lab: number, times: number, count: number, x: number, v: number): number;
@@ -139,6 +140,15 @@ export class Core {
       return { values: this.copy(out, written * columns.length), rows: written, problem: status === 0 ? null : this.problem(lab) };
     }));
   }
+  /** The columns at times in the order of the run, row by row, by the method's dense output. */
+  sample(lab: number, times: Float64Array, columns: readonly number[]): Float64Array {
+    const count = columns.length;
+    return this.numbers(times, (at) => this.room(4 * count, (list) => this.room(8 * count * times.length, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, count).set(columns);
+      this.check(lab, this.exports.lab_sample(lab, at, times.length, list, count, out));
+      return this.copy(out, count * times.length);
+    })));
+  }
   progress(lab: number): Progress {
     return this.room(56, (at) => {
       this.exports.lab_progress(lab, at);
@@ -163,8 +173,9 @@ export class Core {
       return { byX: this.copy(x, nv * nx), byV: this.copy(v, nv * nv) };
     }));
   }
-  reference(lab: number, step: number | null, until: number | null): { name: string; error: number } {
-    this.check(lab, this.exports.lab_reference(lab, NaNs(step), NaNs(until)));
+  /** tolerance: an error that need not be improved, of how far the motion moves. */
+  reference(lab: number, step: number | null, until: number | null, tolerance = 0): { name: string; error: number } {
+    this.check(lab, this.exports.lab_reference(lab, NaNs(step), NaNs(until), tolerance));
     return { name: this.string(this.exports.lab_reference_name(lab)), error: this.exports.lab_reference_error(lab) };
   }
   /** Row by row. */

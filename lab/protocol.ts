@@ -66,8 +66,17 @@ export interface Track {
   readonly singular: Problem | null;
 }
 
-/** The exact motion or a reference, finely and evenly in time, for the columns that follow from the state (others are empty arrays). */
-export interface Truth { readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[] }
+/** The exact motion or a reference, for the columns that follow from the state (others are empty arrays). Times lie where straight lines between them
+ *  cannot be told from the motion (sample.ts), not evenly. */
+export interface Truth {
+  readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[];
+  /** Of the columns; `error` is that of what errors of methods are measured against. */
+  readonly off: number;
+  /** The columns are a draft's: they may be drawn, since what they are off cannot be seen, but are no numbers to be told. */
+  readonly coarse: boolean;
+  /** What it took to compute, when it was computed. */
+  readonly milliseconds: number;
+}
 
 /** |x - truth| of one method: the largest component of the positions at each of the track's times, and of the velocities. */
 /** Empty where there are none of a kind; s: of first-order variables. */
@@ -79,6 +88,7 @@ export interface Solve {
   readonly columns: readonly string[];                              // names; [] means: all, up to a bound
   readonly rows: number;                                            // at most so many rows a track
   readonly truth: boolean;                                          // truth and errors as well: dearer where there is no exact motion
+  readonly coarse?: boolean;                                        // the truth may be a coarse one, which is soon there; then without errors
 }
 export interface Solution {
   readonly description: Description; readonly columns: readonly string[];

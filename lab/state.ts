@@ -1,7 +1,8 @@
 /* The state of the page, and what the core made of it.
  *
- * Invariant: at most one solve is under way; a newer state replaces one that waits. `scene` is always the latest state that could be computed, and
- * stays while the reader types something that cannot; what is wrong with the present state stands beside it, in `trouble`.
+ * Invariant: at most one solve is under way; a newer state replaces one that waits, and no answer is shown with another state than its own. `scene` is
+ * always the latest state that could be computed, and stays while the reader types something that cannot; what is wrong with the present state stands
+ * beside it, in `trouble`. The picture comes first, then the exact motion as a draft (draft.ts), then the reference with the errors of all methods.
  * A state is looked at once per frame at most, so a dragged slider costs no more than the picture it makes.
  */
 import { looksOf } from './figure/ink';
@@ -42,6 +43,8 @@ export interface LiveStore extends Store {
 const rows = { moving: 1000, settled: 6000 };
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
 const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
+/* What is asked of the truth: nothing, a coarse one, or the reference with the errors of all methods. */
+type Wanted = 'none' | 'coarse' | 'reference';
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
 
 const failure = (message: string): Problem => problem('page', message);
@@ -70,7 +73,9 @@ export function createStore(client: Client, initial: State): LiveStore {
   let description: Description | null = null, described: string | null = null;
   let trouble = well, busy = false;
   let numbers: LiveStore['numbers'] = { step: null, until: null, start: 0 };
-  let underWay = false, waiting = false, refining = false, began = 0, version = 0, truthTime = 0;
+  let underWay = false, waiting = false, refining = false, began = 0, version = 0;
+  // Milliseconds that the truth took the last time; 0: not known.
+  let cost = { coarse: 0, reference: 0 };
   let running: AbortController | null = null, hurry = (): void => {};
   // The method line of the text that was read last; null: a whole state was loaded, whose own choice of methods counts.
   let ownMethod: string | null = null;
@@ -131,12 +136,12 @@ export function createStore(client: Client, initial: State): LiveStore {
 
   const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
 
-  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, truth: boolean): Promise<Solution> {
+  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, wanted: Wanted): Promise<Solution> {
     running ??= new AbortController();
-    const start = performance.now();
     const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
-    const solution = await client.ask('solve', { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth }, { lane: 'quick', signal: running.signal });
-    if (truth) truthTime = performance.now() - start;
+    const solution = await client.ask('solve',
+      { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth: wanted !== 'none', coarse: wanted === 'coarse' }, { lane: 'quick', signal: running.signal });
+    if (solution.truth) cost = { ...cost, [solution.truth.coarse ? 'coarse' : 'reference']: solution.truth.milliseconds };
     return solution;
   }
 
@@ -146,7 +151,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     try {
       description = await client.ask('describe', { model: { text: of.text, set: [] } }, { lane: 'quick', signal: running?.signal });
       described = of.text;
-      truthTime = 0;
+      cost = { coarse: 0, reference: 0 };
       return description;
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
@@ -192,24 +197,30 @@ export function createStore(client: Client, initial: State): LiveStore {
     }
     const shown: State = { ...of, methods };
     const finish = (solution: Solution): void => {
-      scene = makeScene(shown, solution);
+      // How it is shown may have changed since.
+      scene = makeScene(state.text === shown.text ? { ...shown, view: state.view } : shown, solution);
       numbers = { step: asked.step, until: asked.until, start: settings.start };
       tell('scene');
     };
     try {
-      // A reference costs more than the methods: while the state still moves it is left out, unless it has proved cheap.
-      const atOnce = model.has_exact || (truthTime > 0 && truthTime < patience.truth);
+      // A reference costs more than the methods: while the state still moves a coarse one stands for it, unless either has proved cheap.
+      const cheap = (milliseconds: number): boolean => milliseconds > 0 && milliseconds < patience.truth;
+      const atOnce = model.has_exact || cheap(cost.reference);
       const moving = scene?.state.text === of.text;
-      const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce);
+      const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce ? 'reference' : moving && cheap(cost.coarse) ? 'coarse' : 'none');
       finish(first);
-      const thinned = moving && first.tracks.some(t => t.every > 1);
-      if (!atOnce || thinned) {
-        if (truthTime > 0 || thinned) await settled();
-        if (!waiting) {
-          refining = true;
-          finish(await solve(of, methods, asked, rows.settled, true));
-        }
+      const thinned = moving && (first.tracks.some(t => t.every > 1) || (first.truth?.times.length ?? 0) > rows.moving);
+      if (atOnce && !thinned) return;
+      const again = moving && (cost.reference > 0 || thinned);
+      if (!atOnce && !first.truth && !waiting) {
+        refining = true;
+        const { truth } = await solve(of, [], asked, moving ? rows.moving : rows.settled, 'coarse');
+        if (truth && !waiting) finish({ ...first, truth });
       }
+      if (again) await settled();
+      if (waiting) return;
+      refining = true;
+      finish(await solve(of, methods, asked, rows.settled, 'reference'));
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       const inText = error.problem.line > 0 && !kept.length;

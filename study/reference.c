@@ -118,8 +118,8 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
     r->y = take(s->allocator, s->numbers, sizeof(double));
     if (!r->y) return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);
     r->grid = solution_grid(s, step);
-    if ((status = solution_find(s, &r->grid, isnan(step) ? STUDY_SAMPLES : s->total, 0, &r->solution)) != MOTUS_OK)
-        return status;
+    const int64_t steps = isnan(step) ? STUDY_SAMPLES : s->total;
+    if ((status = solution_find(s, &r->grid, steps, def.tolerance, &r->solution)) != MOTUS_OK) return status;
     if (!r->solution.known) {
         char until[DECIMAL_MAX];
         fail(err, MOTUS_DIVERGED, "there is no reference solution until %s: %s",

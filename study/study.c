@@ -99,6 +99,11 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
         hint(err, "a study ends at a finite time");
         return MOTUS_ARGUMENT;
     }
+    if (!(def->tolerance >= 0 && def->tolerance < INFINITY)) {
+        fail(err, MOTUS_ARGUMENT, "the tolerance of the study is %g", def->tolerance);
+        hint(err, "a tolerance is 0 or a positive number");
+        return MOTUS_ARGUMENT;
+    }
     if (def->evaluations < 0) {
         fail(err, MOTUS_ARGUMENT, "the number of evaluations is %lld", (long long)def->evaluations);
         hint(err, "0 compares at equal step, a positive number at equal work");

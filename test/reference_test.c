@@ -67,6 +67,46 @@ static void a_pulse_at_rest_has_a_reference(void **state)
 }
 
 /* What cannot be resolved has no reference: a fall into the centre, friction that sticks. */
+/* A tolerance saves evaluations, and the error that is claimed then is true: measured against the best reference. */
+static void a_tolerance_saves_work(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x'' = -x + 0.3 sin(t)\nx(0) = 1\nx'(0) = 0\nuntil 30\nstep 0.5\n",
+        "x'' = -x/(x^2 + y^2)^1.5\ny'' = -y/(x^2 + y^2)^1.5\nx(0) = 0.4\ny(0) = 0\nx'(0) = 0\ny'(0) = 2\nuntil 20\n"
+        "step 0.5\n",
+        "x'' = -sign(x)\nx(0) = 1\nx'(0) = 0\nuntil 5\nstep 0.078125\n",
+    };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        motus_system *s = given_text(texts[k]);
+        motus_study_def def = motus_default_study();
+        motus_reference *best = NULL, *draft = NULL;
+        motus_error e = motus_default_error();
+        must(motus_reference_create(s, NULL, &best, &e), &e, texts[k]);
+        def.tolerance = 1e-5;
+        must(motus_reference_create(s, &def, &draft, &e), &e, texts[k]);
+        double times[50], x[100], v[100], other_x[100], other_v[100], far = 0;
+        const double until = k == 0 ? 30 : k == 1 ? 20 : 5;
+        for (int i = 0; i < 50; i++) times[i] = until * (i + 0.5) / 50;
+        must(motus_reference_at(best, times, 50, x, v, &e), &e, texts[k]);
+        must(motus_reference_at(draft, times, 50, other_x, other_v, &e), &e, texts[k]);
+        for (size_t i = 0; i < 50 * motus_positions(s); i++)
+            far = fmax(far, fmax(fabs(x[i] - other_x[i]), fabs(v[i] - other_v[i])));
+        assert_true(far <= 2 * motus_reference_error(draft) + 2 * motus_reference_error(best));
+        assert_true(motus_reference_error(draft) < 1e-3);
+        /* a force with jumps needs all the work in any case */
+        if (k < 2) assert_string_not_equal(motus_reference_name(best), motus_reference_name(draft));
+        motus_reference_destroy(best);
+        motus_reference_destroy(draft);
+        def.tolerance = -1;
+        assert_int_equal(motus_reference_create(s, &def, &draft, &e), MOTUS_ARGUMENT);
+        assert_non_null(strstr(e.message, "the tolerance of the study is -1"));
+        def.tolerance = NAN;
+        assert_int_equal(motus_reference_create(s, &def, &draft, &e), MOTUS_ARGUMENT);
+        motus_system_destroy(s);
+    }
+}
+
 static void no_reference(void **state)
 {
     (void)state;
@@ -222,6 +262,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(references_of_forces_that_jump),
         cmocka_unit_test(a_pulse_at_rest_has_a_reference),
+        cmocka_unit_test(a_tolerance_saves_work),
         cmocka_unit_test(no_reference),
         cmocka_unit_test(narrow_forces_in_families_are_seen),
         cmocka_unit_test(a_force_that_is_defined_on_one_side),

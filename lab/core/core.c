@@ -127,6 +127,15 @@ motus_status lab_record(lab *l, const size_t *columns, size_t count, double ever
     return MOTUS_OK;
 }
 
+/* The numbers of `count` columns at given times, in the order of the run and not before its last step, row by row; it
+ * steps on as far as needed. Between steps they are the method's dense output. */
+LAB_CALL(lab_sample)
+motus_status lab_sample(lab *l, const double *times, size_t time_count, const size_t *columns, size_t count,
+                        double *out)
+{
+    return motus_run_sample(l->run, times, time_count, columns, count, out, &l->error);
+}
+
 /* out: time, steps, steps in all, step, last step, evaluations, done. */
 LAB_CALL(lab_progress) void lab_progress(const lab *l, double *out)
 {

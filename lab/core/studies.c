@@ -20,12 +20,13 @@ static bool by(lab *l, motus_study_def *def, const char *methods, size_t count)
     return def->methods || lab_no_memory(l);
 }
 
-/* The exact motion or a reference run, judged as a study at this step would be. */
-LAB_CALL(lab_reference) motus_status lab_reference(lab *l, double step, double until)
+/* The exact motion or a reference run, judged as a study at this step would be; tolerance: of motus_study_def. */
+LAB_CALL(lab_reference) motus_status lab_reference(lab *l, double step, double until, double tolerance)
 {
     motus_reference_destroy(l->reference);
     l->reference = NULL;
     motus_study_def def = study(step, until);
+    def.tolerance = tolerance;
     return motus_reference_create(l->system, &def, &l->reference, &l->error);
 }
 LAB_CALL(lab_reference_name) const char *lab_reference_name(const lab *l) { return motus_reference_name(l->reference); }

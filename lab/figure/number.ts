@@ -34,5 +34,6 @@ export function primed(name: string): string {
 
 /** readable() without zeros at the end: for sentences. */
 export function brief(value: number, digits = 4): string {
-  return readable(value, digits).replace(/(\.\d*?)0+($|×)/, '$1$2').replace(/\.($|×)/, '$1');
+  return shortened(readable(value, digits));
 }
+export const shortened = (text: string): string => text.replace(/(\.\d*?)0+($|×)/, '$1$2').replace(/\.($|×)/, '$1');

@@ -4,8 +4,11 @@
  */
 import type { Scene } from '../scene';
 import type { Column } from '../protocol';
+import { extent } from '../figure/axes';
+import { readable } from '../figure/number';
 import { rowAt, valueAt } from '../figure/track';
 import type { Table } from '../figure/types';
+import { SEEN } from '../sample';
 
 export function columnOf(scene: Scene, name: string): Column | null {
   return scene.description.columns.find((c) => c.name === name) ?? null;
@@ -30,17 +33,47 @@ export function velocityOf(scene: Scene, position: string): string | null {
   return family.length === of.length ? family[of.indexOf(position)] ?? null : family.find((n) => n.replace(/'/, '') === position) ?? null;
 }
 
-/** The exact value at a time: the core's own at a row of the run, else read off the fine exact line. */
+/** The exact value at a time: the core's own at a row of the run; else read off the exact line, of a position by its velocities too. */
 export function exactAt(scene: Scene, name: string, t: number): number {
+  return readExact(scene, name, t).value;
+}
+
+/** The same for reading: no digit is told that the line, or a draft of it, does not have. */
+export function exactText(scene: Scene, name: string, t: number): string {
+  const { value, off } = readExact(scene, name, t);
+  if (!(off > 0) || !Number.isFinite(value)) return readable(value, DIGITS);
+  return Math.abs(value) <= off ? '≈ 0' : readable(value, Math.max(1, Math.min(DIGITS, Math.floor(Math.log10(Math.abs(value) / off)))));
+}
+
+const DIGITS = 6;
+
+/** off: by how much the value may be wrong, roughly. */
+function readExact(scene: Scene, name: string, t: number): { value: number; off: number } {
   const { solution } = scene, exact = solution.columns.indexOf(`exact ${name}`);
   if (exact >= 0) {
     for (const track of solution.tracks) {
       const i = rowAt(track.times, t);
-      if (i >= 0 && track.times[i] === t) return track.columns[exact]?.[i] ?? NaN;
+      if (i >= 0 && track.times[i] === t) return { value: track.columns[exact]?.[i] ?? NaN, off: 0 };
     }
   }
-  const column = solution.truth?.columns[solution.columns.indexOf(name)];
-  return solution.truth && column?.length ? valueAt(solution.truth.times, column, t) : NaN;
+  const { truth } = solution, column = truth?.columns[solution.columns.indexOf(name)];
+  if (!truth || !column?.length) return { value: NaN, off: 0 };
+  const { times } = truth, i = rowAt(times, t);
+  if (times[i] === t) return { value: column[i]!, off: truth.off };
+  const rates = columnOf(scene, name)?.kind === 'position' ? truth.columns[solution.columns.indexOf(velocityOf(scene, name) ?? '')] : undefined;
+  const [low, high] = extentOf(column);
+  if (!rates?.length || i < 0 || i + 1 >= times.length) return { value: valueAt(times, column, t), off: truth.off + SEEN * (high - low) };
+  // Hermite's cubic: where a straight line is off by a part p of the motion, it is off by about p².
+  const h = times[i + 1]! - times[i]!, s = (t - times[i]!) / h, way = column[i + 1]! - column[i]!;
+  const bent = s * (1 - s) * ((1 - s) * (h * rates[i]! - way) - s * (h * rates[i + 1]! - way));
+  return { value: column[i]! + s * way + bent, off: truth.off + 10 * SEEN * SEEN * (high - low) };
+}
+
+const extents = new WeakMap<Float64Array, [number, number]>();
+function extentOf(column: Float64Array): [number, number] {
+  let found = extents.get(column);
+  if (!found) extents.set(column, found = extent([column]));
+  return found;
 }
 
 /** The times of all tracks, each once, in the direction of the run. */
@@ -67,7 +100,7 @@ export function timeTable(scene: Scene, names: readonly string[], series?: (trac
     if (!series && exact >= 0) {
       head.push(`exact ${name}`);
       readers.push((t) => exactAt(scene, name, t));
-    } else if (!series && solution.truth && fine?.length) {
+    } else if (!series && solution.truth && !solution.truth.coarse && fine?.length) {
       const read = atRow(solution.truth.times, fine);
       // A reference has its own times: a column of it, where it has a number for every row.
       if (times.every((t) => !Number.isNaN(read(t)))) {

@@ -10,11 +10,11 @@ import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { drawLegend, drawValues, exactEntry, legendLayout, lookEntry, type Entry, type LegendLayout } from '../figure/legend';
-import { brief, primed, readable } from '../figure/number';
+import { brief, primed, readable, shortened } from '../figure/number';
 import { EXACT_WIDTH, drawTrack, begin, listed, valueAt, viewOf, type View } from '../figure/track';
 import { thin } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
-import { exactAt, movable, positions, timeTable } from './columns';
+import { exactAt, exactText, movable, positions, timeTable } from './columns';
 
 const STRIP = 140, MOST = 6, LETTERS = 11;
 
@@ -107,6 +107,9 @@ export const timePanel: PanelMaker = (store): Panel => {
       ...scene.solution.tracks.map((track, k) => valueAt(track.times, columns[k]!, t)),
     ];
   }
+  /** The same to be read. */
+  const texts = (name: string, t: number): string[] =>
+    values(name, t).map((v, i) => (scene && i === 0 && truthShown() && truthOf(name) ? exactText(scene, name, t) : readable(v, 6)));
   /** The strip whose values are read out: the one under the pointer. */
   function active(): number {
     const at = line.pointer();
@@ -132,20 +135,20 @@ export const timePanel: PanelMaker = (store): Panel => {
     // Which strip the values are of: the time stands at its head.
     const read = frames[active()];
     if (read) drawHeading(pen, ink, read, chosen.length > 1 ? `${primed(name)} at ${heading(t)}` : heading(t));
-    drawValues(pen, ink, values(name, t).map((v) => readable(v, 6)), legend);
+    drawValues(pen, ink, texts(name, t), legend);
   }
 
   function sentence(t: number): string {
-    return `${heading(t)}. ${chosen.map((name) => `${primed(name)}: ${values(name, t).map((v, i) => `${labels()[i]} ${readable(v, 6)}`).join(', ')}`).join('; ')}.`;
+    return `${heading(t)}. ${chosen.map((name) => `${primed(name)}: ${texts(name, t).map((text, i) => `${labels()[i]} ${text}`).join(', ')}`).join('; ')}.`;
   }
   function summary(): string {
     if (!scene) return '';
     const { tracks } = scene.solution, end = endOf(scene);
     // Of several quantities, the one in which the methods differ most.
     const spread = chosen.map((name, i) => { const v = extent([values(name, end)]); return (v[1] - v[0]) / (views[i]!.bounds[1] - views[i]!.bounds[0]); });
-    const first = chosen[spread.indexOf(Math.max(...spread))] ?? chosen[0] ?? '', final = values(first, end).flatMap((v, i) =>
+    const first = chosen[spread.indexOf(Math.max(...spread))] ?? chosen[0] ?? '', read = texts(first, end), final = values(first, end).flatMap((v, i) =>
       // No exact value is known of some quantities; a method without one stopped before.
-      (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? `${labels()[i]} stopped before` : `${labels()[i]} ${brief(v, 6)}`]));
+      (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? `${labels()[i]} stopped before` : `${labels()[i]} ${shortened(read[i] ?? '')}`]));
     const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? '');
     const stopped = tracks.flatMap((track, k) => (track.problem ? [`${begin(scene!.looks[k]?.label ?? '')} stopped: ${track.problem.message}.`] : []));
     const passing = tracks.flatMap((track, k) => (track.singular ? [`${begin(scene!.looks[k]?.label ?? '')}: ${track.singular.message}.`] : []));

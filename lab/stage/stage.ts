@@ -273,7 +273,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const rows: (string | number)[][] = [];
     const add = (name: string, of: { readonly times: Float64Array; readonly columns: readonly Float64Array[] }): void => of.times.forEach((t, i) => rows.push([name, t, ...columns.map((c) => of.columns[c]?.[i] ?? NaN)]));
     solution.tracks.forEach((track, k) => add(looks[k]?.label ?? track.method, track));
-    if (solution.truth && columns.every((c) => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? 'exact' : 'reference', solution.truth);
+    if (solution.truth && !solution.truth.coarse && columns.every((c) => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? 'exact' : 'reference', solution.truth);
     return { head, rows };
   }
   function save(kind: 'PNG' | 'SVG' | 'CSV'): void {

@@ -1,0 +1,108 @@
+/* A draft of the exact motion: soon there, and known to be nearer to it than can be seen.
+ *
+ * A method of order 8 takes ever smaller steps until two runs, whose steps share hardly a time, tell the same motion to a small part of a pixel, at
+ * times between their steps too. Its error is then the difference of both, many times what the last run is off. Where that takes too many steps, a
+ * reference whose steps adapt to the force is cheaper, though it need not be better than can be seen. Invariant: a draft whose runs differ by more, pass
+ * a singularity, or do not resolve the force is none.
+ */
+import type { Core } from './core';
+import type { Description, Method } from './protocol';
+import { Refused } from './scene';
+import { even } from './sample';
+
+export interface Draft {
+  readonly name: string;
+  /** The largest difference of the two runs, in any number. */
+  readonly error: number;
+  /** Positions, velocities and first-order variables at times in the order of the motion, one column each. */
+  ask(times: Float64Array): readonly Float64Array[];
+}
+
+/** Of a column's extent; a picture of 4000 pixels shows a twelfth of a pixel. */
+const ENOUGH = 1 / 12 / 4000;
+const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 700;
+/* Two step counts in this ratio have no common divisor to speak of. */
+const GOLDEN = (1 + Math.sqrt(5)) / 2;
+/* Columns that move less than this part of their size rest. */
+const AT_REST = 1e-9;
+
+/** A Gauss method solves for its stages, which costs less than kicks that are solved for one by one; else a composition needs no solving. */
+function methodOf(description: Description, catalogue: readonly Method[]): string | null {
+  const admitted = (name: string): boolean => description.methods.some((m) => m.name === name && m.admitted);
+  const first = description.velocity_dependent ? 'gauss8' : 'kahan-li8';
+  if (admitted(first)) return first;
+  const others = catalogue.filter((m) => m.family !== 'exact' && m.order >= 4 && admitted(m.name));
+  return others.sort((a, b) => b.order - a.order)[0]?.name ?? null;
+}
+
+/** The largest difference of two tables, and the same in units of what is enough. */
+function apart(p: readonly Float64Array[], q: readonly Float64Array[]): { error: number; seen: number } {
+  let error = 0, seen = 0;
+  p.forEach((column, k) => {
+    const other = q[k]!;
+    let low = Infinity, high = -Infinity, most = 0;
+    column.forEach((value, i) => {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+      most = Math.max(most, Math.abs(value - other[i]!));
+    });
+    const size = Math.max(Math.abs(low), Math.abs(high)), moves = high - low > AT_REST * size ? high - low : size;
+    error = Math.max(error, most);
+    if (most > 0 || Number.isNaN(most)) seen = Math.max(seen, most / (ENOUGH * moves));
+  });
+  return { error, seen: Number.isFinite(seen) ? seen : Infinity };
+}
+
+/** null: none in so many steps, or milliseconds. */
+function byRuns(core: Core, lab: number, method: string, last: number, columns: readonly number[], { from, to }: Span, milliseconds: number): Draft | null {
+  const ask = (step: number, times: Float64Array): Float64Array[] => {
+    core.start(lab, method, step, to);
+    const rows = core.sample(lab, times, columns);
+    return columns.map((_, k) => Float64Array.from({ length: times.length }, (__, i) => rows[i * columns.length + k]!));
+  };
+  const times = even(from, to, TIMES), began = performance.now();
+  let before: Float64Array[] | null = null, factor = GOLDEN;
+  for (let steps = FIRST; steps < last; steps *= factor) {
+    const since = performance.now(), step = Math.abs(to - from) / steps;
+    let now: Float64Array[] | null = null, seen = Infinity;
+    try {
+      now = ask(step, times);
+      if (!now.every((column) => column.every(Number.isFinite))) now = null;
+    } catch (e) {
+      // A step that is too large for it: the next one is smaller.
+      if (!(e instanceof Refused) || e.problem.kind === 'memory') throw e;
+    }
+    if (now && before) {
+      const found = apart(now, before);
+      seen = found.seen;
+      if (seen <= 1) return core.singular(lab, method, step, to) ? null : { name: `${method} at step ${Number(step.toPrecision(6))}`, error: found.error, ask: (at) => ask(step, at) };
+    }
+    before = now;
+    // Far from it the steps shrink faster; powers of the golden ratio keep the times of the steps apart.
+    factor = seen > 1e3 ? GOLDEN ** 2 : GOLDEN;
+    if (performance.now() + factor * (performance.now() - since) - began > milliseconds) return null;
+  }
+  return null;
+}
+
+/** Its error is of the largest number; that of a smaller one may be seen, and is not known. */
+function byReference(core: Core, lab: number, columns: readonly number[], { from, to }: Span): Draft | null {
+  const { name, error } = core.reference(lab, null, to, ENOUGH / 10), positions = core.positions(lab);
+  const ask = (times: Float64Array): Float64Array[] => {
+    const { x, v } = core.referenceAt(lab, times), other = columns.length - positions;
+    return columns.map((_, k) => Float64Array.from({ length: times.length }, (__, i) => (k < positions ? x[i * positions + k]! : v[i * other + k - positions]!)));
+  };
+  const table = ask(even(from, to, TIMES)), seen = apart(table, table.map((column) => column.map((value) => value + error))).seen;
+  return seen <= 1 ? { name, error, ask } : null;
+}
+
+interface Span { readonly from: number; readonly to: number }
+
+/** It takes the place of the run, and of the reference. */
+export function draft(core: Core, lab: number, description: Description, catalogue: readonly Method[], span: Span, milliseconds: number): Draft | null {
+  const method = methodOf(description, catalogue), count = core.positions(lab) + core.velocities(lab);
+  const columns = Array.from({ length: count }, (_, k) => 1 + k);
+  if (method === null || count === 0) return null;
+  const last = catalogue.find((m) => m.name === method)?.evaluations ? LAST.explicit : LAST.solving;
+  return byRuns(core, lab, method, last, columns, span, milliseconds) ?? byReference(core, lab, columns, span);
+}
