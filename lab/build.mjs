@@ -29,10 +29,24 @@ const made = await theory();
 // Its sources, so that what is not used falls away.
 const alias = { 'ml-matrix': join(here, 'node_modules/ml-matrix/src/index.js') };
 
-/** The pictures of the gallery, by the page's own code, which runs here. */
-const { outputFiles: [{ text: drawing }] } = await build({ entryPoints: [join(here, 'thumbs.ts')], bundle: true, write: false, format: 'esm', target: 'es2022', alias });
-const { thumbnails } = await import(`data:text/javascript;base64,${Buffer.from(drawing).toString('base64')}`);
-const thumbs = thumbnails(await WebAssembly.compile(wasm), presets);
+/** What the page's own code makes here: the pictures of the gallery, the lessons. */
+const { outputFiles: [{ text: code }] } = await build({
+  stdin: { contents: "export * from './thumbs'; export * from './lessons/read'; export { Core } from './core';", resolveDir: here, loader: 'ts' },
+  bundle: true, write: false, format: 'esm', target: 'es2022', alias,
+});
+const { thumbnails, readLessons, Core } = await import(`data:text/javascript;base64,${Buffer.from(code).toString('base64')}`);
+const compiled = await WebAssembly.compile(wasm);
+const thumbs = thumbnails(compiled, presets);
+const core = new Core(compiled);
+const lessonTexts = await Promise.all((await readdir(join(here, 'lessons'))).filter((name) => name.endsWith('.txt'))
+  .map(async (name) => ({ name: `lab/lessons/${name}`, text: await readFile(join(here, 'lessons', name), 'utf8') })));
+let lessons;
+try {
+  lessons = readLessons(lessonTexts, { models: presets.map(({ name }) => name), methods: core.catalogue(core.create()).map(({ name }) => name) });
+} catch (e) {
+  console.error(e.message);
+  process.exit(1);
+}
 
 /** Modules that exist in the build only. */
 const virtual = (modules) => ({
@@ -45,7 +59,9 @@ const virtual = (modules) => ({
 const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
-    plugins: [theoryPlugin(made), virtual({ 'virtual:presets': `export default ${JSON.stringify(presets)}`, 'virtual:thumbs': `export default ${JSON.stringify(thumbs)}`, ...modules })],
+    plugins: [theoryPlugin(made), virtual({ 'virtual:presets': `export default ${JSON.stringify(presets)}`, 'virtual:thumbs': `export default ${JSON.stringify(thumbs)}`,
+      // Numbers are the test's.
+      'virtual:lessons': `export default ${JSON.stringify(lessons, (key, value) => (key === 'numbers' ? undefined : value))}`, ...modules })],
   });
   return outputFiles[0].text;
 };

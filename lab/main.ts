@@ -67,7 +67,7 @@ async function start(): Promise<void> {
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, closer.map(({ id, title }) => ({ id, title })), () => { each(open, (panel) => panel.redraw()); small.redraw(); });
+  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, closer.map(({ id, title }) => ({ id, title })), () => { each(open, (panel) => panel.redraw()); small.redraw(); });
   if (problem) toasts.say(problem);
   place('stage-figure').replaceChildren(motion.element);
   place('step-view').append(steps.element);

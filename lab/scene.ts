@@ -14,7 +14,7 @@ export interface State {
   readonly step: string;                        // '' : the model's
   readonly until: string;
   readonly view: View;
-  /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, '2.try.0'. */
+  /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
 }
 export interface View {

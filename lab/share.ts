@@ -171,7 +171,7 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (methods.length > most.methods) throw new Wrong('it asks for too many methods');
   for (const method of methods) word(method, 'the name of a method');
   const place = found.get('l')?.[0] ?? '';
-  if (!/^(gallery|\d{1,2}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
+  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
   return {
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
     step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found), place,

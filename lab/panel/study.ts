@@ -14,8 +14,8 @@ export type Phase = 'waiting' | 'asking' | 'done' | 'failed' | 'cancelled';
 
 /** After the last change, so that a slider being dragged does not start what the next frame calls off. */
 const PAUSE = 350;
-/** Numbers of the state up to which a study is asked by itself, and milliseconds the last one and the motion itself may have taken. */
-const NUMBERS_CHEAP = 32, STUDY_CHEAP = 1500, MOTION_CHEAP = 400;
+/** A study begins by itself, and is called off where it takes longer than so many milliseconds: then it waits for its button. */
+const ALONE = 2000;
 
 export class Study<K extends Kind> {
   phase: Phase = 'waiting';
@@ -57,7 +57,7 @@ export class Study<K extends Kind> {
     // The picture before an edit may stay for the moment until the next is there, but not longer; another example's may not.
     if (state.text !== this.text) {
       this.took = 0;
-      if (state.preset !== this.preset || !this.cheap(scene)) this.answer = null;
+      if (state.preset !== this.preset) this.answer = null;
     }
     this.text = state.text;
     this.preset = state.preset;
@@ -73,18 +73,14 @@ export class Study<K extends Kind> {
       this.phase = 'failed';
       this.answer = null;
       this.problem = 'The exact motion has no error to be measured. Choose a method beside it.';
-    } else if (this.cheap(scene)) {
-      this.timer = window.setTimeout(() => { void this.start(); }, PAUSE);
+    } else if (this.took < ALONE) {
+      this.timer = window.setTimeout(() => { void this.start(true); }, PAUSE);
     }
     this.tell();
   }
 
-  private cheap(scene: Scene): boolean {
-    const numbers = scene.description.variables.reduce((sum, v) => sum + v.count * Math.max(1, v.components), 0);
-    return numbers <= NUMBERS_CHEAP && this.took < STUDY_CHEAP && scene.solution.milliseconds < MOTION_CHEAP;
-  }
-
-  async start(): Promise<void> {
+  /** alone: nobody asked for it. */
+  async start(alone = false): Promise<void> {
     const ask = this.ask, key = this.key;
     if (!ask || this.phase === 'asking' || ask.methods.length === 0) return;
     clearTimeout(this.timer);
@@ -92,6 +88,12 @@ export class Study<K extends Kind> {
     this.control = control;
     this.phase = 'asking';
     this.since = performance.now();
+    const limit = alone ? window.setTimeout(() => {
+      if (this.control !== control) return;
+      this.cancel();
+      this.phase = 'waiting';
+      this.tell();
+    }, ALONE) : 0;
     this.tell();
     try {
       const answer = await this.store.client.ask(this.kind, ask, { lane: 'study', key: this.kind, signal: control.signal });
@@ -101,6 +103,7 @@ export class Study<K extends Kind> {
       this.phase = 'done';
       this.took = performance.now() - this.since;
     } catch (reason) {
+      clearTimeout(limit);
       if (key !== this.key || control.signal.aborted) return;
       this.answer = null;
       this.stale = false;
@@ -108,13 +111,14 @@ export class Study<K extends Kind> {
       this.problem = reason instanceof Refused ? [reason.problem.message, reason.problem.hint].filter(Boolean).join(': ')
         : reason instanceof Error ? reason.message : String(reason);
     }
+    clearTimeout(limit);
     this.tell();
   }
 
   cancel(): void {
     if (this.phase !== 'asking') return;
     // What takes long enough to be called off is not begun again by itself.
-    this.took = Math.max(this.took, performance.now() - this.since, STUDY_CHEAP);
+    this.took = Math.max(this.took, performance.now() - this.since, ALONE);
     this.phase = 'cancelled';
     this.control?.abort();
     this.control = null;

@@ -4,9 +4,16 @@ import { button, el, icon } from '../dom';
 import { endField } from './end';
 import { sliders } from './sliders';
 
+/** A link to what stands below; lessons hear that it was followed. */
+function leads(words: string, href: string, what: string, ...more: Node[]): HTMLElement {
+  const link = el('a', { class: 'quiet-button', href }, words, ...more);
+  link.addEventListener('click', () => document.dispatchEvent(new CustomEvent('motus-opened', { detail: what })));
+  return link;
+}
+
 export function dockLinks(store: LiveStore, pin: HTMLElement, view: HTMLElement): HTMLElement {
   const sheet = el('div', { id: 'all-values', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All values' }, endField(store), sliders(store));
   return el('div', { class: 'links' },
     button('All values', () => {}, { class: 'quiet-button', popovertarget: 'all-values' }), sheet, pin, view,
-    el('a', { class: 'quiet-button', href: '#looking' }, 'Look closer', icon('M6 9.5l6 6 6-6')));
+    leads('One step', '#step-view', 'step'), leads('Look closer', '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
 }

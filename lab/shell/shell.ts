@@ -9,6 +9,7 @@ import { dials } from './dials';
 import { dockLinks } from './dock';
 import { gallery as makeGallery } from './gallery';
 import { history } from './history';
+import { lessonPlace } from './lesson';
 import { methods } from './methods';
 import { nav } from './nav';
 import { note } from './note';
@@ -23,16 +24,17 @@ import { createToasts, type Toasts } from './toasts';
 import { words } from './words';
 
 /** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
-export function mountShell(store: LiveStore, stage: Stage, panels: readonly PanelName[], themeChanged: () => void): Toasts {
+export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, panels: readonly PanelName[], themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
   const said = words(store, toasts, () => stage.relayout());
+  const lesson = lessonPlace(store, stage, clock);
   const galleryPlace = place('gallery');
   let gallery: HTMLElement | null = null;
   const go = (where: string): void => { if (store.state.place !== where) store.go(where); };
-  const places = nav([{ label: 'Gallery', id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  const places = nav([{ label: 'Gallery', id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: 'Lessons', id: 'lessons', open: () => lesson.list.togglePopover() }, { label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
   function arrive(): void {
     const { place: where } = store.state, there = where === 'gallery';
-    places.current(there ? 'gallery' : '');
+    places.current(there ? 'gallery' : lesson.here() ? 'lessons' : '');
     if (document.body.classList.contains('in-gallery') === there) return;
     document.body.classList.toggle('in-gallery', there);
     galleryPlace.hidden = !there;
@@ -47,7 +49,8 @@ export function mountShell(store: LiveStore, stage: Stage, panels: readonly Pane
   place('undo').append(history(store));
   place('share').append(shareMenu(store, presets, stage, toasts));
   place('theme').append(themeButton(() => { store.recolour(); chosen.repaint(); themeChanged(); }));
-  place('words').replaceChildren(said.element);
+  place('words').replaceChildren(said.element, lesson.element, lesson.list);
+  place('words').addEventListener('lesson', (event) => lesson.open((event as CustomEvent<string>).detail));
   place('methods').append(chosen.element);
   place('scene-note').append(note(store));
   place('main-choice').append(chosen.main);

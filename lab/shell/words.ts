@@ -58,7 +58,7 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     document.title = `${title.textContent} · motus lab`;
     say(sentence, name === '' ? '' : (staging.words || described(text)).replace('{steps}', counted(steps)));
     sentence.hidden = sentence.textContent === '';
-    ask.replaceChildren(...(staging.ask && document.getElementById('lessons') ? [button(staging.ask.text, () => element.dispatchEvent(new CustomEvent('lesson', { detail: staging.ask!.lesson, bubbles: true })), { class: 'ask-button' },
+    ask.replaceChildren(...(staging.ask ? [button(staging.ask.text, () => element.dispatchEvent(new CustomEvent('lesson', { detail: staging.ask!.lesson, bubbles: true })), { class: 'ask-button' },
       el('span', {}, staging.ask.text), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
     edited.hidden = preset === '' || !altered;
     began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;

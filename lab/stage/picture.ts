@@ -3,9 +3,9 @@
  * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
  * scene and that time alone.
  */
-import { exactAt } from '../panel/columns';
+import { extent } from '../figure/axes';
 import { brief } from '../figure/number';
-import type { Ink, Pen, Span } from '../figure/types';
+import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
 import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Curves, type Exit, type Point } from './curves';
@@ -36,6 +36,8 @@ export interface Picture {
   moving(pen: Pen, ink: Ink, time: number): void;
   ghost(pen: Pen, ink: Ink): void;
   readonly handle: Handle | null;
+  /** Where the exact motion ends, in pixels. */
+  readonly end: Point | null;
   readonly leaving: readonly Leaving[];
   /** Sentences for those who do not see it. */
   remarks(): string[];
@@ -388,7 +390,7 @@ export function pictureOf(setting: Setting): Picture {
     if (!c?.exit || nowhere.has(i)) return;
     const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
     const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
-    leaving.push({ name: short(c.line.look.label), more: told(motion, c, main, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+    leaving.push({ name: short(c.line.look.label), more: told(motion, c, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
@@ -428,6 +430,7 @@ export function pictureOf(setting: Setting): Picture {
 
   return {
     still, moving, ghost, handle, leaving,
+    end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
     remarks: () => lines.map((line) => {
       const { problem, times } = line.track;
       if (problem) return `${line.look.label} stops at t = ${brief(problem.time ?? times[times.length - 1] ?? 0)}${problem.variable ? `: ${problem.variable} is no finite number` : ''}`;
@@ -444,22 +447,21 @@ export function short(label: string): string {
 }
 
 /** How a runaway ends: by how much too wide it swings, or when it left. */
-function told(motion: Motion, curve: Curve, plot: Plot, staging: Staging): string {
-  const { track, look } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
-  void look;
+function told(motion: Motion, curve: Curve, staging: Staging): string {
+  const { track } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
   const end = track.times[track.times.length - 1] ?? 0;
   if (track.problem) return `and ends at ${brief(track.problem.time ?? end, 3)}${unit}, no longer a number`;
-  if (motion.subject.kind === 'time' && truth && plot.up) {
-    const column = motion.subject.bodies[curve.body]!.columns[0]!, exact = truth.columns[column]!, own = track.columns[column]!;
-    let low = Infinity, high = -Infinity, far = 0;
-    for (const v of exact) { low = Math.min(low, v); high = Math.max(high, v); }
-    for (let i = Math.floor(0.85 * own.length); i < own.length; i++) far = Math.max(far, Math.abs(own[i]! - (low + high) / 2));
-    const times = far / ((high - low) / 2);
+  if (motion.subject.kind === 'time' && truth) {
+    // How large the ellipse of place and velocity is that it ends on, beside that of the exact motion.
+    const column = motion.subject.bodies[curve.body]!.columns[0]!, speed = velocityColumn(motion.scene.solution, column);
+    const part = (k: number): number => {
+      const exact = truth.columns[k], own = track.columns[k];
+      if (!exact?.length || !own?.length) return NaN;
+      const [low, high] = extent([exact]);
+      return ((own[own.length - 1]! - (low + high) / 2) / ((high - low) / 2)) ** 2;
+    };
+    const times = Math.sqrt(part(column) + part(speed));
     if (Number.isFinite(times) && times >= 1.5) return `${brief(times, 2)} times too wide at ${brief(end, 3)}${unit}`;
   }
   return `at ${brief(curve.exit!.time, 3)}${unit}`;
 }
-
-/** For tables and sentences: the exact value of a column at a time. */
-export const exactValue = (scene: Scene, name: string, time: number): number => exactAt(scene, name, time);
-export type { Span };

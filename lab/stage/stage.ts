@@ -4,14 +4,11 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { button, el, say } from '../dom';
-import { csv, downloadText, fileName } from '../figure/export';
+import { csv, download, downloadText, fileName } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
 import { canvasPen, svgPen } from '../figure/pen';
-import { rowAt } from '../figure/track';
-import { tableElement } from '../figure/table';
 import type { Ink, Pen, Table } from '../figure/types';
-import { download } from '../figure/export';
 import type { Panel, Scene, Store } from '../scene';
 import { short as shortNumber } from '../shell/number';
 import { boundsFor, pictureOf, type Picture } from './picture';
@@ -35,6 +32,19 @@ export interface Stage extends Panel {
   relayout(): void;
   /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
   pin(scene: Scene | null): void;
+  /** These methods are computed, but not shown: what they do is to be guessed. */
+  hide(methods: readonly string[]): void;
+  /** A ring on a rail at the end of the exact motion: somebody's guess of where a method's ball will be; open: it can be dragged. */
+  guess(guess: Guess | null): void;
+  onGuess(listener: (place: GuessPlace) => void): void;
+}
+export type GuessPlace = 'above' | 'on' | 'below';
+export interface Guess { readonly method: string; readonly place: GuessPlace | null; readonly open: boolean }
+
+/** A scene in which some methods are not seen. */
+function without(scene: Scene, methods: readonly string[]): Scene {
+  const kept = scene.solution.tracks.map((t) => !methods.includes(t.method)), of = <T>(list: readonly T[]): T[] => list.filter((_, k) => kept[k]);
+  return { ...scene, looks: of(scene.looks), solution: { ...scene.solution, tracks: of(scene.solution.tracks), errors: of(scene.solution.errors) } };
 }
 
 export function stage(store: Store, room: { column(): number }): Stage {
@@ -44,14 +54,17 @@ export function stage(store: Store, room: { column(): number }): Stage {
   const message = el('p', { class: 'stage-message', hidden: true });
   const caption = el('figcaption', { class: 'unseen' });
   const holder = document.getElementById('stage-picture') ?? el('div', { id: 'stage-picture' });
-  holder.append(still, moving, aim, all, message);
+  const ring = button('', () => {}, { class: 'stage-aim', role: 'slider', hidden: true, 'aria-label': 'Your guess: up and down' });
+  holder.append(still, moving, aim, ring, all, message);
+  // The build's picture is of the first scene; another one is not to begin with it.
+  if (store.state.preset !== holder.dataset.scene || store.state.place) holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
   const element = el('figure', { class: 'stage-figure', 'aria-labelledby': 'motion-title' }, el('h2', { id: 'motion-title', class: 'unseen' }, 'Motion'), holder, caption);
 
   let scene: Scene | null = null, subject: Subject | null = null, choices: readonly Subject[] = [], chosen = '', showAll = false;
   let picture: Picture | null = null, ghost: Picture | null = null, bounds: Bounds | null = null, place: Place | null = null, frameKey = '';
   let time = 0, asked = 0, colours: Ink | null = null, scale = 1, ghostTimer = 0, moveFrame = 0, sentence = 0, dirty = false, pressed = false, visible = true;
   const camera = { ...HOME };
-  let pinned: Scene | null = null;
+  let pinned: Scene | null = null, hidden: readonly string[] = [], guess: Guess | null = null, guessAt: number | null = null, guessed: (place: GuessPlace) => void = () => {};
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   // --- the views ---------------------------------------------------------------------------------------------------------------------
@@ -100,7 +113,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
   function make(of: Bounds): void {
     if (!scene || !subject || !place) return;
-    picture = pictureOf({ scene, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
+    const seen = hidden.length ? without(scene, hidden) : scene;
+    picture = pictureOf({ scene: seen, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
   }
   const staging = () => stagingOf(scene && scene.state.preset && scene.state.text === store.state.text ? scene.state.preset : '');
   function draw(): void {
@@ -120,7 +134,25 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
   let busy = false, again = false;
   function drawMoving(): void {
-    if (picture) onto(moving, (pen, i) => picture!.moving(pen, i, time));
+    if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
+  }
+  /** Pixels of the ring: where it was dragged to, or where the chosen answer lies. */
+  const OFF = 0.15;
+  function ringAt(): { readonly x: number; readonly y: number; readonly exact: number } | null {
+    const end = picture?.end;
+    if (!guess || !end || !place || (guess.place === null && guessAt === null && !guess.open)) return null;
+    const height = place.frame.bottom - place.frame.top, by = guess.place === 'above' ? -OFF : guess.place === 'below' ? OFF : guess.place === null ? -OFF : 0;
+    return { x: end.x, y: Math.min(place.frame.bottom - 4, guessAt ?? end.y + by * height), exact: end.y };
+  }
+  function drawGuess(pen: Pen, i: Ink): void {
+    const at = ringAt(), look = scene?.looks.find((l) => l.method === guess?.method);
+    if (!at || !guess || !place) return;
+    const colour = guess.open ? look?.tone ?? i.text : i.quiet, r = place.ball + 3;
+    if (guess.open) pen.line([at.x, Math.max(20, at.exact - 250), at.x, place.frame.bottom], { colour: i.axis, width: 1.25, dash: [2, 3] });
+    pen.mark('circle', at.x, at.y, r, i.surface, guess.open ? 1 : 0.6);
+    pen.line(Array.from({ length: 66 }, (_, k) => (k % 2 ? at.y : at.x) + r * (k % 2 ? Math.sin : Math.cos)(Math.PI * (k >> 1) / 16)), { colour, width: guess.open ? 2 : 1.5, dash: [3, 3] });
+    if (guess.open) for (const way of [-1, 1]) pen.line([at.x - 4, at.y + way * (r + 5), at.x, at.y + way * (r + 9), at.x + 4, at.y + way * (r + 5)], { colour: i.quiet, width: 1.5 });
+    pen.text(at.x + r + 8, at.y, guess.open ? 'your guess' : 'you', { colour, size: 14 * place.scale, bold: guess.open, baseline: 'middle', halo: i.surface });
   }
   /** At once where this frame has not had it yet: a moving thing must not lag a frame behind its clock. */
   function redrawMoving(): void {
@@ -206,6 +238,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
       aim.setAttribute('aria-valuetext', `${settable.values.map((v) => shortNumber(v, 4)).join(', ')}`);
       aim.setAttribute('aria-valuenow', String(Math.hypot(...settable.values)));
     }
+    const at_ = ringAt();
+    ring.hidden = !guess?.open || !at_;
+    if (at_) ring.style.transform = `translate(${at_.x - 22}px, ${at_.y - 22}px)`;
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
     say(all, showAll ? 'show the exact motion' : 'show all');
@@ -249,6 +284,26 @@ export function stage(store: Store, room: { column(): number }): Stage {
       default: return;
     }
     event.preventDefault();
+  });
+
+  const putRing = (y: number): void => {
+    const end = picture?.end;
+    if (!end || !place || !guess?.open) return;
+    guessAt = Math.min(place.frame.bottom - 4, Math.max(20, y));
+    const off = guessAt - end.y, where: GuessPlace = Math.abs(off) <= 9 ? 'on' : off < 0 ? 'above' : 'below';
+    guess = { ...guess, place: where };
+    ring.setAttribute('aria-valuetext', where === 'on' ? 'on the exact motion' : `${where} the exact motion`);
+    guessed(where);
+    redrawMoving();
+    attach();
+  };
+  ring.addEventListener('pointerdown', (event) => { if (event.isPrimary && event.button === 0) { ring.setPointerCapture(event.pointerId); event.preventDefault(); ring.focus({ preventScroll: true }); } });
+  ring.addEventListener('pointermove', (event) => { if (ring.hasPointerCapture(event.pointerId)) putRing(event.clientY - holder.getBoundingClientRect().top); });
+  ring.addEventListener('keydown', (event) => {
+    const at = ringAt();
+    if (!at || (event.key !== 'ArrowUp' && event.key !== 'ArrowDown')) return;
+    event.preventDefault();
+    putRing(at.y + (event.key === 'ArrowUp' ? -8 : 8));
   });
 
   // --- words, numbers, files -----------------------------------------------------------------------------------------------------------
@@ -301,7 +356,6 @@ export function stage(store: Store, room: { column(): number }): Stage {
     visible = entries[entries.length - 1]?.isIntersecting ?? false;
     if (visible) { if (dirty) refresh(); else redrawMoving(); }
   }).observe(holder);
-  void rowAt; void tableElement;
 
   return {
     id: 'motion', title: 'Motion', element, choice, show, save,
@@ -309,5 +363,12 @@ export function stage(store: Store, room: { column(): number }): Stage {
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
     pin(of) { pinned = of; refresh(true); },
+    hide(methods) { if (methods.join() !== hidden.join()) { hidden = methods; refresh(true); } },
+    guess(next) {
+      if (next?.method !== guess?.method || next?.place !== guess?.place) guessAt = next && guess && !next.open && guess.open ? guessAt : null;
+      guess = next;
+      if (picture) { redrawMoving(); attach(); }
+    },
+    onGuess(listener) { guessed = listener; },
   };
 }

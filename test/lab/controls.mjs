@@ -178,7 +178,7 @@ await attempt('parameters and initial values', async () => {
   await settled(page, 150);
   judge('no number: a message, the state stays', /number/.test(await page.locator('#all-values').textContent()) && (await fields(page)).s === 'm=2.5' && await field('m').getAttribute('aria-invalid') === 'true');
   await field('m').fill('2.5');
-  await page.getByRole('button', { name: /^m: back to/ }).click();
+  await page.locator('#all-values').getByRole('button', { name: /^m: back to/ }).click();
   await settled(page);
   same('reset', (await fields(page)).s, undefined);
   const slider = page.locator('#all-values').getByLabel("r'(0).x", { exact: true });

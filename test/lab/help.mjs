@@ -152,7 +152,10 @@ export async function example(page, name) {
 /** The text of the model, in the open editor. */
 export async function editorOf(page) {
   const area = page.locator('#model-text');
-  if (!await area.isVisible()) await page.locator('.pill').click();
+  if (!await area.isVisible()) {
+    await page.keyboard.press('Escape');
+    await page.locator('.pill').click();
+  }
   return area;
 }
 /** The sheet with all numbers of the model. */
@@ -172,7 +175,7 @@ export async function shareOf(page) {
 /** What a figure says of itself; one that is out of sight is not kept up to date. */
 export async function summaryOf(page, title) {
   if (title === 'Motion') {
-    await page.waitForTimeout(200);
+    await page.waitForTimeout(500);
     return page.locator('#stage-figure figcaption').textContent();
   }
   await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();

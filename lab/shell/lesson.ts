@@ -1,0 +1,139 @@
+/* A lesson, in the place of the words: predict, try, see, why. Lessons are data (lessons/*.txt); how far one has come stands in the address.
+ *
+ * Invariant: nothing is judged: a guess is answered, a task ticks itself off by what the page does, and every part can be opened at any time.
+ */
+import lessons from 'virtual:lessons';
+import { met, type Lesson as Full } from '../lessons/read';
+import { sceneOf } from '../scenes';
+import { presetState } from '../share';
+import type { Stage } from '../stage/stage';
+import type { LiveStore } from '../state';
+import { button, el, icon, place, say } from '../dom';
+import { closeUp } from './closeup';
+import { recall, remember } from './memory';
+import { presets } from './presets';
+
+type Lesson = Omit<Full, 'numbers'>;
+const parts = ['predict', 'try', 'see', 'why'] as const;
+type Part = (typeof parts)[number];
+interface At { readonly lesson: Lesson; readonly number: number; readonly part: Part; readonly answer: number | null }
+
+/** "too-high-too-low.try.0"; null: no lesson. */
+function read(where: string): At | null {
+  const [id = '', part = '', answer] = where.split('.'), number = lessons.findIndex((l) => l.id === id), lesson = lessons[number];
+  if (!lesson || !parts.some((p) => p === part)) return null;
+  return { lesson, number: number + 1, part: part as Part, answer: answer !== undefined && lesson.predict.choices[Number(answer)] ? Number(answer) : null };
+}
+
+export interface Lessons { readonly element: HTMLElement; readonly list: HTMLElement; open(id: string): void; readonly here: () => boolean }
+
+/** clock: plays the motion from its start. */
+export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): void }): Lessons {
+  const element = el('div', { class: 'lesson', hidden: true }), list = el('div', { id: 'lessons', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'Lessons' });
+  const opened = new Set<string>(), finished = new Set((recall('lessons') ?? '').split(' ').filter(Boolean));
+  let shown = '', chosen: number | null = null, ticks: (() => void) | null = null;
+
+  function fill(): void {
+    list.replaceChildren(el('h2', {}, 'Lessons'), el('ol', { class: 'lesson-list' }, ...lessons.map((lesson) => el('li', {},
+      button('', () => { list.hidePopover(); open(lesson.id); }, { 'aria-current': read(store.state.place)?.lesson === lesson && 'true' }, el('span', {}, lesson.title), el('small', {}, finished.has(lesson.id) ? 'done' : ''))))));
+  }
+  list.addEventListener('beforetoggle', (event) => { if ((event as ToggleEvent).newState === 'open') fill(); });
+
+  function open(id: string): void {
+    const lesson = lessons.find((l) => l.id === id);
+    if (!lesson) return;
+    const { scene } = lesson, preset = presetState(presets, scene.model);
+    opened.clear();
+    store.load({
+      ...preset, set: { ...sceneOf(scene.model)?.set, ...scene.set }, methods: scene.methods, step: scene.step, until: scene.until,
+      view: { ...store.state.view, plane: scene.view[0] === 'plane' ? 'plane' : 'auto', quantities: [], phase: null }, place: `${id}.predict`,
+    });
+    scrollTo(0, 0);
+  }
+  const to = (at: At, part: Part, answer = at.answer): void => store.go(`${at.lesson.id}.${part}${answer === null ? '' : `.${answer}`}`);
+
+  function guessed(at: At, k: number, moved = false): void {
+    chosen = k;
+    element.querySelectorAll<HTMLInputElement>('input[type=radio]').forEach((radio, i) => { radio.checked = i === k; });
+    element.querySelector<HTMLButtonElement>('button.primary')?.removeAttribute('disabled');
+    const { rail, choices } = at.lesson.predict;
+    if (rail && !moved) stage.guess({ ...rail, place: choices[k]?.place ?? null, open: true });
+  }
+
+  function predict(at: At): Node[] {
+    const { predict: ask, title } = at.lesson, text = ask.text.join(' '), cut = /^(.*[.!]\s)?([^.!]*)$/s.exec(text);
+    const rows = ask.choices.map((choice, k) => {
+      const radio = el('input', { type: 'radio', name: 'guess', value: k });
+      radio.addEventListener('change', () => guessed(at, k));
+      return el('label', { class: 'choice' }, radio, el('span', {}, choice.label));
+    });
+    const go = button('', () => {
+      if (chosen === null) return;
+      to(at, 'try', chosen);
+      clock.replay();
+    }, { class: 'primary', disabled: chosen === null }, ask.button, icon('M8 5.5l10 6.5-10 6.5z'));
+    return [el('h2', {}, title), ...(cut?.[1] ? [el('p', {}, cut[1].trim())] : []), el('fieldset', {}, el('legend', {}, cut?.[2]?.trim() ?? text), ...rows), go, ...(ask.hint && ask.rail ? [el('p', { class: 'quiet hint' }, ask.hint)] : [])];
+  }
+  function attempt(at: At): Node[] {
+    const { attempt: task } = at.lesson, items = task.tasks.map(({ label }) => el('li', {}, el('span', { class: 'tick', 'aria-hidden': 'true' }), el('span', {}, label), el('span', { class: 'unseen' })));
+    const doneAlready = new Set<number>();
+    ticks = () => {
+      const { numbers, state, scene } = store;
+      const now = { model: state.preset, methods: scene?.state.methods ?? state.methods, step: numbers.step ?? 0, until: numbers.until ?? 0, set: state.set, opened };
+      task.tasks.forEach(({ condition }, k) => {
+        if (!doneAlready.has(k) && met(condition, at.lesson, now)) doneAlready.add(k);
+        items[k]!.classList.toggle('done', doneAlready.has(k));
+        say(items[k]!.lastElementChild!, doneAlready.has(k) ? ' done' : '');
+      });
+    };
+    ticks();
+    return [...answer(at), el('p', {}, task.text.join(' ')), el('ul', { class: 'tasks', role: 'status' }, ...items), button('', () => to(at, 'see'), { class: 'primary' }, 'What did you see?')];
+  }
+  const answer = (at: At): Node[] => {
+    const choice = at.answer === null ? null : at.lesson.predict.choices[at.answer];
+    return choice ? [el('p', { class: choice.right ? 'answer right' : 'answer' }, ...(choice.right ? [icon('M4.5 12.5l5 5L19.5 7')] : []), choice.answer)] : [];
+  };
+  function why(at: At): Node[] {
+    const { why: told, next } = at.lesson, following = lessons[at.number];
+    finished.add(at.lesson.id);
+    remember('lessons', [...finished].join(' '));
+    const drawing = closeUp(told.picture, store);
+    return [...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, paragraph)), ...(drawing ? [el('figure', { class: 'closeup' }, drawing, el('figcaption', {}, told.caption))] : []),
+      following ? button('', () => open(following.id), { class: 'primary' }, `Next: ${next || following.title}`, icon('M5 12h13M12.5 6l5.5 6-5.5 6')) : button('Back to the gallery', () => store.go('gallery'), { class: 'primary' })];
+  }
+
+  function show(): void {
+    const at = read(store.state.place);
+    element.hidden = !at;
+    document.body.classList.toggle('in-lesson', at !== null);
+    if (at) document.body.dataset.part = at.part; else delete document.body.dataset.part;
+    stage.hide(at?.part === 'predict' ? at.lesson.predict.hide : []);
+    if (!at) { if (shown) stage.guess(null); shown = ''; ticks = null; return; }
+    if (shown === store.state.place) return;
+    const before = shown;
+    shown = store.state.place;
+    ticks = null;
+    if (at.part === 'predict') chosen = null;
+    const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(part.charAt(0).toUpperCase() + part.slice(1), () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
+    const body = at.part === 'predict' ? predict(at) : at.part === 'try' ? attempt(at)
+      : at.part === 'see' ? [...answer(at), el('p', {}, at.lesson.see.join(' ')), button('Why?', () => to(at, 'why'), { class: 'primary' })] : why(at);
+    element.replaceChildren(el('div', { class: 'lesson-head' }, el('span', {}, `Lesson ${at.number} of ${lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
+    const { rail } = at.lesson.predict;
+    // The guess stays where it was, dashed.
+    if (rail) stage.guess({ ...rail, place: at.answer === null ? null : at.lesson.predict.choices[at.answer]?.place ?? null, open: at.part === 'predict' });
+    else stage.guess(null);
+    if (before && before.split('.')[0] === at.lesson.id) element.querySelector<HTMLElement>('[aria-current=step]')?.focus({ preventScroll: true });
+  }
+  // A ring that is dragged chooses by where it is let go.
+  stage.onGuess((where) => {
+    const at = read(store.state.place), k = at?.lesson.predict.choices.findIndex((c) => c.place === where) ?? -1;
+    if (at?.part === 'predict' && k >= 0) guessed(at, k, true);
+  });
+  document.addEventListener('motus-opened', (event) => { opened.add((event as CustomEvent<string>).detail); ticks?.(); });
+  store.subscribe((what) => {
+    if (what === 'view' || what === 'state') show();
+    if (what === 'scene') { ticks?.(); const at = read(store.state.place); if (at && at.part === 'why' && shown.includes('.why')) { const old = element.querySelector('.closeup'), made = closeUp(at.lesson.why.picture, store); if (old && made) old.replaceChild(made, old.firstChild!); } }
+  });
+  void place;
+  return { element, list, open, here: () => read(store.state.place) !== null };
+}
