@@ -177,7 +177,7 @@ export const scenes: readonly SceneEntry[] = [
 
   {
     model: 'thrown-ball-air', title: 'A thrown ball, in air', theme: '', question: 'Does the air shorten the throw?',
-    methods: ['explicit-euler', 'symplectic-euler', 'midpoint'],
+    methods: ['explicit-euler', 'midpoint', 'verlet'],
     picture: { view: 'plane', curves: [['r.x', 'r.y']], methods: ['explicit-euler'], beside: { model: 'thrown-ball', curve: ['r.x', 'r.y'] } },
   },
 ];

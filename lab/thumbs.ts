@@ -15,7 +15,7 @@ export interface Thumb { readonly svg: string; readonly runners: readonly Runner
 
 /** In CSS pixels; the pictures' own unit is a tenth of one, so that whole numbers suffice. */
 export const size = { width: 188, height: 104 };
-const TENTHS = 10, MARGIN = 12, SLACK = 0.12;
+const TENTHS = 10, MARGIN = 12, SLACK = 0.15;
 const DASH = [5, 3];
 const dashed = new Set(['explicit-euler']);
 

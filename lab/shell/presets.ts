@@ -13,6 +13,7 @@ export const presets: Presets = {
   first: 'thrown-ball',
   text: name => texts.get(name),
   methods: name => sceneOf(name)?.methods ?? [],
+  set: name => sceneOf(name)?.set ?? {},
 };
 
 /** The first sentence of a model's own comment. */

@@ -1,0 +1,125 @@
+/* The gallery by itself, as the page holds it: with the pointer, with the keyboard alone, at every width, light and dark. */
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { attempt, built, finish, judge, launch, place, root, same } from './help.mjs';
+
+const lab = join(root, 'lab'), need = createRequire(join(lab, 'package.json')), { build } = need('esbuild');
+const models = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).sort().map((name) => ({ name: name.slice(0, -6), text: readFileSync(join(root, 'models', name), 'utf8') }));
+const alias = { 'ml-matrix': join(lab, 'node_modules/ml-matrix/src/index.js') };
+const text = async (options) => (await build({ bundle: true, write: false, target: 'es2022', alias, ...options })).outputFiles[0].text;
+const { thumbnails, scenes, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
+  stdin: { contents: "export * from './thumbs'; export { scenes } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
+})).toString('base64'));
+const made = { 'virtual:presets': models, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
+const script = await text({
+  stdin: { contents: `import { gallery } from './shell/gallery'; window.said = [];
+    document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') }));`, resolveDir: lab, loader: 'ts' }, format: 'iife',
+  plugins: [{ name: 'made', setup(b) {
+    b.onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: 'made' }));
+    b.onLoad({ filter: /.*/, namespace: 'made' }, ({ path }) => ({ contents: `export default ${JSON.stringify(made[path])}`, loader: 'js' }));
+  } }],
+});
+const style = inkStyle() + ['style.css', 'shell/gallery.css'].map((name) => readFileSync(join(lab, name), 'utf8')).join('\n');
+const file = join(place, 'gallery.html');
+writeFileSync(file, `<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>Gallery</title><style>${style}</style><body><script>${script.replace(/<\/script/g, '<\\/script')}</script>`);
+
+const cards = scenes.filter(({ theme }) => theme !== '');
+async function open({ width = 1280, height = 900, theme = 'light', calm = false } = {}) {
+  const context = await (await launch()).newContext({ viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference' });
+  const page = await context.newPage();
+  page.wrong = [];
+  page.on('console', (message) => page.wrong.push(message.text()));
+  page.on('pageerror', (error) => page.wrong.push(error.message));
+  await page.goto(pathToFileURL(file).href);
+  return page;
+}
+const close = async (name, page) => { same(`${name}: nothing is complained about`, page.wrong, []); await page.context().close(); };
+const said = (page) => page.evaluate(() => window.said.splice(0));
+
+await attempt('what is there', async () => {
+  const page = await open();
+  same('every motion is there, in order', await page.locator('.motion-title').allTextContents(), cards.map(({ title }) => title));
+  same('… with its question', await page.locator('.question').allTextContents(), cards.map(({ question }) => question));
+  same('the present one is marked', await page.locator('[aria-current]').evaluateAll((all) => all.map((a) => a.querySelector('.motion-title').textContent)), ['Planet']);
+  const links = await page.locator('a.motion').evaluateAll((all) => all.map((a) => a.getAttribute('href')));
+  same('each is a link to its scene', links.map((href) => /&p=([a-z-]+)/.exec(href)?.[1]), cards.map(({ model }) => model));
+  const drawn = await page.locator('.thumb svg').evaluateAll((all) => all.map((svg) => [...svg.querySelectorAll('path')].reduce((sum, path) => sum + path.getTotalLength(), 0)));
+  judge('every picture shows something', drawn.every((length) => length > 600), drawn.join());
+  await page.locator('a.motion', { hasText: 'Comet' }).click();
+  same('a click opens the scene', await said(page), ['comet']);
+  await close('what is there', page);
+});
+
+await attempt('the keyboard', async () => {
+  const page = await open();
+  await page.keyboard.press('Tab');
+  same('the search comes first', await page.evaluate(() => document.activeElement.type), 'search');
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('Enter');
+  same('Enter on a card opens it', await said(page), ['thrown-ball']);
+  let count = 1;
+  for (; count < 40; count++) { await page.keyboard.press('Tab'); if (!await page.evaluate(() => document.activeElement.matches('a.motion'))) break; }
+  same('Tab goes through all of them', count, cards.length);
+  await page.locator('a.motion').nth(7).focus();
+  await page.keyboard.press('Escape');
+  same('Escape leaves', await said(page), ['closed']);
+  await close('the keyboard', page);
+});
+
+await attempt('the search', async () => {
+  const page = await open(), field = page.locator('.gallery-search'), titles = () => page.locator('.motion-title:visible').allTextContents();
+  await field.fill('  SUN breaks ');
+  same('all the words are looked for', await titles(), ['Comet']);
+  same('how many there are is said', await page.locator('.gallery-found').textContent(), '1 motion');
+  await page.keyboard.press('Enter');
+  same('Enter opens the first', await said(page), ['comet']);
+  await field.fill('boris');
+  same('a method is found', await titles(), ['Charge in a magnet', 'Crossed fields', 'Penning trap']);
+  same('themes without any are away', await page.locator('.gallery-row h2:visible').allTextContents(), ['Many bodies, magnetic fields']);
+  await field.fill('<b>zzz');
+  judge('nothing found is said', /“<b>zzz”/.test(await page.locator('.gallery-found').textContent()) && (await titles()).length === 0);
+  await page.keyboard.press('Escape');
+  same('Escape brings them all back, and stays', [(await titles()).length, await said(page)], [cards.length, []]);
+  await page.keyboard.press('Escape');
+  same('… and leaves then', await said(page), ['closed']);
+  await close('the search', page);
+});
+
+await attempt('bodies run', async () => {
+  const page = await open(), ball = (title) => page.locator('a.motion', { hasText: new RegExp(`^${title}`) }).locator('.ball').first();
+  const at = (title) => ball(title).evaluate((circle) => `${getComputedStyle(circle).display} ${circle.getAttribute('cx')} ${circle.getAttribute('cy')}`);
+  const rest = await at('Thrown ball'), pendulum = await at('Pendulum');
+  judge('a ball that rests is seen, one that does not is not', rest.startsWith('inline') && pendulum.startsWith('none'), `${rest}, ${pendulum}`);
+  await page.locator('a.motion', { hasText: 'Thrown ball' }).hover();
+  await page.waitForTimeout(500);
+  const going = await at('Thrown ball');
+  judge('the pointer makes it run', going !== rest, going);
+  await page.waitForTimeout(2300);
+  same('once, back to its place', await at('Thrown ball'), rest);
+  await page.locator('a[href$="p=pendulum"]').focus();
+  await page.waitForTimeout(300);
+  judge('so does the focus', (await at('Pendulum')).startsWith('inline'));
+  await close('bodies run', page);
+  const calm = await open({ calm: true });
+  await calm.locator('a.motion', { hasText: 'Thrown ball' }).hover();
+  await calm.waitForTimeout(300);
+  same('nothing runs for those who asked for less motion', await calm.locator('.running').count(), 0);
+  await close('less motion', calm);
+});
+
+await attempt('every width', async () => {
+  for (const [width, columns, theme] of [[320, 2, 'dark'], [390, 2, 'light'], [800, 3, 'dark'], [1024, 5, 'light'], [1280, 5, 'dark'], [1920, 5, 'light']]) {
+    const page = await open({ width, theme });
+    judge(`${width} px: nothing is wider than the page`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const boxes = await page.locator('a.motion').evaluateAll((all) => all.map((a) => { const { x, y, width: w, height } = a.getBoundingClientRect(); return { x, y, w, height }; }));
+    same(`${width} px: so many a row`, boxes.filter(({ y }) => y === boxes[0].y).length, columns);
+    judge(`${width} px: no target is too small`, boxes.every(({ w, height }) => w >= 44 && height >= 44) && (await page.locator('.gallery-search').boundingBox()).height >= 44);
+    await page.evaluate(readFileSync(need.resolve('axe-core/axe.min.js'), 'utf8'));
+    const violations = await page.evaluate(() => window.axe.run(document.querySelector('.gallery')).then(({ violations: all }) => all.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 100)}`)));
+    same(`${width} px, ${theme}: axe has nothing to say`, violations, []);
+    await close(`${width} px`, page);
+  }
+});
+await finish();
