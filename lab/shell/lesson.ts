@@ -8,7 +8,7 @@ import { sceneOf } from '../scenes';
 import { presetState } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
-import { button, el, icon, place, say } from '../dom';
+import { button, el, icon, say } from '../dom';
 import { closeUp } from './closeup';
 import { recall, remember } from './memory';
 import { presets } from './presets';
@@ -31,7 +31,7 @@ export interface Lessons { readonly element: HTMLElement; readonly list: HTMLEle
 export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): void }): Lessons {
   const element = el('div', { class: 'lesson', hidden: true }), list = el('div', { id: 'lessons', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'Lessons' });
   const opened = new Set<string>(), finished = new Set((recall('lessons') ?? '').split(' ').filter(Boolean));
-  let shown = '', chosen: number | null = null, ticks: (() => void) | null = null;
+  let shown = '', chosen: number | null = null, ticks: (() => void) | null = null, sketch: (() => void) | null = null;
 
   function fill(): void {
     list.replaceChildren(el('h2', {}, 'Lessons'), el('ol', { class: 'lesson-list' }, ...lessons.map((lesson) => el('li', {},
@@ -97,8 +97,10 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     const { why: told, next } = at.lesson, following = lessons[at.number];
     finished.add(at.lesson.id);
     remember('lessons', [...finished].join(' '));
-    const drawing = closeUp(told.picture, store);
-    return [...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, paragraph)), ...(drawing ? [el('figure', { class: 'closeup' }, drawing, el('figcaption', {}, told.caption))] : []),
+    const drawing = told.picture ? el('figure', { class: 'closeup' }, el('div', {}), el('figcaption', {}, told.caption)) : null;
+    sketch = () => drawing?.firstElementChild?.replaceChildren(...[closeUp(told.picture, store)].filter((d) => d !== null));
+    sketch();
+    return [...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, paragraph)), ...(drawing ? [drawing] : []),
       following ? button('', () => open(following.id), { class: 'primary' }, `Next: ${next || following.title}`, icon('M5 12h13M12.5 6l5.5 6-5.5 6')) : button('Back to the gallery', () => store.go('gallery'), { class: 'primary' })];
   }
 
@@ -112,7 +114,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     if (shown === store.state.place) return;
     const before = shown;
     shown = store.state.place;
-    ticks = null;
+    ticks = sketch = null;
     if (at.part === 'predict') chosen = null;
     const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(part.charAt(0).toUpperCase() + part.slice(1), () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
     const body = at.part === 'predict' ? predict(at) : at.part === 'try' ? attempt(at)
@@ -132,8 +134,8 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   document.addEventListener('motus-opened', (event) => { opened.add((event as CustomEvent<string>).detail); ticks?.(); });
   store.subscribe((what) => {
     if (what === 'view' || what === 'state') show();
-    if (what === 'scene') { ticks?.(); const at = read(store.state.place); if (at && at.part === 'why' && shown.includes('.why')) { const old = element.querySelector('.closeup'), made = closeUp(at.lesson.why.picture, store); if (old && made) old.replaceChild(made, old.firstChild!); } }
+    if (what === 'scene') { ticks?.(); sketch?.(); }
   });
-  void place;
+  show();
   return { element, list, open, here: () => read(store.state.place) !== null };
 }
