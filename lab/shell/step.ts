@@ -37,8 +37,10 @@ export function stepSlider(store: LiveStore): HTMLElement {
     if (!settings || settings.step === null) return;
     const [largest, count] = stagingOf(store.state.preset).stops ?? [4, 5];
     const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
-    let first = settings.step * largest;
-    while (first > span && first > settings.step) first /= 2;
+    // A lesson that begins with a step of its own has its stops about that.
+    const typed = Number(store.state.step), base = store.state.place.includes('.') && typed > 0 ? typed : settings.step;
+    let first = base * largest;
+    while (first > span && first > base) first /= 2;
     halves = Array.from({ length: count }, (_, k) => first / 2 ** k);
     stops.replaceChildren(...halves.map((h, k) => {
       const stop = el('span', {}, compact(Number(h.toPrecision(3))));
@@ -93,7 +95,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   field.addEventListener('focus', () => { if (!store.state.step) { field.value = own(); field.select(); } });
   field.addEventListener('blur', refresh);
   store.subscribe((what) => {
-    const key = `${store.state.preset} ${store.description?.settings.step} ${store.description?.settings.until}`;
+    const key = `${store.state.preset} ${store.description?.settings.step} ${store.description?.settings.until} ${store.state.place.split('.')[0]}`;
     if (what === 'description' && last !== key && store.description) { last = key; limits(); }
     if (what !== 'view' && what !== 'busy') refresh();
   });

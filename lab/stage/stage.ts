@@ -152,7 +152,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
     pen.mark('circle', at.x, at.y, r, i.surface, guess.open ? 1 : 0.6);
     pen.line(Array.from({ length: 66 }, (_, k) => (k % 2 ? at.y : at.x) + r * (k % 2 ? Math.sin : Math.cos)(Math.PI * (k >> 1) / 16)), { colour, width: guess.open ? 2 : 1.5, dash: [3, 3] });
     if (guess.open) for (const way of [-1, 1]) pen.line([at.x - 4, at.y + way * (r + 5), at.x, at.y + way * (r + 9), at.x + 4, at.y + way * (r + 5)], { colour: i.quiet, width: 1.5 });
-    pen.text(at.x + r + 8, at.y, guess.open ? 'your guess' : 'you', { colour, size: 14 * place.scale, bold: guess.open, baseline: 'middle', halo: i.surface });
+    // Numbers stand at the right; on a small stage the guess gives way to them.
+    const left = !place.names, size = (left ? 12 : 14) * place.scale;
+    pen.text(at.x + (left ? -1 : 1) * (r + 8), at.y, guess.open ? 'your guess' : 'you', { colour, size, bold: guess.open, baseline: 'middle', anchor: left ? 'end' : 'start', halo: i.surface });
   }
   /** At once where this frame has not had it yet: a moving thing must not lag a frame behind its clock. */
   function redrawMoving(): void {
@@ -202,6 +204,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     scene = next;
     choices = subjects(next.description, next.solution);
     subject = pick();
+    document.body.dataset.decor = staging().decor ?? '';
     offer();
     turning.enable(subject?.kind === 'space');
     if (subject?.id !== old?.id) bounds = null;
