@@ -189,7 +189,7 @@ export class Answers {
     const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
     let told = had(this.told.certified) ? this.told.certified : null;
     if (!told && ask.coarse && !this.description?.has_exact) {
-      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, start, until, slopes, most);
+      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, ask.model.text, start, until, slopes, most);
       this.told.coarse = told;
       if (!told) return null;
     }
@@ -225,10 +225,10 @@ export class Answers {
     return { key, name, error, motion, curve, off: error, coarse: false, most, milliseconds: spent() };
   }
 
-  private drafted(key: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
+  private drafted(key: string, text: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
     const began = performance.now();
     this.reference = null;
-    const found = draft(this.core, this.lab, this.description as Description, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
+    const found = draft(this.core, this.lab, this.description as Description, text, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
     if (!found) return null;
     const motion = { from, to, slopes, ask: (times: Float64Array) => found.ask(times) };
     const curve = sample(motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });
