@@ -16,8 +16,8 @@ const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of on
 const COLUMNS_MAX = 256;
 /* Of a curve that is drawn as the exact motion; times the rows that are asked for, while they are few. Milliseconds: of a draft, and of reading a curve. */
 const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 1500, CURVE_LIMIT = { coarse: 600, certified: 1500 };
-/* Times at which a reference is asked first, to see how long it takes. */
-const TRIED = 50;
+/* Times in a row at which a reference is asked first, to see how long it takes. */
+const TRIED = 16;
 const REGION_MAX = 250_000;
 const EIGENVALUES_MAX = 64;
 
@@ -189,7 +189,7 @@ export class Answers {
     const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
     let told = had(this.told.certified) ? this.told.certified : null;
     if (!told && ask.coarse && !this.description?.has_exact) {
-      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, start, until, slopes, most);
+      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, ask.model.text, start, until, slopes, most);
       this.told.coarse = told;
       if (!told) return null;
     }
@@ -211,10 +211,12 @@ export class Answers {
   private certified(key: string, ask: Solve, motion: Motion, most: number, before: Told | null): Told {
     const { name, error, milliseconds } = this.openReference(ask), began = performance.now(), known = before?.curve.times ?? null;
     const spent = (): number => milliseconds + performance.now() - began;
-    if (before && known && known.length > TRIED) {
-      const every = Math.floor(known.length / TRIED), start = performance.now();
-      motion.ask(known.filter((_, i) => i % every === 0));
-      if ((performance.now() - start) * every > CURVE_LIMIT.certified) {
+    if (before && known) {
+      // Some that follow each other, at several places: those that lie apart cost the steps between them.
+      const tried = [0.1, 0.3, 0.6, 0.9].map((part) => known.subarray(Math.floor(part * known.length), Math.floor(part * known.length) + TRIED)), start = performance.now();
+      for (const times of tried) motion.ask(times);
+      const each = (performance.now() - start) / tried.reduce((sum, times) => sum + times.length, 0);
+      if (each * known.length > CURVE_LIMIT.certified) {
         return { ...before, name, error, curve: sample(before.motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.certified }, known), milliseconds: spent() };
       }
     }
@@ -223,10 +225,10 @@ export class Answers {
     return { key, name, error, motion, curve, off: error, coarse: false, most, milliseconds: spent() };
   }
 
-  private drafted(key: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
+  private drafted(key: string, text: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
     const began = performance.now();
     this.reference = null;
-    const found = draft(this.core, this.lab, this.description as Description, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
+    const found = draft(this.core, this.lab, this.description as Description, text, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
     if (!found) return null;
     const motion = { from, to, slopes, ask: (times: Float64Array) => found.ask(times) };
     const curve = sample(motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });

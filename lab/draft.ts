@@ -1,9 +1,9 @@
 /* A draft of the exact motion: soon there, and known to be nearer to it than can be seen.
  *
  * A method of order 8 takes ever smaller steps until two runs, whose steps share hardly a time, tell the same motion to a small part of a pixel, at
- * times between their steps too. Its error is then the difference of both, many times what the last run is off. Where that takes too many steps, a
- * reference whose steps adapt to the force is cheaper, though it need not be better than can be seen. Invariant: a draft whose runs differ by more, pass
- * a singularity, or do not resolve the force is none.
+ * times between their steps too. Its error is then the difference of both, many times what the last run is off. Where that takes too many steps, or where
+ * the force may change so fast that steps miss it, the draft is a reference, whose steps adapt to the force, but one that need not be better than can be
+ * seen. Invariant: a draft whose runs differ by more, pass a singularity, or do not resolve the force is none.
  */
 import type { Core } from './core';
 import type { Description, Method } from './protocol';
@@ -25,6 +25,9 @@ const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 700;
 const GOLDEN = (1 + Math.sqrt(5)) / 2;
 /* Columns that move less than this part of their size rest. */
 const AT_REST = 1e-9;
+
+/** Whether the force may have peaks or jumps so narrow that no step falls into them: it is not smooth, or has a function that can do so. */
+const hides = (description: Description, text: string): boolean => !description.smooth || /\b(exp|tanh|sinh|cosh|erf|atan|log|log2|log10)\b/.test(text.replace(/#.*/g, ''));
 
 /** A Gauss method solves for its stages, which costs less than kicks that are solved for one by one; else a composition needs no solving. */
 function methodOf(description: Description, catalogue: readonly Method[]): string | null {
@@ -98,11 +101,11 @@ function byReference(core: Core, lab: number, columns: readonly number[], { from
 
 interface Span { readonly from: number; readonly to: number }
 
-/** It takes the place of the run, and of the reference. */
-export function draft(core: Core, lab: number, description: Description, catalogue: readonly Method[], span: Span, milliseconds: number): Draft | null {
+/** text: of the model. It takes the place of the run, and of the reference. */
+export function draft(core: Core, lab: number, description: Description, text: string, catalogue: readonly Method[], span: Span, milliseconds: number): Draft | null {
   const method = methodOf(description, catalogue), count = core.positions(lab) + core.velocities(lab);
   const columns = Array.from({ length: count }, (_, k) => 1 + k);
   if (method === null || count === 0) return null;
   const last = catalogue.find((m) => m.name === method)?.evaluations ? LAST.explicit : LAST.solving;
-  return byRuns(core, lab, method, last, columns, span, milliseconds) ?? byReference(core, lab, columns, span);
+  return (hides(description, text) ? null : byRuns(core, lab, method, last, columns, span, milliseconds)) ?? byReference(core, lab, columns, span);
 }

@@ -42,6 +42,8 @@ export const STEPS_MAX = 1e7;
 export interface Description {
   readonly statements: readonly Statement[];
   readonly velocity_dependent: boolean; readonly time_dependent: boolean;
+  /** The force has no abs, min, max, floor, mod, sign, if. */
+  readonly smooth: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
   readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
   readonly has_exact: boolean;

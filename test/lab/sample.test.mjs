@@ -128,6 +128,7 @@ test('a pole: points are not spent on it, the motion on both sides is drawn', ()
   const curve = sample(m, limits);
   ordered(curve, 0, 3);
   assert.ok(curve.times.length < 2000, `${curve.times.length} points`);
+  assert.ok(curve.columns[0].every((x) => Math.abs(x) < 1e7), 'what is drawn beside it remains to be seen');
   assert.ok(curve.times.filter((t) => t < 0.9).length > 20 && curve.times.filter((t) => t > 1.1).length > 20);
 });
 
@@ -166,4 +167,11 @@ test('times that are known are gone on from, and asked once where they are enoug
   const second = sample(again, limits, first.times);
   assert.equal(again.asked.times, second.times.length);
   assert.ok(second.times.length < 1.1 * first.times.length);
+});
+
+test('a bend whose middle lies on the straight line is seen by the slopes', () => {
+  const m = motion(0, 20 * Math.PI, [1, -1], (t) => [Math.sin(t), Math.cos(t)]);
+  const curve = sample(m, limits, Float64Array.from({ length: 11 }, (_, i) => 2 * Math.PI * i));
+  const most = deviation(m.of, curve);
+  assert.ok(most <= 0.5, `${most} pixels`);
 });
