@@ -46,7 +46,6 @@ static void add_name(reading *r, size_t from, size_t to, bool begins)
         memcpy(name, r->text + from, to - from);
         name[to - from] = 0;
         kind = words_kind(name);
-        if (kind == MOTUS_WORD_SETTING && !begins) kind = MOTUS_WORD_UNKNOWN;
         if (is(r, r->statement, "method") && !begins) kind = MOTUS_WORD_SETTING;
     }
     add(r, kind, from, to);

@@ -435,7 +435,7 @@ typedef enum motus_word_kind {
     MOTUS_WORD_COMMENT,
     MOTUS_WORD_SETTING,  /* method, step … and what follows `method` */
     MOTUS_WORD_FUNCTION, /* of the language: sin */
-    MOTUS_WORD_OPERATOR, /* signs, brackets, primes */
+    MOTUS_WORD_OPERATOR, /* signs, brackets, primes; for, and, or, not */
     MOTUS_WORD_WRONG     /* what is no word of any kind */
 } motus_word_kind;
 typedef struct motus_word {
@@ -446,8 +446,8 @@ typedef struct motus_word {
 /* Writes the first `room` words of `length` bytes of text, and returns how many it wrote. It takes no memory, and its
  * time grows as the number of names times that of definitions. */
 MOTUS_API size_t motus_text_words(const char *text, size_t length, motus_word *words, size_t room);
-/* Word k of the language, in a fixed order, and its kind: SETTING begins a statement, FUNCTION has a bracket, KNOWN is
- * another, t, pi, for. NULL: k is past the last. */
+/* Word k of the language, in a fixed order, and its kind: SETTING begins a statement, FUNCTION has a bracket,
+ * KNOWN is t or pi, OPERATOR a word like for. NULL: k is past the last. */
 MOTUS_API const char *motus_language_word(size_t k, motus_word_kind *);
 
 /* 4. Methods ----------------------------------------------------------------------------------------------------- */

@@ -71,7 +71,7 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'shell/transport.css', 'panel/steps.css'];
+const sheets = ['style.css', 'figure/figure.css', 'shell/transport.css', 'shell/editor.css', 'panel/steps.css'];
 const style = await minify([made.fontCss, ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const template = put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- theory -->', made.html);
 const page = ({ script, element, connect, worker }) => {

@@ -184,7 +184,7 @@ static void words(void **state)
         {"k = 2\nx'' = -k x\nx(0) = 1.5e3; x'(0) = 0",
          "k:k o:= n:2 k:x o:'' o:= o:- k:k k:x k:x o:( n:0 o:) o:= n:1.5e3 "
          "k:x o:' o:( n:0 o:) o:= n:0"},
-        {"x[i]'' = x[j] for i = 1..N", "k:x o:[ k:i o:] o:'' o:= k:x o:[ u:j o:] k:for k:i o:= n:1 o:.. u:N"},
+        {"x[i]'' = x[j] for i = 1..N", "k:x o:[ k:i o:] o:'' o:= k:x o:[ u:j o:] o:for k:i o:= n:1 o:.. u:N"},
         {"V(q) = q^2 + t", "k:V o:( k:q o:) o:= k:q o:^ n:2 o:+ k:t"},
         {"method newmark(0.25, 0.5)\nstep 0.1\nuntil 3 pi", "s:method s:newmark o:( n:0.25 o:, n:0.5 o:) s:step n:0.1 "
                                                             "s:until n:3 k:pi"},

@@ -66,5 +66,6 @@ motus_word_kind words_kind(const char *name)
     if (words_function(name) >= 0 || !strcmp(name, "sum")) return MOTUS_WORD_FUNCTION;
     for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
         if (!strcmp(statements_words[i], name)) return MOTUS_WORD_SETTING;
-    return words_reserved(name) ? MOTUS_WORD_KNOWN : MOTUS_WORD_UNKNOWN;
+    if (!strcmp(name, "t") || !strcmp(name, "pi")) return MOTUS_WORD_KNOWN;
+    return words_reserved(name) ? MOTUS_WORD_OPERATOR : MOTUS_WORD_UNKNOWN;
 }

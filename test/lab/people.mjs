@@ -3,7 +3,7 @@
  */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, clean, fields, figureOf, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
+import { attempt, clean, fields, figureOf, finish, judge, open, root, same, settled, singleFile, told } from './help.mjs';
 
 const axe = readFileSync(join(root, 'lab/node_modules/axe-core/axe.min.js'), 'utf8');
 const all = '&o=time,error,drift,phase,convergence,precision,stability';
@@ -37,7 +37,7 @@ for (const width of [1280, 320]) {
     same(`${width} px, all folds open: the page does not scroll sideways`, await sideways(page), 0);
     await page.locator('#model-text').fill("x'' = -foo");
     await page.locator('#step').fill('0');
-    await settled(page);
+    await told(page);
     await both('all folds open, with messages');
     if (width < 500) {
       const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea')].filter((e) => {
