@@ -40,7 +40,7 @@ export function editor(store: LiveStore): HTMLElement {
 
   let told: { problem: Problem; text: string } | null = null, timer = 0, typed = -Infinity;
   let words: readonly Word[] = [], worded = '', asked = '', vocabulary: Vocabulary | null = null;
-  let offers: Completion | null = null, active = -1, offering = false, held = 0, shownLines = '';
+  let offers: Completion | null = null, active = -1, offering = false, held = 0, counted = 0, shownLines = '';
 
   // ---- the mirror
 
@@ -52,7 +52,8 @@ export function editor(store: LiveStore): HTMLElement {
     mirror.replaceChildren(...pieces(text, words, mark).map(piece => (piece.kind === 'mark' ? el('mark', {}, blank ? ' ' + piece.text.slice(1) : piece.text)
       : piece.kind === '' || piece.kind === 'operator' ? piece.text : el('span', { class: piece.kind }, piece.text))), '\n');
     const count = linesOf(text);
-    if (numbers.childElementCount !== count) numbers.replaceChildren(...Array.from({ length: count }, (_, k) => el('span', {}, `${k + 1}\n`)));
+    if (counted !== count) say(numbers, Array.from({ length: count }, (_, k) => `${k + 1}\n`).join(''));
+    counted = count;
     field.style.setProperty('--digits', String(Math.max(2, String(count).length)));
     follow();
   }

@@ -8,6 +8,7 @@ import { presetState, type Presets } from '../share';
 import { notes } from '../theory/presets';
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { ownTitle } from './title';
 import type { Toasts } from './toasts';
 
 type Note = readonly (string | { readonly to: string; readonly label: string })[];
@@ -114,10 +115,10 @@ export function presetPicker(store: LiveStore, toasts: Toasts): { readonly picke
     shown = key;
     began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;
     const entry = entryOf(name);
-    say(title, name === '' ? 'Your own model' : titleOf(name));
+    say(title, name === '' ? ownTitle(text) || 'Your own model' : titleOf(name));
     say(mark, entry?.mark ?? '');
     mark.hidden = !entry?.mark;
-    say(description, described(text));
+    say(description, name === '' && ownTitle(text) ? '' : described(text));
     description.hidden = description.textContent === '';
     const words = (entry?.note ?? []).map(part => (typeof part === 'string' ? part : button(part.label, () => open(part.to), { class: 'text-button' })));
     const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];

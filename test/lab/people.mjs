@@ -97,7 +97,7 @@ await attempt('the keyboard', async () => {
       window.order.set(e, window.order.size);
       // A ring is an outline or a shadow, of the element or of what shows it (a label, a mark beside it).
       const shows = (x) => { const s = getComputedStyle(x); return (s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0) || s.boxShadow !== 'none'; };
-      const ring = shows(e) || [...(e.labels ?? [])].some(shows) || shows(e.parentElement) || (e.nextElementSibling !== null && shows(e.nextElementSibling));
+      const ring = shows(e) || [...(e.labels ?? [])].some(shows) || shows(e.parentElement) || shows(e.closest('.editor-field') ?? e) || (e.nextElementSibling !== null && shows(e.nextElementSibling));
       const r = e.getBoundingClientRect();
       const x = Math.min(innerWidth - 2, Math.max(1, r.left + Math.min(r.width / 2, 20))), y = r.top + Math.min(r.height / 2, 20), over = document.elementFromPoint(x, y);
       const covered = !over || !(e.contains(over) || over.contains(e) || [...(e.labels ?? [])].some((l) => l.contains(over)) || e.parentElement.contains(over));

@@ -15,6 +15,7 @@ const { written } = await load('shell/write.ts');
 const { repairs, appended } = await load('shell/repair.ts');
 const { pieces, shifted } = await load('shell/words.ts');
 const { completion } = await load('shell/complete.ts');
+const { ownTitle } = await load('shell/title.ts');
 
 const plain = { suggestions: [] };
 const model = "# g = 1, not this\r\nk = 1 # comment\r\n  g = (0, -9.81)  # down\nm = [1, 2, 3]; w = 2 k\nE = 1/3\n\nr'' = g - k r\nx'' = -x; x(0) = 2 ; x'(0)=-1e-3\n"
@@ -97,4 +98,10 @@ test('names', () => {
   assert.deepEqual(offers('\nst x', 3), ['step']);
   assert.equal(completion('sixth', 2, known), null);                   // inside a word
   assert.deepEqual(offers('\ns', 2, true), ['step']);
+});
+
+test('the title is the model’s own', () => {
+  const titles = [['# a pendulum, let go\nx', 'A pendulum, let go'], ['# A spring. With friction.', 'A spring'], ["x'' = -x # no", ''], ['', ''], ['# ----\n# spring', ''],
+    ['\n\n## über alles:', 'Über alles'], [`# ${'long '.repeat(20)}`, '']];
+  for (const [text, title] of titles) assert.equal(ownTitle(text), title, text);
 });
