@@ -161,6 +161,7 @@ static void repairs(void **state)
                  {"x'' = -v; x(0) = 1", "v", "x'", 1, 8},
                  {"theta'' = -sin(theta)", "", "theta(0) = 1", 1, 1},
                  {"x'' = -x; x'(0) = 2", "", "x(0) = 1", 1, 1},
+                 {"x'' = -x; x(0) = 1; method verlt", "verlt", "verlet", 1, 28},
                  {"x'' = = x", "", "", 1, 7}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         motus_error err = motus_default_error();

@@ -42,7 +42,7 @@ export function repairs(text: string, problem: Problem): Repair[] {
   if (!place || !text.startsWith(word, place[0])) return [];
   const [from] = place, to = from + word.length, found: Repair[] = [];
   if (instead !== '') found.push({ label: `Replace by ${instead}`, from, to, text: instead });
-  if (!/^['′’([]/.test(text.slice(to))) {
+  if (problem.kind === 'name' && !/^['′’([]/.test(text.slice(to))) {
     const line = beginning(text, from);
     found.push({ label: 'Make it a slider', from: line, to: line, text: `${word} = 1\n` });
   }

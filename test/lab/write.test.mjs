@@ -63,6 +63,7 @@ test('repairs', () => {
   assert.equal(replace.label, 'Replace by theta');
   assert.deepEqual(repairs('𝜃x = sni(x)', wrong(1, 6, 'sni', 'sin')).map(r => [r.label, r.from]), [['Replace by sin', 6]]);
   assert.deepEqual(repairs('x = k', wrong(1, 5, 'k', '')).map(r => r.label), ['Make it a slider']);
+  assert.deepEqual(repairs('method rk', { ...wrong(1, 8, 'rk', 'rk4'), kind: 'method' }).map(r => r.label), ['Replace by rk4']);
   assert.equal(applied("x'' = -x", repairs("x'' = -x", wrong(1, 1, '', 'x(0) = 1'))[0]), "x'' = -x\nx(0) = 1");
   assert.deepEqual(repairs('x = 2', wrong(1, 5, 'k', 'l')), []);       // the text has changed meanwhile
   assert.deepEqual(repairs('x = 2', wrong(0, 0, 'k', 'l')), []);
