@@ -38,7 +38,7 @@ static void add_comments(reading *r, size_t from, size_t to)
     }
 }
 
-static void add_name(reading *r, size_t from, size_t to, bool begins)
+static void add_name(reading *r, size_t from, size_t to)
 {
     char name[MOTUS_NAME_MAX];
     motus_word_kind kind = MOTUS_WORD_UNKNOWN;
@@ -46,7 +46,7 @@ static void add_name(reading *r, size_t from, size_t to, bool begins)
         memcpy(name, r->text + from, to - from);
         name[to - from] = 0;
         kind = words_kind(name);
-        if (is(r, r->statement, "method") && !begins) kind = MOTUS_WORD_SETTING;
+        if (is(r, r->statement, "method")) kind = MOTUS_WORD_SETTING;
     }
     add(r, kind, from, to);
 }
@@ -88,7 +88,6 @@ static void read_words(reading *r, source *s)
     lexer l;
     lex_start(&l, s, 0);
     size_t done = l.at;
-    bool begins = true;
     while (r->count < r->room) {
         const token t = lex_next(&l);
         add_comments(r, done, t.at.from);
@@ -96,24 +95,21 @@ static void read_words(reading *r, source *s)
         if (s->failed) { /* a number is not finished yet, or this is a wrong character */
             const size_t from = t.at.from, size = s->texts[0].length;
             if (from >= size) break;
-            const bool number = strchr("0123456789", r->text[from]) != NULL;
+            const bool number = r->text[from] && strchr("0123456789", r->text[from]);
             for (done = from + 1; done < size && (r->text[done] & 0xC0) == 0x80;) done++;
             while (number && done < size && r->text[done] && strchr("0123456789.", r->text[done])) done++;
             add(r, number ? MOTUS_WORD_NUMBER : MOTUS_WORD_WRONG, from, done);
             s->failed = false;
             l.at = (uint32_t)done;
-            begins = false;
         } else if (t.kind == TOKEN_END) {
             break;
         } else if (t.kind == TOKEN_NEWLINE) {
             define(r);
-            begins = true;
         } else {
             if (t.kind == TOKEN_NAME)
-                add_name(r, t.at.from, t.at.to, begins);
+                add_name(r, t.at.from, t.at.to);
             else
                 add(r, t.kind == TOKEN_NUMBER ? MOTUS_WORD_NUMBER : MOTUS_WORD_OPERATOR, t.at.from, t.at.to);
-            begins = false;
         }
     }
     define(r);

@@ -111,6 +111,8 @@ await attempt('whole lines, as many as the model has, up to 20', async () => {
     await settled(page);
     same(`${count} lines`, await rows(), Math.min(20, count));
   }
+  await area.evaluate((a) => { a.scrollTop = 1e6; });
+  same('… and at the end of the text whole ones', await area.evaluate((a) => a.scrollTop % parseFloat(getComputedStyle(a).lineHeight)), 0);
   await area.fill(`x'' = -x ${'+ 0 x '.repeat(40)}\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n# a\n# b`);
   await settled(page);
   same('… also above a scroll bar', await rows(), 7);
