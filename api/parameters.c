@@ -100,8 +100,10 @@ motus_status motus_initial_at(const motus_system *s, size_t k, motus_initial *ou
     const model_state *st = initial(s, k, &variable, &velocity);
     if (!st || !out || motus_struct_check(MOTUS_DEF_INITIAL, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
     char at[DECIMAL_MAX];
-    motus_initial i = {
-        .variable = variable, .is_velocity = velocity, .count = st->cells.count * columns_parts(st->components)};
+    motus_initial i = {.variable = variable,
+                       .is_velocity = velocity,
+                       .supposed = velocity && st->supposed,
+                       .count = st->cells.count * columns_parts(st->components)};
     snprintf(i.name, sizeof i.name, "%s%s(%s)", st->name, velocity ? "'" : "", decimal(s->start, at));
     motus_struct_write(MOTUS_DEF_INITIAL, &i, out);
     return MOTUS_OK;

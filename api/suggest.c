@@ -9,6 +9,7 @@
 #include "api/suggest.h"
 
 #include "api/choice.h"
+#include "api/draft.h"
 #include "api/rate.h"
 
 #include <math.h>
@@ -26,6 +27,7 @@
 #define NOISE_QUOTIENT 1e-4    /*   and with difference quotients */
 #define ROUNDING_EXACT 1e-13   /* of a product with the Jacobian matrix, relative to it, */
 #define ROUNDING_QUOTIENT 1e-8 /*   and with difference quotients */
+#define NO_RATE 1e-15          /* of a draft: no motion is so slow, it is rounding */
 #define OFFSET 1e-5            /* of difference quotients, in units of the size */
 #define DECAY 0.05             /* an eigenvalue is real if its imaginary part is less than this part of it */
 
@@ -38,6 +40,7 @@ typedef struct scales {
     double *a, *other, *dx, *dv;
     double size_x, size_v, size_a, size_moving; /* size_moving: of the velocities of positions */
     bool failed, no_memory;                     /* failed: a callback */
+    bool turns, lands;                          /* the longest is one of an oscillation; the period is a flight's */
     double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
 } scales;
 
@@ -110,10 +113,13 @@ static void linearise(scales *s, double *basis)
         most = fmax(most, size[k]);
     }
     s->rate = most;
-    for (int k = 0; k < count; k++)
-        if (size[k] > most * (p->jvp ? NOISE_EXACT : NOISE_QUOTIENT))
-            s->period = fmax(s->period, (fabs(im[k]) < DECAY * size[k] ? 1 : TWO_PI) / size[k]);
-    if (most > 0 && s->period == 0) s->period = TWO_PI / most;
+    for (int k = 0; k < count; k++) {
+        const bool turns = fabs(im[k]) >= DECAY * size[k];
+        const double period = (turns ? TWO_PI : 1) / size[k];
+        if (size[k] > most * (p->jvp ? NOISE_EXACT : NOISE_QUOTIENT) && period > s->period)
+            s->period = period, s->turns = turns;
+    }
+    if (most > 0 && s->period == 0) s->period = TWO_PI / most, s->turns = true;
 }
 
 /* ---- the force in time ---- */
@@ -194,6 +200,19 @@ static double time_of_values(const scales *s)
     return PERIODS;
 }
 
+/* How long the number with the largest force takes to be back at 0: x + v t + a t²/2 = 0. Else time_of_values. */
+static double time_of_flight(scales *s)
+{
+    size_t most = 0;
+    for (size_t k = 1; k < s->problem->nx; k++)
+        if (fabs(s->a[k]) > fabs(s->a[most])) most = k;
+    if (s->problem->nx == 0 || s->a[most] == 0) return time_of_values(s);
+    const double x = s->x[most], v = s->v[most], a = s->a[most], under = v * v - 2 * a * x;
+    const double root = sqrt(fmax(under, 0)), one = (-v - root) / a, two = (-v + root) / a, t = fmax(one, two);
+    s->lands = under >= 0 && t > 0;
+    return s->lands ? t : time_of_values(s);
+}
+
 static void measure_sizes(scales *s)
 {
     const problem *p = s->problem;
@@ -222,7 +241,10 @@ static motus_status measure(scales *s, double duration, motus_error *err)
     linearise(s, work);
     const double horizon = duration > 0 ? duration : s->period > 0 ? PERIODS * s->period : INFINITY;
     if (p->traits.time || p->refresh) drive(s, horizon, work);
-    if (s->rate == 0)
+    if (s->rate < NO_RATE && s->system->text.draft) s->rate = 0;
+    if (s->rate == 0 && s->system->text.draft && evaluate(s, s->t, false, s->a))
+        s->period = time_of_flight(s);
+    else if (s->rate == 0)
         s->period = time_of_values(s);
     else if (nx && vector_largest(s->x, nx) > 0 && s->size_moving > 0)
         s->rate = fmax(s->rate, fmin(s->size_moving / s->size_x, s->size_a / s->size_moving));
@@ -305,7 +327,13 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     scales s = {.system = system, .problem = &system->problem, .t = from, .way = set->until < from ? -1 : 1};
     status = measure(&s, duration, err);
     if (status != MOTUS_OK) return status;
-    choose(&s, row_uniform(&row), from, duration, set);
+    if (system->text.draft) {
+        const draft_scales d = {s.rate, s.period, s.lands, s.turns, from, duration, row_uniform(&row)};
+        status = draft_choose(system, &d, set, err);
+        if (status != MOTUS_OK) return status;
+    } else {
+        choose(&s, row_uniform(&row), from, duration, set);
+    }
     set->rate = s.rate;
     set->period = s.period;
     return MOTUS_OK;

@@ -56,11 +56,23 @@ motus_status fail(motus_error *err, motus_status status, const char *format, ...
     err->line = err->column = err->returned = 0;
     err->time = NAN;
     err->variable[0] = err->hint[0] = err->source[0] = err->caret[0] = err->file[0] = 0;
+    err->word[0] = err->instead[0] = 0;
     va_list arguments;
     va_start(arguments, format);
     compose(err->message, format, arguments);
     va_end(arguments);
     return status;
+}
+
+void error_repair(motus_error *err, const char *word, const char *format, ...)
+{
+    if (!err) return;
+    snprintf(err->word, sizeof err->word, "%s", word);
+    make_safe(err->word);
+    va_list arguments;
+    va_start(arguments, format);
+    compose(err->instead, format, arguments);
+    va_end(arguments);
 }
 
 void hint(motus_error *err, const char *format, ...)

@@ -79,6 +79,7 @@ static void suggest(motus_error *err, const char *name, size_t length)
         hint(err, "did you mean %s? `motus methods` lists them all", nearest);
     else
         hint(err, "`motus methods` lists them all");
+    error_repair(err, given, "%s", nearest ? nearest : "");
 }
 
 /* Arguments ------------------------------------------------------------------------------------------------------- */

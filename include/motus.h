@@ -126,6 +126,9 @@ typedef struct motus_error {
     char source[MOTUS_TEXT_MAX];   /* the line of the text, control characters replaced, or "" */
     char caret[MOTUS_TEXT_MAX];    /* blanks and carets to print under `source`, or "" */
     char file[MOTUS_TEXT_MAX];     /* `file` of the definition, or "" */
+    /* For an editor, of an error in a text: the wrong word, which stands at line and column, or ""; and what to write
+     * in its place, or "". Without a word, `instead` is a line to add. */
+    char word[MOTUS_NAME_MAX], instead[MOTUS_TEXT_MAX];
 } motus_error;
 
 /* Memory. Without an `allocate` the library uses malloc and free. `allocate` returns at least `bytes` bytes, aligned
@@ -150,6 +153,10 @@ typedef struct motus_text_def {
     const char *const *set; /* set_count strings "name=expression" that replace a parameter or an initial value: */
     size_t set_count;       /*   "F=0.2", "x(0)=1", "r'(0)=(1, 2)", "m=[1, 2]" */
     motus_allocator allocator;
+    /* 0: the text is complete. Above 0: it is being written, as in an editor. Then a variable without any line
+     * x'(0) = … starts at rest (`supposed` in motus_initial), and motus_suggest chooses from the motion, of which it
+     * computes up to so many numbers, accelerations times their length: 1e5 suffice for a few bodies. */
+    size_t draft;
 } motus_text_def;
 
 /* A system from C. The state is x, `positions` numbers, and v, `positions + first_order` numbers: the velocities of
@@ -319,6 +326,7 @@ typedef struct motus_initial {
     uint32_t size;   /* by motus_default_initial() */
     size_t variable; /* its variable: motus_variable_at gives components and indices */
     int is_velocity;
+    int supposed;                   /* 1: the text has no line for it, and its numbers are 0: `draft` */
     size_t count;                   /* numbers in all */
     char name[MOTUS_NAME_MAX + 64]; /* "x(0)", "r'(0)", as `set` and motus_system_set take it */
 } motus_initial;
@@ -338,6 +346,9 @@ typedef struct motus_settings {
     /* Of motus_suggest alone, where it had to find a number: the fastest rate at the start, in radians per time, 0: the
      * force is constant; and the longest period, or the scale of time where nothing oscillates. Else 0. */
     double rate, period;
+    /* Of motus_suggest, of a system with `draft`: why it chose this step and this end, "60 to a swing", "three swings".
+     * Else "". */
+    char step_why[MOTUS_NAME_MAX], until_why[MOTUS_NAME_MAX];
 } motus_settings;
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
 /* Fills in step, until and method where they are NaN or NULL, for this method, step, start and end where they are
@@ -352,7 +363,15 @@ MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *)
  * ends; without a force after 10 |x|/|x'|, or at 10. Both numbers are rounded to 1, 2 or 5 times a power of ten. There
  * are at most 1e6 steps, of large systems fewer, and the end comes earlier to keep to that, or if it is given the step
  * grows. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned other than
- * 0. */
+ * 0.
+ *
+ * Of a system with `draft` it follows the motion itself, by an embedded pair of orders 3 and 2. Of what swings, the
+ * step is 1/60 of the shortest swing, from a turning point to the next but one, and less where the motion changes
+ * faster in between; the end comes after three of the longest swings. What runs away ends when it has grown 20
+ * times, or before it is infinite. What falls ends where the number with the largest force is at 0. Both numbers
+ * have two digits, and there are at most 10000 steps. What does none of this is chosen by its rates at the start: 60
+ * steps in the period of the fastest, and 3 of the longest periods, or 5 scales of time of what does not oscillate.
+ * */
 MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_error *);
 
 /* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
@@ -405,6 +424,31 @@ MOTUS_API motus_status motus_statement_at(const motus_system *, size_t k, motus_
  * style sheet: "cases", a table whose cells are left-aligned, and "for", the indices of a family behind its equation.
  * Owned by the system, until the next call of this function. NULL: k is past the last, or there was no memory. */
 MOTUS_API const char *motus_statement_mathml(motus_system *, size_t k);
+
+/* The words of a text, for an editor that colours them: those of the lexer that reads models, also where the text is no
+ * model. A name is known where it is a word of the language, or where the text defines it: on the left of = or before
+ * primes, as an index or an argument. */
+typedef enum motus_word_kind {
+    MOTUS_WORD_KNOWN,
+    MOTUS_WORD_UNKNOWN,
+    MOTUS_WORD_NUMBER,
+    MOTUS_WORD_COMMENT,
+    MOTUS_WORD_SETTING,  /* method, step … and what follows `method` */
+    MOTUS_WORD_FUNCTION, /* of the language: sin */
+    MOTUS_WORD_OPERATOR, /* signs, brackets, primes; for, and, or, not */
+    MOTUS_WORD_WRONG     /* what is no word of any kind */
+} motus_word_kind;
+typedef struct motus_word {
+    size_t from, length; /* bytes of the text */
+    motus_word_kind kind;
+    int defines; /* 1: the text defines this name here */
+} motus_word;
+/* Writes the first `room` words of `length` bytes of text, and returns how many it wrote. It takes no memory, and its
+ * time grows as the number of names times that of definitions. */
+MOTUS_API size_t motus_text_words(const char *text, size_t length, motus_word *words, size_t room);
+/* Word k of the language, in a fixed order, and its kind: SETTING begins a statement, FUNCTION has a bracket,
+ * KNOWN is t or pi, OPERATOR a word like for. NULL: k is past the last. */
+MOTUS_API const char *motus_language_word(size_t k, motus_word_kind *);
 
 /* 4. Methods ----------------------------------------------------------------------------------------------------- */
 

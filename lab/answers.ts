@@ -64,6 +64,8 @@ export class Answers {
     const all: { [Q in Ask]: (ask: Requests[Q]['ask']) => Requests[Q]['answer'] } = {
       catalogue: () => this.core.catalogue(this.lab),
       describe: ({ model }) => this.open(model),
+      words: ({ text }) => this.core.words(text),
+      vocabulary: () => this.core.vocabulary(this.lab),
       solve: (question) => this.solve(question),
       trace: (question) => this.trace(question),
       converge: ({ model, methods, step, until }) => {

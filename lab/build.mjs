@@ -93,7 +93,7 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/gallery.css'];
+const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
 /** What the build draws with the page's own code: bundled for node, and run here. */
 const drawn = await (async () => {
   const code = await bundle('stage/first.ts', 'esm', {});

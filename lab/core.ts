@@ -3,7 +3,9 @@
  * Invariant: every block that is taken from the module's memory is given back, and no view of that memory outlives the call that made it (the memory
  * may move when it grows).
  */
-import { problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Method, type Model, type Problem, type TraceEntry } from './protocol';
+import {
+  WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Method, type Model, type Problem, type TraceEntry, type Vocabulary, type Word,
+} from './protocol';
 import { Refused } from './scene';
 
 /** The exports of core/*.c, as a module of 32-bit addresses shows them. */
@@ -17,6 +19,8 @@ interface Exports {
   lab_problem(lab: number): number;
   lab_describe(lab: number): number;
   lab_catalogue(lab: number): number;
+  lab_words(text: number, length: number, out: number, room: number): number;
+  lab_vocabulary(lab: number): number;
   lab_start(lab: number, method: number, step: number, until: number): number;
   lab_singular(lab: number, method: number, step: number, until: number): number;
   lab_record(lab: number, columns: number, count: number, every: number, rows: number, first: number, out: number, written: number): number;
@@ -43,6 +47,7 @@ export interface Progress {
 }
 export interface Rows { readonly values: Float64Array; readonly rows: number; readonly problem: Problem | null }
 
+const WORDS_MAX = 5000;
 const NaNs = (value: number | null): number => value ?? NaN;
 const noMemory = problem('memory', 'out of memory', 'a smaller model, fewer steps');
 
@@ -120,6 +125,24 @@ export class Core {
   }
   describe(lab: number): Description {
     return this.json<Description>(this.exports.lab_describe(lab));
+  }
+  vocabulary(lab: number): Vocabulary { return this.json<Vocabulary>(this.exports.lab_vocabulary(lab)); }
+  /** At most WORDS_MAX of them: a longer text keeps the colour of ink from there on. */
+  words(text: string): Word[] {
+    return this.texts([text], (at, bytes) => this.room(12 * WORDS_MAX, (out) => {
+      const count = this.exports.lab_words(at, bytes - 1, out, WORDS_MAX);
+      const found = new Uint32Array(this.exports.memory.buffer, out, 3 * count).slice(), utf8 = new Uint8Array(this.exports.memory.buffer, at, bytes);
+      // From bytes to UTF-16 units, of which a character of four bytes has two.
+      let byte = 0, unit = 0;
+      const unitAt = (end: number): number => {
+        for (; byte < end; byte++) {
+          const c = utf8[byte] ?? 0;
+          if ((c & 0xC0) !== 0x80) unit += c >= 0xF0 ? 2 : 1;
+        }
+        return unit;
+      };
+      return Array.from({ length: count }, (_, k) => ({ from: unitAt(found[3 * k] ?? 0), to: unitAt(found[3 * k + 1] ?? 0), kind: WORD_KINDS[found[3 * k + 2] ?? 0] ?? 'wrong' }));
+    }));
   }
   start(lab: number, method: string, step: number | null, until: number | null): void {
     this.texts([method], (at) => this.check(lab, this.exports.lab_start(lab, at, NaNs(step), NaNs(until))));

@@ -10,6 +10,8 @@ export interface Problem {
   readonly kind: string; readonly message: string; readonly hint: string;
   readonly line: number; readonly column: number; readonly source: string; readonly caret: string;
   readonly time: number | null; readonly variable: string;
+  /** The wrong word, at line and column; and what to write in its place. Without a word: a line to add. '': none. */
+  readonly word: string; readonly instead: string;
 }
 
 export type ColumnKind = 'time' | 'position' | 'velocity' | 'first-order' | 'quantity' | 'invariant' | 'exact';
@@ -33,10 +35,20 @@ export interface Admission { readonly name: string; readonly admitted: boolean; 
 
 /** What the page itself has to say against something: no place in a text. */
 export function problem(kind: string, message: string, hint = ''): Problem {
-  return { kind, message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '' };
+  return { kind, message, hint, line: 0, column: 0, source: '', caret: '', time: null, variable: '', word: '', instead: '' };
 }
 /** A run of more steps belongs to the program. */
 export const STEPS_MAX = 1e7;
+
+export interface Suggestion { readonly line: string; readonly why: string }
+
+/** motus_word_kind, in its order. */
+export const WORD_KINDS = ['known', 'unknown', 'number', 'comment', 'setting', 'function', 'operator', 'wrong'] as const;
+export type WordKind = typeof WORD_KINDS[number];
+/** A word of a text: from and to count UTF-16 units. */
+export interface Word { readonly from: number; readonly to: number; readonly kind: WordKind }
+/** The words of the language: functions; what begins a statement; t and pi; for, and … */
+export interface Vocabulary { readonly functions: readonly string[]; readonly settings: readonly string[]; readonly names: readonly string[]; readonly operators: readonly string[] }
 
 /** What the core understood of a model. */
 export interface Description {
@@ -46,6 +58,8 @@ export interface Description {
   readonly smooth: boolean;
   readonly columns: readonly Column[]; readonly variables: readonly Variable[]; readonly parameters: readonly Parameter[];
   readonly settings: { readonly method: string; readonly step: number | null; readonly until: number | null; readonly start: number; /** step or until: not in the model, but the library's */ readonly suggested: boolean };
+  /** Lines that the text lacks and the core supposed, with the reason. */
+  readonly suggestions: readonly Suggestion[];
   readonly has_exact: boolean;
   readonly methods: readonly Admission[];
 }
@@ -134,6 +148,9 @@ export interface Spectrum { readonly re: Float64Array; readonly im: Float64Array
 export interface Requests {
   catalogue: { ask: Record<string, never>; answer: readonly Method[] };
   describe: { ask: { model: Model }; answer: Description };
+  /** Also of a text that is no model. */
+  words: { ask: { text: string }; answer: readonly Word[] };
+  vocabulary: { ask: Record<string, never>; answer: Vocabulary };
   solve: { ask: Solve; answer: Solution };
   trace: { ask: { model: Model; method: string; step: number | null; until: number | null; index: number }; answer: Trace };
   converge: { ask: { model: Model; methods: readonly string[]; step: number | null; until: number | null }; answer: Convergence };

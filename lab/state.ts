@@ -25,6 +25,8 @@ export interface LiveStore extends Store {
   readonly catalogue: readonly Method[];
   /** Of the last text that could be read, with nothing replaced: the model's own values. */
   readonly description: Description | null;
+  /** That text. */
+  readonly described: string | null;
   readonly trouble: Trouble;
   readonly busy: boolean;
   /** Step and end as numbers, of the last state that could be computed. */
@@ -275,6 +277,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     get scene() { return scene; },
     get catalogue() { return catalogue; },
     get description() { return description; },
+    get described() { return described; },
     get trouble() { return trouble; },
     get busy() { return busy; },
     get numbers() { return numbers; },

@@ -47,7 +47,8 @@ LAB_CALL(lab_destroy) void lab_destroy(lab *l)
     free(l);
 }
 
-/* The text of a model and what replaces its values, `sets` strings one behind the other. */
+/* The text of a model and what replaces its values, `sets` strings one behind the other. Whoever types it may leave it
+ * incomplete: it is a draft. */
 LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length, const char *set, size_t sets)
 {
     forget_run(l);
@@ -65,6 +66,7 @@ LAB_CALL(lab_open) motus_status lab_open(lab *l, const char *text, size_t length
     def.length = length;
     def.set = list;
     def.set_count = sets;
+    def.draft = 100000;
     motus_status status = motus_system_from_text(&def, &l->system, &l->error);
     free(list);
     return status;
@@ -81,6 +83,8 @@ LAB_CALL(lab_problem) const char *lab_problem(lab *l)
     json_string(&j, "caret", e->caret);
     json_number(&j, "time", e->time);
     json_string(&j, "variable", e->variable);
+    json_string(&j, "word", e->word);
+    json_string(&j, "instead", e->instead);
     return lab_answered(l, &j);
 }
 

@@ -2,6 +2,7 @@
 #include "lab/core/core.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -102,6 +103,55 @@ static void describe_statements(json *j, motus_system *s)
     json_close(j, ']');
 }
 
+static void suggest(json *j, const char *line, const char *why)
+{
+    json_open(j, NULL, '{');
+    json_string(j, "line", line);
+    json_string(j, "why", why);
+    json_close(j, '}');
+}
+
+/* r'(0) = (0, 0), or x[i]'(0) = 0 for i = 1..8. "": a family with gaps, or a text without end. */
+static void rest_of(const motus_initial *i, const motus_variable *v, char *line, size_t size)
+{
+    static const char *const indices[] = {"", "[i]", "[i,j]", "[i,j,k]", "[i,j,k,l]"};
+    const size_t parts = v->components ? (size_t)v->components : 1;
+    size_t n = (size_t)snprintf(line, size, "%s%s%s = %s0", v->name, indices[v->dimensions], i->name + strlen(v->name),
+                                v->components ? "(" : ""),
+           cells = 1;
+    for (size_t k = 1; k < parts && n < size; k++) n += (size_t)snprintf(line + n, size - n, ", 0");
+    if (v->components && n < size) n += (size_t)snprintf(line + n, size - n, ")");
+    for (int d = 0; d < v->dimensions && n < size; d++) {
+        n += (size_t)snprintf(line + n, size - n, "%s %c = %lld..%lld", d ? "," : " for", 'i' + d,
+                              (long long)v->first[d], (long long)v->last[d]);
+        cells *= (size_t)(v->last[d] - v->first[d] + 1);
+    }
+    if (n >= size || cells * parts != v->count) line[0] = 0;
+}
+
+/* Lines that would make the text say what was supposed. */
+static void describe_suggestions(json *j, const motus_system *s, const motus_settings *own, const motus_settings *found)
+{
+    char line[256];
+    motus_initial i = motus_default_initial();
+    motus_variable v = motus_default_variable();
+    json_open(j, "suggestions", '[');
+    for (size_t k = 0; motus_initial_at(s, k, &i) == MOTUS_OK; k++) {
+        if (!i.supposed || motus_variable_at(s, i.variable, &v) != MOTUS_OK) continue;
+        rest_of(&i, &v, line, sizeof line);
+        if (line[0]) suggest(j, line, "at rest, not given");
+    }
+    if (isnan(own->step) && !isnan(found->step)) {
+        snprintf(line, sizeof line, "step  %.15g", found->step);
+        suggest(j, line, found->step_why);
+    }
+    if (isnan(own->until) && !isnan(found->until)) {
+        snprintf(line, sizeof line, "until %.15g", found->until);
+        suggest(j, line, found->until_why);
+    }
+    json_close(j, ']');
+}
+
 /* The model that is open, as the page wants it (protocol.ts, Description). NULL: no memory. */
 LAB_CALL(lab_describe) const char *lab_describe(lab *l)
 {
@@ -125,6 +175,7 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     json_number(&j, "start", settings.from);
     json_bool(&j, "suggested", suggested);
     json_close(&j, '}');
+    describe_suggestions(&j, s, &settings, &found);
     json_bool(&j, "has_exact", motus_has_exact(s));
     return lab_answered(l, &j);
 }
@@ -134,5 +185,40 @@ LAB_CALL(lab_catalogue) const char *lab_catalogue(lab *l)
 {
     json j = lab_answer(l);
     tell_methods(&j, NULL);
+    return lab_answered(l, &j);
+}
+
+/* The words of a text: three numbers each, its first byte, the one behind it, its kind. Returns how many words. */
+LAB_CALL(lab_words) size_t lab_words(const char *text, size_t length, uint32_t *out, size_t room)
+{
+    motus_word *words = malloc((room + 1) * sizeof *words);
+    const size_t count = words ? motus_text_words(text, length, words, room) : 0;
+    for (size_t k = 0; k < count; k++) {
+        out[3 * k] = (uint32_t)words[k].from;
+        out[3 * k + 1] = (uint32_t)(words[k].from + words[k].length);
+        out[3 * k + 2] = (uint32_t)words[k].kind;
+    }
+    free(words);
+    return count;
+}
+
+/* The words of the language (protocol.ts, Vocabulary). */
+LAB_CALL(lab_vocabulary) const char *lab_vocabulary(lab *l)
+{
+    static const struct {
+        const char *key;
+        motus_word_kind kind;
+    } lists[] = {{"functions", MOTUS_WORD_FUNCTION},
+                 {"settings", MOTUS_WORD_SETTING},
+                 {"names", MOTUS_WORD_KNOWN},
+                 {"operators", MOTUS_WORD_OPERATOR}};
+    json j = lab_answer(l);
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        motus_word_kind kind;
+        json_open(&j, lists[i].key, '[');
+        for (size_t k = 0; motus_language_word(k, &kind); k++)
+            if (kind == lists[i].kind) json_string(&j, NULL, motus_language_word(k, NULL));
+        json_close(&j, ']');
+    }
     return lab_answered(l, &j);
 }

@@ -1,9 +1,11 @@
 /* Share: the address of what is seen, and the command that computes the same bits. Invariant: what is copied is shown. */
+import type { State } from '../scene';
 import { command, type Presets } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
 import { button, el, fresh, icon, say } from '../dom';
+import { appended } from './repair';
 import type { Toasts } from './toasts';
 
 /** The clipboard where the page may use it; else the field is selected, for the reader to copy. */
@@ -35,6 +37,12 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
   const root = el('div', { class: 'share' }, opener, panel);
 
+  /** The program wants all lines, also those that the page supposed for what is seen. */
+  function whole({ text, step, until }: State): string {
+    const numbers: Readonly<Record<string, string>> = { step: step ? '' : `step ${store.numbers.step}`, until: until ? '' : `until ${store.numbers.until}` };
+    const lines = (store.scene?.description.suggestions ?? []).map(s => numbers[/^(?:step|until)\b/.exec(s.line)?.[0] ?? ''] ?? s.line).filter(line => line !== '');
+    return lines.length ? text + appended(text, lines).text : text;
+  }
   function fill(): void {
     const address = addressOf(store.state, presets);
     link.value = address || 'The model is too long for an address.';
@@ -43,7 +51,7 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     remark.hidden = remark.textContent === '';
     // The command computes what is seen: the last state that could be computed.
     const seen = store.scene?.state ?? store.state, { model, step, until, run } = store.trouble;
-    const { text, problem } = command(seen, seen.methods);
+    const { text, problem } = command({ ...seen, text: whole(seen) }, seen.methods);
     line.value = text;
     say(commandLabel, seen.methods.length > 1 ? 'The same runs, compared by the program' : 'The same bits from the program');
     say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');

@@ -21,7 +21,7 @@ import { status } from './status';
 import { stepSlider } from './step';
 import { themeButton } from './theme';
 import { createToasts, type Toasts } from './toasts';
-import { words } from './words';
+import { words } from './headline';
 
 /** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
 export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, panels: readonly PanelName[], themeChanged: () => void): Toasts {

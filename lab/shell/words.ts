@@ -1,80 +1,31 @@
-/* The words on the stage: the title, a sentence or two, the question that the picture asks, and the equation, which opens the editor.
- *
- * Invariant: what is said of an example holds for its own text only; of a changed text the words are its own comment's.
- */
-import { stagingOf } from '../stage/staging';
-import type { LiveStore } from '../state';
-import { presetState } from '../share';
-import { button, el, icon, say } from '../dom';
-import { editor } from './editor';
-import { described, presets, titleOf } from './presets';
-import type { Toasts } from './toasts';
-import { math, typesetView } from './typeset';
+/* Colours that stay with their words while the core has not read the text again. Pure. */
+import type { Word } from '../protocol';
 
-const numbers = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven', 'twelve'];
-/** "ten", up to twelve in words. */
-export const counted = (n: number): string => numbers[n] ?? n.toLocaleString('en').replace(/,/g, '\u2009');
-
-/** The title of one's own model: its first comment, up to the end of a sentence. */
-function ownTitle(text: string): string {
-  const sentence = described(text).replace(/[.:].*$/s, '').trim();
-  return sentence && sentence.length <= 60 ? sentence.charAt(0).toUpperCase() + sentence.slice(1) : 'Your own equation';
+/** The words of `before` that stand in `after` too: those in front of the change, and those behind it, moved along. */
+export function shifted(words: readonly Word[], before: string, after: string): readonly Word[] {
+  const most = Math.min(before.length, after.length), by = after.length - before.length;
+  let head = 0, tail = 0;
+  while (head < most && before.charCodeAt(head) === after.charCodeAt(head)) head++;
+  while (tail < most - head && before.charCodeAt(before.length - 1 - tail) === after.charCodeAt(after.length - 1 - tail)) tail++;
+  const end = before.length - tail;
+  return words.flatMap(word => (word.to <= head ? [word] : word.from >= end ? [{ ...word, from: word.from + by, to: word.to + by }] : []));
 }
 
-export interface Words { readonly element: HTMLElement; openEditor(open: boolean): void; readonly editing: () => boolean }
-
-/** lesson: opens a lesson by its number, where there is one. */
-export function words(store: LiveStore, toasts: Toasts, changed: () => void): Words {
-  const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
-  const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' }, ...document.querySelectorAll('#words .pill-math > *'));
-  const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, 'Type your own'));
-  const began = document.createTextNode(''), revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
-  const edited = el('p', { class: 'edited', hidden: true }, began, revert);
-  const close = button('Close', () => openEditor(false), { class: 'text-button close' });
-  const own = el('div', { class: 'own', hidden: true }, editor(store), typesetView(store));
-  const element = el('div', { class: 'words-inner' }, el('div', { class: 'words-head' }, title, close), sentence, ask, edited, pill, own);
-
-  function open(name: string): void {
-    const before = store.state, changedText = presets.text(before.preset) !== before.text;
-    store.load({ ...presetState(presets, name), view: { ...before.view, plane: 'auto', quantities: [], phase: null } });
-    if (changedText) toasts.say('Your own text was put aside.', { label: 'Bring it back', act: () => store.load(before) });
+/** A piece of a text and its class; '' for ink. */
+export interface Piece { readonly text: string; readonly kind: string }
+/** The whole text in pieces; `mark` is one of its own, whatever stands there. */
+export function pieces(text: string, words: readonly Word[], mark: readonly [number, number] | null): Piece[] {
+  const out: Piece[] = [];
+  let at = 0;
+  const put = (to: number, kind: string): void => { if (to > at) { out.push({ text: text.slice(at, to), kind }); at = to; } };
+  const marked = (): void => { if (mark && at <= mark[0]) { put(mark[0], ''); put(mark[1], 'mark'); } };
+  for (const { from, to, kind } of words) {
+    if (mark && to > mark[0]) marked();
+    if (from < at || to > text.length) continue;
+    put(from, '');
+    put(to, kind);
   }
-  function openEditor(now: boolean): void {
-    if (own.hidden !== now) return;
-    own.hidden = !now;
-    document.body.classList.toggle('editing', now);
-    changed();
-    if (now) own.querySelector('textarea')?.focus({ preventScroll: innerWidth >= 768 }); else pill.focus({ preventScroll: true });
-  }
-
-  let shown = '', typeset = '';
-  function show(): void {
-    const { preset, text } = store.state, altered = presets.text(preset) !== text, name = altered ? '' : preset;
-    const steps = store.scene?.solution.tracks[0]?.total ?? 0, key = `${preset} ${name === '' ? text : ''} ${steps}`;
-    if (key === shown) return;
-    shown = key;
-    const staging = stagingOf(name);
-    say(title, name === '' ? ownTitle(text) : titleOf(name));
-    document.title = `${title.textContent} · motus lab`;
-    say(sentence, name === '' ? '' : (staging.words || described(text)).replace('{steps}', counted(steps)));
-    sentence.hidden = sentence.textContent === '';
-    ask.replaceChildren(...(staging.ask ? [button(staging.ask.text, () => element.dispatchEvent(new CustomEvent('lesson', { detail: staging.ask!.lesson, bubbles: true })), { class: 'ask-button' },
-      el('span', {}, staging.ask.text), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
-    edited.hidden = preset === '' || !altered;
-    began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;
-  }
-  function equation(): void {
-    const first = store.description?.statements.find((s) => s.kind === 'motion' || s.kind === 'first-order'), source = first?.mathml ?? '';
-    if (source === typeset) return;
-    typeset = source;
-    const formula = source ? math(source) : null;
-    // A long equation is read in the editor.
-    pillMath.replaceChildren(...(formula && source.length < 900 ? [formula] : []));
-  }
-  store.subscribe((what) => {
-    if (what === 'state' || what === 'scene') show();
-    if (what === 'description' || what === 'scene') equation();
-  });
-  show();
-  return { element, openEditor, editing: () => !own.hidden };
+  marked();
+  put(text.length, '');
+  return out;
 }

@@ -178,6 +178,8 @@ static bool start_missing(model *m, const model_state *s, int primes, size_t cel
     source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
     source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name,
                 primes ? "'" : "", m->start);
+    if (s->dims == 0 && s->components == 0)
+        source_repair(&m->source, "", "%s%s(%g) = %d", s->name, primes ? "'" : "", m->start, !primes);
     return false;
 }
 
@@ -210,10 +212,23 @@ static bool own_lines(model *m, model_state *s, int primes)
     return true;
 }
 
+/* In a draft what has no line x'(0) = … starts at rest, with the shape of x(0). The pool holds zeros. */
+static bool suppose_rest(model *m, model_state *s)
+{
+    if (!m->draft || s->order == 1 || s->supposed) return true;
+    for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next)
+        if (m->statements.item[i - 1].kind == STATEMENT_START && m->statements.item[i - 1].primes == 1) return true;
+    if (!start_lines(m, s, 0, true)) return false;
+    s->supposed = s->shaped;
+    if (s->shaped) memset(s->start_map[1], START_OF_FAMILY, s->hull);
+    return true;
+}
+
 bool start_cells(model *m, model_state *s, int primes, const int64_t low[], const int64_t high[])
 {
     if (s->start_done) return true;
     if (!start_maps(m, s)) return false;
+    if (primes && !suppose_rest(m, s)) return false;
     size_t cell = 0;
     bool single = true;
     for (int d = 0; d < s->dims; d++) {
@@ -275,9 +290,11 @@ bool start_state(model *m, model_state *s)
                             s->dims ? "[…]" : "", m->start);
             source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name,
                         s->dims ? "[i]" : "", m->start, s->name);
+            if (s->dims == 0) source_repair(&m->source, "", "%s(%g) = 1", s->name, m->start);
             return false;
         }
     }
+    if (!suppose_rest(m, s)) return false;
     for (int primes = 0; primes < s->order; primes++)
         if (!check_start(m, s, primes)) return false;
     s->start_done = true;

@@ -62,6 +62,7 @@ typedef struct model_state {
     uint32_t line, last_line; /* 1 + number of the first and last statement about it */
     uint8_t progress;
     bool shaped, start_done; /* its components are known; all its initial values are */
+    bool supposed;           /* of a draft: there is no line x'(0) = …, and it starts at rest */
     uint16_t log_array[2];   /* vary_record.h: 1 + the arrays over the pool of x(0) and x'(0), 0 none */
     uint8_t *start_map[2];   /* per hull cell: the kind of line that gave x(0), x'(0), 0 none */
     uint32_t *start_own[2];  /* per hull cell: 1 + number of the line about it alone, 0 none; or NULL */
@@ -178,7 +179,7 @@ typedef struct model {
     traits traits;      /* but gyroscopic and gradient, which api/symmetry.c judges when they are needed */
 
     double start, step, until, every_time;
-    bool start_known;
+    bool start_known, draft; /* draft: as in motus_text_def */
     int64_t every_steps;
     const char *method;
 } model;

@@ -68,6 +68,7 @@ static bool product_of_two(model *m, const char *name, const char *const *more, 
         snprintf(left, sizeof left, "%.*s", (int)n, name);
         if (known(m, left, more, more_count) && known(m, name + n, more, more_count)) {
             source_hint(&m->source, "%s is one name; for the product write %s %s", name, left, name + n);
+            source_repair(&m->source, name, "%s %s", left, name + n);
             return true;
         }
     }
@@ -87,18 +88,20 @@ static void suggest(model *m, const char *name, const char *const *more, uint32_
     for (uint32_t i = 0; i < m->function_count; i++)
         if (near_nearer(name, m->functions[i].name, &least)) best = m->functions[i].name;
     char codes[64];
+    const bool velocity = !best && !strcmp(name, "v") && symbols_find(m, "x").state;
     if (best && near_look_alike(name, best, codes, sizeof codes))
         source_hint(&m->source, "it looks like %s, which is defined, but is another character (%s)", best, codes);
     else if (product_of_two(m, name, more, more_count))
         return;
     else if (best)
         source_hint(&m->source, "did you mean %s?", best);
-    else if (!strcmp(name, "v") && symbols_find(m, "x").state)
+    else if (velocity)
         source_hint(&m->source, "the velocity is x'");
     else if (words_function(name) >= 0)
         source_hint(&m->source, "write %s(…)", name);
     else
         source_hint(&m->source, "define it: %s%s = …", name, bracket);
+    source_repair(&m->source, name, "%s", best ? best : velocity ? "x'" : "");
 }
 
 void symbols_suggest(model *m, const char *name, const char *const *more, uint32_t more_count)

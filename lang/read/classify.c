@@ -176,8 +176,10 @@ static bool check_orphans(model *m)
                 source_hint(&m->source, "%s is a %s", s->name,
                             named.definition->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
             for (uint32_t k = 0; k < m->state_count; k++)
-                if (near_likely(s->name, m->states[k].name))
+                if (near_likely(s->name, m->states[k].name)) {
                     source_hint(&m->source, "did you mean %s?", m->states[k].name);
+                    source_repair(&m->source, s->name, "%s", m->states[k].name);
+                }
             source_hint(&m->source, "write one: %s'' = …", s->name);
             return false;
         }

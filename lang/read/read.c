@@ -69,6 +69,7 @@ motus_status read_model(arena *a, const motus_text_def *def, read_method method,
     if (!m) return fail(err, MOTUS_MEMORY, "no memory for the model");
     memset(m, 0, sizeof *m);
     m->arena = a;
+    m->draft = def->draft > 0;
     m->source = (source){.arena = a, .error = err, .count = (uint32_t)(1 + def->set_count)};
     m->source.texts = arena_room(a, (1 + def->set_count) * sizeof *m->source.texts);
     m->graph = graph_create(a);

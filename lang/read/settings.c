@@ -16,6 +16,7 @@ static bool set_method(model *m, const statement *s, read_method known)
     }
     source_complain(&m->source, status, s->at, "%s", why.message);
     if (why.hint[0]) source_hint(&m->source, "%s", why.hint);
+    source_repair(&m->source, why.word, "%s", why.instead);
     return false;
 }
 

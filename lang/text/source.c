@@ -103,6 +103,17 @@ void source_hint(source *s, const char *format, ...)
     hint(s->error, "%s", text);
 }
 
+void source_repair(source *s, const char *word, const char *format, ...)
+{
+    if (!s->error || s->error->instead[0]) return;
+    char text[MOTUS_TEXT_MAX];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    error_repair(s->error, word, "%s", text);
+}
+
 const char *source_excerpt(const source *s, span at, char *out, size_t size)
 {
     const char *bytes = s->texts[at.text].bytes;

@@ -49,3 +49,23 @@ bool words_nearest_statement(const char *name, char *out, size_t size)
     }
     return best < 5;
 }
+
+const char *words_at(size_t k)
+{
+    enum { FUNCTIONS = sizeof functions / sizeof *functions };
+    enum { STATEMENTS = sizeof statements_words / sizeof *statements_words };
+    enum { OTHERS = sizeof other_words / sizeof *other_words };
+    return k < FUNCTIONS                         ? functions[k].name
+           : k < FUNCTIONS + STATEMENTS          ? statements_words[k - FUNCTIONS]
+           : k < FUNCTIONS + STATEMENTS + OTHERS ? other_words[k - FUNCTIONS - STATEMENTS]
+                                                 : NULL;
+}
+
+motus_word_kind words_kind(const char *name)
+{
+    if (words_function(name) >= 0 || !strcmp(name, "sum")) return MOTUS_WORD_FUNCTION;
+    for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
+        if (!strcmp(statements_words[i], name)) return MOTUS_WORD_SETTING;
+    if (!strcmp(name, "t") || !strcmp(name, "pi")) return MOTUS_WORD_KNOWN;
+    return words_reserved(name) ? MOTUS_WORD_OPERATOR : MOTUS_WORD_UNKNOWN;
+}

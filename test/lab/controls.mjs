@@ -1,5 +1,5 @@
 /* Every control does what it says: seen in the address, in the figures' summaries and in their numbers. */
-import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf, valuesOf } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf, told, valuesOf } from './help.mjs';
 
 const last = ({ head, rows }, column) => Number(rows.at(-1)[head.indexOf(column)]);
 const press = (page, name) => page.getByRole('button', { name, exact: true }).click();
@@ -41,14 +41,14 @@ await attempt('the model: undo, typeset, errors under the caret', async () => {
   await settled(page);
   const before = await summaryOf(page, 'Motion'), picture = await shown(page, '#stage-figure canvas.stage-still');
   await area.fill("x'' = -k x^2/3 + foo\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
-  await settled(page);
+  await told(page);
   const message = await page.locator('#model-problem').textContent();
   judge('an error: line, column and what is wrong', /Line 1, column 18: .*foo/.test(message), message);
   same('an error: aria-invalid', await area.getAttribute('aria-invalid'), 'true');
   same('an error: the mark stands under the word', await page.locator('.mirror mark').textContent(), 'foo');
   same('an error: the last picture stays', [await summaryOf(page, 'Motion'), await shown(page, '#stage-figure canvas.stage-still')], [before, picture]);
   await area.fill("x'' = -k x^2/3 + \nk = 2\n");
-  await settled(page);
+  await told(page);
   judge('another error: another message', (await page.locator('#model-problem').textContent()) !== message && await page.locator('#model-problem').isVisible());
   await area.fill("x'' = -k x\nk = 2\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 5\n");
   await settled(page);
@@ -66,7 +66,7 @@ await attempt('the model names its method', async () => {
   }
   const before = await chosen();
   await area.fill(model('rk'));
-  await settled(page);
+  await told(page);
   judge('no such method: told under the word', /Line 4, column 8: .*rk/.test(await page.locator('#model-problem').textContent()), await page.locator('#model-problem').textContent());
   same('… and not chosen', [await page.locator('.mirror mark').textContent(), await chosen()], ['rk', before]);
   await area.fill(model('rk4', 3));

@@ -124,6 +124,12 @@ export async function settled(page, calm = 300, limit = 25000) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
+/** The same, and an error in the text of the model has been told. */
+export async function told(page) {
+  await settled(page);
+  await page.waitForTimeout(700);
+}
+
 /** What is wrong with a page at its end; it is closed. */
 export async function clean(name, page, allowed = null) {
   const violations = await page.evaluate(() => window.lab.violations).catch(() => ['the page is gone']);

@@ -3,7 +3,7 @@
  */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, clean, editorOf, fields, figureOf, finish, judge, open, root, same, settled, shareOf, singleFile } from './help.mjs';
+import { attempt, clean, editorOf, fields, figureOf, finish, judge, open, root, same, settled, shareOf, singleFile, told } from './help.mjs';
 
 const axe = readFileSync(join(root, 'lab/node_modules/axe-core/axe.min.js'), 'utf8');
 const all = '&o=time,error,drift,phase,convergence,precision,stability';
@@ -37,7 +37,7 @@ for (const width of [1280, 320]) {
     same(`${width} px, all folds open: the page does not scroll sideways`, await sideways(page), 0);
     await (await editorOf(page)).fill("x'' = -foo");
     await page.locator('#step').fill('0');
-    await settled(page);
+    await told(page);
     await both('all folds open, with messages');
     if (width < 500) {
       const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea')].filter((e) => {
@@ -97,7 +97,7 @@ await attempt('the keyboard', async () => {
       window.order.set(e, window.order.size);
       // A ring is an outline or a shadow, of the element or of what shows it (a label, a mark beside it).
       const shows = (x) => { const s = getComputedStyle(x); return (s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) > 0) || s.boxShadow !== 'none'; };
-      const ring = shows(e) || [...(e.labels ?? [])].some(shows) || shows(e.parentElement) || (e.nextElementSibling !== null && shows(e.nextElementSibling));
+      const ring = shows(e) || [...(e.labels ?? [])].some(shows) || shows(e.parentElement) || shows(e.closest('.editor-field') ?? e) || (e.nextElementSibling !== null && shows(e.nextElementSibling));
       const r = e.getBoundingClientRect();
       const x = Math.min(innerWidth - 2, Math.max(1, r.left + Math.min(r.width / 2, 20))), y = r.top + Math.min(r.height / 2, 20), over = document.elementFromPoint(x, y);
       const covered = !over || !(e.contains(over) || over.contains(e) || [...(e.labels ?? [])].some((l) => l.contains(over)) || e.parentElement.contains(over));

@@ -1,0 +1,18 @@
+/* The step and the end of a draft that gives none. See motus_suggest. */
+#ifndef API_DRAFT_H
+#define API_DRAFT_H
+
+#include "api/system.h"
+
+typedef struct draft_scales {
+    double rate, period;   /* as in motus_settings; where the rate is 0, the period is the length of the run */
+    bool lands;            /* where the rate is 0: it ends at 0 */
+    bool turns;            /* the period is one: it is no scale of what grows or decays */
+    double from, duration; /* duration: 0: not given */
+    bool uniform;          /* all steps are equal */
+} draft_scales;
+
+/* Fills in step and until where they are NaN, and why. */
+motus_status draft_choose(motus_system *, const draft_scales *, motus_settings *, motus_error *);
+
+#endif
