@@ -5,3 +5,11 @@
 
 double exp(double x) { return operation_value(OP_EXP, x, 0, 0); }
 double log(double x) { return operation_value(OP_LOG, x, 0, 0); }
+
+/* Exact at the powers of 2. */
+double log2(double x)
+{
+    int power = 0;
+    const double part = isfinite(x) ? frexp(x, &power) : x;
+    return power + log(part) / 0x1.62e42fefa39efp-1;
+}

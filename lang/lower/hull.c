@@ -9,9 +9,9 @@ bool hull_indices_wrong(model *m, const model_state *s, span at)
 {
     static const char *const indices[] = {"", "[i]", "[i,j]", "[i,j,k]", "[i,j,k,l]"};
     if (s->dims == 0)
-        source_complain(&m->source, MOTUS_SHAPE, at, "%s is not a family and has no index", s->name);
+        source_complain(&m->source, MOTUS_SHAPE, &at, "%s is not a family and has no index", s->name);
     else
-        source_complain(&m->source, MOTUS_SHAPE, at, "%s is a family and needs %d ind%s", s->name, s->dims,
+        source_complain(&m->source, MOTUS_SHAPE, &at, "%s is a family and needs %d ind%s", s->name, s->dims,
                         s->dims == 1 ? "ex" : "ices");
     source_hint(&m->source, "by its equation in line %d it is written %s%s", source_line(&m->source, s->at), s->name,
                 indices[s->dims]);
@@ -34,7 +34,7 @@ bool hull_mark(model *m, const model_state *s, const statement *from, const int6
         if (once && map[offset]) {
             char name[MOTUS_NAME_MAX + 64];
             model_state_name(s, offset, 0, false, name, sizeof name);
-            source_complain(&m->source, MOTUS_NAME, from->at, "%s%.*s has two equations or boundary lines",
+            source_complain(&m->source, MOTUS_NAME, &from->at, "%s%.*s has two equations or boundary lines",
                             s->components ? "a component of " : "", 100, name);
             source_hint(&m->source, "each index has exactly one equation or boundary line");
             return false;
@@ -105,7 +105,7 @@ bool hull_find(model *m, model_state *s)
 {
     if (s->progress >= 2) return true;
     if (s->progress == 1) {
-        source_complain(&m->source, MOTUS_NAME, s->at, "%s is defined by itself, in a circle", s->name);
+        source_complain(&m->source, MOTUS_NAME, &s->at, "%s is defined by itself, in a circle", s->name);
         return false;
     }
     s->progress = 1;
@@ -116,7 +116,7 @@ bool hull_find(model *m, model_state *s)
         double numbers = 1;
         for (int d = 0; d < s->dims; d++) numbers *= (double)(s->last[d] - s->first[d] + 1);
         if (numbers > MODEL_NUMBERS_MAX) {
-            source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %.4g places; at most %d fit", s->name,
+            source_complain(&m->source, MOTUS_LIMIT, &s->at, "%s would have %.4g places; at most %d fit", s->name,
                             numbers, MODEL_NUMBERS_MAX);
             return false;
         }

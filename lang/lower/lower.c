@@ -18,7 +18,7 @@ node lower_scalar(lowering *l, const tree *t, const char *what)
     value v = lower_expression(l, t);
     char shape[40];
     if (!failed(l) && (v.count > 0 || v.boolean))
-        COMPLAIN(l, t->at, "%s is a number, but this is %s", what, shape_name(v, shape));
+        COMPLAIN(l, &t->at, "%s is a number, but this is %s", what, shape_name(v, shape));
     return failed(l) ? 0 : v.item[0];
 }
 
@@ -29,7 +29,7 @@ static bool equal_shapes(lowering *l, const tree *t, const tree *a, value va, co
     char x[80], y[80], p[40], q[40];
     if (!want_number(l, va, a) || !want_number(l, vb, b)) return false;
     if (va.count == vb.count) return true;
-    COMPLAIN(l, t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y),
+    COMPLAIN(l, &t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y),
              shape_name(va, p), shape_name(vb, q));
     if (!va.count || !vb.count)
         HINT(l, "a number does not become a vector: write a vector (…, …), or take the length |%s| or a component",
@@ -61,10 +61,10 @@ static value lower_matrix_product(lowering *l, const tree *t, value a, value b)
     const int inner = b.rows ? b.rows : b.count, columns = b.rows ? b.count : 1;
     if (!a.rows || a.count != inner) {
         if (a.rows)
-            COMPLAIN(l, t->at, "a matrix of %d by %d takes a vector of length %d, not %d", a.rows, a.count, a.count,
+            COMPLAIN(l, &t->at, "a matrix of %d by %d takes a vector of length %d, not %d", a.rows, a.count, a.count,
                      inner);
         else
-            COMPLAIN(l, t->at, "a vector stands behind its matrix, not before it");
+            COMPLAIN(l, &t->at, "a vector stands behind its matrix, not before it");
         return wrong(l);
     }
     value v = vector(l, a.rows * columns), products = vector(l, inner);
@@ -86,7 +86,7 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
         return want_number(l, va, a) && want_number(l, vb, b) ? lower_matrix_product(l, t, va, vb) : wrong(l);
     va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
     if (va.count && vb.count) {
-        COMPLAIN(l, t->at, "two vectors have no plain product");
+        COMPLAIN(l, &t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, a->at, x), quote(l, b->at, y), x, y);
         return wrong(l);
     }
@@ -97,7 +97,7 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
             !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS | DEP_D))) {
             quote(l, name->at, x);
             quote(l, b->at, y);
-            source_complain(&l->model->source, MOTUS_SYNTAX, (span){t->at.text, name->at.from, b->at.to},
+            source_complain(&l->model->source, MOTUS_SYNTAX, &(span){t->at.text, name->at.from, b->at.to},
                             "%s %s: a product or an initial value?", x, y);
             HINT(l, "write %s*%s for the product, %s%s for the initial value", x, y, x, y);
             return wrong(l);
@@ -114,7 +114,7 @@ static value lower_quotient(lowering *l, const tree *t, const tree *a, value va,
     char x[80];
     if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
     if (vb.count) {
-        COMPLAIN(l, t->at, "nothing can be divided by a vector");
+        COMPLAIN(l, &t->at, "nothing can be divided by a vector");
         HINT(l, "divide by its length |%s|, or by a component", quote(l, b->at, x));
         return wrong(l);
     }
@@ -185,7 +185,7 @@ static value lower_power(lowering *l, const tree *t)
     value b = lower_expression(l, base);
     if (!want_number(l, b, base)) return wrong(l);
     if (b.count) {
-        COMPLAIN(l, t->at, "a vector has no powers");
+        COMPLAIN(l, &t->at, "a vector has no powers");
         HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, base->at, x), x, x);
         return wrong(l);
     }
@@ -206,7 +206,7 @@ static value lower_call(lowering *l, const tree *t)
     }
     if (t->operation == CALL_IF) {
         if (!v[0].boolean) {
-            COMPLAIN(l, t->item[0]->at, "a condition is expected here");
+            COMPLAIN(l, &t->item[0]->at, "a condition is expected here");
             HINT(l, "write if(x > 0, …, …)");
             return wrong(l);
         }
@@ -222,7 +222,7 @@ static value lower_call(lowering *l, const tree *t)
             if (!want_number(l, v[i], t->item[i])) return wrong(l);
         if (v[0].count == 0 || v[0].count != v[1].count || (cross && v[0].count > 3)) {
             char other[40];
-            COMPLAIN(l, t->at, "%s takes two vectors of %s, not %s and %s", t->name,
+            COMPLAIN(l, &t->at, "%s takes two vectors of %s, not %s and %s", t->name,
                      cross ? "length 3 (or 2)" : "equal length", shape_name(v[0], shape), shape_name(v[1], other));
             return wrong(l);
         }
@@ -241,7 +241,7 @@ static value lower_call(lowering *l, const tree *t)
     }
     for (uint32_t i = 0; i < n; i++)
         if (v[i].count || v[i].boolean) {
-            COMPLAIN(l, t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(v[i], shape));
+            COMPLAIN(l, &t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(v[i], shape));
             if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, t->item[i]->at, x), x);
             return wrong(l);
         }
@@ -270,7 +270,7 @@ static value lower_sum_cut(const lowering *inner, const tree *t, const sum_part 
     const range *of = &s->ranges[cut->level - s->first];
     const uint32_t k = s->index[cut->level - s->first];
     if (of->first.level >= 0 || of->last.level >= 0) {
-        COMPLAIN(l, t->loops[k].at, "the index %s reaches cells whose boundary line depends on a state",
+        COMPLAIN(l, &t->loops[k].at, "the index %s reaches cells whose boundary line depends on a state",
                  t->loops[k].name);
         HINT(l, "its range cannot depend on another index then: write the sum without these cells");
         return wrong(l);
@@ -292,7 +292,7 @@ static value lower_sum_cut(const lowering *inner, const tree *t, const sum_part 
 static bool open_sum(lowering *l, const tree *t, const sum_part *part, lowering *inner, sum_levels *s)
 {
     if (l->levels + (int)t->loop_count > MAX_LEVELS) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "sums and families are nested more than %d deep",
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "sums and families are nested more than %d deep",
                         MAX_LEVELS);
         return false;
     }
@@ -318,12 +318,12 @@ static bool open_sum(lowering *l, const tree *t, const sum_part *part, lowering 
         }
     }
     if (inner->terms > MODEL_TERMS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at,
                         "%.3g terms are more than the %.0e that an evaluation may take", inner->terms, MODEL_TERMS_MAX);
         return false;
     }
     if (l->place == PLACE_CONSTANT && (l->model->constant_terms += inner->terms) > MODEL_CONSTANT_TERMS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at,
                         "the sums in constants have more than %.0e terms together", MODEL_CONSTANT_TERMS_MAX);
         return false;
     }
@@ -357,7 +357,7 @@ static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
         if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
         if (failed(l)) return wrong(l);
         if (!c.boolean) {
-            COMPLAIN(l, t->item[i]->at, "a condition is expected here, such as j != i");
+            COMPLAIN(l, &t->item[i]->at, "a condition is expected here, such as j != i");
             return wrong(l);
         }
         mask = masked ? binary(l, OP_AND, mask, c.item[0]) : c.item[0];
@@ -377,7 +377,7 @@ static value lower_truth(lowering *l, const tree *t)
 {
     value v = lower_expression(l, t);
     if (!failed(l) && !v.boolean) {
-        COMPLAIN(l, t->at, "and, or, not join conditions, such as x > 0");
+        COMPLAIN(l, &t->at, "and, or, not join conditions, such as x > 0");
         return wrong(l);
     }
     return v;
@@ -388,14 +388,15 @@ value lower_matrix(lowering *l, const tree *t)
 {
     const uint32_t columns = t->item[0]->count;
     if ((double)t->count * columns > MODEL_COMPONENTS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "a matrix has at most %d numbers", MODEL_COMPONENTS_MAX);
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "a matrix has at most %d numbers",
+                        MODEL_COMPONENTS_MAX);
         return wrong(l);
     }
     value v = vector(l, (int)(t->count * columns));
     for (uint32_t i = 0; i < t->count; i++) {
         const tree *row = t->item[i];
         if (row->kind != TREE_LIST || row->count != columns) {
-            COMPLAIN(l, row->at, "the rows of a matrix are lists of one length");
+            COMPLAIN(l, &row->at, "the rows of a matrix are lists of one length");
             return wrong(l);
         }
         for (uint32_t k = 0; k < columns && !failed(l); k++)
@@ -409,7 +410,7 @@ value lower_matrix(lowering *l, const tree *t)
 static value lower_vector(lowering *l, const tree *t)
 {
     if (t->count > MODEL_COMPONENTS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "a vector has at most %d components",
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "a vector has at most %d components",
                         MODEL_COMPONENTS_MAX);
         return wrong(l);
     }
@@ -426,7 +427,7 @@ static bool no_matrix(lowering *l, value v, const tree *t)
     char text[80];
     if (failed(l) || !v.rows) return true;
     quote(l, t->at, text);
-    COMPLAIN(l, t->at, "%s is a matrix, which may multiply a vector and stand nowhere else", text);
+    COMPLAIN(l, &t->at, "%s is a matrix, which may multiply a vector and stand nowhere else", text);
     if (t->kind == TREE_NAME)
         HINT(l, "write %s x, or %s[1, 2] for an entry", text, text);
     else
@@ -439,7 +440,7 @@ static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
     if (t->kind == TREE_AND || t->kind == TREE_OR) {
-        if (!left.boolean) COMPLAIN(l, a->at, "and, or, not join conditions, such as x > 0");
+        if (!left.boolean) COMPLAIN(l, &a->at, "and, or, not join conditions, such as x > 0");
         value right = lower_truth(l, b);
         return failed(l) ? wrong(l)
                          : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
@@ -483,11 +484,11 @@ static value lower_any(lowering *l, const tree *t)
 {
     if (failed(l)) {
         if (l->model->graph->too_large)
-            source_complain(&l->model->source, MOTUS_LIMIT, t->at, "the model's expressions are too large");
+            source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "the model's expressions are too large");
         return wrong(l);
     }
     if (++l->model->lowered > MODEL_LOWERED_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at,
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at,
                         "quantities and functions use one another too often: more than %u steps to read the model",
                         MODEL_LOWERED_MAX);
         return wrong(l);
@@ -525,7 +526,7 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_VECTOR: return lower_vector(l, t);
     case TREE_LIST:
         if (t->count > 0 && t->item[0]->kind == TREE_LIST) return lower_matrix(l, t);
-        COMPLAIN(l, t->at, "a list stands alone behind the = of a parameter");
+        COMPLAIN(l, &t->at, "a list stands alone behind the = of a parameter");
         HINT(l, "write m = [1, 2], then m[1]; a vector is written (1, 2)");
         return wrong(l);
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);
@@ -543,7 +544,7 @@ static value lower_factor(lowering *l, const tree *t)
 {
     model *m = l->model;
     if (m->depth == MODEL_DEPTH_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, t->at,
+        source_complain(&m->source, MOTUS_LIMIT, &t->at,
                         "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
         source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
         return wrong(l);

@@ -40,7 +40,7 @@ static node of_parameter(differential *d, uint32_t slot)
     if (d->of_slot[slot]) return d->of_slot[slot] - 1;
     if (!d->line[slot]) return 0;
     if (d->chain == MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, d->call->at,
+        source_complain(&m->source, MOTUS_LIMIT, &d->call->at,
                         "between this expression and what it is differentiated by are more than %d parameters, each of "
                         "which uses the next",
                         MODEL_CHAIN_MAX);
@@ -65,7 +65,7 @@ static node of_numbers(differential *d, const array *numbers)
     }
     if (!graph_marked(numbers, d->affected)) return 0;
     char text[80];
-    COMPLAIN(d->l, d->call->at, "a list or an initial value in this expression depends on %s",
+    COMPLAIN(d->l, &d->call->at, "a list or an initial value in this expression depends on %s",
              quote(d->l, d->call->item[1]->at, text));
     HINT(d->l, "diff follows parameters that are numbers or vectors: write what the list contains");
     return 0;
@@ -93,7 +93,7 @@ static value derivative(lowering *l, const tree *call, value of, value by)
     char a[40], b[40];
     if (!want_number(l, of, call->item[0]) || !want_number(l, by, variable)) return wrong(l);
     if (of.count && by.count) {
-        COMPLAIN(l, call->at, "the derivative of %s by %s is a matrix", shape_name(of, a), shape_name(by, b));
+        COMPLAIN(l, &call->at, "the derivative of %s by %s is a matrix", shape_name(of, a), shape_name(by, b));
         HINT(l, "take a component of one of them");
         return wrong(l);
     }
@@ -154,7 +154,7 @@ static value by_argument(lowering *l, const tree *call, argument *a)
 static value no_variable(lowering *l, const tree *t)
 {
     char text[80];
-    COMPLAIN(l, t->at, "diff differentiates by a variable, and %s is none", quote(l, t->at, text));
+    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is none", quote(l, t->at, text));
     HINT(l,
          "a variable is a state x, its velocity x', t, a parameter, an argument of a function, or a component of them");
     return wrong(l);
@@ -168,7 +168,7 @@ value lower_diff(lowering *l, const tree *call)
     if (a) return by_argument(l, call, a);
     const symbol s = symbols_find(l->model, name->name);
     if (s.definition && s.definition->kind != DEFINED_PARAMETER) {
-        COMPLAIN(l, by->at, "diff differentiates by a variable, and %s is a quantity", name->name);
+        COMPLAIN(l, &by->at, "diff differentiates by a variable, and %s is a quantity", name->name);
         HINT(l, "define what depends on it as a function, V(q) = …, and take diff(V(q), q) in another function");
         return wrong(l);
     }

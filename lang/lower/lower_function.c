@@ -82,7 +82,7 @@ value lower_function(lowering *l, const tree *call, model_function *f)
     argument arguments[MODEL_ARGUMENTS_MAX];
     lowering inner = *l;
     if (++inner.chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, call->at, "functions use one another more than %d deep",
+        source_complain(&l->model->source, MOTUS_LIMIT, &call->at, "functions use one another more than %d deep",
                         MODEL_CHAIN_MAX);
         return wrong(l);
     }

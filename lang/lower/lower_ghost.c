@@ -74,7 +74,7 @@ bool lower_fits(model *m, const statement *s, const model_state *state, value v,
     char is[48] = "a condition", due[48] = "a number";
     if (!v.boolean) snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
     if (state->components) snprintf(due, sizeof due, "a vector of length %d", state->components);
-    source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
+    source_complain(&m->source, MOTUS_SHAPE, &s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
                     state->name, due);
     if (v.count) source_hint(&m->source, "write %s(%g) = (…) for a vector", state->name, m->start);
     return false;
@@ -166,7 +166,7 @@ static value velocity(lowering *l, const tree *t, value of)
         v.item[k] = graph_derivative(l->model->graph, of.item[k], along, &c);
     if (!c.unknown || failed(l)) return v;
     char text[80];
-    COMPLAIN(l, t->at, "%s is not known: the boundary line of %s uses a velocity or a first-order variable",
+    COMPLAIN(l, &t->at, "%s is not known: the boundary line of %s uses a velocity or a first-order variable",
              quote(l, t->at, text), t->name);
     return wrong(l);
 }
@@ -178,7 +178,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     const statement *line = g->line;
     if (g->expanding) {
         char text[80];
-        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s follows from itself, in a circle of boundary lines",
+        source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s follows from itself, in a circle of boundary lines",
                         quote(l, t->at, text));
         HINT(l,
              "a boundary cell follows from cells that have an equation; give each cell of a circle a line of its own");
@@ -190,7 +190,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     inner.name_count = 0;
     inner.argument_count = 0;
     if (++inner.chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "boundary lines use one another more than %d deep",
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "boundary lines use one another more than %d deep",
                         MODEL_CHAIN_MAX);
         return wrong(l);
     }
@@ -223,7 +223,7 @@ static void ask(lowering *l, const tree *t, const model_state *s, const model_gh
         if (low[d] >= g->first[d] && high[d] <= g->last[d]) continue;
         const int level = r->at[d].level;
         if (level < 0 || r->at[d].modulus >= 0) {
-            COMPLAIN(l, t->item[d]->at, "a wrapped index cannot reach cells whose boundary line depends on a state");
+            COMPLAIN(l, &t->item[d]->at, "a wrapped index cannot reach cells whose boundary line depends on a state");
             return;
         }
         const int64_t border = low[d] < g->first[d] ? g->first[d] : g->last[d] + 1;
@@ -244,7 +244,7 @@ bool lower_ghost(lowering *l, const tree *t, const model_state *s, const referen
         if (apart) continue;
         if (l->by_variable) {
             char text[80];
-            COMPLAIN(l, t->at,
+            COMPLAIN(l, &t->at,
                      "%s follows from other cells by its boundary line, so nothing can be differentiated by it",
                      quote(l, t->at, text));
         } else if (!inside) {

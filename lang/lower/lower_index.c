@@ -26,7 +26,7 @@ typedef struct affine { /* an index expression in its parts */
 
 static void not_affine(lowering *l, const tree *t)
 {
-    COMPLAIN(l, t->at, "an index is i + c or mod(i + c, N) + 1 with a constant c");
+    COMPLAIN(l, &t->at, "an index is i + c or mod(i + c, N) + 1 with a constant c");
 }
 
 static void take_apart(lowering *l, const tree *t, int sign, affine *a);
@@ -43,7 +43,7 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
     int slot = failed(l) ? -1 : evaluate_int(l->model, n, t->item[1]->at, &a->modulus);
     if (slot < 0) return;
     if (a->modulus < 1) {
-        COMPLAIN(l, t->item[1]->at, "an index wraps around at least 1 place, not %lld", (long long)a->modulus);
+        COMPLAIN(l, &t->item[1]->at, "an index wraps around at least 1 place, not %lld", (long long)a->modulus);
         return;
     }
     /* Only equal moduli can be joined: mod(mod(b, N) + 1 + c, N) is mod(b + 1 + c, N). */
@@ -67,17 +67,18 @@ static void take_constant(lowering *l, const tree *t, int sign, affine *a)
         if (deps & DEP_LEVELS)
             not_affine(l, t);
         else
-            COMPLAIN(l, t->at, "an index cannot depend on a state or on time");
+            COMPLAIN(l, &t->at, "an index cannot depend on a state or on time");
         return;
     }
     const graph_node *g = graph_at(l->model->graph, n);
     if (g->op == OP_CONST) {
         if (fabs(g->value) > 1e9) {
-            source_complain(&l->model->source, MOTUS_LIMIT, t->at, "an index is at most 1e9, and this is %g", g->value);
+            source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "an index is at most 1e9, and this is %g",
+                            g->value);
             return;
         }
         if (g->value != floor(g->value)) {
-            COMPLAIN(l, t->at, "an index is a whole number, not %g", g->value);
+            COMPLAIN(l, &t->at, "an index is a whole number, not %g", g->value);
             return;
         }
         a->literal += sign * (int64_t)g->value;
@@ -132,7 +133,7 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     if (failed(l)) return false;
     if (a.wrapped) {
         if (a.literal != 1 || a.constant) {
-            COMPLAIN(l, t->at, "indices count from 1: a wrapped index is mod(…, N) + 1");
+            COMPLAIN(l, &t->at, "indices count from 1: a wrapped index is mod(…, N) + 1");
             return false;
         }
         *out = a.inner;
@@ -165,7 +166,7 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
         }
     }
     if (llabs(a.literal) > 1000000000 || llabs(out->literal + a.literal) > 1000000000) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "an index is at most 1e9");
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "an index is at most 1e9");
         return false;
     }
     out->literal += (int32_t)a.literal;
@@ -191,18 +192,18 @@ node lower_subscript_number(lowering *l, const subscript *s)
 bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, int64_t last)
 {
     if (lower_find_index(l, loop->name)) {
-        COMPLAIN(l, loop->at, "the index %s is used twice", loop->name);
+        COMPLAIN(l, &loop->at, "the index %s is used twice", loop->name);
         HINT(l, "take another letter for the inner one");
         return false;
     }
     if (lower_find_argument(l, loop->name)) {
-        COMPLAIN(l, loop->at, "%s is an argument of the function and cannot be an index", loop->name);
+        COMPLAIN(l, &loop->at, "%s is an argument of the function and cannot be an index", loop->name);
         HINT(l, "take another letter for the index");
         return false;
     }
     symbol s = symbols_find(l->model, loop->name);
     if (s.state || s.definition || s.function) {
-        source_complain(&l->model->source, MOTUS_NAME, loop->at, "%s is defined already and cannot be an index",
+        source_complain(&l->model->source, MOTUS_NAME, &loop->at, "%s is defined already and cannot be an index",
                         loop->name);
         HINT(l, "take another letter for the index");
         return false;
@@ -226,7 +227,7 @@ bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_
         !lower_subscript(l, loop->last, &out->last, &last_low, high))
         return false;
     if (out->first.modulus >= 0 || out->last.modulus >= 0) {
-        COMPLAIN(l, loop->at, "the bounds of an index cannot contain mod");
+        COMPLAIN(l, &loop->at, "the bounds of an index cannot contain mod");
         return false;
     }
     return true;
@@ -243,7 +244,7 @@ bool lower_target(lowering *l, const statement *s, output *out)
         for (uint32_t k = 0; k < s->loop_count && t->kind == TREE_NAME && !t->primes && !t->index_count; k++)
             if (!strcmp(s->loops[k].name, t->name)) which = (int)k;
         if (which >= 0 && used[which]) {
-            COMPLAIN(l, t->at, "the index %s stands twice on the left side", t->name);
+            COMPLAIN(l, &t->at, "the index %s stands twice on the left side", t->name);
             return false;
         }
         if (which < 0) {
@@ -251,7 +252,7 @@ bool lower_target(lowering *l, const statement *s, output *out)
             for (uint32_t k = 0; k < s->loop_count; k++)
                 if (t->kind != TREE_NUMBER && t->count > 0 && t->item[0]->kind == TREE_NAME && t->item[0]->name &&
                     !strcmp(t->item[0]->name, s->loops[k].name)) {
-                    COMPLAIN(l, t->at, "on the left side the index must stand alone");
+                    COMPLAIN(l, &t->at, "on the left side the index must stand alone");
                     HINT(l, "write %s[%s] … and shift the bounds", s->name, s->loops[k].name);
                     return false;
                 }
@@ -265,13 +266,13 @@ bool lower_target(lowering *l, const statement *s, output *out)
         lower_start(&plain, l->model, PLACE_CONSTANT, "a bound");
         if (!lower_range(&plain, &s->loops[which], &r, &low, &high)) return false;
         if (low > high) {
-            source_complain(&l->model->source, MOTUS_ARGUMENT, s->loops[which].at,
+            source_complain(&l->model->source, MOTUS_ARGUMENT, &s->loops[which].at,
                             "the index %s runs over nothing: from %lld to %lld", s->loops[which].name, (long long)low,
                             (long long)high);
             return false;
         }
         if ((double)high - (double)low >= MODEL_NUMBERS_MAX) {
-            source_complain(&l->model->source, MOTUS_LIMIT, s->loops[which].at,
+            source_complain(&l->model->source, MOTUS_LIMIT, &s->loops[which].at,
                             "%.0f places are more than the %d that fit", (double)high - (double)low + 1,
                             MODEL_NUMBERS_MAX);
             return false;
@@ -285,12 +286,12 @@ bool lower_target(lowering *l, const statement *s, output *out)
     l->levels = out->loops;
     for (uint32_t k = 0; k < s->loop_count; k++)
         if (!used[k]) {
-            COMPLAIN(l, s->loops[k].at, "the index %s does not stand on the left side", s->loops[k].name);
+            COMPLAIN(l, &s->loops[k].at, "the index %s does not stand on the left side", s->loops[k].name);
             HINT(l, "write %s[%s] … or remove the for", s->name, s->loops[k].name);
             return false;
         }
     if (l->terms > MODEL_NUMBERS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, s->at, "%.0f places are more than the %d that fit", l->terms,
+        source_complain(&l->model->source, MOTUS_LIMIT, &s->at, "%.0f places are more than the %d that fit", l->terms,
                         MODEL_NUMBERS_MAX);
         return false;
     }

@@ -67,12 +67,12 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
     for (int d = 0; d < s->dims && n < sizeof index; d++)
         n += (size_t)snprintf(index + n, sizeof index - n, "%s%lld", d ? "," : "", (long long)at[d]);
     if (derivative && !outside) {
-        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s[%s]%s is used here, but has no equation", s->name,
+        source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s[%s]%s is used here, but has no equation", s->name,
                         index, s->order == 2 ? "''" : "'");
         HINT(l, "a boundary line gives its position, not its acceleration");
         return false;
     }
-    source_complain(&l->model->source, MOTUS_NAME, t->at,
+    source_complain(&l->model->source, MOTUS_NAME, &t->at,
                     "%s[%s] is used here, but has neither an equation nor a boundary line", s->name, index);
     HINT(l, "add a boundary line: %s[%s] = 0; or wrap the index: mod(i, N) + 1", s->name, index);
     return false;
@@ -83,7 +83,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
     if (failed(l)) return v;
     char shape[40], text[80];
     if (v.count == 0 || v.boolean) {
-        COMPLAIN(l, whole->at, "%s is %s and has no components",
+        COMPLAIN(l, &whole->at, "%s is %s and has no components",
                  quote(l, whole->item ? whole->item[0]->at : whole->at, text), shape_name(v, shape));
         return v;
     }
@@ -91,7 +91,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
     double k;
     if (failed(l) || !evaluate_number(l->model, n, number->at, NULL, &k)) return v;
     if (k != floor(k) || k < 1 || k > v.count) {
-        COMPLAIN(l, number->at, "this vector has the components 1 to %d, not %g", v.count, k);
+        COMPLAIN(l, &number->at, "this vector has the components 1 to %d, not %g", v.count, k);
         return v;
     }
     return scalar(l, v.item[(int)k - 1]);
@@ -99,7 +99,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
 
 static void place_error(lowering *l, const tree *t, const char *is)
 {
-    COMPLAIN(l, t->at, "%s cannot depend on %s: %s is %s", l->what, is, t->name, is);
+    COMPLAIN(l, &t->at, "%s cannot depend on %s: %s is %s", l->what, is, t->name, is);
     if (l->place == PLACE_CONSTANT && l->what && !strcmp(l->what, "an initial value"))
         HINT(l, "an initial value may use parameters and other initial values, such as %s(0)", t->name);
 }
@@ -112,11 +112,11 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         return wrong(l);
     }
     if (t->primes > s->order) {
-        COMPLAIN(l, t->at, "%s has an equation of first order: %s'' is not known", s->name, s->name);
+        COMPLAIN(l, &t->at, "%s has an equation of first order: %s'' is not known", s->name, s->name);
         return wrong(l);
     }
     if (t->primes == s->order && l->place != PLACE_QUANTITY) {
-        COMPLAIN(l, t->at, "%s stands on the right side of an equation", quote(l, t->at, text));
+        COMPLAIN(l, &t->at, "%s stands on the right side of an equation", quote(l, t->at, text));
         HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);
         return wrong(l);
     }
@@ -126,15 +126,15 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     bool select = s->dims == 0 && t->index_count == 1 && s->components > 0;
     if (!select && (int)t->index_count != s->dims) {
         if (s->dims == 0)
-            COMPLAIN(l, t->at, "%s is one %s, not a family with an index", s->name,
+            COMPLAIN(l, &t->at, "%s is one %s, not a family with an index", s->name,
                      s->components ? "vector" : "number");
         else
-            COMPLAIN(l, t->at, "%s is a family and needs %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
+            COMPLAIN(l, &t->at, "%s is a family and needs %d ind%s", s->name, s->dims, s->dims == 1 ? "ex" : "ices");
         if (s->dims == 1) HINT(l, "write %s[i]; a sum over all: sum(i = 1..N: …)", s->name);
         return wrong(l);
     }
     if (select && t->primes) {
-        COMPLAIN(l, t->at, "primes stand before the number of a component");
+        COMPLAIN(l, &t->at, "primes stand before the number of a component");
         HINT(l, "write %s%s[…]", s->name, t->primes == 1 ? "'" : "''");
         return wrong(l);
     }
@@ -168,7 +168,7 @@ static value lower_list(lowering *l, const tree *t, model_definition *d)
 {
     if (!t->index_count && d->dims == 2 && d->statement->value->kind == TREE_LIST) return whole_matrix(l, d);
     if ((int)t->index_count != d->dims) {
-        COMPLAIN(l, t->at, "%s is a list and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
+        COMPLAIN(l, &t->at, "%s is a list and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
         HINT(l, "write %s[1] or %s[i]", d->name, d->name);
         return wrong(l);
     }
@@ -177,7 +177,7 @@ static value lower_list(lowering *l, const tree *t, model_definition *d)
     if (!subscripts(l, t, d->dims, &r, low, high)) return wrong(l);
     for (int k = 0; k < d->dims; k++)
         if (low[k] <= high[k] && (low[k] < d->first[k] || high[k] > d->last[k])) {
-            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at,
+            source_complain(&l->model->source, MOTUS_NAME, &t->item[k]->at,
                             "%s[%lld] is used here, but %s has the places %lld to %lld", d->name,
                             (long long)(low[k] < d->first[k] ? low[k] : high[k]), d->name, (long long)d->first[k],
                             (long long)d->last[k]);
@@ -191,7 +191,7 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
 {
     const statement *s = d->statement;
     if ((int)t->index_count != d->dims) {
-        COMPLAIN(l, t->at, "%s is a family and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
+        COMPLAIN(l, &t->at, "%s is a family and needs %d ind%s", d->name, d->dims, d->dims == 1 ? "ex" : "ices");
         return wrong(l);
     }
     lowering inner = *l;
@@ -199,7 +199,7 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
     inner.argument_count = 0;
     inner.chain++;
     if (inner.chain > MAX_LEVELS * 4) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "families of quantities use one another too deeply");
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "families of quantities use one another too deeply");
         return wrong(l);
     }
     for (int k = 0; k < d->dims; k++) {
@@ -207,7 +207,7 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
         *n = (index_name){0};
         if (!lower_subscript(l, t->item[k], &n->at, &n->first, &n->last)) return wrong(l);
         if (n->first <= n->last && (n->first < d->first[k] || n->last > d->last[k])) {
-            source_complain(&l->model->source, MOTUS_NAME, t->item[k]->at,
+            source_complain(&l->model->source, MOTUS_NAME, &t->item[k]->at,
                             "%s[%lld] is used here, but %s is defined for %lld to %lld", d->name,
                             (long long)(n->first < d->first[k] ? n->first : n->last), d->name, (long long)d->first[k],
                             (long long)d->last[k]);
@@ -228,21 +228,21 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
 static value lower_definition(lowering *l, const tree *t, model_definition *d)
 {
     if (t->primes) {
-        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s is a %s and has no primes", d->name,
+        source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s is a %s and has no primes", d->name,
                         d->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
         HINT(l, "an equation %s%s = … would make it a state", d->name, t->primes == 2 ? "''" : "'");
         return wrong(l);
     }
     if (d->kind != DEFINED_PARAMETER && l->place == PLACE_CONSTANT) {
-        COMPLAIN(l, t->at, "%s is constant, but %s depends on a state or on time", l->what, d->name);
+        COMPLAIN(l, &t->at, "%s is constant, but %s depends on a state or on time", l->what, d->name);
         return wrong(l);
     }
     if (d->progress == 1) {
-        source_complain(&l->model->source, MOTUS_NAME, t->at, "%s is defined by itself, in a circle", d->name);
+        source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s is defined by itself, in a circle", d->name);
         return wrong(l);
     }
     if (l->chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, t->at, "definitions use one another more than %d deep",
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "definitions use one another more than %d deep",
                         MODEL_CHAIN_MAX);
         return wrong(l);
     }
@@ -262,7 +262,7 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
         if (failed(l)) return wrong(l);
         if (*known) return t->index_count == 1 ? lower_component(l, **known, t->item[0], t) : **known;
         if (d->dims) {
-            COMPLAIN(l, d->statement->at, "a quantity with an index ranges over it");
+            COMPLAIN(l, &d->statement->at, "a quantity with an index ranges over it");
             HINT(l, "add: for i = 1..N");
             return wrong(l);
         }
@@ -280,7 +280,7 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
     for (int k = 0; k < (d->components ? d->components : 1) && !failed(l); k++)
         v.item[k] = graph_param(l->model->graph, d->slot + (uint32_t)k);
     if (t->index_count > 1 || (t->index_count == 1 && d->components == 0)) {
-        COMPLAIN(l, t->at, "%s is %s and takes no such index", d->name, d->components ? "a vector" : "one number");
+        COMPLAIN(l, &t->at, "%s is %s and takes no such index", d->name, d->components ? "a vector" : "one number");
         return wrong(l);
     }
     return t->index_count == 1 ? lower_component(l, v, t->item[0], t) : v;
@@ -289,12 +289,12 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
 static value lower_use(lowering *l, const tree *t, argument *a)
 {
     if (t->primes) {
-        COMPLAIN(l, t->at, "%s is an argument and takes no primes", t->name);
+        COMPLAIN(l, &t->at, "%s is an argument and takes no primes", t->name);
         HINT(l, "hand the velocity over as an argument of its own");
         return wrong(l);
     }
     if (t->index_count > 1) {
-        COMPLAIN(l, t->at, "%s is an argument and takes no such index", t->name);
+        COMPLAIN(l, &t->at, "%s is an argument and takes no such index", t->name);
         return wrong(l);
     }
     value v = lower_argument(l, a);
@@ -308,14 +308,15 @@ value lower_name(lowering *l, const tree *t)
     if (hides) return lower_use(l, t, hides);
     const index_name *index = lower_find_index(l, t->name);
     if (index) {
-        if (t->primes || t->index_count) COMPLAIN(l, t->at, "%s is an index: it takes no primes and no index", t->name);
+        if (t->primes || t->index_count)
+            COMPLAIN(l, &t->at, "%s is an index: it takes no primes and no index", t->name);
         return scalar(l, index->number);
     }
     if (!strcmp(t->name, "t") || !strcmp(t->name, "pi")) {
-        if (t->primes || t->index_count) COMPLAIN(l, t->at, "%s takes no primes and no index", t->name);
+        if (t->primes || t->index_count) COMPLAIN(l, &t->at, "%s takes no primes and no index", t->name);
         if (t->name[0] == 'p') return scalar(l, graph_const(l->model->graph, 3.14159265358979323846));
         if (l->place == PLACE_CONSTANT) {
-            COMPLAIN(l, t->at, "%s is constant and cannot depend on the time t", l->what);
+            COMPLAIN(l, &t->at, "%s is constant and cannot depend on the time t", l->what);
             return wrong(l);
         }
         return scalar(l, graph_time(l->model->graph));
@@ -333,7 +334,7 @@ value lower_initial(lowering *l, const tree *t)
     symbol s = symbols_find(l->model, name->name);
     char a[80];
     if (name->primes >= s.state->order) {
-        COMPLAIN(l, t->at, "%s at the start follows from its equation; it is not an initial value",
+        COMPLAIN(l, &t->at, "%s at the start follows from its equation; it is not an initial value",
                  quote(l, name->at, a));
         return wrong(l);
     }
@@ -342,7 +343,7 @@ value lower_initial(lowering *l, const tree *t)
     node n = lower_scalar(&inner, bracket, "the start");
     if (failed(l)) return wrong(l);
     if (graph_deps(l->model->graph, n) & (DEP_TIME | DEP_STATE | DEP_LEVELS)) {
-        COMPLAIN(l, t->at, "%s is a state, not a function", name->name);
+        COMPLAIN(l, &t->at, "%s is a state, not a function", name->name);
         HINT(l, "write %s for its value now, %s*(…) for a product; the motion cannot depend on past values", name->name,
              name->name);
         return wrong(l);
@@ -350,7 +351,7 @@ value lower_initial(lowering *l, const tree *t)
     double at;
     if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, bracket->at, "the start", &at)) return wrong(l);
     if (at != l->model->start) {
-        COMPLAIN(l, t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
+        COMPLAIN(l, &t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
         HINT(l, "for a product write %s*(…)", name->name);
         return wrong(l);
     }

@@ -65,7 +65,7 @@ static inline const char *shape_name(value v, char out[40])
 static inline bool want_number(lowering *l, value v, const tree *t)
 {
     if (!v.boolean || failed(l)) return !failed(l);
-    COMPLAIN(l, t->at, "this is a condition, but a number is expected here");
+    COMPLAIN(l, &t->at, "this is a condition, but a number is expected here");
     HINT(l, "write if(condition, 1, 0)");
     return false;
 }

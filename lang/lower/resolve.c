@@ -16,7 +16,7 @@ static bool finite_values(model *m, const model_definition *d, const double *v, 
 {
     for (size_t k = 0; k < count; k++)
         if (!isfinite(v[k])) {
-            source_complain(&m->source, MOTUS_ARGUMENT, d->statement->value->at, "%s is not a finite number", d->name);
+            source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->value->at, "%s is not a finite number", d->name);
             source_hint(&m->source, "look for a division by zero, or a root or logarithm of a negative number");
             return false;
         }
@@ -42,14 +42,14 @@ static bool resolve_plain(model *m, model_definition *d)
     int n = v.count ? v.count : 1;
     if (failed(m)) return false;
     if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, d->statement->value->at,
+        source_complain(&m->source, MOTUS_SHAPE, &d->statement->value->at,
                         "a parameter is a number, a vector or a list, not a condition");
         return false;
     }
     d->components = v.count;
     d->slot = m->scalar_used;
     if (m->scalar_used + (uint32_t)n > m->scalar_slots) {
-        source_complain(&m->source, MOTUS_LIMIT, d->statement->at, "the parameters have too many components");
+        source_complain(&m->source, MOTUS_LIMIT, &d->statement->at, "the parameters have too many components");
         return false;
     }
     if (!evaluate_numbers(m, d, v.item, n, d->slot)) return false;
@@ -108,7 +108,7 @@ static node *lower_entries(model *m, const tree *list, int *components)
         const size_t parts = v.count ? (size_t)v.count : 1;
         if (i == 0) *components = v.count;
         if (!failed(m) && (v.boolean || v.count != *components))
-            source_complain(&m->source, MOTUS_SHAPE, list->item[i]->at,
+            source_complain(&m->source, MOTUS_SHAPE, &list->item[i]->at,
                             "the entries of a list are all numbers, or all vectors of one length");
         if (i == 0 && !failed(m) && !(nodes = take(&m->arena->allocator, list->count, parts * sizeof *nodes)))
             m->arena->failed = true;
@@ -193,7 +193,7 @@ static bool family_extent(model *m, model_definition *d)
         int64_t first[MAX_DIMS], last[MAX_DIMS];
         if (!open_line(m, d, line, &l, &o)) return false;
         if (line == d->statement && !line->next && (o.loops == 0 || o.loops != o.to.dims)) {
-            source_complain(&m->source, MOTUS_SHAPE, line->at, "%s[…] needs an index that runs", d->name);
+            source_complain(&m->source, MOTUS_SHAPE, &line->at, "%s[…] needs an index that runs", d->name);
             source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
             return false;
         }
@@ -218,7 +218,7 @@ static bool name_place(model *m, const model_definition *d, span where, size_t p
     }
     for (int k = 0, n = 0; k < d->dims && n < (int)sizeof index; k++)
         n += snprintf(index + n, sizeof index - (size_t)n, "%s%lld", k ? "," : "", (long long)at[k]);
-    source_complain(&m->source, MOTUS_NAME, where, "%s[%s] %s", d->name, index, what);
+    source_complain(&m->source, MOTUS_NAME, &where, "%s[%s] %s", d->name, index, what);
     return false;
 }
 
@@ -277,7 +277,7 @@ static bool family_lines(model *m, model_definition *d, int rank, const uint8_t 
         value v = lower_expression(&l, line->value);
         if (failed(m)) return false;
         if (v.boolean || v.count != d->components) {
-            source_complain(&m->source, MOTUS_SHAPE, line->value->at,
+            source_complain(&m->source, MOTUS_SHAPE, &line->value->at,
                             "the lines of %s are all numbers, or all vectors of one length", d->name);
             return false;
         }
@@ -297,7 +297,7 @@ static bool resolve_family(model *m, model_definition *d)
     const statement *s = d->statement;
     if (d->kind != DEFINED_PARAMETER && s->next) {
         const statement *other = &m->statements.item[s->next - 1];
-        source_complain(&m->source, MOTUS_NAME, other->name_at, "%s is defined twice; the first time in line %d",
+        source_complain(&m->source, MOTUS_NAME, &other->name_at, "%s is defined twice; the first time in line %d",
                         d->name, source_line(&m->source, s->at));
         source_hint(&m->source,
                     "it depends on a state or on time: a quantity has one line; choose by if(i == 3, …, …)");
@@ -317,7 +317,7 @@ static bool resolve_family(model *m, model_definition *d)
     double numbers = parts;
     for (int k = 0; k < d->dims; k++) numbers *= (double)(d->last[k] - d->first[k] + 1);
     if (numbers > MODEL_LIST_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, s->at, "%.0f numbers are more than the %d that fit", numbers,
+        source_complain(&m->source, MOTUS_LIMIT, &s->at, "%.0f numbers are more than the %d that fit", numbers,
                         MODEL_LIST_MAX);
         return false;
     }
@@ -338,7 +338,7 @@ static bool resolve_family(model *m, model_definition *d)
 
 static bool circle(model *m, const model_definition *d)
 {
-    source_complain(&m->source, MOTUS_NAME, d->statement->name_at, "%s is defined by itself, in a circle", d->name);
+    source_complain(&m->source, MOTUS_NAME, &d->statement->name_at, "%s is defined by itself, in a circle", d->name);
     return false;
 }
 
@@ -370,7 +370,7 @@ bool resolve_constant(model *m, const tree *t, const char *what, double *out)
     node n = lower_scalar(&l, t, what);
     if (failed(m) || !evaluate_number(m, n, t->at, what, out)) return false;
     if (!isfinite(*out)) {
-        source_complain(&m->source, MOTUS_ARGUMENT, t->at, "%s is not a finite number", what);
+        source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "%s is not a finite number", what);
         return false;
     }
     return true;
@@ -391,7 +391,7 @@ bool resolve_start_time(model *m)
         if (!any) m->start = NAN;
         if (!resolve_constant(m, t, "the start", &at)) return false;
         if (any && at != m->start) {
-            source_complain(&m->source, MOTUS_ARGUMENT, t->at, "the start is %g here, but %g in line %d", at, m->start,
+            source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "the start is %g here, but %g in line %d", at, m->start,
                             source_line(&m->source, where));
             source_hint(&m->source, "all states start at the same time");
             return false;

@@ -28,7 +28,7 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
     s->shaped = true;
     s->components = components;
     if ((double)s->hull * parts > MODEL_NUMBERS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "%s would have %.4g numbers; at most %d fit", s->name,
+        source_complain(&m->source, MOTUS_LIMIT, &one->at, "%s would have %.4g numbers; at most %d fit", s->name,
                         (double)s->hull * parts, MODEL_NUMBERS_MAX);
         return false;
     }
@@ -72,8 +72,8 @@ static bool line_value(model *m, model_state *s, const statement *one, lowering 
         char now[40], before[40];
         snprintf(now, sizeof now, v->count ? "a vector of length %d" : "a number", v->count);
         snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
-        source_complain(&m->source, MOTUS_SHAPE, one->value->at, "%s%s at the start is %s here, but %s before", s->name,
-                        one->primes ? "'" : "", v->boolean ? "a condition" : now, before);
+        source_complain(&m->source, MOTUS_SHAPE, &one->value->at, "%s%s at the start is %s here, but %s before",
+                        s->name, one->primes ? "'" : "", v->boolean ? "a condition" : now, before);
         return false;
     }
     return s->shaped || give_shape(m, s, one, v->count);
@@ -100,11 +100,11 @@ static bool start_line(model *m, model_state *s, statement *one)
 {
     if (one->progress == 2) return true;
     if (one->progress == 1) {
-        source_complain(&m->source, MOTUS_NAME, one->at, "this initial value depends on itself, in a circle");
+        source_complain(&m->source, MOTUS_NAME, &one->at, "this initial value depends on itself, in a circle");
         return false;
     }
     if (m->start_depth == MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, one->at, "initial values use one another more than %d deep",
+        source_complain(&m->source, MOTUS_LIMIT, &one->at, "initial values use one another more than %d deep",
                         MODEL_CHAIN_MAX);
         return false;
     }
@@ -121,7 +121,7 @@ static bool start_line(model *m, model_state *s, statement *one)
     size_t cell = 0;
     for (int d = 0; d < s->dims; d++) {
         if (first[d] < s->first[d] || last[d] > s->last[d]) {
-            source_complain(&m->source, MOTUS_NAME, one->at,
+            source_complain(&m->source, MOTUS_NAME, &one->at,
                             "%s has an initial value at index %lld, but no equation there", s->name,
                             (long long)(first[d] < s->first[d] ? first[d] : last[d]));
             return false;
@@ -133,7 +133,7 @@ static bool start_line(model *m, model_state *s, statement *one)
     one->progress = 2;
     if (rank == START_OF_CELL && map[cell] == START_OF_SET) return true;
     if (rank == START_OF_CELL && map[cell] == START_OF_CELL) {
-        source_complain(&m->source, MOTUS_NAME, one->at, "%s%s at the start is given twice", s->name,
+        source_complain(&m->source, MOTUS_NAME, &one->at, "%s%s at the start is given twice", s->name,
                         one->primes ? "'" : "");
         return false;
     }
@@ -175,7 +175,7 @@ static bool start_missing(model *m, const model_state *s, int primes, size_t cel
 {
     char name[MOTUS_NAME_MAX + 64];
     model_state_name(s, cell, -1, primes, name, sizeof name);
-    source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s(%g) is missing", name, m->start);
+    source_complain(&m->source, MOTUS_NAME, &s->at, "the initial value %s(%g) is missing", name, m->start);
     source_hint(&m->source, s->dims ? "write %s[i]%s(%g) = … for i = …" : "write %s%s(%g) = …", s->name,
                 primes ? "'" : "", m->start);
     if (s->dims == 0 && s->components == 0)
@@ -250,13 +250,13 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
 }
 
 /* The first line of the kind that a cell has its value from; without one, the equation. */
-static span start_span(const model *m, const model_state *s, int primes, bool own)
+static const span *start_span(const model *m, const model_state *s, int primes, bool own)
 {
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
         const statement *one = &m->statements.item[i - 1];
-        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own) return one->at;
+        if (one->kind == STATEMENT_START && one->primes == primes && (one->loop_count == 0) == own) return &one->at;
     }
-    return s->at;
+    return &s->at;
 }
 
 static bool check_start(model *m, model_state *s, int primes)
@@ -286,7 +286,7 @@ bool start_state(model *m, model_state *s)
     for (int primes = 0; primes < s->order; primes++) {
         if (!start_lines(m, s, primes, true)) return false;
         if (!s->shaped) {
-            source_complain(&m->source, MOTUS_NAME, s->at, "the initial value %s%s(%g) is missing", s->name,
+            source_complain(&m->source, MOTUS_NAME, &s->at, "the initial value %s%s(%g) is missing", s->name,
                             s->dims ? "[…]" : "", m->start);
             source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name,
                         s->dims ? "[i]" : "", m->start, s->name);

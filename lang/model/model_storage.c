@@ -34,7 +34,7 @@ bool model_take_arrays(model *m, int count, uint16_t *first)
 {
     uint32_t need = m->array_count + (uint32_t)count;
     if (need > UINT16_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, (span){0, 0, 0}, "the model has more than %d arrays", UINT16_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, &(span){0, 0, 0}, "the model has more than %d arrays", UINT16_MAX);
         return false;
     }
     if (need > m->array_capacity && !model_reserve_arrays(m, need + 64 + m->array_capacity / 2)) return false;

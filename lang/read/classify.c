@@ -32,7 +32,7 @@ static void name_circle(char *out, size_t size, const reader *by, const char *na
 static bool within_chain(model *m, span at, const reader *by)
 {
     if (!by || by->chain < MODEL_CHAIN_MAX) return true;
-    source_complain(&m->source, MOTUS_LIMIT, at, "definitions use one another more than %d deep", MODEL_CHAIN_MAX);
+    source_complain(&m->source, MOTUS_LIMIT, &at, "definitions use one another more than %d deep", MODEL_CHAIN_MAX);
     return false;
 }
 
@@ -46,7 +46,7 @@ static bool definition_moves(model *m, model_definition *d, span at, const reade
     if (d->progress == 1) {
         char circle[8 * MOTUS_NAME_MAX];
         name_circle(circle, sizeof circle, by, d->name);
-        source_complain(&m->source, MOTUS_NAME, at, "%s is defined by itself, in a circle", d->name);
+        source_complain(&m->source, MOTUS_NAME, &at, "%s is defined by itself, in a circle", d->name);
         source_hint(&m->source, "cut the circle %s", circle);
         return false;
     }
@@ -69,7 +69,7 @@ static bool function_moves(model *m, model_function *f, span at, const reader *b
     if (f->progress == 1) {
         char circle[8 * MOTUS_NAME_MAX];
         name_circle(circle, sizeof circle, by, f->name);
-        source_complain(&m->source, MOTUS_NAME, at, "%s calls itself: %s", f->name, circle);
+        source_complain(&m->source, MOTUS_NAME, &at, "%s calls itself: %s", f->name, circle);
         source_hint(&m->source, "every call is replaced by what the function says, so none may come back to itself");
         return false;
     }
@@ -119,7 +119,7 @@ static bool moves_inside(model *m, const tree *t, const reader *by, bool *yes)
 static bool moves(model *m, const tree *t, const reader *by, bool *yes)
 {
     if (m->depth == MODEL_DEPTH_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, t->at,
+        source_complain(&m->source, MOTUS_LIMIT, &t->at,
                         "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
         source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
         return false;
@@ -144,13 +144,13 @@ static bool classify_definitions(model *m)
         if (!d->statement->replaced) continue;
         if (!moves(m, d->statement->replaced->value, NULL, &yes)) return false;
         if (yes) {
-            source_complain(&m->source, MOTUS_ARGUMENT, d->statement->name_at,
+            source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->name_at,
                             "%s is a quantity and follows from the motion", d->name);
             source_hint(&m->source, "parameters and initial values can be set");
             return false;
         }
         if (d->kind != DEFINED_PARAMETER) {
-            source_complain(&m->source, MOTUS_ARGUMENT, d->statement->value->at,
+            source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->value->at,
                             "%s is a parameter: what it is set to cannot depend on a state or on time", d->name);
             source_hint(&m->source, "write a force that depends on time in the model");
             return false;
@@ -171,7 +171,7 @@ static bool check_orphans(model *m)
                            : (symbol){0};
         const char *what = s->kind == STATEMENT_EXACT ? "an exact motion" : "an initial value";
         if ((s->kind == STATEMENT_START || s->kind == STATEMENT_EXACT) && !named.state) {
-            source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has %s, but no equation of motion", s->name, what);
+            source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s has %s, but no equation of motion", s->name, what);
             if (s->kind == STATEMENT_START && named.definition)
                 source_hint(&m->source, "%s is a %s", s->name,
                             named.definition->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
@@ -184,7 +184,7 @@ static bool check_orphans(model *m)
             return false;
         }
         if (s->kind == STATEMENT_START && s->primes >= named.state->order) {
-            source_complain(&m->source, MOTUS_NAME, s->at,
+            source_complain(&m->source, MOTUS_NAME, &s->at,
                             "%s has an equation of first order, which gives its derivative at the start", s->name);
             return false;
         }

@@ -9,7 +9,7 @@
 
 static void twice(model *m, const statement *s, span earlier)
 {
-    source_complain(&m->source, MOTUS_NAME, s->name_at, "%s is defined twice; the first time in line %d", s->name,
+    source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s is defined twice; the first time in line %d", s->name,
                     source_line(&m->source, earlier));
     source_hint(&m->source, "remove one of them, or give it another name");
 }
@@ -34,13 +34,13 @@ static bool add_state(model *m, const statement *s)
         return true;
     }
     if (state->order != s->primes) {
-        source_complain(&m->source, MOTUS_NAME, s->name_at, "%s has an equation for %s%s and another for %s%s", s->name,
-                        s->name, state->order == 2 ? "''" : "'", s->name, s->primes == 2 ? "''" : "'");
+        source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s has an equation for %s%s and another for %s%s",
+                        s->name, s->name, state->order == 2 ? "''" : "'", s->name, s->primes == 2 ? "''" : "'");
         source_hint(&m->source, "one of them follows from the other: remove it");
     } else if (state->dims == 0) {
         twice(m, s, state->at);
     } else if (state->dims != (int)s->index_count) {
-        source_complain(&m->source, MOTUS_SHAPE, s->name_at, "%s has %d ind%s in line %d, but %u here", s->name,
+        source_complain(&m->source, MOTUS_SHAPE, &s->name_at, "%s has %d ind%s in line %d, but %u here", s->name,
                         state->dims, state->dims == 1 ? "ex" : "ices", source_line(&m->source, state->at),
                         s->index_count);
     }
@@ -53,7 +53,7 @@ static bool add_definition(model *m, const statement *s)
     symbol known = symbols_find(m, s->name);
     if (known.state) {
         if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION) return true; /* a boundary line */
-        source_complain(&m->source, MOTUS_NAME, s->name_at,
+        source_complain(&m->source, MOTUS_NAME, &s->name_at,
                         "%s has an equation of motion in line %d and cannot be defined too", s->name,
                         source_line(&m->source, known.state->at));
         return false;
@@ -98,19 +98,19 @@ static bool check_arguments(model *m, const statement *s)
 {
     const tree *applied = s->applied;
     if (applied->count - 1 > MODEL_ARGUMENTS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, applied->at, "a function has at most %d arguments",
+        source_complain(&m->source, MOTUS_LIMIT, &applied->at, "a function has at most %d arguments",
                         MODEL_ARGUMENTS_MAX);
         return false;
     }
     for (uint32_t i = 1; i < applied->count; i++)
         for (uint32_t k = 1; k < i; k++)
             if (!strcmp(applied->item[i]->name, applied->item[k]->name)) {
-                source_complain(&m->source, MOTUS_NAME, applied->item[i]->at, "the argument %s stands twice",
+                source_complain(&m->source, MOTUS_NAME, &applied->item[i]->at, "the argument %s stands twice",
                                 applied->item[i]->name);
                 return false;
             }
     if (s->loop_count == 0) return true;
-    source_complain(&m->source, MOTUS_SHAPE, s->loops[0].at, "a function is no family");
+    source_complain(&m->source, MOTUS_SHAPE, &s->loops[0].at, "a function is no family");
     source_hint(&m->source, "an index may be an argument: %s(i, …)", s->name);
     return false;
 }
@@ -120,7 +120,7 @@ static bool add_function(model *m, statement *s)
 {
     symbol known = symbols_find(m, s->name);
     if (known.state && s->applied->count > 2) {
-        source_complain(&m->source, MOTUS_SYNTAX, s->applied->at,
+        source_complain(&m->source, MOTUS_SYNTAX, &s->applied->at,
                         "%s has an equation of motion: its bracket holds the start", s->name);
         source_hint(&m->source, "write %s(0) = …, or give the function another name", s->name);
         return false;
@@ -133,7 +133,7 @@ static bool add_function(model *m, statement *s)
         return false;
     }
     if (s->at.text > 0 && !s->replaced) {
-        source_complain(&m->source, MOTUS_NAME, s->name_at, "the model has no function %s", s->name);
+        source_complain(&m->source, MOTUS_NAME, &s->name_at, "the model has no function %s", s->name);
         return false;
     }
     s->kind = STATEMENT_FUNCTION;
@@ -156,7 +156,7 @@ static bool refuse_setting(model *m, uint32_t text)
         const uint32_t from = (uint32_t)(at - t->bytes);
         const span word = {text, from, from + (uint32_t)n};
         for (at += n; at < end && strchr(" =", *at);) at++;
-        source_complain(&m->source, MOTUS_ARGUMENT, word,
+        source_complain(&m->source, MOTUS_ARGUMENT, &word,
                         "%s is a setting, and only parameters and initial values can be set", words[i]);
         source_hint(&m->source, "give `%s = %.*s` of the definition", words[i], (int)(end - at > 40 ? 40 : end - at),
                     at);
@@ -174,19 +174,19 @@ static bool replace(model *m, uint32_t text)
     if (refuse_setting(m, text)) return false;
     if (!parse_text(s, text, &set)) return false;
     if (set.count != 1) {
-        source_complain(s, MOTUS_SYNTAX, all, "a setting is one definition");
+        source_complain(s, MOTUS_SYNTAX, &all, "a setting is one definition");
         source_hint(s, "write F=0.2 or x(0)=1");
         return false;
     }
     statement *one = &set.item[0];
     if (one->kind != STATEMENT_DEFINITION && one->kind != STATEMENT_START) {
-        source_complain(s, MOTUS_ARGUMENT, all, "only parameters and initial values can be set");
+        source_complain(s, MOTUS_ARGUMENT, &all, "only parameters and initial values can be set");
         source_hint(s, "write F=0.2 or x(0)=1");
         return false;
     }
     for (uint32_t i = 0; one->kind == STATEMENT_DEFINITION && i < m->statements.count; i++)
         if (m->statements.item[i].kind == STATEMENT_EQUATION && !strcmp(m->statements.item[i].name, one->name)) {
-            source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s has an equation of motion and cannot be set",
+            source_complain(s, MOTUS_ARGUMENT, &one->name_at, "%s has an equation of motion and cannot be set",
                             one->name);
             source_hint(s, "its initial values can: %s%s(0) = …", one->name, one->index_count ? "[…]" : "");
             return false;
@@ -226,14 +226,14 @@ static bool replace(model *m, uint32_t text)
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
         if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name)) continue;
-        source_complain(s, MOTUS_ARGUMENT, one->name_at, "%s can only be set with all of its numbers", one->name);
+        source_complain(s, MOTUS_ARGUMENT, &one->name_at, "%s can only be set with all of its numbers", one->name);
         if (old->value->kind == TREE_LIST)
             source_hint(s, "write %s = [1, 2, …]", one->name);
         else
             source_hint(s, "write it as the model does, in line %d", source_line(s, old->at));
         return false;
     }
-    source_complain(s, MOTUS_NAME, one->name_at, "the model has no parameter %s", one->name);
+    source_complain(s, MOTUS_NAME, &one->name_at, "the model has no parameter %s", one->name);
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
         if (old->kind == STATEMENT_DEFINITION && near_likely(one->name, old->name)) {
@@ -283,7 +283,7 @@ bool collect_all(model *m, const motus_text_def *def)
         state->last_line = i + 1;
     }
     if (m->state_count == 0) {
-        source_complain(&m->source, MOTUS_SYNTAX, (span){0, 0, 0}, "there is no equation of motion");
+        source_complain(&m->source, MOTUS_SYNTAX, &(span){0, 0, 0}, "there is no equation of motion");
         source_hint(&m->source, "write one: x'' = -x");
         return false;
     }

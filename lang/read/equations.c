@@ -39,14 +39,14 @@ static bool part(model *m, const statement *s, const model_state *state, const l
     value v = lower_expression(&l, s->value);
     if (lower_cut(m, 0, o.loops, &cut)) return divide(m, s, state, of, &o, &cut, into);
     if (m->graph->too_large)
-        source_complain(&m->source, MOTUS_LIMIT, s->at,
+        source_complain(&m->source, MOTUS_LIMIT, &s->at,
                         "the model's expressions are too large: more than %d operations", GRAPH_NODES_MAX);
     if (source_failed(&m->source) || !lower_fits(m, s, state, v, into ? "the right side" : "a boundary line"))
         return false;
     for (int k = 0; into && k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];
         if (graph_deps(m->graph, o.value) & DEP_A) {
-            source_complain(&m->source, MOTUS_SHAPE, s->value->at,
+            source_complain(&m->source, MOTUS_SHAPE, &s->value->at,
                             "an equation cannot use a quantity that contains an acceleration");
             source_hint(&m->source, "solve the equations for the highest derivatives");
             return false;
@@ -124,7 +124,7 @@ static bool values(model *m, const model_definition *d, const lowering *of, outp
     }
     if (source_failed(&m->source)) return false;
     if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, s->value->at, "%s is a condition, not a number", d->name);
+        source_complain(&m->source, MOTUS_SHAPE, &s->value->at, "%s is a condition, not a number", d->name);
         source_hint(&m->source, "write if(condition, 1, 0)");
         return false;
     }
@@ -144,7 +144,7 @@ static bool looked_at(model *m, model_definition *d)
     lower_start(&l, m, PLACE_QUANTITY, d->kind == DEFINED_INVARIANT ? "an invariant" : "a quantity");
     if (!lower_target(&l, s, &o)) return false;
     if (o.loops != o.to.dims) {
-        source_complain(&m->source, MOTUS_SHAPE, s->at, "%s[…] needs an index that runs", d->name);
+        source_complain(&m->source, MOTUS_SHAPE, &s->at, "%s[…] needs an index that runs", d->name);
         return false;
     }
     outputs into = {&d->outputs, &d->output_count, 0, 1};
@@ -162,7 +162,7 @@ static bool looked_at(model *m, model_definition *d)
     const size_t hull = graph_shape(m->arena, &shape, SPACE_OUT, 0, o.loops, d->first, d->last);
     d->numbers = hull * (size_t)parts;
     if (d->numbers > MODEL_NUMBERS_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, s->at, "%s would have %zu numbers; at most %d fit", d->name,
+        source_complain(&m->source, MOTUS_LIMIT, &s->at, "%s would have %zu numbers; at most %d fit", d->name,
                         d->numbers, MODEL_NUMBERS_MAX);
         return false;
     }
@@ -197,10 +197,10 @@ static bool exact_complete(model *m)
         }
         if (cells == s->cells.count) continue;
         if (!line)
-            source_complain(&m->source, MOTUS_NAME, s->at, "the exact motion of %s is missing: other states have one",
+            source_complain(&m->source, MOTUS_NAME, &s->at, "the exact motion of %s is missing: other states have one",
                             s->name);
         else
-            source_complain(&m->source, MOTUS_NAME, line->at, "the exact motion of %s is given for %zu of %zu places",
+            source_complain(&m->source, MOTUS_NAME, &line->at, "the exact motion of %s is given for %zu of %zu places",
                             s->name, cells, s->cells.count);
         return false;
     }

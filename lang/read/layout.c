@@ -16,12 +16,12 @@ bool layout_all(model *m)
             total += s->hull * (size_t)(s->components ? s->components : 1);
             parts += (uint32_t)(s->components ? s->components : 1);
             if (total > MODEL_NUMBERS_MAX) {
-                source_complain(&m->source, MOTUS_LIMIT, s->at, "the states have more than the %d numbers that fit",
+                source_complain(&m->source, MOTUS_LIMIT, &s->at, "the states have more than the %d numbers that fit",
                                 MODEL_NUMBERS_MAX);
                 return false;
             }
             if (parts > UINT16_MAX / 8) {
-                source_complain(&m->source, MOTUS_LIMIT, s->at, "more than %d variables and components",
+                source_complain(&m->source, MOTUS_LIMIT, &s->at, "more than %d variables and components",
                                 UINT16_MAX / 8);
                 source_hint(&m->source, "a family, x[i]'' = … for i = 1..N, is one variable however large N is");
                 return false;

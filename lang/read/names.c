@@ -133,12 +133,12 @@ static bool complain_name(finding *f, const tree *t)
     const model_function *function = symbols_find(f->model, t->name).function;
     char text[80];
     if (function) {
-        source_complain(s, MOTUS_SYNTAX, t->at, "%s is a function and needs its arguments, in a bracket glued to it",
+        source_complain(s, MOTUS_SYNTAX, &t->at, "%s is a function and needs its arguments, in a bracket glued to it",
                         t->name);
         source_hint(s, "it is defined as %s", as_defined(f, function, text));
         return false;
     }
-    source_complain(s, MOTUS_NAME, t->at, "%s is not defined", t->name);
+    source_complain(s, MOTUS_NAME, &t->at, "%s is not defined", t->name);
     if (strlen(t->name) == 2 && t->name[0] == 'd')
         source_hint(s, "derivatives are written with primes: %s'", t->name + 1);
     if (!strcmp(t->name, "e")) source_hint(s, "for the exponential write exp(…)");
@@ -169,19 +169,19 @@ static bool complain_arguments(finding *f, const tree *t, symbol found)
     const tree *name = t->item[0];
     char text[80];
     if (found.state) {
-        source_complain(s, MOTUS_SHAPE, t->at, "%s is a state, not a function", name->name);
+        source_complain(s, MOTUS_SHAPE, &t->at, "%s is a state, not a function", name->name);
         source_hint(s, "write %s for its value now, %s(0) for its initial value", name->name, name->name);
         return false;
     }
     const uint32_t wanted = found.function->statement->applied->count - 1;
     if (name->primes) {
-        source_complain(s, MOTUS_SYNTAX, t->at, "a function takes no primes");
+        source_complain(s, MOTUS_SYNTAX, &t->at, "a function takes no primes");
         source_hint(s, "its derivative is diff(%s(q), q)", name->name);
     } else if (name->index_count) {
-        source_complain(s, MOTUS_SHAPE, t->at, "%s is a function and takes no index", name->name);
+        source_complain(s, MOTUS_SHAPE, &t->at, "%s is a function and takes no index", name->name);
         source_hint(s, "it is defined as %s", as_defined(f, found.function, text));
     } else {
-        source_complain(s, MOTUS_SYNTAX, t->at, "%s takes %u argument%s, not %u", name->name, wanted,
+        source_complain(s, MOTUS_SYNTAX, &t->at, "%s takes %u argument%s, not %u", name->name, wanted,
                         wanted == 1 ? "" : "s", t->count - 1);
         source_hint(s, "it is defined as %s", as_defined(f, found.function, text));
     }
@@ -197,15 +197,15 @@ static bool complain_call(finding *f, const tree *t)
     for (uint32_t i = 0; i < f->local_count; i++) local |= !strcmp(f->local[i], name);
     if (!local && (found.state || found.function)) return complain_arguments(f, t, found);
     if ((defined || local) && t->count == 2) {
-        source_complain(s, MOTUS_SYNTAX, t->at, "%s is not a function", name);
+        source_complain(s, MOTUS_SYNTAX, &t->at, "%s is not a function", name);
         hint_product(s, t, name);
         return false;
     }
     if (defined || local) {
-        source_complain(s, MOTUS_SYNTAX, t->at, "%s is not a function", name);
+        source_complain(s, MOTUS_SYNTAX, &t->at, "%s is not a function", name);
         return false;
     }
-    source_complain(s, MOTUS_NAME, t->at,
+    source_complain(s, MOTUS_NAME, &t->at,
                     here ? "%s is not a function of the language" : "%s is neither a function nor defined", name);
     if (here) source_hint(s, "write %s", here);
     symbols_suggest_call(f->model, name);
@@ -224,7 +224,7 @@ static bool check_left(model *m, const statement *s)
         bool runs = found.definition || found.state || !strcmp(t->name, "t") || !strcmp(t->name, "pi");
         for (uint32_t k = 0; k < s->loop_count; k++) runs |= !strcmp(s->loops[k].name, t->name);
         if (runs) continue;
-        source_complain(&m->source, MOTUS_NAME, t->at, "the index %s has no range", t->name);
+        source_complain(&m->source, MOTUS_NAME, &t->at, "the index %s has no range", t->name);
         source_hint(&m->source, "add: for %s = 1..N", t->name);
         return false;
     }

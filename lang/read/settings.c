@@ -14,7 +14,7 @@ static bool set_method(model *m, const statement *s, read_method known)
         m->method = s->text;
         return true;
     }
-    source_complain(&m->source, status, s->at, "%s", why.message);
+    source_complain(&m->source, status, &s->at, "%s", why.message);
     if (why.hint[0]) source_hint(&m->source, "%s", why.hint);
     source_repair(&m->source, why.word, "%s", why.instead);
     return false;
@@ -28,7 +28,7 @@ bool settings_all(model *m, read_method known)
         const statement *s = &m->statements.item[i];
         if (s->kind < STATEMENT_METHOD) continue;
         if (seen[s->kind]) {
-            source_complain(&m->source, MOTUS_NAME, s->at, "%s is set twice", s->name);
+            source_complain(&m->source, MOTUS_NAME, &s->at, "%s is set twice", s->name);
             return false;
         }
         seen[s->kind] = true;
@@ -40,7 +40,7 @@ bool settings_all(model *m, read_method known)
         if (!resolve_constant(m, s->value, s->name, &v)) return false;
         bool positive = s->kind == STATEMENT_STEP || s->kind == STATEMENT_EVERY;
         if (positive && !(v > 0)) {
-            source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "%s is positive, not %g", s->name, v);
+            source_complain(&m->source, MOTUS_ARGUMENT, &s->value->at, "%s is positive, not %g", s->name, v);
             if (s->kind == STATEMENT_STEP)
                 source_hint(&m->source, "a run goes backward when `until` lies before the start");
             return false;
@@ -52,7 +52,7 @@ bool settings_all(model *m, read_method known)
             if (!s->steps) {
                 m->every_time = v;
             } else if (v != floor(v) || v > 9e15) {
-                source_complain(&m->source, MOTUS_ARGUMENT, s->value->at, "every %g steps: the number must be whole",
+                source_complain(&m->source, MOTUS_ARGUMENT, &s->value->at, "every %g steps: the number must be whole",
                                 v);
                 return false;
             } else {

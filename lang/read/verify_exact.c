@@ -104,7 +104,7 @@ static motus_status wrong_start(model *m, const double *is, const double *due, b
     char name[MOTUS_NAME_MAX + 64], a[VERIFY_DIGITS], b[VERIFY_DIGITS];
     model_name(m, in_v, k, name, sizeof name);
     verify_digits(is[k], due[k], a, b);
-    source_complain(&m->source, MOTUS_ARGUMENT, exact_line(m)->at,
+    source_complain(&m->source, MOTUS_ARGUMENT, &exact_line(m)->at,
                     "the exact motion does not meet the initial value: %s is %s at the start, not %s; they differ by "
                     "%.2g",
                     name, a, b, is[k] - due[k]);
@@ -119,7 +119,7 @@ static motus_status wrong_force(model *m, const verify_sample *s, size_t k)
     char *prime = strchr(name, '\'');
     if (prime) memmove(prime + 1, prime, strlen(prime) + 1);
     verify_digits(s->e[k], s->a[k], a, b);
-    source_complain(&m->source, MOTUS_ARGUMENT, exact_line(m)->at,
+    source_complain(&m->source, MOTUS_ARGUMENT, &exact_line(m)->at,
                     "the exact motion does not obey the equation: at t = %s %s is %s, but the force gives %s; they "
                     "differ by %.2g",
                     decimal_time(s->t, m->until - m->start, time), name, a, b, s->e[k] - s->a[k]);
@@ -130,7 +130,7 @@ static motus_status wrong_force(model *m, const verify_sample *s, size_t k)
 static motus_status pole(model *m, double t)
 {
     char time[DECIMAL_MAX];
-    source_complain(&m->source, MOTUS_ARGUMENT, exact_line(m)->at,
+    source_complain(&m->source, MOTUS_ARGUMENT, &exact_line(m)->at,
                     "the exact motion has a pole at t = %s: it obeys the equation before that alone",
                     decimal_time(t, m->until - m->start, time));
     source_hint(&m->source, "let the run end before that: until = ...");

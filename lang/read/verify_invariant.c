@@ -230,7 +230,7 @@ static motus_status refuse(model *m, const model_definition *d, size_t k, double
 {
     char number[64] = "", time[DECIMAL_MAX];
     if (d->numbers > 1) snprintf(number, sizeof number, " (number %zu of %zu)", k + 1, d->numbers);
-    source_complain(&m->source, MOTUS_ARGUMENT, d->statement->at,
+    source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->at,
                     "%s%s is no invariant: along the motion it changes at the rate %.6g at t = %s", d->name, number,
                     rate, decimal_time(t, m->until - m->start, time));
     source_hint(&m->source,
@@ -243,7 +243,7 @@ static motus_status refuse_jump(model *m, const model_definition *d, size_t k, d
     char number[64] = "", time[DECIMAL_MAX], a[VERIFY_DIGITS], b[VERIFY_DIGITS];
     if (d->numbers > 1) snprintf(number, sizeof number, " (number %zu of %zu)", k + 1, d->numbers);
     verify_digits(from, to, a, b);
-    source_complain(&m->source, MOTUS_ARGUMENT, d->statement->at,
+    source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->at,
                     "%s%s is no invariant: along the motion it jumps from %s to %s at t = %s", d->name, number, a, b,
                     decimal_time(t, m->until - m->start, time));
     source_hint(&m->source,

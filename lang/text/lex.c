@@ -66,7 +66,7 @@ static token lex_number(lexer *l, bool blank)
     if (l->at < n && b[l->at] == '.' && !(l->at + 1 < n && b[l->at + 1] == '.')) {
         if (!digit(b, n, l->at + 1)) {
             span at = {l->text, from, l->at + 1};
-            source_complain(l->source, MOTUS_SYNTAX, at, "a number cannot end with a point");
+            source_complain(l->source, MOTUS_SYNTAX, &at, "a number cannot end with a point");
             source_hint(l->source, "write %.*s or %.*s.0", (int)(l->at - from), b + from, (int)(l->at - from),
                         b + from);
             return stop(l, from);
@@ -85,12 +85,12 @@ static token lex_number(lexer *l, bool blank)
     token t = make(l, TOKEN_NUMBER, from, blank);
     if (l->at < n && b[l->at] == '.' && digit(b, n, l->at + 1)) {
         t.at.to++;
-        source_complain(l->source, MOTUS_SYNTAX, t.at, "a number has one decimal point");
+        source_complain(l->source, MOTUS_SYNTAX, &t.at, "a number has one decimal point");
         return stop(l, from);
     }
     decimal_read(b + from, l->at - from, &t.number);
     if (!isfinite(t.number)) {
-        source_complain(l->source, MOTUS_LIMIT, t.at, "this number is beyond the range of a double (1.8e308)");
+        source_complain(l->source, MOTUS_LIMIT, &t.at, "this number is beyond the range of a double (1.8e308)");
         return stop(l, from);
     }
     return t;
@@ -103,7 +103,7 @@ static token lex_name(lexer *l, bool blank)
     while (l->at < n && (c = decode(b, n, l->at, &size), size > 0) && name_part(c)) l->at += size;
     token t = make(l, TOKEN_NAME, from, blank);
     if (l->at - from >= MOTUS_NAME_MAX) {
-        source_complain(l->source, MOTUS_LIMIT, t.at, "a name has at most %d bytes", MOTUS_NAME_MAX - 1);
+        source_complain(l->source, MOTUS_LIMIT, &t.at, "a name has at most %d bytes", MOTUS_NAME_MAX - 1);
         return stop(l, from);
     }
     return t;
@@ -134,20 +134,20 @@ static bool bracket(lexer *l, char c, uint32_t from)
     span at = {l->text, from, from + 1};
     if (c == '(' || c == '[') {
         if (l->depth == SOURCE_NESTING_MAX) {
-            source_complain(l->source, MOTUS_LIMIT, at, "brackets are nested more than %d deep", SOURCE_NESTING_MAX);
+            source_complain(l->source, MOTUS_LIMIT, &at, "brackets are nested more than %d deep", SOURCE_NESTING_MAX);
             return false;
         }
         l->opened[l->depth] = from;
         l->closer[l->depth++] = c == '(' ? ')' : ']';
     } else if (c == ')' || c == ']') {
         if (l->depth == 0) {
-            source_complain(l->source, MOTUS_SYNTAX, at, "this %c has no opening bracket", c);
+            source_complain(l->source, MOTUS_SYNTAX, &at, "this %c has no opening bracket", c);
             source_hint(l->source, "remove it, or open it with %c before", c == ')' ? '(' : '[');
             return false;
         }
         if (l->closer[--l->depth] != c) {
             span open = {l->text, l->opened[l->depth], l->opened[l->depth] + 1};
-            source_complain(l->source, MOTUS_SYNTAX, at, "%c expected here, for the %c in line %d, but there is %c",
+            source_complain(l->source, MOTUS_SYNTAX, &at, "%c expected here, for the %c in line %d, but there is %c",
                             l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, open),
                             c);
             return false;
@@ -161,49 +161,49 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     source *s = l->source;
     span at = {l->text, from, from + (size ? size : 1)};
     if (size == 0) {
-        source_complain(s, MOTUS_SYNTAX, at, "this byte (0x%02X) is not UTF-8 text",
+        source_complain(s, MOTUS_SYNTAX, &at, "this byte (0x%02X) is not UTF-8 text",
                         (unsigned char)s->texts[l->text].bytes[from]);
         source_hint(s, "save the model as UTF-8");
     } else if (c < 0x20 || c == 0x7F) {
-        source_complain(s, MOTUS_SYNTAX, at, "a control character (U+%04X) stands here", c);
+        source_complain(s, MOTUS_SYNTAX, &at, "a control character (U+%04X) stands here", c);
         source_hint(s, "a model is plain text: remove it");
     } else if (c == 0xB2 || c == 0xB3 || c == 0xB9 || (c >= 0x2070 && c <= 0x207F)) {
-        source_complain(s, MOTUS_SYNTAX, at, "raised characters are not read as powers");
+        source_complain(s, MOTUS_SYNTAX, &at, "raised characters are not read as powers");
         source_hint(s, "write ^2, ^3 …");
     } else if (c == 0xF7) {
-        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
         source_hint(s, "divide with /");
     } else if (c == 0x221A) {
-        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
         source_hint(s, "write sqrt(…)");
     } else if (c == 0x2211) {
-        source_complain(s, MOTUS_SYNTAX, at, "this sign is not an operator here");
+        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
         source_hint(s, "write sum(i = 1..N: …)");
     } else if (c == ';') {
-        source_complain(s, MOTUS_SYNTAX, at, "; ends a statement, and here a bracket is open");
+        source_complain(s, MOTUS_SYNTAX, &at, "; ends a statement, and here a bracket is open");
         source_hint(s, "close the bracket; a comma stands between components, arguments and conditions");
     } else if (c == '{' || c == '}') {
-        source_complain(s, MOTUS_SYNTAX, at, "there are no braces in the language");
+        source_complain(s, MOTUS_SYNTAX, &at, "there are no braces in the language");
         source_hint(s, "group with ( )");
     } else if (c == '&') {
-        source_complain(s, MOTUS_SYNTAX, at, "there is no & in the language");
+        source_complain(s, MOTUS_SYNTAX, &at, "there is no & in the language");
         source_hint(s, "write: and");
     } else if (c == '!') {
-        source_complain(s, MOTUS_SYNTAX, at, "! alone means nothing");
+        source_complain(s, MOTUS_SYNTAX, &at, "! alone means nothing");
         source_hint(s, "write != for unequal, not for the logical not");
     } else if (c == 0xB0) {
-        source_complain(s, MOTUS_SYNTAX, at, "angles are in radians");
+        source_complain(s, MOTUS_SYNTAX, &at, "angles are in radians");
         source_hint(s, "write 30 pi/180 for 30 degrees");
     } else if (c == '\\') {
-        source_complain(s, MOTUS_SYNTAX, at, "the character \\ has no meaning here");
+        source_complain(s, MOTUS_SYNTAX, &at, "the character \\ has no meaning here");
         source_hint(s, "write Greek letters as they are, ω, or by name, omega");
     } else if (c == '%') {
-        source_complain(s, MOTUS_SYNTAX, at, "the character %% has no meaning here");
+        source_complain(s, MOTUS_SYNTAX, &at, "the character %% has no meaning here");
         source_hint(s, "a comment begins with #");
     } else if (c >= 0x20 && c < 0x7F) {
-        source_complain(s, MOTUS_SYNTAX, at, "the character %c has no meaning here", (char)c);
+        source_complain(s, MOTUS_SYNTAX, &at, "the character %c has no meaning here", (char)c);
     } else {
-        source_complain(s, MOTUS_SYNTAX, at, "the character U+%04X has no meaning here", c);
+        source_complain(s, MOTUS_SYNTAX, &at, "the character U+%04X has no meaning here", c);
     }
     return stop(l, from);
 }
@@ -219,7 +219,7 @@ token lex_next(lexer *l)
         if (l->at >= n) {
             if (l->depth > 0) {
                 span open = {l->text, l->opened[l->depth - 1], l->opened[l->depth - 1] + 1};
-                source_complain(s, MOTUS_SYNTAX, open, "this %c is never closed", b[open.from]);
+                source_complain(s, MOTUS_SYNTAX, &open, "this %c is never closed", b[open.from]);
                 source_hint(s, "add the missing %c", l->closer[l->depth - 1]);
             }
             return stop(l, n);
@@ -269,7 +269,7 @@ token lex_next(lexer *l)
     if (c == '.' && digit(b, n, from + 1) &&
         (blank || from == 0 || !(b[from - 1] == ')' || b[from - 1] == ']' || b[from - 1] == '\''))) {
         span at = {l->text, from, from + 2};
-        source_complain(s, MOTUS_SYNTAX, at, "a number needs a digit before the point");
+        source_complain(s, MOTUS_SYNTAX, &at, "a number needs a digit before the point");
         source_hint(s, "write 0.%c", b[from + 1]);
         return stop(l, from);
     }

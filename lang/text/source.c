@@ -42,18 +42,18 @@ static size_t show(char *out, size_t size, const char *bytes, uint32_t from, uin
 }
 
 /* The part of the line around the place that fits the error's fields, and a caret line of the same width under it. */
-static void point(source *s, span at, motus_error *e)
+static void point(source *s, const span *at, motus_error *e)
 {
-    const struct source_text *text = &s->texts[at.text];
+    const struct source_text *text = &s->texts[at->text];
     enum { ROOM = 160 };
-    uint32_t begin = at.from < text->length ? at.from : text->length, end = begin;
+    uint32_t begin = at->from < text->length ? at->from : text->length, end = begin;
     while (begin > 0 && text->bytes[begin - 1] != '\n') begin--;
     int column = 1;
-    for (uint32_t i = begin; i < at.from && i < text->length; i++) column += !continues((unsigned char)text->bytes[i]);
+    for (uint32_t i = begin; i < at->from && i < text->length; i++) column += !continues((unsigned char)text->bytes[i]);
     while (end < text->length && text->bytes[end] != '\n') end++;
     if (end > begin && text->bytes[end - 1] == '\r') end--;
-    if (at.from > begin + ROOM / 2 && end - begin > ROOM) {
-        begin = at.from - ROOM / 2;
+    if (at->from > begin + ROOM / 2 && end - begin > ROOM) {
+        begin = at->from - ROOM / 2;
         while (begin > 0 && continues((unsigned char)text->bytes[begin])) begin--;
     }
     if (end - begin > ROOM) {
@@ -62,21 +62,21 @@ static void point(source *s, span at, motus_error *e)
     }
     show(e->source, sizeof e->source, text->bytes, begin, end);
     size_t n = 0;
-    for (uint32_t i = begin; i < at.from && i < text->length && n + 2 < sizeof e->caret; i++)
+    for (uint32_t i = begin; i < at->from && i < text->length && n + 2 < sizeof e->caret; i++)
         if (!continues((unsigned char)text->bytes[i])) e->caret[n++] = ' ';
-    uint32_t to = at.to > at.from ? at.to : at.from + 1;
+    uint32_t to = at->to > at->from ? at->to : at->from + 1;
     bool any = false;
-    for (uint32_t i = at.from; (i < to && i < end && n + 1 < sizeof e->caret) || !any; i++) {
+    for (uint32_t i = at->from; (i < to && i < end && n + 1 < sizeof e->caret) || !any; i++) {
         if (i >= end || !continues((unsigned char)text->bytes[i])) e->caret[n++] = '^';
         any = true;
     }
     e->caret[n] = 0;
-    e->line = source_line(s, at);
+    e->line = source_line(s, *at);
     e->column = column;
     snprintf(e->file, sizeof e->file, "%s", text->name ? text->name : "");
 }
 
-void source_complain(source *s, motus_status status, span at, const char *format, ...)
+void source_complain(source *s, motus_status status, const span *at, const char *format, ...)
 {
     if (source_failed(s)) /* a failure for lack of memory is no error of the text */
         return;
@@ -89,7 +89,7 @@ void source_complain(source *s, motus_status status, span at, const char *format
     vsnprintf(message, sizeof message, format, list);
     va_end(list);
     fail(s->error, status, "%s", message);
-    if (at.text < s->count) point(s, at, s->error);
+    if (at->text < s->count) point(s, at, s->error);
 }
 
 void source_hint(source *s, const char *format, ...)

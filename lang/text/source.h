@@ -38,7 +38,8 @@ typedef struct source {
 } source;
 
 bool source_failed(const source *); /* a complaint, or no memory */
-void source_complain(source *, motus_status, span at, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void source_complain(source *, motus_status, const span *at, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 void source_hint(source *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Adds what an editor may write instead of a word, or, word "", as a line of its own; of the first complaint alone. */
 void source_repair(source *, const char *word, const char *format, ...) __attribute__((format(printf, 3, 4)));

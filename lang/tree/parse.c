@@ -18,7 +18,7 @@ static tree *parse_power(parser *p)
     p->depth--;
     if (failed(p)) return base;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
-        COMPLAIN(p, p->token.at, "a prime follows a name, not a power");
+        COMPLAIN(p, &p->token.at, "a prime follows a name, not a power");
         HINT(p, "write the derivative out");
         return base;
     }
@@ -67,7 +67,7 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
         span at = {left->at.text, left->at.from, p->token.at.to};
         quote(p, left->at, a);
         quote(p, p->token.at, b);
-        COMPLAIN(p, at, "a number comes first in a product: %s %s is not read", a, b);
+        COMPLAIN(p, &at, "a number comes first in a product: %s %s is not read", a, b);
         if (quotient(product))
             HINT(p, "write %s/%s*%s or %s/(%s*%s)", quote(p, product->item[0]->at, c), a, b, c, a, b);
         else if (left->kind != TREE_NUMBER)
@@ -79,7 +79,7 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
         return true;
     }
     if (is(p, '[')) {
-        COMPLAIN(p, p->token.at, "an index stands directly behind the name");
+        COMPLAIN(p, &p->token.at, "an index stands directly behind the name");
         return true;
     }
     return false;
@@ -91,7 +91,7 @@ static bool glued_to_divisor(parser *p, const tree *product, const tree *right)
 {
     char a[80], b[80], c[80];
     const tree *divisor = product->item[1];
-    COMPLAIN(p, ((span){divisor->at.text, divisor->at.from, right->at.to}),
+    COMPLAIN(p, (&(span){divisor->at.text, divisor->at.from, right->at.to}),
              "it is not clear whether %s multiplies the quotient or the divisor", quote(p, right->at, c));
     HINT(p, "write %s/%s %s, with a blank, for (%s/%s) %s; or %s/(%s %s)", quote(p, product->item[0]->at, a),
          quote(p, divisor->at, b), c, a, b, c, a, b, c);
@@ -119,7 +119,7 @@ static tree *parse_signed(parser *p, tree *t)
     advance(p);
     skip_lines(p);
     if (is(p, '*') && times) {
-        COMPLAIN(p, ((span){sign.text, sign.from, p->token.at.to}), "powers are written with ^, not **");
+        COMPLAIN(p, (&(span){sign.text, sign.from, p->token.at.to}), "powers are written with ^, not **");
         return t;
     }
     const bool minus = is(p, '-');
@@ -155,7 +155,7 @@ static tree *parse_terms(parser *p)
         advance(p);
         skip_lines(p);
         if (is(p, '-') || is(p, '+')) {
-            COMPLAIN(p, p->token.at, "two signs in a row");
+            COMPLAIN(p, &p->token.at, "two signs in a row");
             HINT(p, "use a bracket: -(-x)");
             return nothing(p);
         }
@@ -174,7 +174,7 @@ static tree *parse_terms(parser *p)
         advance(p);
         skip_lines(p);
         if (is(p, '+') || is(p, '-')) {
-            COMPLAIN(p, p->token.at, "two signs in a row");
+            COMPLAIN(p, &p->token.at, "two signs in a row");
             HINT(p, "use a bracket: a + (-b)");
             return t;
         }
@@ -208,7 +208,7 @@ static tree *parse_comparison(parser *p)
     if (failed(p)) return t;
     char a[80], b[80];
     if (relation(p) >= 0) {
-        COMPLAIN(p, p->token.at, "comparisons are not chained");
+        COMPLAIN(p, &p->token.at, "comparisons are not chained");
         HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, t->at, a), quote(p, right->at, b),
              b);
         return t;

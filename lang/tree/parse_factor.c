@@ -23,7 +23,7 @@ bool parse_loop(parser *p, loop *l)
     l->at = p->token.at;
     l->name = copy_name(p, p->token.at);
     if (words_reserved(l->name) || words_function(l->name) >= 0) {
-        COMPLAIN(p, l->at, "%s is a word of the language and cannot be an index", l->name);
+        COMPLAIN(p, &l->at, "%s is a word of the language and cannot be an index", l->name);
         HINT(p, "take i, j, k …");
         return false;
     }
@@ -77,18 +77,18 @@ static tree *parse_sum(parser *p, span name)
         if (at_loop(p)) {
             loop l = {0};
             if (t->count > 0) {
-                COMPLAIN(p, p->token.at, "in a sum the indices come before the conditions");
+                COMPLAIN(p, &p->token.at, "in a sum the indices come before the conditions");
                 return t;
             }
             if (t->loop_count == MAX_DIMS) {
-                source_complain(p->source, MOTUS_LIMIT, p->token.at, "a sum has at most %d indices", MAX_DIMS);
+                source_complain(p->source, MOTUS_LIMIT, &p->token.at, "a sum has at most %d indices", MAX_DIMS);
                 return t;
             }
             if (!parse_loop(p, &l)) return t;
             parse_add_loop(p, &t->loops, &t->loop_count, &l);
         } else {
             if (t->loop_count == 0) {
-                COMPLAIN(p, p->token.at, "a sum begins with its index");
+                COMPLAIN(p, &p->token.at, "a sum begins with its index");
                 HINT(p, "write sum(j = 1..N: …) or sum(j = 1..N, j != i: …)");
                 return t;
             }
@@ -135,15 +135,15 @@ static tree *parse_call(parser *p, span name)
         if (is(p, '^')) {
             lexer ahead = p->lexer;
             token power = lex_next(&ahead);
-            COMPLAIN(p, name, "%s needs its argument in brackets", text);
+            COMPLAIN(p, &name, "%s needs its argument in brackets", text);
             HINT(p, "write %s(x)^%s", text, power.kind == TOKEN_NUMBER ? quote(p, power.at, argument) : "2");
         } else if (p->token.kind == TOKEN_NAME || p->token.kind == TOKEN_NUMBER) {
-            COMPLAIN(p, name, "%s needs its argument in brackets", text);
+            COMPLAIN(p, &name, "%s needs its argument in brackets", text);
             HINT(p, "write %s(%s)", text, quote(p, p->token.at, argument));
         } else if (p->token.kind == TOKEN_PRIMES) {
-            COMPLAIN(p, p->token.at, "a function takes no primes");
+            COMPLAIN(p, &p->token.at, "a function takes no primes");
         } else {
-            COMPLAIN(p, name, "%s is a function and needs its argument in brackets", text);
+            COMPLAIN(p, &name, "%s is a function and needs its argument in brackets", text);
             HINT(p, "write %s(…)", text);
         }
         return nothing(p);
@@ -161,7 +161,7 @@ static tree *parse_call(parser *p, span name)
     if (!expect(p, ')', "or a comma")) return t;
     int wanted = arity(operation);
     if (wanted < 0 ? t->count < (uint32_t)-wanted : t->count != (uint32_t)wanted) {
-        COMPLAIN(p, t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
+        COMPLAIN(p, &t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
                  wanted < 0 ? -wanted : wanted, wanted == 1 ? "" : "s", t->count);
         if (operation == CALL_IF) HINT(p, "write if(condition, value if true, value if false)");
         if (operation == CALL_DIFF) HINT(p, "write diff(V(x), x): what is differentiated, then by what");
@@ -180,7 +180,7 @@ void parse_index(parser *p, tree *t)
     t->index_count = (uint16_t)(t->count < UINT16_MAX ? t->count : UINT16_MAX);
     t->at.to = p->token.at.to;
     expect(p, ']', "after the index");
-    if (t->index_count > MAX_DIMS) source_complain(p->source, MOTUS_LIMIT, t->at, "at most %d indices", MAX_DIMS);
+    if (t->index_count > MAX_DIMS) source_complain(p->source, MOTUS_LIMIT, &t->at, "at most %d indices", MAX_DIMS);
 }
 
 static tree *component(parser *p, tree *of, tree *number, span at)
@@ -200,9 +200,9 @@ static tree *parse_components(parser *p, tree *t)
             if (k == 0) {
                 char text[80];
                 if (p->token.kind == TOKEN_END || p->token.kind == TOKEN_NEWLINE || p->token.blank)
-                    COMPLAIN(p, p->last.at, "a point stands alone here");
+                    COMPLAIN(p, &p->last.at, "a point stands alone here");
                 else
-                    COMPLAIN(p, p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s",
+                    COMPLAIN(p, &p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s",
                              quote(p, p->token.at, text));
                 return t;
             }
@@ -216,7 +216,7 @@ static tree *parse_components(parser *p, tree *t)
             t = component(p, t, number, p->token.at);
             if (!expect(p, ']', "after the number of a component")) return t;
         } else if (p->token.kind == TOKEN_PRIMES) {
-            COMPLAIN(p, p->token.at, "primes follow a name or its index, before the component");
+            COMPLAIN(p, &p->token.at, "primes follow a name or its index, before the component");
             HINT(p, "write r'.x");
             return t;
         } else {
@@ -261,19 +261,19 @@ static tree *parse_name(parser *p)
         t->primes = (uint8_t)p->token.primes;
         t->at.to = p->token.at.to;
         if (t->primes > 2) {
-            COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", t->primes);
+            COMPLAIN(p, &p->token.at, "%d primes: the highest derivative is x''", t->primes);
             HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
             return t;
         }
         advance(p);
     } else if (p->token.kind == TOKEN_PRIMES) {
-        COMPLAIN(p, p->token.at, "primes stand directly behind the name");
+        COMPLAIN(p, &p->token.at, "primes stand directly behind the name");
         return t;
     }
     if (is(p, '(') && !p->token.blank) {
         t = parse_applied(p, t);
         if (p->token.kind == TOKEN_PRIMES && !p->token.blank && !failed(p)) {
-            COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
+            COMPLAIN(p, &p->token.at, "primes follow the name, before the bracket");
             HINT(p, "write x'(0)");
         }
     }
@@ -304,7 +304,7 @@ static tree *parse_bracket(parser *p)
     t->bracketed = true;
     if (!expect(p, ')', "or a comma")) return t;
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
-        COMPLAIN(p, p->token.at, "a prime follows a name, not a bracket");
+        COMPLAIN(p, &p->token.at, "a prime follows a name, not a bracket");
         HINT(p, "write the derivative out");
         return t;
     }
@@ -330,7 +330,7 @@ static tree *parse_norm(parser *p)
     if (failed(p)) return t;
     t->at.to = p->token.at.to;
     if (!is(p, '|')) {
-        COMPLAIN(p, t->at, "this | is never closed");
+        COMPLAIN(p, &t->at, "this | is never closed");
         HINT(p, "write |…|, or abs(…)");
         return t;
     }
@@ -347,7 +347,7 @@ tree *parse_factor(parser *p)
         t->number = p->token.number;
         advance(p);
         if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
-            COMPLAIN(p, p->token.at, "a prime follows a name, not a number or a power");
+            COMPLAIN(p, &p->token.at, "a prime follows a name, not a number or a power");
             HINT(p, "write the derivative out");
         }
         return t;
@@ -363,7 +363,7 @@ tree *parse_factor(parser *p)
         }
         if (words_reserved(text) && strcmp(text, "t") && strcmp(text, "pi")) {
             if (left_open(p)) return nothing(p);
-            COMPLAIN(p, at, "%s is a word of the language and cannot stand here", text);
+            COMPLAIN(p, &at, "%s is a word of the language and cannot stand here", text);
             if (!strcmp(text, "for")) HINT(p, "something is missing before it");
             return nothing(p);
         }

@@ -122,7 +122,7 @@ static inline const char *quote(const parser *p, span at, char out[80])
 static inline bool deeper(parser *p)
 {
     if (++p->depth <= DEPTH_MAX) return true;
-    source_complain(p->source, MOTUS_LIMIT, p->token.at, "the expression is nested too deeply");
+    source_complain(p->source, MOTUS_LIMIT, &p->token.at, "the expression is nested too deeply");
     HINT(p, "give parts of it names of their own");
     return false;
 }
@@ -132,9 +132,9 @@ static inline void unexpected(parser *p, const char *wanted)
 {
     char text[80];
     if (p->token.kind == TOKEN_END || p->token.kind == TOKEN_NEWLINE)
-        COMPLAIN(p, p->token.at, "%s expected, but the line ends here", wanted);
+        COMPLAIN(p, &p->token.at, "%s expected, but the line ends here", wanted);
     else
-        COMPLAIN(p, p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
+        COMPLAIN(p, &p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
 }
 
 /* Line ends inside a bracket do not count [8], so an open bracket swallows the next statement: complains at that
@@ -146,7 +146,7 @@ static inline bool left_open(parser *p)
     span open = {p->token.at.text, from, from + 1};
     if (source_line(p->source, open) == source_line(p->source, p->token.at)) return false;
     char closer = p->lexer.closer[p->lexer.depth - 1];
-    COMPLAIN(p, open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
+    COMPLAIN(p, &open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
     HINT(p, "add the missing %c", closer);
     return true;
 }
@@ -159,7 +159,7 @@ static inline bool expect(parser *p, char c, const char *where)
     }
     if (is(p, '=') && (c == ')' || c == ']')) {
         if (!left_open(p)) {
-            COMPLAIN(p, p->token.at, "%c %s expected, but here is =", c, where);
+            COMPLAIN(p, &p->token.at, "%c %s expected, but here is =", c, where);
             HINT(p, "to compare write ==");
         }
         return false;

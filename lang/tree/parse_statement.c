@@ -13,7 +13,7 @@ static void parse_for(parser *p, statement *s)
         skip_lines(p);
         loop l = {0};
         if (s->loop_count == MAX_DIMS) {
-            source_complain(p->source, MOTUS_LIMIT, p->token.at, "at most %d indices", MAX_DIMS);
+            source_complain(p->source, MOTUS_LIMIT, &p->token.at, "at most %d indices", MAX_DIMS);
             return;
         }
         if (!parse_loop(p, &l)) return;
@@ -29,20 +29,20 @@ static void end_of_statement(parser *p, int line)
     if (is(p, ',') && p->last.kind == TOKEN_NUMBER) {
         lexer ahead = p->lexer;
         token next = lex_next(&ahead);
-        COMPLAIN(p, p->token.at, "the statement ends before this comma");
+        COMPLAIN(p, &p->token.at, "the statement ends before this comma");
         if (next.kind == TOKEN_NUMBER)
             HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)",
                  quote(p, p->last.at, before), quote(p, next.at, text), before, text);
         return;
     }
     if (is(p, '=')) {
-        COMPLAIN(p, p->token.at, "a second = in one statement");
+        COMPLAIN(p, &p->token.at, "a second = in one statement");
         if (line != source_line(p->source, p->token.at))
             HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
         HINT(p, "one statement a line, or ; between them; to compare write ==");
         return;
     }
-    COMPLAIN(p, p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
+    COMPLAIN(p, &p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
     if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them");
 }
 
@@ -55,7 +55,7 @@ static void parse_value(parser *p, statement *s)
     advance(p);
     skip_lines(p);
     if (is(p, '=')) {
-        COMPLAIN(p, p->token.at, "one = is enough in a statement");
+        COMPLAIN(p, &p->token.at, "one = is enough in a statement");
         return;
     }
     const span first = p->token.at;
@@ -88,12 +88,13 @@ static void parse_method(parser *p, statement *s)
         end--;
     s->at = (span){p->lexer.text, from, end};
     if (from == end || text->bytes[from] == '=' || !plain_text(text->bytes + from, end - from)) {
-        COMPLAIN(p, s->at, "the name of a method expected");
+        COMPLAIN(p, &s->at, "the name of a method expected");
         HINT(p, "write: method verlet");
         return;
     }
     if (end - from >= MOTUS_NAME_MAX) {
-        source_complain(p->source, MOTUS_LIMIT, s->at, "the name of a method has at most %d bytes", MOTUS_NAME_MAX - 1);
+        source_complain(p->source, MOTUS_LIMIT, &s->at, "the name of a method has at most %d bytes",
+                        MOTUS_NAME_MAX - 1);
         return;
     }
     s->text = arena_text(p->source->arena, text->bytes + from, end - from);
@@ -107,7 +108,7 @@ static void parse_setting(parser *p, statement *s)
 {
     if (is(p, '=')) {
         char text[80];
-        COMPLAIN(p, p->token.at, "a setting is written without =");
+        COMPLAIN(p, &p->token.at, "a setting is written without =");
         HINT(p, "write: %s 0.01", quote(p, p->last.at, text));
         return;
     }
@@ -131,7 +132,7 @@ static bool parse_leibniz(parser *p, const statement *s)
     const char *x = s->name + 1;
     while (*x == '2' || *x == '^') x++;
     if (!*x) x = "x";
-    COMPLAIN(p, ((span){s->at.text, s->name_at.from, end}), "derivatives are written with primes");
+    COMPLAIN(p, (&(span){s->at.text, s->name_at.from, end}), "derivatives are written with primes");
     HINT(p, "write %s%s = …", x, second ? "''" : "'");
     return true;
 }
@@ -156,9 +157,9 @@ static void parse_left(parser *p, statement *s)
     s->name = copy_name(p, p->token.at);
     if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
         if (!strcmp(s->name, "t"))
-            COMPLAIN(p, s->name_at, "t is the time and cannot be defined");
+            COMPLAIN(p, &s->name_at, "t is the time and cannot be defined");
         else
-            COMPLAIN(p, s->name_at, "%s is a word of the language and cannot be defined", s->name);
+            COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
         HINT(p, "take another name");
         return;
     }
@@ -173,7 +174,7 @@ static void parse_left(parser *p, statement *s)
     if (p->token.kind == TOKEN_PRIMES) {
         s->primes = (uint8_t)p->token.primes;
         if (s->primes > 2) {
-            COMPLAIN(p, p->token.at, "%d primes: the highest derivative is x''", s->primes);
+            COMPLAIN(p, &p->token.at, "%d primes: the highest derivative is x''", s->primes);
             HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
             return;
         }
@@ -182,7 +183,7 @@ static void parse_left(parser *p, statement *s)
     s->kind = s->primes ? STATEMENT_EQUATION : STATEMENT_DEFINITION;
     if (is(p, '(')) {
         if (p->token.blank) {
-            COMPLAIN(p, p->token.at, "the bracket of an initial value stands directly behind the name");
+            COMPLAIN(p, &p->token.at, "the bracket of an initial value stands directly behind the name");
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
             return;
         }
@@ -195,7 +196,7 @@ static void parse_left(parser *p, statement *s)
         if (failed(p)) return;
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
-            COMPLAIN(p, p->token.at, "primes follow the name, before the bracket");
+            COMPLAIN(p, &p->token.at, "primes follow the name, before the bracket");
             if (s->applied->item[1]->kind == TREE_NAME)
                 HINT(p, "write %s%s = …; the argument (t) is left out", s->name, p->token.primes == 1 ? "'" : "''");
             else
@@ -203,17 +204,17 @@ static void parse_left(parser *p, statement *s)
             return;
         }
         if (s->primes == 2) {
-            COMPLAIN(p, s->at, "%s'' at the start follows from the equation and cannot be given", s->name);
+            COMPLAIN(p, &s->at, "%s'' at the start follows from the equation and cannot be given", s->name);
             return;
         }
     }
     s->at.to = p->last.at.to;
     if (is(p, '=')) return;
     if (is(p, '.')) {
-        COMPLAIN(p, p->token.at, "a component cannot be given alone");
+        COMPLAIN(p, &p->token.at, "a component cannot be given alone");
         HINT(p, "give the whole vector: %s = (…, …)", s->name);
     } else if (s->kind == STATEMENT_EQUATION && (is(p, '+') || is(p, '-'))) {
-        COMPLAIN(p, p->token.at, "the left side of an equation is the highest derivative alone");
+        COMPLAIN(p, &p->token.at, "the left side of an equation is the highest derivative alone");
         HINT(p, "solve for it: %s%s = …", s->name, s->primes == 2 ? "''" : "'");
     } else if (p->token.kind == TOKEN_NAME || is(p, '*')) {
         if (is(p, '*')) advance(p);
@@ -222,7 +223,7 @@ static void parse_left(parser *p, statement *s)
         char text[80];
         if (p->token.kind == TOKEN_NAME && next.kind == TOKEN_PRIMES) {
             quote(p, p->token.at, text);
-            COMPLAIN(p, s->at, "the left side of an equation is the highest derivative alone");
+            COMPLAIN(p, &s->at, "the left side of an equation is the highest derivative alone");
             HINT(p, "divide: %s%s = (…)/%s", text, next.primes == 1 ? "'" : "''", s->name);
         } else if (p->token.kind == TOKEN_NAME) {
             unexpected(p, "=");
@@ -263,12 +264,12 @@ static void parse_statement(parser *p, statement *s)
         return;
     }
     if (word(p, "when")) {
-        source_complain(p->source, MOTUS_UNAVAILABLE, p->token.at, "events (when …) are not available yet");
+        source_complain(p->source, MOTUS_UNAVAILABLE, &p->token.at, "events (when …) are not available yet");
         HINT(p, "leave the line out; the motion runs on to `until`");
         return;
     }
     if (word(p, "tolerance")) {
-        source_complain(p->source, MOTUS_UNAVAILABLE, p->token.at,
+        source_complain(p->source, MOTUS_UNAVAILABLE, &p->token.at,
                         "a tolerance would change nothing: every method takes fixed steps");
         HINT(p, "write `step 0.01` instead; `motus converge` shows the error that a step leaves");
         return;
@@ -280,7 +281,7 @@ static void parse_statement(parser *p, statement *s)
     if (exact || invariant) {
         const char *what = exact ? "exact" : "invariant";
         if (s->kind != STATEMENT_DEFINITION) {
-            COMPLAIN(p, s->at, "after %s only a name may stand before the =", what);
+            COMPLAIN(p, &s->at, "after %s only a name may stand before the =", what);
             if (exact) HINT(p, "write: exact %s = …; its velocity is its derivative", s->name);
             return;
         }
@@ -311,7 +312,7 @@ bool parse_text(source *s, uint32_t text, statements *all)
         while (p.token.kind == TOKEN_NEWLINE) advance(&p);
         if (failed(&p) || p.token.kind == TOKEN_END) return !failed(&p);
         if (all->count == SOURCE_STATEMENTS_MAX) {
-            source_complain(s, MOTUS_LIMIT, p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);
+            source_complain(s, MOTUS_LIMIT, &p.token.at, "more than %d statements", SOURCE_STATEMENTS_MAX);
             return false;
         }
         if (all->count == all->capacity) {
