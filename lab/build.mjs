@@ -11,7 +11,7 @@ import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
-import { theory, theoryPlugin } from './theory/typeset.mjs';
+import { theory } from './theory/typeset.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const argument = (name, otherwise) => {
@@ -48,6 +48,12 @@ try {
   process.exit(1);
 }
 
+/** A text or bytes, packed into a script: what is only needed later, or by a worker. */
+const packed = (contents) => JSON.stringify(gzipSync(contents, { level: 9 }).toString('base64'));
+const unpacking = `
+const unpack = (text) => new Response(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
+`;
+
 /** Modules that exist in the build only. */
 const virtual = (modules) => ({
   name: 'virtual',
@@ -59,9 +65,10 @@ const virtual = (modules) => ({
 const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
-    plugins: [theoryPlugin(made), virtual({ 'virtual:presets': `export default ${JSON.stringify(presets)}`, 'virtual:thumbs': `export default ${JSON.stringify(thumbs)}`,
-      // Numbers are the test's.
-      'virtual:lessons': `export default ${JSON.stringify(lessons, (key, value) => (key === 'numbers' ? undefined : value))}`, ...modules })],
+    plugins: [virtual({
+      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards }))}).json();`,
+      'virtual:thumbs': `${unpacking} export default () => unpack(${packed(JSON.stringify(thumbs))}).json();`, ...modules,
+    })],
   });
   return outputFiles[0].text;
 };
@@ -74,14 +81,14 @@ export const coreModule = async () => {
 export const createWorker = () => new Worker('worker.js');
 `;
 /* From disk a page may load nothing: module and worker are inside it. */
-const single = (worker) => `
-const packed = ${JSON.stringify(gzipSync(wasm, { level: 9 }).toString('base64'))};
-export const coreModule = async () => {
-  const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
-  return WebAssembly.compile(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
-};
+const single = (worker) => `${unpacking}
 let address = '';
-export const createWorker = () => new Worker(address ||= URL.createObjectURL(new Blob([${JSON.stringify(worker)}], { type: 'text/javascript' })));
+export const coreModule = async () => {
+  const [module, script] = await Promise.all([unpack(${packed(wasm)}).arrayBuffer().then((bytes) => WebAssembly.compile(bytes)), unpack(${packed(worker)}).blob()]);
+  address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
+  return module;
+};
+export const createWorker = () => new Worker(address);
 `;
 
 const hash = (text) => `'sha256-${createHash('sha256').update(text, 'utf8').digest('base64')}'`;

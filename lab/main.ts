@@ -21,6 +21,7 @@ import { startState } from './shell/address';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { recall, remember } from './shell/memory';
+import { loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
@@ -54,6 +55,7 @@ function textEdge(): number {
 }
 
 async function start(): Promise<void> {
+  await loadData();
   const { state, problem } = startState(presets);
   const store = createStore(await createClient(), state);
   const motion = makeStage(store, { column: textEdge }), steps = stepsPanel(store), closer = makers.map((make) => make(store));

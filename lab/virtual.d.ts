@@ -1,15 +1,12 @@
 /* What build.mjs makes. */
-declare module 'virtual:presets' {
-  const presets: readonly { readonly name: string; readonly text: string }[];
-  export default presets;
+declare module 'virtual:data' {
+  const data: () => Promise<import('./data').Data>;
+  export default data;
 }
 declare module 'virtual:thumbs' {
-  const thumbs: Readonly<Record<string, import('./thumbs').Thumb>>;
+  /** Unpacked when they are first asked for. */
+  const thumbs: () => Promise<Readonly<Record<string, import('./thumbs').Thumb>>>;
   export default thumbs;
-}
-declare module 'virtual:lessons' {
-  const lessons: readonly Omit<import('./lessons/read').Lesson, 'numbers'>[];
-  export default lessons;
 }
 /* Where the page lives: on a server, or in one file. */
 declare module 'virtual:host' {

@@ -46,7 +46,7 @@ export function svgPen(width: number, height: number, decimals = 2): SvgPen {
   function stroked(d: string, stroke: Stroke): void {
     if (!d) return;
     const dash = stroke.dash && stroke.dash.length ? ` stroke-dasharray="${stroke.dash.map(n).join(' ')}"` : '';
-    out.push(`<path d="${d}" fill="none" stroke="${escape(stroke.colour)}" stroke-width="${n(stroke.width)}" stroke-linejoin="round"${dash}${opacity(stroke.alpha)}/>`);
+    out.push(`<path d="${d}" stroke="${escape(stroke.colour)}" stroke-width="${n(stroke.width)}"${dash}${opacity(stroke.alpha)}/>`);
   }
   function filled(d: string, fill: string, alpha?: number, crisp = false): void {
     if (d) out.push(`<path d="${d}" fill="${escape(fill)}"${crisp ? ' shape-rendering="crispEdges"' : ''}${opacity(alpha)}/>`);
@@ -66,7 +66,7 @@ export function svgPen(width: number, height: number, decimals = 2): SvgPen {
       const outline = OUTLINES[shape];
       const width = Math.max(1.25, STROKE * radius);
       if (outline === 'disc' || outline === 'ring') {
-        const paint = outline === 'disc' ? `fill="${escape(colour)}"` : `fill="none" stroke="${escape(colour)}" stroke-width="${n(width)}"`;
+        const paint = outline === 'disc' ? `fill="${escape(colour)}"` : `stroke="${escape(colour)}" stroke-width="${n(width)}"`;
         out.push(`<circle cx="${n(x)}" cy="${n(y)}" r="${n(radius)}" ${paint}${opacity(alpha)}/>`);
         return;
       }
@@ -83,7 +83,7 @@ export function svgPen(width: number, height: number, decimals = 2): SvgPen {
       if (!finite(x, y)) return;
       const manner = (bold?: boolean, italic?: boolean, of?: number): string => `${bold ? ' font-weight="600"' : ''}${italic ? ' font-style="italic"' : ''}${of !== undefined && of !== SIZE ? ` font-size="${n(of)}"` : ''}`;
       const anchor = lettering.anchor && lettering.anchor !== 'start' ? ` text-anchor="${lettering.anchor}"` : '';
-      const halo = lettering.halo ? ` paint-order="stroke" stroke="${escape(lettering.halo)}" stroke-width="${HALO}" stroke-linejoin="round"` : '';
+      const halo = lettering.halo ? ` paint-order="stroke" stroke="${escape(lettering.halo)}" stroke-width="${HALO}"` : '';
       const dy = shift(lettering);
       // The shift is along the turned letters, as on the canvas.
       const place = lettering.turn ? `transform="translate(${n(x)} ${n(y)}) rotate(${n(lettering.turn)})" y="${n(dy)}"` : `x="${n(x)}" y="${n(y + dy)}"`;
@@ -121,7 +121,7 @@ export function svgPen(width: number, height: number, decimals = 2): SvgPen {
       const named = (title ? `<title>${escape(title)}</title>` : '') + (description ? `<desc>${escape(description)}</desc>` : '');
       const ground = background ? `<rect width="${n(width)}" height="${n(height)}" fill="${escape(background)}"/>` : '';
       return `<svg xmlns="http://www.w3.org/2000/svg" width="${n(width)}" height="${n(height)}" viewBox="0 0 ${n(width)} ${n(height)}" `
-        + `role="img" font-family="${escape(FAMILY)}" font-size="${SIZE}">${named}${ground}${out.join('\n')}</svg>\n`;
+        + `role="img" fill="none" stroke-linejoin="round" font-family="${escape(FAMILY)}" font-size="${SIZE}">${named}${ground}${out.join('\n')}</svg>\n`;
     },
   };
   return pen;

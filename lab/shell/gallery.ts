@@ -3,8 +3,8 @@
  * Invariant: each card is a link to the address of its scene; a picture is still until the pointer or the focus comes to its card, and then its bodies run
  * along their paths once, at the pace of the motion. Nothing runs for those who asked for less motion.
  */
-import models from 'virtual:presets';
-import thumbs from 'virtual:thumbs';
+import unpacked from 'virtual:thumbs';
+import { data } from '../data';
 import { el, say, svg } from '../dom';
 import { scenes, themes, type SceneEntry } from '../scenes';
 import { encode, presetState } from '../share';
@@ -18,6 +18,9 @@ export interface GalleryOptions {
   /** Escape. */
   close(): void;
 }
+
+let once: ReturnType<typeof unpacked> | null = null;
+const thumbs = (): ReturnType<typeof unpacked> => (once ??= unpacked());
 
 /** A run takes so many milliseconds, whatever the motion. */
 const RUN = 2200;
@@ -71,15 +74,17 @@ function bodies(card: HTMLElement, image: SVGSVGElement, runners: readonly Runne
 }
 
 function card(scene: SceneEntry, current: boolean, open: (name: string) => void): HTMLLIElement {
-  const thumb = thumbs[scene.model];
   const link = el('a', { class: 'motion', href: `#${encode(presetState(presets, scene.model), presets)}`, 'aria-current': current && 'true' });
   const frame = el('span', { class: 'thumb' });
-  if (thumb) {
+  // The frame has its size before the picture is unpacked.
+  void thumbs().then((all) => {
+    const thumb = all[scene.model];
+    if (!thumb) return;
     const image = picture(thumb), run = bodies(link, image, thumb.runners);
     frame.append(image);
     link.addEventListener('pointerenter', run);
     link.addEventListener('focus', run);
-  }
+  });
   link.append(frame, el('span', { class: 'motion-title' }, scene.title), el('span', { class: 'question' }, scene.question));
   link.addEventListener('click', event => {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;      // a new tab or window, which reads the address
@@ -91,7 +96,7 @@ function card(scene: SceneEntry, current: boolean, open: (name: string) => void)
 
 /** What a search finds a scene by. */
 function wordsOf(scene: SceneEntry): string {
-  const text = models.find(model => model.name === scene.model)?.text ?? '';
+  const text = data.presets.find(model => model.name === scene.model)?.text ?? '';
   return [scene.title, scene.question, scene.theme, scene.model, described(text), ...scene.methods].join(' ').toLowerCase();
 }
 

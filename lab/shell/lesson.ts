@@ -2,7 +2,7 @@
  *
  * Invariant: nothing is judged: a guess is answered, a task ticks itself off by what the page does, and every part can be opened at any time.
  */
-import lessons from 'virtual:lessons';
+import { data } from '../data';
 import { met, type Lesson as Full } from '../lessons/read';
 import { sceneOf } from '../scenes';
 import { presetState } from '../share';
@@ -20,7 +20,7 @@ interface At { readonly lesson: Lesson; readonly number: number; readonly part: 
 
 /** "too-high-too-low.try.0"; null: no lesson. */
 function read(where: string): At | null {
-  const [id = '', part = '', answer] = where.split('.'), number = lessons.findIndex((l) => l.id === id), lesson = lessons[number];
+  const [id = '', part = '', answer] = where.split('.'), number = data.lessons.findIndex((l) => l.id === id), lesson = data.lessons[number];
   if (!lesson || !parts.some((p) => p === part)) return null;
   return { lesson, number: number + 1, part: part as Part, answer: answer !== undefined && lesson.predict.choices[Number(answer)] ? Number(answer) : null };
 }
@@ -34,13 +34,13 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   let shown = '', chosen: number | null = null, ticks: (() => void) | null = null, sketch: (() => void) | null = null;
 
   function fill(): void {
-    list.replaceChildren(el('h2', {}, 'Lessons'), el('ol', { class: 'lesson-list' }, ...lessons.map((lesson) => el('li', {},
+    list.replaceChildren(el('h2', {}, 'Lessons'), el('ol', { class: 'lesson-list' }, ...data.lessons.map((lesson) => el('li', {},
       button('', () => { list.hidePopover(); open(lesson.id); }, { 'aria-current': read(store.state.place)?.lesson === lesson && 'true' }, el('span', {}, lesson.title), el('small', {}, finished.has(lesson.id) ? 'done' : ''))))));
   }
   list.addEventListener('beforetoggle', (event) => { if ((event as ToggleEvent).newState === 'open') fill(); });
 
   function open(id: string): void {
-    const lesson = lessons.find((l) => l.id === id);
+    const lesson = data.lessons.find((l) => l.id === id);
     if (!lesson) return;
     const { scene } = lesson, preset = presetState(presets, scene.model);
     opened.clear();
@@ -94,7 +94,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     return choice ? [el('p', { class: choice.right ? 'answer right' : 'answer' }, ...(choice.right ? [icon('M4.5 12.5l5 5L19.5 7')] : []), choice.answer)] : [];
   };
   function why(at: At): Node[] {
-    const { why: told, next } = at.lesson, following = lessons[at.number];
+    const { why: told, next } = at.lesson, following = data.lessons[at.number];
     finished.add(at.lesson.id);
     remember('lessons', [...finished].join(' '));
     const drawing = told.picture ? el('figure', { class: 'closeup' }, el('div', {}), el('figcaption', {}, told.caption)) : null;
@@ -119,7 +119,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(part.charAt(0).toUpperCase() + part.slice(1), () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
     const body = at.part === 'predict' ? predict(at) : at.part === 'try' ? attempt(at)
       : at.part === 'see' ? [...answer(at), el('p', {}, at.lesson.see.join(' ')), button('Why?', () => to(at, 'why'), { class: 'primary' })] : why(at);
-    element.replaceChildren(el('div', { class: 'lesson-head' }, el('span', {}, `Lesson ${at.number} of ${lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
+    element.replaceChildren(el('div', { class: 'lesson-head' }, el('span', {}, `Lesson ${at.number} of ${data.lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
     const { rail } = at.lesson.predict;
     // The guess stays where it was, dashed.
     if (rail) stage.guess({ ...rail, place: at.answer === null ? null : at.lesson.predict.choices[at.answer]?.place ?? null, open: at.part === 'predict' });

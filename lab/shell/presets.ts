@@ -3,15 +3,13 @@
  * Invariant: the list is that of the build. A model without a scene goes by its own name. Descriptions are the models' own: the sentence that their first
  * comment begins with.
  */
-import models from 'virtual:presets';
+import { data } from '../data';
 import { sceneOf } from '../scenes';
 import type { Presets } from '../share';
 
-const texts = new Map(models.map(model => [model.name, model.text]));
-
 export const presets: Presets = {
   first: 'thrown-ball',
-  text: name => texts.get(name),
+  text: name => data.presets.find(model => model.name === name)?.text,
   methods: name => sceneOf(name)?.methods ?? [],
   set: name => sceneOf(name)?.set ?? {},
 };

@@ -2,7 +2,7 @@
  *
  * Invariant: the facts are the catalogue's, never written twice; a method without a card of its own gets one from the catalogue's words.
  */
-import { cards } from 'motus:theory';
+import { data } from '../data';
 import type { Method } from '../protocol';
 
 function element<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, text = ''): HTMLElementTagNameMap[K] {
@@ -19,7 +19,7 @@ function typeset(body: string): readonly Node[] {
 }
 
 /** A heading: the card's own, or the catalogue's words. */
-export const methodTitle = (method: Method): string => cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
+export const methodTitle = (method: Method): string => data.cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
 
 function limit(h: number): string {
   if (h === 0) return 'never stable on an undamped spring';
@@ -42,7 +42,7 @@ export function facts(method: Method): string[] {
 export function methodCard(method: Method): HTMLElement {
   const made = element('section', 'card');
   const title = element('h3', '', methodTitle(method));
-  const own = cards[method.name];
+  const own = data.cards[method.name];
   made.append(title);
   if (own) made.append(...typeset(own.body));
   else made.append(

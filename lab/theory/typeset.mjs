@@ -82,14 +82,3 @@ export async function theory() {
   const used = text.match(/<math[\s\S]*?<\/math>/g).join('').replace(/<[^>]*>/g, '').replace(/&#x([0-9a-f]+);/gi, (_, hex) => String.fromCodePoint(parseInt(hex, 16)));
   return { html, cards, fontCss: await fonts([...new Set(alphabet() + unescape(used))].join('')) + await read('theory.css') };
 }
-
-/** For esbuild: `import { cards } from 'motus:theory'`. */
-export function theoryPlugin(made) {
-  return {
-    name: 'theory',
-    setup(build) {
-      build.onResolve({ filter: /^motus:theory$/ }, () => ({ path: 'theory', namespace: 'motus' }));
-      build.onLoad({ filter: /.*/, namespace: 'motus' }, async () => ({ contents: JSON.stringify({ cards: (await (made ?? theory())).cards }), loader: 'json' }));
-    },
-  };
-}

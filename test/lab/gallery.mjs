@@ -18,7 +18,7 @@ const script = await text({
     document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') }));`, resolveDir: lab, loader: 'ts' }, format: 'iife',
   plugins: [{ name: 'made', setup(b) {
     b.onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: 'made' }));
-    b.onLoad({ filter: /.*/, namespace: 'made' }, ({ path }) => ({ contents: `export default ${JSON.stringify(made[path])}`, loader: 'js' }));
+    b.onLoad({ filter: /.*/, namespace: 'made' }, ({ path }) => ({ contents: `export default ${path === 'virtual:thumbs' ? 'async () => ' : ''}(${JSON.stringify(made[path])})`, loader: 'js' }));
   } }],
 });
 const style = inkStyle() + ['style.css', 'shell/gallery.css'].map((name) => readFileSync(join(lab, name), 'utf8')).join('\n');

@@ -1,0 +1,15 @@
+/* What the build has packed beside the scripts: the models, the lessons, the cards of methods. Unpacked before the page starts. */
+import unpacked from 'virtual:data';
+import type { Lesson } from './lessons/read';
+
+export interface Data {
+  readonly presets: readonly { readonly name: string; readonly text: string }[];
+  readonly lessons: readonly Omit<Lesson, 'numbers'>[];
+  /** Of the best-known methods, by name; body is XHTML with MathML, well formed. */
+  readonly cards: Readonly<Record<string, { readonly title: string; readonly body: string }>>;
+}
+export const data: Data = { presets: [], lessons: [], cards: {} };
+
+export async function loadData(): Promise<void> {
+  Object.assign(data, await unpacked());
+}
