@@ -222,7 +222,13 @@ export function createStore(client: Client, initial: State): LiveStore {
       if (again) await settled();
       if (waiting) return;
       refining = true;
-      finish(await solve(of, methods, asked, rows.settled, 'reference'));
+      try {
+        finish(await solve(of, methods, asked, rows.settled, 'reference'));
+      } catch (error) {
+        // The picture stands; only what its errors are is not known, and why is told where they would be.
+        if (!(error instanceof Refused) || error.problem.kind !== 'limit' || !scene) throw error;
+        finish({ ...scene.solution, problem: error.problem });
+      }
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       const inText = error.problem.line > 0 && !kept.length;

@@ -8,7 +8,7 @@ import { stagingOf, type Dial } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { el } from '../dom';
 import { presets } from './presets';
-import { rowsOf, type Row } from './sliders';
+import { held, rowsOf, type Row } from './sliders';
 
 const most = 3;
 
@@ -41,6 +41,7 @@ export function dials(store: LiveStore): HTMLElement {
     const key = JSON.stringify([staging === stagingOf('') ? '' : state.preset, description.parameters.map((p) => [p.name, p.initial ? p.values : p.text, p.list])]);
     if (key === shown) return;
     shown = key;
+    const focused = held(element);
     const wanted = staging.dials ?? usual(description.parameters);
     rows = wanted.flatMap((dial) => {
       const parameter = description.parameters.find((p) => p.name === dial.name);
@@ -53,6 +54,7 @@ export function dials(store: LiveStore): HTMLElement {
     slideName.textContent = turn?.label ?? '';
     slide.checked = turn?.on ?? false;
     element.replaceChildren(...rows.map((r) => r.element), ...(turn ? [slideRow] : []));
+    focused();
   }
   store.subscribe((what) => {
     if (what === 'description') build();

@@ -8,6 +8,7 @@ import { presetState } from '../share';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
 import { described, presets, titleOf } from './presets';
+import { settle } from './settle';
 import { ownTitle } from './title';
 import type { Toasts } from './toasts';
 import { math, typesetView } from './typeset';
@@ -26,7 +27,7 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
   const began = document.createTextNode(''), revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
   const edited = el('p', { class: 'edited', hidden: true }, began, revert);
   const close = button('Close', () => openEditor(false), { class: 'text-button close' });
-  const own = el('div', { class: 'own', hidden: true }, editor(store), typesetView(store));
+  const own = el('div', { class: 'own', hidden: true }, editor(store), settle(store), typesetView(store));
   const element = el('div', { class: 'words-inner' }, el('div', { class: 'words-head' }, title, close), sentence, ask, edited, pill, own);
 
   function open(name: string): void {

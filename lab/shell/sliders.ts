@@ -59,8 +59,8 @@ export function rowsOf(store: LiveStore, parameter: Parameter, model: string, ma
     let limits: Reach = reach(value, several ? scale : 0, parameter.initial || several, counts(model, parameter.name));
     if (low !== undefined && high !== undefined && value >= low && value <= high) limits = { low, high, step: limits.step };
     const digits = (text: string): string => (text.length <= 9 ? text : compact(Number(text)));
-    const slider = el('input', { type: 'range', id, 'aria-describedby': id + '-message' });
-    const field = el('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: dial ? 'value' : 'number' });
+    const slider = el('input', { type: 'range', id, 'data-name': `${parameter.name} ${k}`, 'aria-describedby': id + '-message' });
+    const field = el('input', { type: 'text', 'data-name': `${parameter.name} ${k} field`, inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: dial ? 'value' : 'number' });
     const message = el('p', { id: id + '-message', class: 'message', role: 'status' });
     const reset = button('Reset', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': `${name}: back to the model’s value`, title: 'Back to the model’s value' },
       icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
@@ -107,6 +107,12 @@ export function rowsOf(store: LiveStore, parameter: Parameter, model: string, ma
   });
 }
 
+/** Which control has the focus, by its name; the answer gives it back to its successor. */
+export function held(within: HTMLElement): () => void {
+  const control = document.activeElement, name = control instanceof HTMLInputElement && within.contains(control) ? control.dataset.name : undefined;
+  return () => { if (name !== undefined && document.activeElement !== control) within.querySelector<HTMLElement>(`[data-name="${CSS.escape(name)}"]`)?.focus({ preventScroll: true }); };
+}
+
 export function sliders(store: LiveStore): HTMLElement {
   const parameters = el('div', { class: 'rows' }), initial = el('div', { class: 'rows' });
   const first = el('fieldset', {}, el('legend', {}, 'Parameters'), parameters), second = el('fieldset', {}, el('legend', {}, 'Start'), initial);
@@ -119,6 +125,7 @@ export function sliders(store: LiveStore): HTMLElement {
     const key = JSON.stringify(description.parameters.map(p => [p.name, p.initial ? p.values : p.text, p.list]));
     if (key === shown) return;
     shown = key;
+    const focused = held(element);
     rows = [];
     parameters.replaceChildren();
     initial.replaceChildren();
@@ -132,6 +139,7 @@ export function sliders(store: LiveStore): HTMLElement {
     }
     first.hidden = parameters.childElementCount === 0;
     second.hidden = initial.childElementCount === 0;
+    focused();
   }
   store.subscribe(what => {
     if (what === 'description') build();

@@ -18,9 +18,11 @@ export function status(store: LiveStore): HTMLElement {
   const words = el('span', {}, ''), cancel = button('Cancel', () => store.cancel(), { class: 'text-button', hidden: true });
   const element = el('div', { class: 'status' }, el('p', { class: 'message', role: 'status' }, words), cancel);
   const show = (): void => {
-    element.classList.toggle('busy', store.busy);
-    cancel.hidden = !store.busy;
-    say(words, store.busy ? 'Computing …' : stopped(store));
+    // What is drawn already, and only made finer, is not waited for.
+    const busy = store.busy && (!store.scene?.solution.truth || store.scene.state.text !== store.state.text);
+    element.classList.toggle('busy', busy);
+    cancel.hidden = !busy;
+    say(words, busy ? 'Computing …' : stopped(store));
   };
   store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
   return element;

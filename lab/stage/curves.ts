@@ -98,7 +98,7 @@ function coincide(a: Way, aTimes: ArrayLike<number>, b: Way, bTimes: ArrayLike<n
 
 export function curvesOf(motion: Motion, plot: Plot): Curves {
   const { subject, truth, lines } = motion, waysOf = (of: Rows): Way[] => subject.bodies.map((body) => plot.way(of, body));
-  const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH) })) : [];
+  const exact = truth ? waysOf(truth).map((way) => ({ way, path: path(truth.times.length, way.x, way.y, SMOOTH, 0.2) })) : [];
   const size = plot.box.right - plot.box.left + plot.box.bottom - plot.box.top;
   const methods = lines.map((line, rank) => waysOf(line.track).map((way, body): Curve => {
     const { times } = line.track, exit = exitOf(way, times.length, times, plot.box), made = path(exit ? exit.row + 1 : times.length, way.x, way.y);

@@ -12,9 +12,9 @@ const clamp = (pixel: number): number => pixel > FAR ? FAR : pixel < -FAR ? -FAR
 /* Beyond so many corners a line is drawn with a coarser eye: it is drawn anew in every frame of an animation. */
 const MANY = 1600;
 
-export function path(count: number, x: (row: number) => number, y: (row: number) => number, tolerance = 0.3): Path {
+export function path(count: number, x: (row: number) => number, y: (row: number) => number, tolerance = 0.3, coarsest = 1.2): Path {
   const made = simplified(count, x, y, tolerance);
-  return made.count > MANY && tolerance < 1.2 ? path(count, x, y, 2 * tolerance) : made;
+  return made.count > MANY && tolerance < coarsest ? path(count, x, y, 2 * tolerance, coarsest) : made;
 }
 
 /* Opens a sleeve from the last corner and goes on while one straight line passes all points within the tolerance. */

@@ -54,7 +54,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   const message = el('p', { class: 'stage-message', hidden: true });
   const caption = el('figcaption', { class: 'unseen' });
   const holder = document.getElementById('stage-picture') ?? el('div', { id: 'stage-picture' });
-  const ring = button('', () => {}, { class: 'stage-aim', role: 'slider', hidden: true, 'aria-label': 'Your guess: up and down' });
+  const ring = button('', () => {}, { class: 'stage-aim stage-ring', role: 'slider', hidden: true, 'aria-label': 'Your guess: up and down' });
   holder.append(still, moving, aim, ring, all, message);
   // The build's picture is of the first scene; another one is not to begin with it.
   if (store.state.preset !== holder.dataset.scene || store.state.place) holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());

@@ -90,20 +90,20 @@ await attempt('the search', async () => {
 await attempt('bodies run', async () => {
   const page = await open(), ball = (title) => page.locator('a.motion', { hasText: new RegExp(`^${title}`) }).locator('.ball').first();
   const at = (title) => ball(title).evaluate((circle) => `${getComputedStyle(circle).display} ${circle.getAttribute('cx')} ${circle.getAttribute('cy')}`);
-  const rest = await at('Thrown ball'), pendulum = await at('Pendulum');
+  const rest = await at('A thrown ball'), pendulum = await at('Pendulum');
   judge('a ball that rests is seen, one that does not is not', rest.startsWith('inline') && pendulum.startsWith('none'), `${rest}, ${pendulum}`);
-  await page.locator('a.motion', { hasText: 'Thrown ball' }).hover();
+  await page.locator('a.motion', { hasText: /A thrown ball/ }).hover();
   await page.waitForTimeout(500);
-  const going = await at('Thrown ball');
+  const going = await at('A thrown ball');
   judge('the pointer makes it run', going !== rest, going);
   await page.waitForTimeout(2300);
-  same('once, back to its place', await at('Thrown ball'), rest);
+  same('once, back to its place', await at('A thrown ball'), rest);
   await page.locator('a[href$="p=pendulum"]').focus();
   await page.waitForTimeout(300);
   judge('so does the focus', (await at('Pendulum')).startsWith('inline'));
   await close('bodies run', page);
   const calm = await open({ calm: true });
-  await calm.locator('a.motion', { hasText: 'Thrown ball' }).hover();
+  await calm.locator('a.motion', { hasText: /A thrown ball/ }).hover();
   await calm.waitForTimeout(300);
   same('nothing runs for those who asked for less motion', await calm.locator('.running').count(), 0);
   await close('less motion', calm);

@@ -159,7 +159,8 @@ export async function example(page, name) {
 export async function editorOf(page) {
   const area = page.locator('#model-text');
   if (!await area.isVisible()) {
-    await page.keyboard.press('Escape');
+    // What is open above it: a sheet, and on phones the menu it came from.
+    for (let i = 0; i < 2; i++) await page.keyboard.press('Escape');
     await page.locator('.pill').click();
   }
   return area;

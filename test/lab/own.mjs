@@ -2,9 +2,9 @@
  * told after a pause, with its repair; names are offered; the lines are whole and numbered.
  */
 import { join } from 'node:path';
-import { attempt, built, clean, finish, judge, open, same, settled, summaryOf, told } from './help.mjs';
+import { attempt, built, clean, editorOf, finish, judge, open, same, settled, summaryOf, told } from './help.mjs';
 
-const shot = (page, name) => page.locator('#model .editor').screenshot({ path: join(built, 'shots', `own-${name}.png`) });
+const shot = (page, name) => page.locator('.own .editor').screenshot({ path: join(built, 'shots', `own-${name}.png`) });
 const lines = (page) => page.locator('.supposed li').evaluateAll((all) => all.map((li) => [...li.querySelectorAll('span')].map((s) => s.textContent).join(' | ')));
 const coloured = (page) => page.locator('.mirror span').evaluateAll((all) => all.map((s) => `${s.className}:${s.textContent}`).join(' '));
 const start = "theta'' = -sin(theta)\ntheta(0) = 2";
@@ -12,6 +12,7 @@ const grey = ["theta'(0) = 0 | at rest, not given", 'step  0.14 | 60 to a swing'
 
 const page = await open();
 const area = page.locator('#model-text'), message = page.locator('#model-problem');
+await editorOf(page);
 const clear = async () => { await area.focus(); await page.keyboard.press('Control+a'); await page.keyboard.press('Delete'); };
 
 await attempt('an equation and a start are enough', async () => {

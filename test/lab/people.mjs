@@ -81,7 +81,7 @@ for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]
 // --- the keyboard -----------------------------------------------------------------------------------------------------------------------
 await attempt('the keyboard', async () => {
   const page = await open(`${singleFile}#v=1&p=projectile${all}`);
-  for (const title of ['Convergence', 'Work and precision', 'Stability']) {
+  for (const title of ['Step by step', 'Convergence', 'Work and precision', 'Stability']) {
     await figureOf(page, title).scrollIntoViewIfNeeded();
     await settled(page, 400);
   }
