@@ -13,12 +13,12 @@ export interface Motion {
   readonly from: number; readonly to: number;
   /** Of each column the one that is its derivative; -1: none is. */
   readonly slopes: readonly number[];
+  /** Of each column: what its values may be off; smaller bends are not resolved. */
+  readonly noise: readonly number[];
 }
 export interface Limits {
   /** Of a column's extent: how far the lines may be from the motion. */
   readonly tolerance: number;
-  /** What the values themselves may be off: smaller bends are not resolved. */
-  readonly noise: number;
   readonly points: number;
   readonly milliseconds: number;
 }
@@ -95,7 +95,7 @@ class Sampler {
       const [low, high] = extent(column), size = Math.max(Math.abs(low), Math.abs(high));
       this.note(k, [low, high]);
       if (!(high >= low)) return Infinity;
-      return Math.max(this.limits.tolerance * (high - low > AT_REST * size ? high - low : size), this.limits.noise, 64 * EPSILON * size) || Infinity;
+      return Math.max(this.limits.tolerance * (high - low > AT_REST * size ? high - low : size), this.motion.noise[k] ?? 0, 64 * EPSILON * size) || Infinity;
     });
     this.slopes = this.columns.map((column, k) => this.columns[this.motion.slopes[k] ?? -1] ?? slopesOf(this.times, column));
   }

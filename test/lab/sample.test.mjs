@@ -13,7 +13,7 @@ const built = buildSync({ entryPoints: [fileURLToPath(new URL('sample.ts', lab))
 const { sample, SEEN } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 const WIDTH = 4000, HEIGHT = 2200;
-const limits = { tolerance: SEEN, noise: 0, points: 20000, milliseconds: 10000 };
+const limits = { tolerance: SEEN, points: 20000, milliseconds: 10000 };
 
 /** of: the columns at a time. */
 function motion(from, to, slopes, of) {
@@ -25,7 +25,7 @@ function motion(from, to, slopes, of) {
     const rows = Array.from(times, of);
     return slopes.map((_, k) => Float64Array.from(rows, (row) => row[k]));
   };
-  return { from, to, slopes, ask, of, asked };
+  return { from, to, slopes, noise: slopes.map(() => 0), ask, of, asked };
 }
 
 const range = (column) => column.reduce(([a, b], v) => (Number.isFinite(v) ? [Math.min(a, v), Math.max(b, v)] : [a, b]), [Infinity, -Infinity]);
