@@ -100,13 +100,15 @@ class Sampler {
     this.slopes = this.columns.map((column, k) => this.columns[this.motion.slopes[k] ?? -1] ?? slopesOf(this.times, column));
   }
 
-  /** By how many tolerances the cubic leaves the straight line in interval i; NaN: the motion is not finite at one end; -1: at neither. */
+  /** By how many tolerances the cubic leaves the straight line in interval i; NaN: a column is finite at one end alone. */
   private bend(i: number): number {
     const h = this.times[i + 1]! - this.times[i]!;
     let worst = 0;
     for (let k = 0; k < this.columns.length; k++) {
       const column = this.columns[k]!, slope = this.slopes[k]!, p = column[i]!, q = column[i + 1]!;
-      if (!Number.isFinite(p) || !Number.isFinite(q)) return Number.isFinite(p) || Number.isFinite(q) ? NaN : -1;
+      const ends = Number(Number.isFinite(p)) + Number(Number.isFinite(q));
+      if (ends === 0 || this.tolerances[k] === Infinity) continue;
+      if (ends === 1) return NaN;
       const way = q - p, a = h * slope[i]! - way, b = h * slope[i + 1]! - way;
       const most = Math.max(Math.abs(3 * a - b) * 3, Math.abs(a - b) * 8, Math.abs(a - 3 * b) * 3) / 64 / this.tolerances[k]!;
       // A slope that is not finite, at a vertical tangent: the straight line is as bent as it is long.
@@ -136,9 +138,9 @@ class Sampler {
     const wishes: Wish[] = [];
     for (let i = 0; i < this.states.length; i++) {
       if (this.states[i] === DONE) continue;
-      const bend = this.bend(i), apart = Math.abs(this.times[i + 1]! - this.times[i]!) > this.instant, straight = bend >= 0 && bend <= 1;
+      const bend = this.bend(i), apart = Math.abs(this.times[i + 1]! - this.times[i]!) > this.instant, straight = bend <= 1;
       if (straight && this.states[i] === OPEN && apart) wishes.push({ at: i, parts: 1, bend });
-      else if (straight || bend < 0 || !apart || this.atPole(i)) this.states[i] = DONE;
+      else if (straight || !apart || this.atPole(i)) this.states[i] = DONE;
       // Where it becomes infinite only halves lead nearer.
       else wishes.push({ at: i, parts: Number.isNaN(bend) ? 2 : partsOf(bend), bend: Number.isNaN(bend) ? 4 : bend });
     }
@@ -196,6 +198,7 @@ class Sampler {
     const h = this.times[i + 1]! - this.times[i]!;
     return found.some((column, k) => {
       const p = this.columns[k]![i]!, q = this.columns[k]![i + 1]!, way = q - p;
+      if (this.tolerances[k] === Infinity || !(Number.isFinite(p) || Number.isFinite(q) || Number.isFinite(column[n]!))) return false;
       const bent = part * (1 - part) * ((1 - part) * (h * this.slopes[k]![i]! - way) - part * (h * this.slopes[k]![i + 1]! - way));
       return !(Math.abs(column[n]! - p - part * way - (tolerances > 0 ? bent : 0)) <= Math.max(1, tolerances) * this.tolerances[k]!);
     });
