@@ -240,7 +240,7 @@ export class Answers {
     const found = draft(this.core, this.lab, this.description as Description, text, quantities, this.core.catalogue(this.lab), span, DRAFT_LIMIT);
     if (!found) return null;
     const motion = { ...span, noise: [...span.slopes.slice(quantities.length).map(() => 0), ...found.off], ask: (times: Float64Array) => found.ask(times) };
-    const curve = shownOf(sample(motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.coarse }), motion.noise);
+    const curve = shownOf(sample(motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.coarse }, null, found.begun), motion.noise);
     return { key, name: found.name, error: found.error, motion, curve, off: found.error, coarse: true, most, milliseconds: performance.now() - began };
   }
 

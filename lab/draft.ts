@@ -8,7 +8,7 @@
 import type { Core } from './core';
 import type { Description, Method } from './protocol';
 import { Refused } from './scene';
-import { even } from './sample';
+import { even, type Curve } from './sample';
 
 export interface Draft {
   readonly name: string;
@@ -16,13 +16,15 @@ export interface Draft {
   readonly error: number;
   /** Of each quantity what it may be off; Infinity: so much that it would be seen, as of one that is kept and moves by errors alone. */
   readonly off: readonly number[];
+  /** What it tells at even times. */
+  readonly begun: Curve;
   /** Positions, velocities and first-order variables at times in the order of the motion, one column each; then quantities. */
   ask(times: Float64Array): readonly Float64Array[];
 }
 
 /** Of a column's extent; a picture of 4000 pixels shows a twelfth of a pixel. */
 const ENOUGH = 1 / 12 / 4000;
-const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 700;
+const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 512;
 /* Two step counts in this ratio have no common divisor to speak of. */
 const GOLDEN = (1 + Math.sqrt(5)) / 2;
 /** By how much a quantity may be further off than the numbers that it follows from. */
@@ -80,7 +82,7 @@ function byRuns(core: Core, lab: number, method: string, last: number, count: nu
       seen = most(found.slice(0, count).map((f) => f.seen));
       if (seen <= 1) {
         if (core.singular(lab, method, step, to)) return null;
-        return { name: `${method} at step ${Number(step.toPrecision(6))}`, error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), ask: (at) => ask(step, at) };
+        return { name: `${method} at step ${Number(step.toPrecision(6))}`, error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, ask: (at) => ask(step, at) };
       }
     }
     before = now;
@@ -94,9 +96,10 @@ function byRuns(core: Core, lab: number, method: string, last: number, count: nu
 /** Its error is of the largest number; that of a smaller one may be seen, and is not known. */
 function byReference(core: Core, lab: number, count: number, quantities: readonly number[], { from, to }: Span): Draft | null {
   const { name, error } = core.reference(lab, null, to, ENOUGH / 10), ask = (times: Float64Array): Float64Array[] => told(core, lab, times, quantities);
+  const times = even(from, to, TIMES), columns = ask(times);
   // A quantity follows from several numbers.
-  const found = ask(even(from, to, TIMES)).map((column, k) => apart(column, column.map((value) => value + (k < count ? error : QUANTITY * error))));
-  return most(found.slice(0, count).map((f) => f.seen)) <= 1 ? { name, error, off: offOf(found.slice(count)), ask } : null;
+  const found = columns.map((column, k) => apart(column, column.map((value) => value + (k < count ? error : QUANTITY * error))));
+  return most(found.slice(0, count).map((f) => f.seen)) <= 1 ? { name, error, off: offOf(found.slice(count)), begun: { times, columns }, ask } : null;
 }
 
 /** What the reference tells at times: the state, one column for each number, then quantities. */

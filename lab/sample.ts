@@ -66,15 +66,16 @@ class Sampler {
   private readonly began = performance.now();
   private readonly instant: number;
 
-  constructor(private readonly motion: Motion, private readonly limits: Limits, known: Float64Array | null) {
-    this.times = known ?? even(motion.from, motion.to, Math.max(2, Math.min(EVEN, limits.points - 1)));
+  constructor(private readonly motion: Motion, private readonly limits: Limits, known: Float64Array | null, begun: Curve | null) {
+    this.columns = begun?.columns ?? [];
+    this.times = known ?? begun?.times ?? even(motion.from, motion.to, Math.max(2, Math.min(EVEN, limits.points - 1)));
     this.extents = motion.slopes.map(() => []);
     this.states = new Uint8Array(this.times.length - 1).fill(known ? CHECKED : OPEN);
     this.instant = Math.max(INSTANT * Math.abs(motion.to - motion.from), 8 * EPSILON * Math.max(Math.abs(motion.from), Math.abs(motion.to)));
   }
 
   curve(): Curve {
-    this.columns = this.ask(this.times);
+    if (this.columns.length === 0) this.columns = this.ask(this.times);
     for (let pass = 0; pass < PASSES && !this.late(); pass++) {
       this.measure();
       const wishes = this.wishes();
@@ -253,7 +254,7 @@ function slopesOf(times: Float64Array, column: Float64Array): Float64Array {
   return slopes;
 }
 
-/** known: times that were found for nearly the same motion; null: begin with even ones. */
-export function sample(motion: Motion, limits: Limits, known: Float64Array | null = null): Curve {
-  return new Sampler(motion, limits, known).curve();
+/** known: times that were found for nearly the same motion; begun: what has been asked of this one, at even times; null: that is asked first. */
+export function sample(motion: Motion, limits: Limits, known: Float64Array | null = null, begun: Curve | null = null): Curve {
+  return new Sampler(motion, limits, known, known ? null : begun).curve();
 }
