@@ -4,7 +4,7 @@
  */
 import { EigenvalueDecomposition, Matrix } from 'ml-matrix';
 import type { Core } from './core';
-import { draft } from './draft';
+import { QUANTITY, draft, told as toldBy } from './draft';
 import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
@@ -34,12 +34,15 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
 
 /** A run that was recorded: rows of numbers, and all of the track but its arrays. */
 interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'> }
-/** A curve of the state, all positions and then all velocities, for one model and end. off, coarse: of the curve; most: the number of points that it was
+/** A curve of the state, all positions and then all velocities, and of the quantities, for one model and end. off, coarse: of the curve; most: the number of points that it was
  *  allowed. */
 interface Told {
   readonly key: string; readonly name: string; readonly error: number; readonly motion: Motion; readonly curve: Curve; readonly off: number; readonly coarse: boolean;
   readonly most: number; readonly milliseconds: number;
 }
+
+/** Without the columns of which nothing is known. */
+const shownOf = ({ times, columns }: Curve, noise: readonly number[]): Curve => ({ times, columns: columns.map((column, k) => (noise[k] === Infinity ? new Float64Array(0) : column)) });
 
 /** The truth at some times, `of` the reference that told it. */
 interface Known { readonly of: object | null; readonly times: Float64Array; readonly x: Float64Array; readonly v: Float64Array }
@@ -185,18 +188,18 @@ export class Answers {
 
   /** null: a coarse one is asked for, and there is none. */
   private truth(ask: Solve, names: readonly string[], indices: readonly number[], nx: number, nv: number): Truth | null {
-    // A run that knows where the motion starts and ends.
-    const { start, until } = this.span(ask), slopes = Array.from({ length: nx + nv }, (_, k) => (k < nx ? nx + k : -1));
-    const most = Math.max(2, Math.min(POINTS_MAX, POINTS_A_ROW * ask.rows, Math.floor(TRUTH_NUMBERS_MAX / (nx + nv))));
+    const { start, until } = this.span(ask), numbers = nx + nv, quantities = this.quantities(numbers);
+    const slopes = Array.from({ length: numbers + quantities.length }, (_, k) => (k < nx ? nx + k : -1));
+    const most = Math.max(2, Math.min(POINTS_MAX, POINTS_A_ROW * ask.rows, Math.floor(TRUTH_NUMBERS_MAX / slopes.length)));
     const key = String(ask.until), had = (told: Told | null): boolean => told?.key === key && (told.most >= most || told.curve.times.length < told.most);
     let told = had(this.told.certified) ? this.told.certified : null;
     if (!told && ask.coarse && !this.description?.has_exact) {
-      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, ask.model.text, start, until, slopes, most);
+      told = had(this.told.coarse) ? this.told.coarse : this.drafted(key, ask.model.text, { from: start, to: until, slopes }, quantities, most);
       this.told.coarse = told;
       if (!told) return null;
     }
     if (!told) {
-      told = this.certified(key, ask, { from: start, to: until, slopes, ask: (times) => this.states(times, nx, nv) }, most, had(this.told.coarse) ? this.told.coarse : null);
+      told = this.certified(key, ask, { from: start, to: until, slopes, ask: (times) => toldBy(this.core, this.lab, times, quantities) }, numbers, most, had(this.told.coarse) ? this.told.coarse : null);
       this.told.certified = told;
     }
     const { times, columns } = told.curve;
@@ -204,37 +207,49 @@ export class Answers {
       name: told.name, error: told.error, off: told.off, coarse: told.coarse, milliseconds: told.milliseconds, times: times.slice(),
       columns: names.map((_, k) => {
         const index = indices[k] as number;
-        return index === 0 ? times.slice() : columns[index - 1]?.slice() ?? new Float64Array(0);
+        const at = index <= numbers ? index - 1 : quantities.includes(index) ? numbers + quantities.indexOf(index) : -1;
+        return index === 0 ? times.slice() : columns[at]?.slice() ?? new Float64Array(0);
       }),
     };
   }
 
   /** The curve of the reference; or that of the draft, where the reference would take too long to tell one, and is there for the errors alone. */
-  private certified(key: string, ask: Solve, motion: Motion, most: number, before: Told | null): Told {
+  private certified(key: string, ask: Solve, span: Omit<Motion, 'noise'>, numbers: number, most: number, before: Told | null): Told {
     const { name, error, milliseconds } = this.openReference(ask), began = performance.now(), known = before?.curve.times ?? null;
+    const motion = { ...span, noise: span.slopes.map((_, k) => (k < numbers ? error : QUANTITY * error)) };
     const spent = (): number => milliseconds + performance.now() - began;
     if (before && known) {
       // Some that follow each other, at several places: those that lie apart cost the steps between them.
-      const tried = [0.1, 0.3, 0.6, 0.9].map((part) => known.subarray(Math.floor(part * known.length), Math.floor(part * known.length) + TRIED)), start = performance.now();
-      for (const times of tried) motion.ask(times);
-      const each = (performance.now() - start) / tried.reduce((sum, times) => sum + times.length, 0);
+      const rates = [0.1, 0.3, 0.6, 0.9].map((part) => {
+        const times = known.subarray(Math.floor(part * known.length), Math.floor(part * known.length) + TRIED), start = performance.now();
+        motion.ask(times);
+        return (performance.now() - start) / times.length;
+      });
+      // A pause of the machine in one or two of them is not the reference's.
+      const each = rates.sort((p, q) => p - q)[1]!;
       if (each * known.length > CURVE_LIMIT.certified) {
-        return { ...before, name, error, curve: sample(before.motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.certified }, known), milliseconds: spent() };
+        return { ...before, name, error, curve: shownOf(sample(before.motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.certified }, known), before.motion.noise), milliseconds: spent() };
       }
     }
     // What the draft found out of where the motion bends is so still.
-    const curve = sample(motion, { tolerance: SEEN, noise: error, points: most, milliseconds: CURVE_LIMIT.certified }, known);
+    const curve = sample(motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.certified }, known);
     return { key, name, error, motion, curve, off: error, coarse: false, most, milliseconds: spent() };
   }
 
-  private drafted(key: string, text: string, from: number, to: number, slopes: readonly number[], most: number): Told | null {
+  private drafted(key: string, text: string, span: Omit<Motion, 'noise' | 'ask'>, quantities: readonly number[], most: number): Told | null {
     const began = performance.now();
     this.reference = null;
-    const found = draft(this.core, this.lab, this.description as Description, text, this.core.catalogue(this.lab), { from, to }, DRAFT_LIMIT);
+    const found = draft(this.core, this.lab, this.description as Description, text, quantities, this.core.catalogue(this.lab), span, DRAFT_LIMIT);
     if (!found) return null;
-    const motion = { from, to, slopes, ask: (times: Float64Array) => found.ask(times) };
-    const curve = sample(motion, { tolerance: SEEN, noise: 0, points: most, milliseconds: CURVE_LIMIT.coarse });
+    const motion = { ...span, noise: [...span.slopes.slice(quantities.length).map(() => 0), ...found.off], ask: (times: Float64Array) => found.ask(times) };
+    const curve = shownOf(sample(motion, { tolerance: SEEN, points: most, milliseconds: CURVE_LIMIT.coarse }, null, found.begun), motion.noise);
     return { key, name: found.name, error: found.error, motion, curve, off: found.error, coarse: true, most, milliseconds: performance.now() - began };
+  }
+
+  /** Quantities that are drawn as the exact motion too, where there are not too many numbers. */
+  private quantities(numbers: number): number[] {
+    const all = (this.description as Description).columns.flatMap(({ kind }, index) => (kind === 'quantity' ? [index] : []));
+    return all.length + numbers <= COLUMNS_MAX ? all : [];
   }
 
   /** When the motion starts, and when it ends. */
@@ -242,11 +257,6 @@ export class Answers {
     const settings = (this.description as Description).settings, until = ask.until ?? settings.until;
     if (until === null) throw limit('the model names no end', 'an end');
     return { start: settings.start, until };
-  }
-
-  private states(times: Float64Array, nx: number, nv: number): Float64Array[] {
-    const { x, v } = this.core.referenceAt(this.lab, times);
-    return [...Array.from({ length: nx }, (_, k) => column(x, nx, k)), ...Array.from({ length: nv }, (_, k) => column(v, nv, k))];
   }
 
   /** Methods with the same step are looked at at the same times: the truth there is asked for once. */

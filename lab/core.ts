@@ -36,6 +36,7 @@ interface Exports {
   lab_reference_name(lab: number): number;
   lab_reference_error(lab: number): number;
   lab_reference_at(lab: number, times: number, count: number, x: number, v: number): number;
+  lab_values(lab: number, times: number, x: number, v: number, count: number, columns: number, columnCount: number, out: number): number;
   lab_trace(lab: number): number;
   lab_converge(lab: number, methods: number, count: number, step: number, until: number): number;
   lab_compare(lab: number, methods: number, count: number, step: number, until: number): number;
@@ -208,6 +209,15 @@ export class Core {
       this.check(lab, this.exports.lab_reference_at(lab, at, n, x, v));
       return { x: this.copy(x, n * nx), v: this.copy(v, n * nv) };
     })));
+  }
+  /** The columns at states, row by row, as referenceAt tells them. */
+  values(lab: number, times: Float64Array, { x, v }: { x: Float64Array; v: Float64Array }, columns: readonly number[]): Float64Array {
+    const count = columns.length, n = times.length;
+    return this.numbers(times, (t) => this.numbers(x, (xs) => this.numbers(v, (vs) => this.room(4 * count, (list) => this.room(8 * n * count, (out) => {
+      new Uint32Array(this.exports.memory.buffer, list, count).set(columns);
+      this.check(lab, this.exports.lab_values(lab, t, xs, vs, n, list, count, out));
+      return this.copy(out, n * count);
+    })))));
   }
   trace(lab: number): TraceEntry[] { return this.answer<{ entries: TraceEntry[] }>(lab, this.exports.lab_trace(lab)).entries; }
   converge(lab: number, methods: readonly string[], step: number | null, until: number | null): Convergence {

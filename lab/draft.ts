@@ -8,21 +8,27 @@
 import type { Core } from './core';
 import type { Description, Method } from './protocol';
 import { Refused } from './scene';
-import { even } from './sample';
+import { even, type Curve } from './sample';
 
 export interface Draft {
   readonly name: string;
-  /** The largest difference of the two runs, in any number. */
+  /** The largest difference of the two runs, in any number of the state. */
   readonly error: number;
-  /** Positions, velocities and first-order variables at times in the order of the motion, one column each. */
+  /** Of each quantity what it may be off; Infinity: so much that it would be seen, as of one that is kept and moves by errors alone. */
+  readonly off: readonly number[];
+  /** What it tells at even times. */
+  readonly begun: Curve;
+  /** Positions, velocities and first-order variables at times in the order of the motion, one column each; then quantities. */
   ask(times: Float64Array): readonly Float64Array[];
 }
 
 /** Of a column's extent; a picture of 4000 pixels shows a twelfth of a pixel. */
 const ENOUGH = 1 / 12 / 4000;
-const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 700;
+const FIRST = 200, LAST = { solving: 10_000, explicit: 60_000 }, TIMES = 512;
 /* Two step counts in this ratio have no common divisor to speak of. */
 const GOLDEN = (1 + Math.sqrt(5)) / 2;
+/** By how much a quantity may be further off than the numbers that it follows from. */
+export const QUANTITY = 100;
 /* Columns that move less than this part of their size rest. */
 const AT_REST = 1e-9;
 
@@ -38,26 +44,22 @@ function methodOf(description: Description, catalogue: readonly Method[]): strin
   return others.sort((a, b) => b.order - a.order)[0]?.name ?? null;
 }
 
-/** The largest difference of two tables, and the same in units of what is enough. */
-function apart(p: readonly Float64Array[], q: readonly Float64Array[]): { error: number; seen: number } {
-  let error = 0, seen = 0;
-  p.forEach((column, k) => {
-    const other = q[k]!;
-    let low = Infinity, high = -Infinity, most = 0;
-    column.forEach((value, i) => {
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-      most = Math.max(most, Math.abs(value - other[i]!));
-    });
-    const size = Math.max(Math.abs(low), Math.abs(high)), moves = high - low > AT_REST * size ? high - low : size;
-    error = Math.max(error, most);
-    if (most > 0 || Number.isNaN(most)) seen = Math.max(seen, most / (ENOUGH * moves));
+/** The largest difference of two columns, and the same in units of what is enough. */
+function apart(p: Float64Array, q: Float64Array): { error: number; seen: number } {
+  let low = Infinity, high = -Infinity, error = 0;
+  p.forEach((value, i) => {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+    error = Math.max(error, Math.abs(value - q[i]!));
   });
-  return { error, seen: Number.isFinite(seen) ? seen : Infinity };
+  const size = Math.max(Math.abs(low), Math.abs(high)), moves = high - low > AT_REST * size ? high - low : size, seen = error === 0 ? 0 : error / (ENOUGH * moves);
+  return { error, seen: Number.isNaN(seen) ? Infinity : seen };
 }
+const most = (list: readonly number[]): number => list.reduce((a, b) => Math.max(a, b), 0);
+const offOf = (found: readonly { error: number; seen: number }[]): number[] => found.map(({ error, seen }) => (seen <= 1 ? error : Infinity));
 
 /** null: none in so many steps, or milliseconds. */
-function byRuns(core: Core, lab: number, method: string, last: number, columns: readonly number[], { from, to }: Span, milliseconds: number): Draft | null {
+function byRuns(core: Core, lab: number, method: string, last: number, count: number, columns: readonly number[], { from, to }: Span, milliseconds: number): Draft | null {
   const ask = (step: number, times: Float64Array): Float64Array[] => {
     core.start(lab, method, step, to);
     const rows = core.sample(lab, times, columns);
@@ -70,15 +72,18 @@ function byRuns(core: Core, lab: number, method: string, last: number, columns: 
     let now: Float64Array[] | null = null, seen = Infinity;
     try {
       now = ask(step, times);
-      if (!now.every((column) => column.every(Number.isFinite))) now = null;
+      if (!now.slice(0, count).every((column) => column.every(Number.isFinite))) now = null;
     } catch (e) {
       // A step that is too large for it: the next one is smaller.
       if (!(e instanceof Refused) || e.problem.kind === 'memory') throw e;
     }
     if (now && before) {
-      const found = apart(now, before);
-      seen = found.seen;
-      if (seen <= 1) return core.singular(lab, method, step, to) ? null : { name: `${method} at step ${Number(step.toPrecision(6))}`, error: found.error, ask: (at) => ask(step, at) };
+      const last = before, found = now.map((column, k) => apart(column, last[k]!));
+      seen = most(found.slice(0, count).map((f) => f.seen));
+      if (seen <= 1) {
+        if (core.singular(lab, method, step, to)) return null;
+        return { name: `${method} at step ${Number(step.toPrecision(6))}`, error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, ask: (at) => ask(step, at) };
+      }
     }
     before = now;
     // Far from it the steps shrink faster; powers of the golden ratio keep the times of the steps apart.
@@ -89,23 +94,29 @@ function byRuns(core: Core, lab: number, method: string, last: number, columns: 
 }
 
 /** Its error is of the largest number; that of a smaller one may be seen, and is not known. */
-function byReference(core: Core, lab: number, columns: readonly number[], { from, to }: Span): Draft | null {
-  const { name, error } = core.reference(lab, null, to, ENOUGH / 10), positions = core.positions(lab);
-  const ask = (times: Float64Array): Float64Array[] => {
-    const { x, v } = core.referenceAt(lab, times), other = columns.length - positions;
-    return columns.map((_, k) => Float64Array.from({ length: times.length }, (__, i) => (k < positions ? x[i * positions + k]! : v[i * other + k - positions]!)));
-  };
-  const table = ask(even(from, to, TIMES)), seen = apart(table, table.map((column) => column.map((value) => value + error))).seen;
-  return seen <= 1 ? { name, error, ask } : null;
+function byReference(core: Core, lab: number, count: number, quantities: readonly number[], { from, to }: Span): Draft | null {
+  const { name, error } = core.reference(lab, null, to, ENOUGH / 10), ask = (times: Float64Array): Float64Array[] => told(core, lab, times, quantities);
+  const times = even(from, to, TIMES), columns = ask(times);
+  // A quantity follows from several numbers.
+  const found = columns.map((column, k) => apart(column, column.map((value) => value + (k < count ? error : QUANTITY * error))));
+  return most(found.slice(0, count).map((f) => f.seen)) <= 1 ? { name, error, off: offOf(found.slice(count)), begun: { times, columns }, ask } : null;
+}
+
+/** What the reference tells at times: the state, one column for each number, then quantities. */
+export function told(core: Core, lab: number, times: Float64Array, quantities: readonly number[]): Float64Array[] {
+  const state = core.referenceAt(lab, times), nx = core.positions(lab), nv = core.velocities(lab), n = times.length;
+  const values = quantities.length > 0 ? core.values(lab, times, state, quantities) : new Float64Array(0);
+  const pick = (from: Float64Array, width: number): Float64Array[] => Array.from({ length: width }, (_, k) => Float64Array.from({ length: n }, (__, i) => from[i * width + k]!));
+  return [...pick(state.x, nx), ...pick(state.v, nv), ...pick(values, quantities.length)];
 }
 
 interface Span { readonly from: number; readonly to: number }
 
-/** text: of the model. It takes the place of the run, and of the reference. */
-export function draft(core: Core, lab: number, description: Description, text: string, catalogue: readonly Method[], span: Span, milliseconds: number): Draft | null {
+/** text: of the model; quantities: columns. It takes the place of the run, and of the reference. */
+export function draft(core: Core, lab: number, description: Description, text: string, quantities: readonly number[], catalogue: readonly Method[], span: Span, milliseconds: number): Draft | null {
   const method = methodOf(description, catalogue), count = core.positions(lab) + core.velocities(lab);
-  const columns = Array.from({ length: count }, (_, k) => 1 + k);
+  const columns = [...Array.from({ length: count }, (_, k) => 1 + k), ...quantities];
   if (method === null || count === 0) return null;
   const last = catalogue.find((m) => m.name === method)?.evaluations ? LAST.explicit : LAST.solving;
-  return (hides(description, text) ? null : byRuns(core, lab, method, last, columns, span, milliseconds)) ?? byReference(core, lab, columns, span);
+  return (hides(description, text) ? null : byRuns(core, lab, method, last, count, columns, span, milliseconds)) ?? byReference(core, lab, count, quantities, span);
 }

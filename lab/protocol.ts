@@ -82,7 +82,7 @@ export interface Track {
   readonly singular: Problem | null;
 }
 
-/** The exact motion or a reference, for the columns that follow from the state (others are empty arrays). Times lie where straight lines between them
+/** The exact motion or a reference, for positions, velocities, first-order variables and quantities (other columns are empty arrays). Times lie where straight lines between them
  *  cannot be told from the motion (sample.ts), not evenly. */
 export interface Truth {
   readonly name: string; readonly error: number; readonly times: Float64Array; readonly columns: readonly Float64Array[];

@@ -13,12 +13,12 @@ export interface Motion {
   readonly from: number; readonly to: number;
   /** Of each column the one that is its derivative; -1: none is. */
   readonly slopes: readonly number[];
+  /** Of each column: what its values may be off; smaller bends are not resolved. */
+  readonly noise: readonly number[];
 }
 export interface Limits {
   /** Of a column's extent: how far the lines may be from the motion. */
   readonly tolerance: number;
-  /** What the values themselves may be off: smaller bends are not resolved. */
-  readonly noise: number;
   readonly points: number;
   readonly milliseconds: number;
 }
@@ -66,15 +66,16 @@ class Sampler {
   private readonly began = performance.now();
   private readonly instant: number;
 
-  constructor(private readonly motion: Motion, private readonly limits: Limits, known: Float64Array | null) {
-    this.times = known ?? even(motion.from, motion.to, Math.max(2, Math.min(EVEN, limits.points - 1)));
+  constructor(private readonly motion: Motion, private readonly limits: Limits, known: Float64Array | null, begun: Curve | null) {
+    this.columns = begun?.columns ?? [];
+    this.times = known ?? begun?.times ?? even(motion.from, motion.to, Math.max(2, Math.min(EVEN, limits.points - 1)));
     this.extents = motion.slopes.map(() => []);
     this.states = new Uint8Array(this.times.length - 1).fill(known ? CHECKED : OPEN);
     this.instant = Math.max(INSTANT * Math.abs(motion.to - motion.from), 8 * EPSILON * Math.max(Math.abs(motion.from), Math.abs(motion.to)));
   }
 
   curve(): Curve {
-    this.columns = this.ask(this.times);
+    if (this.columns.length === 0) this.columns = this.ask(this.times);
     for (let pass = 0; pass < PASSES && !this.late(); pass++) {
       this.measure();
       const wishes = this.wishes();
@@ -95,18 +96,20 @@ class Sampler {
       const [low, high] = extent(column), size = Math.max(Math.abs(low), Math.abs(high));
       this.note(k, [low, high]);
       if (!(high >= low)) return Infinity;
-      return Math.max(this.limits.tolerance * (high - low > AT_REST * size ? high - low : size), this.limits.noise, 64 * EPSILON * size) || Infinity;
+      return Math.max(this.limits.tolerance * (high - low > AT_REST * size ? high - low : size), this.motion.noise[k] ?? 0, 64 * EPSILON * size) || Infinity;
     });
     this.slopes = this.columns.map((column, k) => this.columns[this.motion.slopes[k] ?? -1] ?? slopesOf(this.times, column));
   }
 
-  /** By how many tolerances the cubic leaves the straight line in interval i; NaN: the motion is not finite at one end; -1: at neither. */
+  /** By how many tolerances the cubic leaves the straight line in interval i; NaN: a column is finite at one end alone. */
   private bend(i: number): number {
     const h = this.times[i + 1]! - this.times[i]!;
     let worst = 0;
     for (let k = 0; k < this.columns.length; k++) {
       const column = this.columns[k]!, slope = this.slopes[k]!, p = column[i]!, q = column[i + 1]!;
-      if (!Number.isFinite(p) || !Number.isFinite(q)) return Number.isFinite(p) || Number.isFinite(q) ? NaN : -1;
+      const ends = Number(Number.isFinite(p)) + Number(Number.isFinite(q));
+      if (ends === 0 || this.tolerances[k] === Infinity) continue;
+      if (ends === 1) return NaN;
       const way = q - p, a = h * slope[i]! - way, b = h * slope[i + 1]! - way;
       const most = Math.max(Math.abs(3 * a - b) * 3, Math.abs(a - b) * 8, Math.abs(a - 3 * b) * 3) / 64 / this.tolerances[k]!;
       // A slope that is not finite, at a vertical tangent: the straight line is as bent as it is long.
@@ -136,9 +139,9 @@ class Sampler {
     const wishes: Wish[] = [];
     for (let i = 0; i < this.states.length; i++) {
       if (this.states[i] === DONE) continue;
-      const bend = this.bend(i), apart = Math.abs(this.times[i + 1]! - this.times[i]!) > this.instant, straight = bend >= 0 && bend <= 1;
+      const bend = this.bend(i), apart = Math.abs(this.times[i + 1]! - this.times[i]!) > this.instant, straight = bend <= 1;
       if (straight && this.states[i] === OPEN && apart) wishes.push({ at: i, parts: 1, bend });
-      else if (straight || bend < 0 || !apart || this.atPole(i)) this.states[i] = DONE;
+      else if (straight || !apart || this.atPole(i)) this.states[i] = DONE;
       // Where it becomes infinite only halves lead nearer.
       else wishes.push({ at: i, parts: Number.isNaN(bend) ? 2 : partsOf(bend), bend: Number.isNaN(bend) ? 4 : bend });
     }
@@ -196,6 +199,7 @@ class Sampler {
     const h = this.times[i + 1]! - this.times[i]!;
     return found.some((column, k) => {
       const p = this.columns[k]![i]!, q = this.columns[k]![i + 1]!, way = q - p;
+      if (this.tolerances[k] === Infinity || !(Number.isFinite(p) || Number.isFinite(q) || Number.isFinite(column[n]!))) return false;
       const bent = part * (1 - part) * ((1 - part) * (h * this.slopes[k]![i]! - way) - part * (h * this.slopes[k]![i + 1]! - way));
       return !(Math.abs(column[n]! - p - part * way - (tolerances > 0 ? bent : 0)) <= Math.max(1, tolerances) * this.tolerances[k]!);
     });
@@ -250,7 +254,7 @@ function slopesOf(times: Float64Array, column: Float64Array): Float64Array {
   return slopes;
 }
 
-/** known: times that were found for nearly the same motion; null: begin with even ones. */
-export function sample(motion: Motion, limits: Limits, known: Float64Array | null = null): Curve {
-  return new Sampler(motion, limits, known).curve();
+/** known: times that were found for nearly the same motion; begun: what has been asked of this one, at even times; null: that is asked first. */
+export function sample(motion: Motion, limits: Limits, known: Float64Array | null = null, begun: Curve | null = null): Curve {
+  return new Sampler(motion, limits, known, known ? null : begun).curve();
 }

@@ -143,7 +143,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
     const solution = await client.ask('solve',
       { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth: wanted !== 'none', coarse: wanted === 'coarse' }, { lane: 'quick', signal: running.signal });
-    if (solution.truth) cost = { ...cost, [solution.truth.coarse ? 'coarse' : 'reference']: solution.truth.milliseconds };
+    if (solution.truth) cost = { ...cost, [wanted === 'coarse' && solution.truth.coarse ? 'coarse' : 'reference']: solution.truth.milliseconds };
     return solution;
   }
 

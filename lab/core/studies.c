@@ -1,6 +1,7 @@
 /* Studies for the page: truth and errors, one step opened up, convergence, comparison, stability. */
 #include "lab/core/core.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static motus_study_def study(double step, double until)
@@ -37,6 +38,34 @@ LAB_CALL(lab_reference_at)
 motus_status lab_reference_at(lab *l, const double *times, size_t count, double *x, double *v)
 {
     return motus_reference_at(l->reference, times, count, x, v, &l->error);
+}
+
+/* The numbers of `columns` at `count` states, row by row: quantities of the reference, which tells states alone. */
+LAB_CALL(lab_values)
+motus_status lab_values(lab *l, const double *times, const double *x, const double *v, size_t count,
+                        const size_t *columns, size_t column_count, double *out)
+{
+    const size_t nx = motus_positions(l->system), nv = motus_velocities(l->system);
+    motus_run_def def = motus_default_run();
+    motus_run *run = NULL;
+    if (!count) return MOTUS_OK;
+    /* Every time is one from which steps lead on. */
+    const double way = times[count - 1] - times[0];
+    def.method = "explicit-euler";
+    def.start = times[0];
+    def.until = times[count - 1] + (way != 0 ? way : 1);
+    def.step = fabs(def.until - def.start);
+    def.x = x;
+    def.v = v;
+    def.machine = "interpreter";
+    motus_status status = motus_run_create(l->system, &def, &run, &l->error);
+    for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
+        if (k > 0) status = motus_run_set_state(run, times[k], x + k * nx, v + k * nv, &l->error);
+        if (status == MOTUS_OK)
+            status = motus_run_values(run, columns, column_count, out + k * column_count, &l->error);
+    }
+    motus_run_destroy(run);
+    return status;
 }
 
 /* The next step of the run, event by event (protocol.ts, TraceEntry). NULL: lab_problem. */

@@ -142,7 +142,7 @@ await clean('one’s own model', page);
 
 for (const [name, options] of [['dark', { theme: 'dark' }], ['narrow', { width: 320, height: 640, touch: true }]]) {
   const other = await open(undefined, options);
-  await other.locator('#model-text').fill(start);
+  await (await editorOf(other)).fill(start);
   await told(other);
   same(`${name}: the same lines`, await lines(other), grey);
   judge(`${name}: nothing is wider than the page`, await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth));

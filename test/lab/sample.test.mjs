@@ -13,7 +13,7 @@ const built = buildSync({ entryPoints: [fileURLToPath(new URL('sample.ts', lab))
 const { sample, SEEN } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 const WIDTH = 4000, HEIGHT = 2200;
-const limits = { tolerance: SEEN, noise: 0, points: 20000, milliseconds: 10000 };
+const limits = { tolerance: SEEN, points: 20000, milliseconds: 10000 };
 
 /** of: the columns at a time. */
 function motion(from, to, slopes, of) {
@@ -25,7 +25,7 @@ function motion(from, to, slopes, of) {
     const rows = Array.from(times, of);
     return slopes.map((_, k) => Float64Array.from(rows, (row) => row[k]));
   };
-  return { from, to, slopes, ask, of, asked };
+  return { from, to, slopes, noise: slopes.map(() => 0), ask, of, asked };
 }
 
 const range = (column) => column.reduce(([a, b], v) => (Number.isFinite(v) ? [Math.min(a, v), Math.max(b, v)] : [a, b]), [Infinity, -Infinity]);
@@ -138,6 +138,11 @@ test('numbers that are not finite are a gap, whose ends are found', () => {
   ordered(curve, 0, 4);
   const last = x.reduce((found, v, i) => (Number.isFinite(v) ? i : found), -1);
   assert.ok(Math.abs(curve.times[last] - 2) < 1e-9, `${curve.times[last]}`);
+  // A column that is no number here and there, or nowhere, takes nothing from the others.
+  const beside = motion(0, 40, [1, -1, -1, -1], (t) => [Math.sin(t), Math.cos(t), NaN, Math.sqrt(Math.sin(0.3 * t))]), lines = sample(beside, limits);
+  ordered(lines, 0, 40);
+  assert.ok(deviation((t) => spring(t - Math.PI / 2), { times: lines.times, columns: lines.columns.slice(0, 2) }) <= 0.5);
+  assert.ok(lines.times.length < 6000, `${lines.times.length} points`);
   const none = sample(motion(0, 1, [-1], () => [NaN]), limits);
   assert.ok(none.columns[0].every(Number.isNaN) && none.times.length < 1000);
 });

@@ -66,6 +66,22 @@ for (const name of ['arenstorf', 'kepler', 'duffing', 'driven-oscillator']) {
   });
 }
 
+test('quantities are those of the exact motion; of a draft, where they are known', () => {
+  const answers = new Answers(new Core(module));
+  for (const coarse of [true, false]) {
+    const { truth, columns } = answers.answer('solve', question(preset('duffing'), { methods: [], coarse })), of = (name) => truth.columns[columns.indexOf(name)];
+    assert.equal(truth.coarse, coarse);
+    of('x').forEach((x, i) => {
+      const potential = -(x ** 2) / 2 + x ** 4 / 4;
+      assert.ok(Math.abs(of('potential')[i] - potential) < 1e-3, `${of('potential')[i]} is not ${potential}`);
+      assert.ok(Math.abs(of('energy')[i] - potential - of("x'")[i] ** 2 / 2) < 1e-3);
+    });
+  }
+  // Kept: what a draft is off would be drawn as its motion.
+  const { truth, columns } = answers.answer('solve', question(preset('kepler'), { methods: [], coarse: true })), kept = truth.columns[columns.indexOf('L')], [low, high] = range(kept);
+  assert.ok(truth.coarse && (kept.length === 0 || high - low < 1e-9 * high), `L moves by ${high - low}`);
+});
+
 test('a draft of another motion leaves the reference as it was', () => {
   for (const text of [preset('pendulum'), kick]) {
     const answers = new Answers(new Core(module)), { errors } = answers.answer('solve', question(text));
