@@ -41,8 +41,8 @@ bool source_failed(const source *); /* a complaint, or no memory */
 void source_complain(source *, motus_status, const span *at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void source_hint(source *, const char *format, ...) __attribute__((format(printf, 2, 3)));
-int source_line(source *, span at); /* 1-based */
+int source_line(source *, const span *at); /* 1-based */
 /* The bytes of a span, shortened in the middle to fit `out`, newlines as blanks. */
-const char *source_excerpt(const source *, span at, char *out, size_t size);
+const char *source_excerpt(const source *, const span *at, char *out, size_t size);
 
 #endif
