@@ -31,7 +31,7 @@ motus_status motus_statement_at(const motus_system *s, size_t k, motus_statement
     const statement *one = &m->statements.item[k];
     bool set = one->at.text != 0;
     motus_statement ours = {.kind = kind_of(m, one), .name = one->name, .is_set = set};
-    if (!set || one->replaced) ours.line = source_line(&m->source, set ? one->replaced->at : one->at);
+    if (!set || one->replaced) ours.line = source_line(&m->source, set ? &one->replaced->at : &one->at);
     motus_struct_write(MOTUS_DEF_STATEMENT, &ours, out);
     return MOTUS_OK;
 }

@@ -66,7 +66,7 @@ const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
     plugins: [virtual({
-      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards }))}).json();`,
+      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, theory: made.html }))}).json();`,
       'virtual:thumbs': `${unpacking} export default () => unpack(${packed(JSON.stringify(thumbs))}).json();`, ...modules,
     })],
   });
@@ -110,8 +110,7 @@ const first = presets.find(({ name }) => name === 'thrown-ball');
 const scene = drawn.sceneOf(new WebAssembly.Module(wasm), first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
-const marked = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
-const template = put(marked, '<!-- theory -->', made.html);
+const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
 const page = ({ script, element, connect, worker }) => {
   const policy = ["default-src 'none'", `script-src ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');

@@ -7,8 +7,10 @@ export interface Data {
   readonly lessons: readonly Omit<Lesson, 'numbers'>[];
   /** Of the best-known methods, by name; body is XHTML with MathML, well formed. */
   readonly cards: Readonly<Record<string, { readonly title: string; readonly body: string }>>;
+  /** The theory, as HTML of the build's own. */
+  readonly theory: string;
 }
-export const data: Data = { presets: [], lessons: [], cards: {} };
+export const data: Data = { presets: [], lessons: [], cards: {}, theory: '' };
 
 export async function loadData(): Promise<void> {
   Object.assign(data, await unpacked());

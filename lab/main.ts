@@ -21,7 +21,7 @@ import { startState } from './shell/address';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { recall, remember } from './shell/memory';
-import { loadData } from './data';
+import { data, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
@@ -77,6 +77,8 @@ async function start(): Promise<void> {
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
+  // Below all else, and of the build's own making.
+  place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
   const card = place('method-card');
   let carded = '', preset = state.preset, shown = false;
   // The theory's own links to examples.

@@ -1,6 +1,6 @@
 /* qsort and strstr, instead of the C library's, which are fast for long arrays and texts that the library has not.
  *
- * Invariant: qsort takes time n log n at worst; it sorts a heap [Williams64].
+ * Invariant: qsort takes time n log n at worst, since it sorts a heap.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  *
  * Invariant: whatever is passed in, nothing is thrown: what is not finite is not drawn.
  */
-import { FAMILY, HALO, OUTLINES, SIZE, STROKE, finite, head, runs, shift, spansOf } from './shapes';
+import { FAMILY, HALO, RIM, OUTLINES, SIZE, STROKE, finite, head, runs, shift, spansOf } from './shapes';
 import type { Pen, Span, Stroke } from './types';
 
 export { svgPen } from './svg';
@@ -46,10 +46,10 @@ export function canvasPen(context: CanvasRenderingContext2D, width: number, heig
       c.fill();
       plain();
     },
-    mark(shape, x, y, radius, colour, alpha = 1) {
+    mark(shape, x, y, radius, colour, how = {}) {
       if (!finite(x, y)) return;
       const outline = OUTLINES[shape];
-      c.globalAlpha = alpha;
+      c.globalAlpha = how.alpha ?? 1;
       c.beginPath();
       if (outline === 'disc' || outline === 'ring') {
         c.arc(x, y, radius, 0, 2 * Math.PI);
@@ -62,8 +62,15 @@ export function canvasPen(context: CanvasRenderingContext2D, width: number, heig
           if (outline.closed) c.closePath();
         }
       }
-      if (outline === 'ring' || (outline !== 'disc' && !outline.closed)) {
-        c.setLineDash([]);
+      c.setLineDash([]);
+      const stroked = outline === 'ring' || (outline !== 'disc' && !outline.closed);
+      if (how.rim) {
+        c.strokeStyle = how.rim;
+        c.lineWidth = 2 * RIM + (stroked ? Math.max(1.25, STROKE * radius) : 0);
+        c.lineJoin = 'round';
+        c.stroke();
+      }
+      if (stroked) {
         c.strokeStyle = colour;
         c.lineWidth = Math.max(1.25, STROKE * radius);
         c.stroke();

@@ -64,6 +64,8 @@ export function runs(columns: number, rows: number, cells: Uint8Array, run: (i: 
 
 /** The rim of letters that have one, in pixels: half of it lies outside of them. */
 export const HALO = 5;
+/** The rim of a marker that has one. */
+export const RIM = 1.5;
 export const spansOf = (text: string | readonly Span[]): readonly Span[] => (typeof text === 'string' ? [{ text }] : text);
 
 export function shift(lettering: Lettering): number {

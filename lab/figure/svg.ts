@@ -3,7 +3,7 @@
  * Invariant: whatever is passed in, the SVG is well formed and stands by itself: texts and colours are escaped, numbers that are not finite are
  * never written, nothing is fetched.
  */
-import { FAMILY, HALO, OUTLINES, SIZE, STROKE, finite, head, runs, shift } from './shapes';
+import { FAMILY, HALO, OUTLINES, RIM, SIZE, STROKE, finite, head, runs, shift } from './shapes';
 import type { Pen, Stroke } from './types';
 
 /** Text that is safe in XML: markup escaped, what XML forbids (most control characters, halves of pairs) replaced. */
@@ -61,17 +61,16 @@ export function svgPen(width: number, height: number, decimals = 2): SvgPen {
       const d = path(xy, count);
       filled(d && `${d}Z`, fill, alpha);
     },
-    mark(shape, x, y, radius, colour, alpha) {
+    mark(shape, x, y, radius, colour, { alpha, rim } = {}) {
       if (!finite(x, y, radius)) return;
-      const outline = OUTLINES[shape];
-      const width = Math.max(1.25, STROKE * radius);
-      if (outline === 'disc' || outline === 'ring') {
-        const paint = outline === 'disc' ? `fill="${escape(colour)}"` : `stroke="${escape(colour)}" stroke-width="${n(width)}"`;
-        out.push(`<circle cx="${n(x)}" cy="${n(y)}" r="${n(radius)}" ${paint}${opacity(alpha)}/>`);
-        return;
-      }
-      const d = outline.parts.map((part) => path(part.map((u, i) => (i % 2 ? y : x) + radius * u), part.length) + (outline.closed ? 'Z' : '')).join('');
-      if (outline.closed) filled(d, colour, alpha); else stroked(d, { colour, width, alpha });
+      const outline = OUTLINES[shape], width = Math.max(1.25, STROKE * radius), solid = outline === 'disc' || (outline !== 'ring' && outline.closed);
+      // Of a filled shape the rim is the edge, of strokes a wider stroke below.
+      const paint = solid ? ` fill="${escape(colour)}"${rim ? ` stroke="${escape(rim)}" stroke-width="${2 * RIM}" paint-order="stroke"` : ''}` : ` stroke="${escape(colour)}" stroke-width="${n(width)}"`;
+      const below = !solid && rim ? ` stroke="${escape(rim)}" stroke-width="${n(width + 2 * RIM)}"` : '', shown = opacity(alpha);
+      const shape_ = outline === 'disc' || outline === 'ring' ? `<circle cx="${n(x)}" cy="${n(y)}" r="${n(radius)}"`
+        : `<path d="${outline.parts.map((part) => path(part.map((u, i) => (i % 2 ? y : x) + radius * u), part.length) + (outline.closed ? 'Z' : '')).join('')}"`;
+      if (below) out.push(`${shape_}${below}${shown}/>`);
+      out.push(`${shape_}${paint}${shown}/>`);
     },
     arrow(x0, y0, x1, y1, stroke) {
       const h = finite(x0, y0, x1, y1) ? head(x0, y0, x1, y1, stroke.width) : null;

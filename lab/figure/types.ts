@@ -19,7 +19,8 @@ export interface Pen {
   /** x0, y0, x1, y1, …; a NaN lifts the pen. count: numbers of xy to use. */
   line(xy: ArrayLike<number>, stroke: Stroke, count?: number): void;
   area(xy: ArrayLike<number>, fill: string, alpha?: number, count?: number): void;
-  mark(shape: Marker, x: number, y: number, radius: number, colour: string, alpha?: number): void;
+  /** rim: the colour of an edge of 1.5 pixels about it, so that it stands off the lines behind. */
+  mark(shape: Marker, x: number, y: number, radius: number, colour: string, how?: { readonly alpha?: number; readonly rim?: string }): void;
   arrow(x0: number, y0: number, x1: number, y1: number, stroke: Stroke): void;
   text(x: number, y: number, text: string | readonly Span[], lettering: Lettering): void;
   box(x: number, y: number, width: number, height: number, fill: string, alpha?: number): void;

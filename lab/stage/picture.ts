@@ -152,7 +152,7 @@ export function pictureOf(setting: Setting): Picture {
     const at: Point = { x: 0, y: 0 };
     for (let i = 1; i < first.times.length - 1 && first.times[i]! <= upTo; i++) {
       pointAt(curves.exact[0]!.way, truth.times, first.times[i]!, at);
-      pen.mark('circle', at.x, at.y, place.ball + 0.5, ink.exact, STROBE);
+      pen.mark('circle', at.x, at.y, place.ball + 0.5, ink.exact, { alpha: STROBE });
     }
   }
   function marks(pen: Pen, ink: Ink, curve: Curve, upTo: number, plot: Plot): void {
@@ -161,8 +161,7 @@ export function pictureOf(setting: Setting): Picture {
       if (i === 0 && curve.marks.length > 12) continue;
       const x = curve.way.x(i), y = curve.way.y(i);
       if (!inside(plot.box, x, y, 4) || (curve.exit && i >= curve.exit.row)) continue;
-      pen.mark(curve.line.look.marker, x, y, place.marker + 1.5, ink.surface);
-      pen.mark(curve.line.look.marker, x, y, place.marker, curve.line.look.colour);
+      pen.mark(curve.line.look.marker, x, y, place.marker, curve.line.look.colour, { rim: ink.surface });
     }
   }
   function arrowhead(pen: Pen, curve: Curve, exit: Exit): void {
@@ -311,21 +310,18 @@ export function pictureOf(setting: Setting): Picture {
           pointAt(c.way, c.line.track.times, time, present);
           if (!inside(plot.box, present.x, present.y, 8)) continue;
           const r = (single ? place.ball : place.ball * 0.62) * (c.line.look.marker === 'circle' ? 1 : 0.86);
-          pen.mark(c.line.look.marker, present.x, present.y, r + 1.5, ink.surface);
-          pen.mark(c.line.look.marker, present.x, present.y, r, c.line.look.colour);
+          pen.mark(c.line.look.marker, present.x, present.y, r, c.line.look.colour, { rim: ink.surface });
         }
       });
       if (truth) own.exact.forEach(({ way }, body) => {
         pointAt(way, truth.times, time, present);
         if (!inside(plot.box, present.x, present.y, 8)) return;
         const r = single ? place.ball + 1 : place.ball * 0.8;
-        pen.mark('circle', present.x, present.y, r + 2, ink.surface);
-        pen.mark('circle', present.x, present.y, r, ink.exact);
+        pen.mark('circle', present.x, present.y, r, ink.exact, { rim: ink.surface });
         for (const i of nowhere) {
           const c = own.methods[i]![body]!;
           if (isOver(c.line.track.times, time)) continue;
-          pen.mark(c.line.look.marker, present.x, present.y, 0.62 * r, ink.surface);
-          pen.mark(c.line.look.marker, present.x, present.y, 0.5 * r, c.line.look.colour);
+          pen.mark(c.line.look.marker, present.x, present.y, 0.5 * r, c.line.look.colour, { rim: ink.surface });
         }
       });
     }
@@ -409,8 +405,7 @@ export function pictureOf(setting: Setting): Picture {
     if (side === 'phase' && staging.decor === 'spring' && Number.isFinite(at.y)) {
       const x = place.frame.left + 39, y = Math.min(main.box.bottom, Math.max(main.box.top + 40, at.y));
       spring(pen, ink, x, place.frame.top + 12, y);
-      pen.mark('circle', x, y, 1.4 * place.ball + 1.5, ink.surface);
-      pen.mark('circle', x, y, 1.4 * place.ball, colour);
+      pen.mark('circle', x, y, 1.4 * place.ball, colour, { rim: ink.surface });
     }
     if (side !== 'rod') return;
     const column = subject.bodies[0]!.columns[0]!, of = truth?.columns[column]?.length ? truth : lines[0]!.track, length = 80 * place.scale;
@@ -421,11 +416,10 @@ export function pictureOf(setting: Setting): Picture {
       const t = time - way * k * span / 110;
       if ((t - of.times[0]!) * way < 0) continue;
       const angle = angleAt(t);
-      pen.mark('circle', x + length * Math.sin(angle), y + length * Math.cos(angle), place.ball * 0.95, colour, 0.3 - 0.026 * k);
+      pen.mark('circle', x + length * Math.sin(angle), y + length * Math.cos(angle), place.ball * 0.95, colour, { alpha: 0.3 - 0.026 * k });
     }
     const end = rod(pen, ink, x, y, length, angleAt(time));
-    pen.mark('circle', ...end, place.ball + 3, ink.surface);
-    pen.mark('circle', ...end, place.ball + 1.5, colour);
+    pen.mark('circle', ...end, place.ball + 1.5, colour, { rim: ink.surface });
   }
 
   return {

@@ -149,7 +149,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!at || !guess || !place) return;
     const colour = guess.open ? look?.tone ?? i.text : i.quiet, r = place.ball + 3;
     if (guess.open) pen.line([at.x, Math.max(20, at.exact - 250), at.x, place.frame.bottom], { colour: i.axis, width: 1.25, dash: [2, 3] });
-    pen.mark('circle', at.x, at.y, r, i.surface, guess.open ? 1 : 0.6);
+    pen.mark('circle', at.x, at.y, r, i.surface, { alpha: guess.open ? 1 : 0.6 });
     pen.line(Array.from({ length: 66 }, (_, k) => (k % 2 ? at.y : at.x) + r * (k % 2 ? Math.sin : Math.cos)(Math.PI * (k >> 1) / 16)), { colour, width: guess.open ? 2 : 1.5, dash: [3, 3] });
     if (guess.open) for (const way of [-1, 1]) pen.line([at.x - 4, at.y + way * (r + 5), at.x, at.y + way * (r + 9), at.x + 4, at.y + way * (r + 5)], { colour: i.quiet, width: 1.5 });
     // Numbers stand at the right; on a small stage the guess gives way to them.

@@ -13,7 +13,7 @@ bool hull_indices_wrong(model *m, const model_state *s, span at)
     else
         source_complain(&m->source, MOTUS_SHAPE, &at, "%s is a family and needs %d ind%s", s->name, s->dims,
                         s->dims == 1 ? "ex" : "ices");
-    source_hint(&m->source, "by its equation in line %d it is written %s%s", source_line(&m->source, s->at), s->name,
+    source_hint(&m->source, "by its equation in line %d it is written %s%s", source_line(&m->source, &s->at), s->name,
                 indices[s->dims]);
     return false;
 }

@@ -18,29 +18,30 @@ node lower_scalar(lowering *l, const tree *t, const char *what)
     value v = lower_expression(l, t);
     char shape[40];
     if (!failed(l) && (v.count > 0 || v.boolean))
-        COMPLAIN(l, &t->at, "%s is a number, but this is %s", what, shape_name(v, shape));
+        COMPLAIN(l, &t->at, "%s is a number, but this is %s", what, shape_name(&v, shape));
     return failed(l) ? 0 : v.item[0];
 }
 
 /* ---- operators ---- */
 
-static bool equal_shapes(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb, const char *sign)
+static bool equal_shapes(lowering *l, const tree *t, const tree *a, const value *va, const tree *b, const value *vb,
+                         const char *sign)
 {
     char x[80], y[80], p[40], q[40];
     if (!want_number(l, va, a) || !want_number(l, vb, b)) return false;
-    if (va.count == vb.count) return true;
-    COMPLAIN(l, &t->at, "%s %s %s does not fit: %s and %s", quote(l, a->at, x), sign, quote(l, b->at, y),
+    if (va->count == vb->count) return true;
+    COMPLAIN(l, &t->at, "%s %s %s does not fit: %s and %s", quote(l, &a->at, x), sign, quote(l, &b->at, y),
              shape_name(va, p), shape_name(vb, q));
-    if (!va.count || !vb.count)
+    if (!va->count || !vb->count)
         HINT(l, "a number does not become a vector: write a vector (…, …), or take the length |%s| or a component",
-             va.count ? x : y);
+             va->count ? x : y);
     return false;
 }
 
 static value lower_sum_of_two(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     bool add = t->kind == TREE_ADD;
-    if (!equal_shapes(l, t, a, va, b, vb, add ? "+" : "-")) return wrong(l);
+    if (!equal_shapes(l, t, a, &va, b, &vb, add ? "+" : "-")) return wrong(l);
     value v = vector(l, va.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = binary(l, add ? OP_ADD : OP_SUB, va.item[k], vb.item[k]);
@@ -83,11 +84,11 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
 {
     char x[80], y[80];
     if (va.rows || vb.rows)
-        return want_number(l, va, a) && want_number(l, vb, b) ? lower_matrix_product(l, t, va, vb) : wrong(l);
+        return want_number(l, &va, a) && want_number(l, &vb, b) ? lower_matrix_product(l, t, va, vb) : wrong(l);
     va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
     if (va.count && vb.count) {
         COMPLAIN(l, &t->at, "two vectors have no plain product");
-        HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, a->at, x), quote(l, b->at, y), x, y);
+        HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, &a->at, x), quote(l, &b->at, y), x, y);
         return wrong(l);
     }
     if (t->blank_product) {
@@ -95,8 +96,8 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
         symbol s = symbols_find(l->model, name->name);
         if (s.state && !lower_find_index(l, name->name) && !lower_find_argument(l, name->name) &&
             !(graph_deps(l->model->graph, vb.item[0]) & (DEP_TIME | DEP_STATE | DEP_LEVELS | DEP_D))) {
-            quote(l, name->at, x);
-            quote(l, b->at, y);
+            quote(l, &name->at, x);
+            quote(l, &b->at, y);
             source_complain(&l->model->source, MOTUS_SYNTAX, &(span){t->at.text, name->at.from, b->at.to},
                             "%s %s: a product or an initial value?", x, y);
             HINT(l, "write %s*%s for the product, %s%s for the initial value", x, y, x, y);
@@ -112,10 +113,10 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
 static value lower_quotient(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80];
-    if (!want_number(l, va, a) || !want_number(l, vb, b)) return wrong(l);
+    if (!want_number(l, &va, a) || !want_number(l, &vb, b)) return wrong(l);
     if (vb.count) {
         COMPLAIN(l, &t->at, "nothing can be divided by a vector");
-        HINT(l, "divide by its length |%s|, or by a component", quote(l, b->at, x));
+        HINT(l, "divide by its length |%s|, or by a component", quote(l, &b->at, x));
         return wrong(l);
     }
     if (!va.count) return scalar(l, binary(l, OP_DIV, va.item[0], vb.item[0]));
@@ -183,10 +184,10 @@ static value lower_power(lowering *l, const tree *t)
         if (of.count) return scalar(l, norm_power(l, of, n));
     }
     value b = lower_expression(l, base);
-    if (!want_number(l, b, base)) return wrong(l);
+    if (!want_number(l, &b, base)) return wrong(l);
     if (b.count) {
         COMPLAIN(l, &t->at, "a vector has no powers");
-        HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, base->at, x), x, x);
+        HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, &base->at, x), x, x);
         return wrong(l);
     }
     if (literal) return scalar(l, graph_power(l->model->graph, b.item[0], n));
@@ -210,7 +211,7 @@ static value lower_call(lowering *l, const tree *t)
             HINT(l, "write if(x > 0, …, …)");
             return wrong(l);
         }
-        if (!equal_shapes(l, t, t->item[1], v[1], t->item[2], v[2], "or")) return wrong(l);
+        if (!equal_shapes(l, t, t->item[1], &v[1], t->item[2], &v[2], "or")) return wrong(l);
         value r = vector(l, v[1].count);
         for (int k = 0; k < (r.count ? r.count : 1); k++)
             r.item[k] = graph_op(l->model->graph, OP_SELECT, v[0].item[0], v[1].item[k], v[2].item[k]);
@@ -219,11 +220,11 @@ static value lower_call(lowering *l, const tree *t)
     if (t->operation == CALL_DOT || t->operation == CALL_CROSS) {
         bool cross = t->operation == CALL_CROSS;
         for (int i = 0; i < 2; i++)
-            if (!want_number(l, v[i], t->item[i])) return wrong(l);
+            if (!want_number(l, &v[i], t->item[i])) return wrong(l);
         if (v[0].count == 0 || v[0].count != v[1].count || (cross && v[0].count > 3)) {
             char other[40];
             COMPLAIN(l, &t->at, "%s takes two vectors of %s, not %s and %s", t->name,
-                     cross ? "length 3 (or 2)" : "equal length", shape_name(v[0], shape), shape_name(v[1], other));
+                     cross ? "length 3 (or 2)" : "equal length", shape_name(&v[0], shape), shape_name(&v[1], other));
             return wrong(l);
         }
         if (!cross) return scalar(l, dot(l, v[0], v[1]));
@@ -241,8 +242,8 @@ static value lower_call(lowering *l, const tree *t)
     }
     for (uint32_t i = 0; i < n; i++)
         if (v[i].count || v[i].boolean) {
-            COMPLAIN(l, &t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(v[i], shape));
-            if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, t->item[i]->at, x), x);
+            COMPLAIN(l, &t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(&v[i], shape));
+            if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, &t->item[i]->at, x), x);
             return wrong(l);
         }
     return scalar(l, graph_op(l->model->graph, (operation)t->operation, v[0].item[0], n > 1 ? v[1].item[0] : 0, 0));
@@ -366,7 +367,7 @@ static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
     }
     value body = lower_expression(&inner, t->item[t->count - 1]);
     if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
-    if (!want_number(l, body, t->item[t->count - 1])) return wrong(l);
+    if (!want_number(l, &body, t->item[t->count - 1])) return wrong(l);
     value v = vector(l, body.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = never ? 0 : lower_sum_over(l, &s, masked, mask, body.item[k]);
@@ -422,11 +423,11 @@ static value lower_vector(lowering *l, const tree *t)
 static value lower_factor(lowering *l, const tree *t);
 
 /* Complains where a matrix is no factor. */
-static bool no_matrix(lowering *l, value v, const tree *t)
+static bool no_matrix(lowering *l, const value *v, const tree *t)
 {
     char text[80];
-    if (failed(l) || !v.rows) return true;
-    quote(l, t->at, text);
+    if (failed(l) || !v->rows) return true;
+    quote(l, &t->at, text);
     COMPLAIN(l, &t->at, "%s is a matrix, which may multiply a vector and stand nowhere else", text);
     if (t->kind == TREE_NAME)
         HINT(l, "write %s x, or %s[1, 2] for an entry", text, text);
@@ -445,7 +446,7 @@ static value lower_right(lowering *l, const tree *t, value left)
         return failed(l) ? wrong(l)
                          : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
-    if (t->kind != TREE_MULTIPLY && t->kind != TREE_DIVIDE && !no_matrix(l, left, a)) return wrong(l);
+    if (t->kind != TREE_MULTIPLY && t->kind != TREE_DIVIDE && !no_matrix(l, &left, a)) return wrong(l);
     value right = t->kind == TREE_MULTIPLY ? lower_factor(l, b) : lower_expression(l, b);
     if (failed(l)) return wrong(l);
     if (t->kind == TREE_ADD || t->kind == TREE_SUBTRACT) return lower_sum_of_two(l, t, a, left, b, right);
@@ -505,7 +506,7 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:
         v = lower_factor(l, t->item[0]);
-        if (!want_number(l, v, t->item[0])) return wrong(l);
+        if (!want_number(l, &v, t->item[0])) return wrong(l);
         value r = vector(l, v.rows ? v.rows * v.count : v.count);
         r.derived = v.derived;
         lower_tidy(l, v.derived);
@@ -532,7 +533,7 @@ static value lower_any(lowering *l, const tree *t)
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);
     case TREE_NORM:
         v = lower_expression(l, t->item[0]);
-        if (!want_number(l, v, t->item[0])) return wrong(l);
+        if (!want_number(l, &v, t->item[0])) return wrong(l);
         return scalar(l, v.count ? graph_op(g, OP_SQRT, dot(l, v, v), 0, 0) : graph_op(g, OP_ABS, v.item[0], 0, 0));
     case TREE_SUM: return lower_sum(l, t);
     default: return lower_chain(l, t);
@@ -558,5 +559,5 @@ static value lower_factor(lowering *l, const tree *t)
 value lower_expression(lowering *l, const tree *t)
 {
     value v = lower_factor(l, t);
-    return no_matrix(l, v, t) ? v : wrong(l);
+    return no_matrix(l, &v, t) ? v : wrong(l);
 }

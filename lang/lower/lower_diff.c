@@ -66,7 +66,7 @@ static node of_numbers(differential *d, const array *numbers)
     if (!graph_marked(numbers, d->affected)) return 0;
     char text[80];
     COMPLAIN(d->l, &d->call->at, "a list or an initial value in this expression depends on %s",
-             quote(d->l, d->call->item[1]->at, text));
+             quote(d->l, &d->call->item[1]->at, text));
     HINT(d->l, "diff follows parameters that are numbers or vectors: write what the list contains");
     return 0;
 }
@@ -91,9 +91,9 @@ static value derivative(lowering *l, const tree *call, value of, value by)
     const tree *variable = call->item[1];
     graph *g = l->model->graph;
     char a[40], b[40];
-    if (!want_number(l, of, call->item[0]) || !want_number(l, by, variable)) return wrong(l);
+    if (!want_number(l, &of, call->item[0]) || !want_number(l, &by, variable)) return wrong(l);
     if (of.count && by.count) {
-        COMPLAIN(l, &call->at, "the derivative of %s by %s is a matrix", shape_name(of, a), shape_name(by, b));
+        COMPLAIN(l, &call->at, "the derivative of %s by %s is a matrix", shape_name(&of, a), shape_name(&by, b));
         HINT(l, "take a component of one of them");
         return wrong(l);
     }
@@ -135,7 +135,7 @@ static node argument_for(graph *g, node load, int level, void *replacement_ctx)
 static value by_argument(lowering *l, const tree *call, argument *a)
 {
     const value now = lower_argument(l, a);
-    if (failed(l) || !want_number(l, now, call->item[1])) return wrong(l);
+    if (failed(l) || !want_number(l, &now, call->item[1])) return wrong(l);
     argument arguments[MODEL_ARGUMENTS_MAX];
     memcpy(arguments, l->arguments, l->argument_count * sizeof *arguments);
     replacement r = {.l = l, .argument = a, .leaves = vector(l, now.count)};
@@ -154,7 +154,7 @@ static value by_argument(lowering *l, const tree *call, argument *a)
 static value no_variable(lowering *l, const tree *t)
 {
     char text[80];
-    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is none", quote(l, t->at, text));
+    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is none", quote(l, &t->at, text));
     HINT(l,
          "a variable is a state x, its velocity x', t, a parameter, an argument of a function, or a component of them");
     return wrong(l);

@@ -101,7 +101,7 @@ value lower_function(lowering *l, const tree *call, model_function *f)
     if (kept && !failed(l)) keep(l, f, &now, v);
     if (source_failed(&l->model->source)) {
         char text[80];
-        source_hint(&l->model->source, "it is called as %s", quote(l, call->at, text));
+        source_hint(&l->model->source, "it is called as %s", quote(l, &call->at, text));
     }
     return v;
 }

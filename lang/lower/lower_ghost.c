@@ -167,7 +167,7 @@ static value velocity(lowering *l, const tree *t, value of)
     if (!c.unknown || failed(l)) return v;
     char text[80];
     COMPLAIN(l, &t->at, "%s is not known: the boundary line of %s uses a velocity or a first-order variable",
-             quote(l, t->at, text), t->name);
+             quote(l, &t->at, text), t->name);
     return wrong(l);
 }
 
@@ -179,7 +179,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     if (g->expanding) {
         char text[80];
         source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s follows from itself, in a circle of boundary lines",
-                        quote(l, t->at, text));
+                        quote(l, &t->at, text));
         HINT(l,
              "a boundary cell follows from cells that have an equation; give each cell of a circle a line of its own");
         return wrong(l);
@@ -246,7 +246,7 @@ bool lower_ghost(lowering *l, const tree *t, const model_state *s, const referen
             char text[80];
             COMPLAIN(l, &t->at,
                      "%s follows from other cells by its boundary line, so nothing can be differentiated by it",
-                     quote(l, t->at, text));
+                     quote(l, &t->at, text));
         } else if (!inside) {
             ask(l, t, s, g, r, low, high);
         }

@@ -40,7 +40,7 @@ static void take_mod(lowering *l, const tree *t, int sign, affine *a)
     int64_t low, high;
     if (!lower_subscript(l, t->item[0], &a->inner, &low, &high)) return;
     node n = lower_scalar(l, t->item[1], "the second argument of mod");
-    int slot = failed(l) ? -1 : evaluate_int(l->model, n, t->item[1]->at, &a->modulus);
+    int slot = failed(l) ? -1 : evaluate_int(l->model, n, &t->item[1]->at, &a->modulus);
     if (slot < 0) return;
     if (a->modulus < 1) {
         COMPLAIN(l, &t->item[1]->at, "an index wraps around at least 1 place, not %lld", (long long)a->modulus);
@@ -155,13 +155,13 @@ bool lower_subscript(lowering *l, const tree *t, subscript *out, int64_t *first,
     int64_t shift = a.literal;
     if (a.constant) {
         int64_t value;
-        int slot = evaluate_int(l->model, a.constant, t->at, &value);
+        int slot = evaluate_int(l->model, a.constant, &t->at, &value);
         if (slot < 0) return false;
         out->slot = (int16_t)slot;
         shift += value;
         if (a.name && a.name->constant) { /* first and last contain it already */
             int64_t before;
-            if (evaluate_int(l->model, a.name->constant, t->at, &before) < 0) return false;
+            if (evaluate_int(l->model, a.name->constant, &t->at, &before) < 0) return false;
             shift -= before;
         }
     }

@@ -84,12 +84,12 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
     char shape[40], text[80];
     if (v.count == 0 || v.boolean) {
         COMPLAIN(l, &whole->at, "%s is %s and has no components",
-                 quote(l, whole->item ? whole->item[0]->at : whole->at, text), shape_name(v, shape));
+                 quote(l, whole->item ? &whole->item[0]->at : &whole->at, text), shape_name(&v, shape));
         return v;
     }
     node n = lower_scalar(l, number, "the number of a component");
     double k;
-    if (failed(l) || !evaluate_number(l->model, n, number->at, NULL, &k)) return v;
+    if (failed(l) || !evaluate_number(l->model, n, &number->at, NULL, &k)) return v;
     if (k != floor(k) || k < 1 || k > v.count) {
         COMPLAIN(l, &number->at, "this vector has the components 1 to %d, not %g", v.count, k);
         return v;
@@ -116,7 +116,7 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
         return wrong(l);
     }
     if (t->primes == s->order && l->place != PLACE_QUANTITY) {
-        COMPLAIN(l, &t->at, "%s stands on the right side of an equation", quote(l, t->at, text));
+        COMPLAIN(l, &t->at, "%s stands on the right side of an equation", quote(l, &t->at, text));
         HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);
         return wrong(l);
     }
@@ -335,7 +335,7 @@ value lower_initial(lowering *l, const tree *t)
     char a[80];
     if (name->primes >= s.state->order) {
         COMPLAIN(l, &t->at, "%s at the start follows from its equation; it is not an initial value",
-                 quote(l, name->at, a));
+                 quote(l, &name->at, a));
         return wrong(l);
     }
     lowering inner = *l;
@@ -349,9 +349,9 @@ value lower_initial(lowering *l, const tree *t)
         return wrong(l);
     }
     double at;
-    if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, bracket->at, "the start", &at)) return wrong(l);
+    if (!resolve_start_time(l->model) || !evaluate_number(l->model, n, &bracket->at, "the start", &at)) return wrong(l);
     if (at != l->model->start) {
-        COMPLAIN(l, &t->at, "%s is an initial value, and the start is %g", quote(l, t->at, a), l->model->start);
+        COMPLAIN(l, &t->at, "%s is an initial value, and the start is %g", quote(l, &t->at, a), l->model->start);
         HINT(l, "for a product write %s*(…)", name->name);
         return wrong(l);
     }

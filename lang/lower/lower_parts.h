@@ -16,7 +16,7 @@ static inline bool failed(const lowering *l)
     return source_failed(&m->source) || m->graph->too_large || m->cut.wanted;
 }
 
-static inline const char *quote(const lowering *l, span at, char out[80])
+static inline const char *quote(const lowering *l, const span *at, char out[80])
 {
     return source_excerpt(&l->model->source, at, out, 80);
 }
@@ -54,17 +54,17 @@ static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify 
 
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }
 
-static inline const char *shape_name(value v, char out[40])
+static inline const char *shape_name(const value *v, char out[40])
 {
-    if (v.boolean) return "a condition";
-    if (v.count == 0) return "a number";
-    snprintf(out, 40, "a vector of length %d", v.count);
+    if (v->boolean) return "a condition";
+    if (v->count == 0) return "a number";
+    snprintf(out, 40, "a vector of length %d", v->count);
     return out;
 }
 
-static inline bool want_number(lowering *l, value v, const tree *t)
+static inline bool want_number(lowering *l, const value *v, const tree *t)
 {
-    if (!v.boolean || failed(l)) return !failed(l);
+    if (!v->boolean || failed(l)) return !failed(l);
     COMPLAIN(l, &t->at, "this is a condition, but a number is expected here");
     HINT(l, "write if(condition, 1, 0)");
     return false;

@@ -298,7 +298,7 @@ static bool resolve_family(model *m, model_definition *d)
     if (d->kind != DEFINED_PARAMETER && s->next) {
         const statement *other = &m->statements.item[s->next - 1];
         source_complain(&m->source, MOTUS_NAME, &other->name_at, "%s is defined twice; the first time in line %d",
-                        d->name, source_line(&m->source, s->at));
+                        d->name, source_line(&m->source, &s->at));
         source_hint(&m->source,
                     "it depends on a state or on time: a quantity has one line; choose by if(i == 3, …, …)");
         return false;
@@ -368,7 +368,7 @@ bool resolve_constant(model *m, const tree *t, const char *what, double *out)
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, what);
     node n = lower_scalar(&l, t, what);
-    if (failed(m) || !evaluate_number(m, n, t->at, what, out)) return false;
+    if (failed(m) || !evaluate_number(m, n, &t->at, what, out)) return false;
     if (!isfinite(*out)) {
         source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "%s is not a finite number", what);
         return false;
@@ -392,7 +392,7 @@ bool resolve_start_time(model *m)
         if (!resolve_constant(m, t, "the start", &at)) return false;
         if (any && at != m->start) {
             source_complain(&m->source, MOTUS_ARGUMENT, &t->at, "the start is %g here, but %g in line %d", at, m->start,
-                            source_line(&m->source, where));
+                            source_line(&m->source, &where));
             source_hint(&m->source, "all states start at the same time");
             return false;
         }

@@ -74,24 +74,24 @@ bool evaluate_nodes(model *m, const node *nodes, int count, double *out)
     return ok;
 }
 
-static bool constant_node(model *m, node n, span at)
+static bool constant_node(model *m, node n, const span *at)
 {
     if (graph_deps(m->graph, n) & (DEP_TIME | DEP_STATE | DEP_LEVELS | DEP_D)) {
-        source_complain(&m->source, MOTUS_SHAPE, &at,
+        source_complain(&m->source, MOTUS_SHAPE, at,
                         "this must be constant: it cannot depend on a state, on time or on an index");
         return false;
     }
     return true;
 }
 
-bool evaluate_number(model *m, node n, span at, const char *what, double *value)
+bool evaluate_number(model *m, node n, const span *at, const char *what, double *value)
 {
     if (source_failed(&m->source) || !constant_node(m, n, at) || !evaluate_nodes(m, &n, 1, value)) return false;
     vary_freeze(m, n, what);
     return !source_failed(&m->source);
 }
 
-int evaluate_int(model *m, node n, span at, int64_t *value)
+int evaluate_int(model *m, node n, const span *at, int64_t *value)
 {
     for (uint32_t i = 0; i < m->int_count; i++)
         if (m->int_nodes[i] == n) {
@@ -101,15 +101,15 @@ int evaluate_int(model *m, node n, span at, int64_t *value)
     double v;
     if (!evaluate_number(m, n, at, NULL, &v)) return -1;
     if (fabs(v) > 1e9) {
-        source_complain(&m->source, MOTUS_LIMIT, &at, "a bound of an index is at most 1e9, and this is %g", v);
+        source_complain(&m->source, MOTUS_LIMIT, at, "a bound of an index is at most 1e9, and this is %g", v);
         return -1;
     }
     if (v != floor(v)) {
-        source_complain(&m->source, MOTUS_SHAPE, &at, "a whole number is expected here, not %g", v);
+        source_complain(&m->source, MOTUS_SHAPE, at, "a whole number is expected here, not %g", v);
         return -1;
     }
     if (m->int_count == INT16_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, &at, "more than %d different bounds and shifts of indices", INT16_MAX);
+        source_complain(&m->source, MOTUS_LIMIT, at, "more than %d different bounds and shifts of indices", INT16_MAX);
         return -1;
     }
     if (m->int_count == m->int_capacity) {

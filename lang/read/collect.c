@@ -10,7 +10,7 @@
 static void twice(model *m, const statement *s, span earlier)
 {
     source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s is defined twice; the first time in line %d", s->name,
-                    source_line(&m->source, earlier));
+                    source_line(&m->source, &earlier));
     source_hint(&m->source, "remove one of them, or give it another name");
 }
 
@@ -41,7 +41,7 @@ static bool add_state(model *m, const statement *s)
         twice(m, s, state->at);
     } else if (state->dims != (int)s->index_count) {
         source_complain(&m->source, MOTUS_SHAPE, &s->name_at, "%s has %d ind%s in line %d, but %u here", s->name,
-                        state->dims, state->dims == 1 ? "ex" : "ices", source_line(&m->source, state->at),
+                        state->dims, state->dims == 1 ? "ex" : "ices", source_line(&m->source, &state->at),
                         s->index_count);
     }
     return !source_failed(&m->source);
@@ -55,7 +55,7 @@ static bool add_definition(model *m, const statement *s)
         if (s->index_count > 0 && s->kind == STATEMENT_DEFINITION) return true; /* a boundary line */
         source_complain(&m->source, MOTUS_NAME, &s->name_at,
                         "%s has an equation of motion in line %d and cannot be defined too", s->name,
-                        source_line(&m->source, known.state->at));
+                        source_line(&m->source, &known.state->at));
         return false;
     }
     if (known.definition) {
@@ -230,7 +230,7 @@ static bool replace(model *m, uint32_t text)
         if (old->value->kind == TREE_LIST)
             source_hint(s, "write %s = [1, 2, …]", one->name);
         else
-            source_hint(s, "write it as the model does, in line %d", source_line(s, old->at));
+            source_hint(s, "write it as the model does, in line %d", source_line(s, &old->at));
         return false;
     }
     source_complain(s, MOTUS_NAME, &one->name_at, "the model has no parameter %s", one->name);

@@ -124,7 +124,7 @@ static const char *written_here(const char *name)
 /* "V(q)", as it is defined */
 static const char *as_defined(const finding *f, const model_function *of, char out[80])
 {
-    return source_excerpt(&f->model->source, of->statement->applied->at, out, 80);
+    return source_excerpt(&f->model->source, &of->statement->applied->at, out, 80);
 }
 
 static bool complain_name(finding *f, const tree *t)
@@ -152,7 +152,7 @@ static void hint_product(source *s, const tree *t, const char *name)
 {
     char b[80];
     const tree *bracket = t->item[1];
-    source_excerpt(s, bracket->at, b, sizeof b);
+    source_excerpt(s, &bracket->at, b, sizeof b);
     if (t->divisor)
         source_hint(s, "write %s (%s), with a blank, to multiply the quotient; (%s (%s)) to divide by the product",
                     name, b, name, b);

@@ -148,7 +148,7 @@ static bool bracket(lexer *l, char c, uint32_t from)
         if (l->closer[--l->depth] != c) {
             span open = {l->text, l->opened[l->depth], l->opened[l->depth] + 1};
             source_complain(l->source, MOTUS_SYNTAX, &at, "%c expected here, for the %c in line %d, but there is %c",
-                            l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, open),
+                            l->closer[l->depth], l->closer[l->depth] == ')' ? '(' : '[', source_line(l->source, &open),
                             c);
             return false;
         }

@@ -9,15 +9,15 @@ bool source_failed(const source *s) { return s->failed || s->arena->failed || (s
 
 static bool continues(unsigned char byte) { return (byte & 0xC0) == 0x80; }
 
-int source_line(source *s, span at)
+int source_line(source *s, const span *at)
 {
-    const struct source_text *text = &s->texts[at.text];
-    if (s->known.text != at.text || s->known.at > at.from || s->known.line == 0) {
-        s->known.text = at.text;
+    const struct source_text *text = &s->texts[at->text];
+    if (s->known.text != at->text || s->known.at > at->from || s->known.line == 0) {
+        s->known.text = at->text;
         s->known.at = 0;
         s->known.line = 1;
     }
-    for (; s->known.at < at.from && s->known.at < text->length; s->known.at++)
+    for (; s->known.at < at->from && s->known.at < text->length; s->known.at++)
         s->known.line += text->bytes[s->known.at] == '\n';
     return s->known.line;
 }
@@ -71,7 +71,7 @@ static void point(source *s, const span *at, motus_error *e)
         any = true;
     }
     e->caret[n] = 0;
-    e->line = source_line(s, *at);
+    e->line = source_line(s, at);
     e->column = column;
     snprintf(e->file, sizeof e->file, "%s", text->name ? text->name : "");
 }
@@ -114,10 +114,10 @@ void source_repair(source *s, const char *word, const char *format, ...)
     error_repair(s->error, word, "%s", text);
 }
 
-const char *source_excerpt(const source *s, span at, char *out, size_t size)
+const char *source_excerpt(const source *s, const span *at, char *out, size_t size)
 {
-    const char *bytes = s->texts[at.text].bytes;
-    uint32_t from = at.from, to = at.to < s->texts[at.text].length ? at.to : s->texts[at.text].length;
+    const char *bytes = s->texts[at->text].bytes;
+    uint32_t from = at->from, to = at->to < s->texts[at->text].length ? at->to : s->texts[at->text].length;
     if (to - from + 6 <= size) {
         show(out, size, bytes, from, to);
     } else {

@@ -43,8 +43,8 @@ void source_complain(source *, motus_status, const span *at, const char *format,
 void source_hint(source *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Adds what an editor may write instead of a word, or, word "", as a line of its own; of the first complaint alone. */
 void source_repair(source *, const char *word, const char *format, ...) __attribute__((format(printf, 3, 4)));
-int source_line(source *, span at); /* 1-based */
+int source_line(source *, const span *at); /* 1-based */
 /* The bytes of a span, shortened in the middle to fit `out`, newlines as blanks. */
-const char *source_excerpt(const source *, span at, char *out, size_t size);
+const char *source_excerpt(const source *, const span *at, char *out, size_t size);
 
 #endif

@@ -23,7 +23,7 @@ static tree *parse_power(parser *p)
         return base;
     }
     if (minus) {
-        tree *t = grow(p, TREE_NEGATE, (span){sign.text, sign.from, exponent->at.to});
+        tree *t = grow(p, TREE_NEGATE, &(span){sign.text, sign.from, exponent->at.to});
         add_item(p, t, exponent);
         exponent = t;
     }
@@ -65,11 +65,11 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
     const tree *left = last_factor(product);
     if (p->token.kind == TOKEN_NUMBER) {
         span at = {left->at.text, left->at.from, p->token.at.to};
-        quote(p, left->at, a);
-        quote(p, p->token.at, b);
+        quote(p, &left->at, a);
+        quote(p, &p->token.at, b);
         COMPLAIN(p, &at, "a number comes first in a product: %s %s is not read", a, b);
         if (quotient(product))
-            HINT(p, "write %s/%s*%s or %s/(%s*%s)", quote(p, product->item[0]->at, c), a, b, c, a, b);
+            HINT(p, "write %s/%s*%s or %s/(%s*%s)", quote(p, &product->item[0]->at, c), a, b, c, a, b);
         else if (left->kind != TREE_NUMBER)
             HINT(p, "write %s %s or %s*%s", b, a, a, b);
         else if (only_digits(p, left->at) && only_digits(p, p->token.at))
@@ -92,9 +92,9 @@ static bool glued_to_divisor(parser *p, const tree *product, const tree *right)
     char a[80], b[80], c[80];
     const tree *divisor = product->item[1];
     COMPLAIN(p, (&(span){divisor->at.text, divisor->at.from, right->at.to}),
-             "it is not clear whether %s multiplies the quotient or the divisor", quote(p, right->at, c));
-    HINT(p, "write %s/%s %s, with a blank, for (%s/%s) %s; or %s/(%s %s)", quote(p, product->item[0]->at, a),
-         quote(p, divisor->at, b), c, a, b, c, a, b, c);
+             "it is not clear whether %s multiplies the quotient or the divisor", quote(p, &right->at, c));
+    HINT(p, "write %s/%s %s, with a blank, for (%s/%s) %s; or %s/(%s %s)", quote(p, &product->item[0]->at, a),
+         quote(p, &divisor->at, b), c, a, b, c, a, b, c);
     return false;
 }
 
@@ -129,7 +129,7 @@ static tree *parse_signed(parser *p, tree *t)
     if (failed(p)) return t;
     right->divisor = !times;
     if (minus) {
-        tree *negative = grow(p, TREE_NEGATE, (span){at.text, at.from, right->at.to});
+        tree *negative = grow(p, TREE_NEGATE, &(span){at.text, at.from, right->at.to});
         add_item(p, negative, right);
         right = negative;
     }
@@ -162,7 +162,7 @@ static tree *parse_terms(parser *p)
         t = parse_product(p);
         if (failed(p)) return t;
         if (minus) {
-            tree *negative = grow(p, TREE_NEGATE, (span){at.text, at.from, t->at.to});
+            tree *negative = grow(p, TREE_NEGATE, &(span){at.text, at.from, t->at.to});
             add_item(p, negative, t);
             t = negative;
         }
@@ -209,7 +209,7 @@ static tree *parse_comparison(parser *p)
     char a[80], b[80];
     if (relation(p) >= 0) {
         COMPLAIN(p, &p->token.at, "comparisons are not chained");
-        HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, t->at, a), quote(p, right->at, b),
+        HINT(p, "write %s … %s and %s … : two comparisons joined by and", quote(p, &t->at, a), quote(p, &right->at, b),
              b);
         return t;
     }
@@ -222,7 +222,7 @@ static tree *parse_comparison(parser *p)
 static tree *parse_not(parser *p)
 {
     if (!word(p, "not")) return parse_comparison(p);
-    tree *t = grow(p, TREE_NOT, p->token.at);
+    tree *t = grow(p, TREE_NOT, &p->token.at);
     advance(p);
     skip_lines(p);
     if (!deeper(p)) return t;

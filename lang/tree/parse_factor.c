@@ -21,7 +21,7 @@ bool parse_loop(parser *p, loop *l)
         return false;
     }
     l->at = p->token.at;
-    l->name = copy_name(p, p->token.at);
+    l->name = copy_name(p, &p->token.at);
     if (words_reserved(l->name) || words_function(l->name) >= 0) {
         COMPLAIN(p, &l->at, "%s is a word of the language and cannot be an index", l->name);
         HINT(p, "take i, j, k …");
@@ -70,7 +70,7 @@ static bool at_loop(parser *p)
 /* sum = "sum" "(" loop { "," (loop | condition) } ":" body ")" [12] */
 static tree *parse_sum(parser *p, span name)
 {
-    tree *t = grow(p, TREE_SUM, name);
+    tree *t = grow(p, TREE_SUM, &name);
     do {
         advance(p); /* the bracket or the comma */
         skip_lines(p);
@@ -127,7 +127,7 @@ static int arity(int operation)
 /* call = function "(" inside { "," inside } ")" [5] */
 static tree *parse_call(parser *p, span name)
 {
-    const char *text = copy_name(p, name);
+    const char *text = copy_name(p, &name);
     int operation = words_function(text);
     char argument[80];
     if (failed(p)) return nothing(p);
@@ -136,10 +136,10 @@ static tree *parse_call(parser *p, span name)
             lexer ahead = p->lexer;
             token power = lex_next(&ahead);
             COMPLAIN(p, &name, "%s needs its argument in brackets", text);
-            HINT(p, "write %s(x)^%s", text, power.kind == TOKEN_NUMBER ? quote(p, power.at, argument) : "2");
+            HINT(p, "write %s(x)^%s", text, power.kind == TOKEN_NUMBER ? quote(p, &power.at, argument) : "2");
         } else if (p->token.kind == TOKEN_NAME || p->token.kind == TOKEN_NUMBER) {
             COMPLAIN(p, &name, "%s needs its argument in brackets", text);
-            HINT(p, "write %s(%s)", text, quote(p, p->token.at, argument));
+            HINT(p, "write %s(%s)", text, quote(p, &p->token.at, argument));
         } else if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, &p->token.at, "a function takes no primes");
         } else {
@@ -149,7 +149,7 @@ static tree *parse_call(parser *p, span name)
         return nothing(p);
     }
     if (!strcmp(text, "sum")) return parse_sum(p, name);
-    tree *t = grow(p, TREE_CALL, name);
+    tree *t = grow(p, TREE_CALL, &name);
     t->operation = (int16_t)operation;
     t->name = text;
     do {
@@ -203,10 +203,10 @@ static tree *parse_components(parser *p, tree *t)
                     COMPLAIN(p, &p->last.at, "a point stands alone here");
                 else
                     COMPLAIN(p, &p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s",
-                             quote(p, p->token.at, text));
+                             quote(p, &p->token.at, text));
                 return t;
             }
-            tree *number = grow(p, TREE_NUMBER, p->token.at);
+            tree *number = grow(p, TREE_NUMBER, &p->token.at);
             number->number = k;
             t = component(p, t, number, p->token.at);
             advance(p);
@@ -242,7 +242,7 @@ static tree *parse_items(parser *p, tree *t, char close, const char *where)
 /* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
 tree *parse_applied(parser *p, tree *name)
 {
-    tree *t = grow(p, TREE_APPLY, name->at);
+    tree *t = grow(p, TREE_APPLY, &name->at);
     add_item(p, t, name);
     return parse_items(p, t, ')', "at the end of the bracket");
 }
@@ -250,8 +250,8 @@ tree *parse_applied(parser *p, tree *name)
 /* name = NAME [ index ] [ primes ] [ applied ] components [4, 6] */
 static tree *parse_name(parser *p)
 {
-    tree *t = grow(p, TREE_NAME, p->token.at);
-    t->name = copy_name(p, p->token.at);
+    tree *t = grow(p, TREE_NAME, &p->token.at);
+    t->name = copy_name(p, &p->token.at);
     p->operations += !p->known[p->name].counted;
     p->known[p->name].counted = true;
     advance(p);
@@ -293,7 +293,7 @@ static tree *parse_bracket(parser *p)
             t = item;
         } else {
             if (!vector) {
-                vector = grow(p, TREE_VECTOR, at);
+                vector = grow(p, TREE_VECTOR, &at);
                 add_item(p, vector, t);
             }
             add_item(p, vector, item);
@@ -314,13 +314,13 @@ static tree *parse_bracket(parser *p)
 /* list = "[" inside { "," inside } "]" */
 static tree *parse_list(parser *p)
 {
-    return parse_items(p, grow(p, TREE_LIST, p->token.at), ']', "or a comma, in the list");
+    return parse_items(p, grow(p, TREE_LIST, &p->token.at), ']', "or a comma, in the list");
 }
 
 /* norm = "|" or "|" [7] */
 static tree *parse_norm(parser *p)
 {
-    tree *t = grow(p, TREE_NORM, p->token.at);
+    tree *t = grow(p, TREE_NORM, &p->token.at);
     advance(p);
     p->bars++;
     if (!deeper(p)) return t;
@@ -343,7 +343,7 @@ tree *parse_factor(parser *p)
 {
     if (failed(p)) return nothing(p);
     if (p->token.kind == TOKEN_NUMBER) {
-        tree *t = grow(p, TREE_NUMBER, p->token.at);
+        tree *t = grow(p, TREE_NUMBER, &p->token.at);
         t->number = p->token.number;
         advance(p);
         if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {

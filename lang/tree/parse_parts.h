@@ -52,10 +52,10 @@ static inline bool spelled(const parser *p, const token *t, const char *word)
 static inline bool word(const parser *p, const char *text) { return spelled(p, &p->token, text); }
 
 /* π is pi. */
-static inline const char *copy_name(parser *p, span at)
+static inline const char *copy_name(parser *p, const span *at)
 {
-    const char *bytes = p->source->texts[at.text].bytes + at.from;
-    const size_t length = at.to - at.from;
+    const char *bytes = p->source->texts[at->text].bytes + at->from;
+    const size_t length = at->to - at->from;
     if (length == 2 && !memcmp(bytes, "π", 2)) return "pi";
     uint32_t hash = 0;
     for (size_t i = 0; i < length; i++) hash = hash * 31 + (unsigned char)bytes[i];
@@ -69,12 +69,12 @@ static inline const char *copy_name(parser *p, span at)
     return copy;
 }
 
-static inline tree *grow(parser *p, tree_kind kind, span at)
+static inline tree *grow(parser *p, tree_kind kind, const span *at)
 {
     tree *t = arena_take(p->arena, sizeof *t);
     p->operations += kind != TREE_NAME && kind != TREE_APPLY && kind != TREE_LIST && kind != TREE_VECTOR;
     t->kind = (uint8_t)kind;
-    t->at = at;
+    t->at = *at;
     return t;
 }
 
@@ -109,12 +109,12 @@ static inline tree *two(parser *p, tree_kind kind, tree *a, tree *b)
     return t;
 }
 
-static inline tree *nothing(parser *p) { return grow(p, TREE_NUMBER, p->token.at); }
+static inline tree *nothing(parser *p) { return grow(p, TREE_NUMBER, &p->token.at); }
 
 #define COMPLAIN(p, at, ...) (source_complain((p)->source, MOTUS_SYNTAX, (at), __VA_ARGS__))
 #define HINT(p, ...) (source_hint((p)->source, __VA_ARGS__))
 
-static inline const char *quote(const parser *p, span at, char out[80])
+static inline const char *quote(const parser *p, const span *at, char out[80])
 {
     return source_excerpt(p->source, at, out, 80);
 }
@@ -134,7 +134,7 @@ static inline void unexpected(parser *p, const char *wanted)
     if (p->token.kind == TOKEN_END || p->token.kind == TOKEN_NEWLINE)
         COMPLAIN(p, &p->token.at, "%s expected, but the line ends here", wanted);
     else
-        COMPLAIN(p, &p->token.at, "%s expected, but here is %s", wanted, quote(p, p->token.at, text));
+        COMPLAIN(p, &p->token.at, "%s expected, but here is %s", wanted, quote(p, &p->token.at, text));
 }
 
 /* Line ends inside a bracket do not count [8], so an open bracket swallows the next statement: complains at that
@@ -144,7 +144,7 @@ static inline bool left_open(parser *p)
     if (p->lexer.depth == 0 || failed(p)) return false;
     uint32_t from = p->lexer.opened[p->lexer.depth - 1];
     span open = {p->token.at.text, from, from + 1};
-    if (source_line(p->source, open) == source_line(p->source, p->token.at)) return false;
+    if (source_line(p->source, &open) == source_line(p->source, &p->token.at)) return false;
     char closer = p->lexer.closer[p->lexer.depth - 1];
     COMPLAIN(p, &open, "this %c is not closed before the next statement", closer == ')' ? '(' : '[');
     HINT(p, "add the missing %c", closer);

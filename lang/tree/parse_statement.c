@@ -32,17 +32,17 @@ static void end_of_statement(parser *p, int line)
         COMPLAIN(p, &p->token.at, "the statement ends before this comma");
         if (next.kind == TOKEN_NUMBER)
             HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)",
-                 quote(p, p->last.at, before), quote(p, next.at, text), before, text);
+                 quote(p, &p->last.at, before), quote(p, &next.at, text), before, text);
         return;
     }
     if (is(p, '=')) {
         COMPLAIN(p, &p->token.at, "a second = in one statement");
-        if (line != source_line(p->source, p->token.at))
+        if (line != source_line(p->source, &p->token.at))
             HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
         HINT(p, "one statement a line, or ; between them; to compare write ==");
         return;
     }
-    COMPLAIN(p, &p->token.at, "the statement should end here, but there is %s", quote(p, p->token.at, text));
+    COMPLAIN(p, &p->token.at, "the statement should end here, but there is %s", quote(p, &p->token.at, text));
     if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them");
 }
 
@@ -62,7 +62,7 @@ static void parse_value(parser *p, statement *s)
     s->value = parse_or(p);
     s->value_at = (span){first.text, first.from, p->last.at.to};
     parse_for(p, s);
-    end_of_statement(p, source_line(p->source, s->at));
+    end_of_statement(p, source_line(p->source, &s->at));
 }
 
 /* Whether a terminal can show it: no control characters, nothing that is not UTF-8. */
@@ -109,7 +109,7 @@ static void parse_setting(parser *p, statement *s)
     if (is(p, '=')) {
         char text[80];
         COMPLAIN(p, &p->token.at, "a setting is written without =");
-        HINT(p, "write: %s 0.01", quote(p, p->last.at, text));
+        HINT(p, "write: %s 0.01", quote(p, &p->last.at, text));
         return;
     }
     s->value = parse_or(p);
@@ -117,7 +117,7 @@ static void parse_setting(parser *p, statement *s)
         s->steps = true;
         advance(p);
     }
-    end_of_statement(p, source_line(p->source, s->at));
+    end_of_statement(p, source_line(p->source, &s->at));
 }
 
 /* Hints for usual ways to write a derivative that the language does not have. */
@@ -154,7 +154,7 @@ static void parse_left(parser *p, statement *s)
     }
     tree name = {.at = p->token.at};
     s->name_at = p->token.at;
-    s->name = copy_name(p, p->token.at);
+    s->name = copy_name(p, &p->token.at);
     if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
         if (!strcmp(s->name, "t"))
             COMPLAIN(p, &s->name_at, "t is the time and cannot be defined");
@@ -187,7 +187,7 @@ static void parse_left(parser *p, statement *s)
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
             return;
         }
-        tree *left = grow(p, TREE_NAME, s->name_at);
+        tree *left = grow(p, TREE_NAME, &s->name_at);
         left->name = s->name;
         left->primes = s->primes;
         left->item = s->index;
@@ -222,7 +222,7 @@ static void parse_left(parser *p, statement *s)
         token next = lex_next(&ahead);
         char text[80];
         if (p->token.kind == TOKEN_NAME && next.kind == TOKEN_PRIMES) {
-            quote(p, p->token.at, text);
+            quote(p, &p->token.at, text);
             COMPLAIN(p, &s->at, "the left side of an equation is the highest derivative alone");
             HINT(p, "divide: %s%s = (…)/%s", text, next.primes == 1 ? "'" : "''", s->name);
         } else if (p->token.kind == TOKEN_NAME) {
