@@ -16,10 +16,10 @@ import { subjects } from './subject';
 
 export { inkStyle };
 
-/** The stage and the page, and the media that this picture is for; the style shows the one that fits (.first-…). */
+/** The stage and the page that each picture is for; the style shows the one that fits best (.first-…), tablets that of the desk. */
 const SIZES = [
   { name: 'desk', stage: [1280, 528], page: [1280, 800], column: 290 }, { name: 'wide', stage: [1920, 808], page: [1920, 1080], column: 520 },
-  { name: 'tablet', stage: [820, 700], page: [820, 1180], column: 0 }, { name: 'phone', stage: [390, 374], page: [390, 844], column: 0 },
+  { name: 'phone', stage: [390, 374], page: [390, 844], column: 0 },
   { name: 'landscape', stage: [560, 390], page: [844, 390], column: 0 },
 ] as const;
 
@@ -38,7 +38,7 @@ export function firstPictures(scene: Scene): string {
     const picture = pictureOf({ scene, subject, staging, place, bounds, camera: HOME, before: null, pinned: null }), pen = svgPen(width, height, 1);
     picture.still(pen, named.ink, true);
     picture.moving(pen, named.ink, times[times.length - 1]!);
-    return pen.svg().replace('<svg ', `<svg class="first first-${name}" aria-hidden="true" preserveAspectRatio="xMidYMid slice" `).replace(/id="c(\d+)"/g, `id="${name}-c$1"`).replace(/url\(#c(\d+)\)/g, `url(#${name}-c$1)`).replace(/ role="img"| font-family="[^"]*"/g, '');
+    return pen.svg().replace('<svg ', `<svg class="first first-${name}" aria-hidden="true" preserveAspectRatio="xMidYMax meet" `).replace(/id="c(\d+)"/g, `id="${name}-c$1"`).replace(/url\(#c(\d+)\)/g, `url(#${name}-c$1)`).replace(/ role="img"| font-family="[^"]*"/g, '');
   }).join('');
 }
 

@@ -17,7 +17,7 @@ const time = async (page) => (await page.locator('.transport-now').textContent()
 
 // --- before any script --------------------------------------------------------------------------------------------------------------------
 await attempt('without scripts', async () => {
-  for (const [name, width, height] of [['desk', 1280, 800], ['wide', 1920, 1080], ['tablet', 820, 1180], ['phone', 390, 844], ['landscape', 844, 390]]) {
+  for (const [name, width, height] of [['desk', 1280, 800], ['wide', 1920, 1080], ['desk', 820, 1180], ['phone', 390, 844], ['landscape', 844, 390]]) {
     const context = await (await launch()).newContext({ viewport: { width, height }, javaScriptEnabled: false }), page = await context.newPage();
     await page.goto(singleFile);
     const seen = await page.locator('#stage-picture > svg').evaluateAll((all) => all.filter((s) => getComputedStyle(s).display !== 'none').map((s) => s.getAttribute('class'))).catch(() => null);
