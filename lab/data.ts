@@ -12,6 +12,10 @@ export interface Data {
 }
 export const data: Data = { presets: [], lessons: [], cards: {}, theory: '' };
 
+/** The example that this state shows unaltered, by its name; '': it has a text of its own. */
+export const exampleOf = (state: { readonly preset: string; readonly text: string }): string =>
+  (state.preset !== '' && data.presets.find((p) => p.name === state.preset)?.text === state.text ? state.preset : '');
+
 export async function loadData(): Promise<void> {
   Object.assign(data, await unpacked());
 }

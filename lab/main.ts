@@ -21,7 +21,7 @@ import { startState } from './shell/address';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { recall, remember } from './shell/memory';
-import { data, loadData } from './data';
+import { data, exampleOf, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
@@ -138,7 +138,7 @@ async function start(): Promise<void> {
     small.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
-    clock.setUnit(stagingOf(scene.state.preset).units?.t ?? '');
+    clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');
     if (scene.state.preset !== preset || !shown) clock.seek(end);
     preset = scene.state.preset;
     if (!shown) gentle();

@@ -2,6 +2,7 @@
  *
  * Invariant: rows are rebuilt only when the model has other parameters; what a slider does not touch keeps the text that the model has (sliders.ts).
  */
+import { exampleOf } from '../data';
 import type { Parameter } from '../protocol';
 import { presetState } from '../share';
 import { stagingOf, type Dial } from '../stage/staging';
@@ -37,7 +38,7 @@ export function dials(store: LiveStore): HTMLElement {
   function build(): void {
     const { description, state } = store;
     if (!description || store.trouble.model) return;
-    const staging = stagingOf(presets.text(state.preset) === state.text ? state.preset : '');
+    const staging = stagingOf(exampleOf(state));
     const key = JSON.stringify([staging === stagingOf('') ? '' : state.preset, description.parameters.map((p) => [p.name, p.initial ? p.values : p.text, p.list])]);
     if (key === shown) return;
     shown = key;

@@ -3,6 +3,7 @@
  * Invariant: what is said of an example holds for its own text only; of a changed text the words are its own comment's.
  */
 import { stagingOf } from '../stage/staging';
+import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
 import { button, el, icon, say } from '../dom';
@@ -45,7 +46,7 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
 
   let shown = '', typeset = '';
   function show(): void {
-    const { preset, text } = store.state, altered = presets.text(preset) !== text, name = altered ? '' : preset;
+    const { preset, text } = store.state, name = exampleOf(store.state), altered = name === '';
     const steps = store.scene?.solution.tracks[0]?.total ?? 0, key = `${preset} ${name === '' ? text : ''} ${steps}`;
     if (key === shown) return;
     shown = key;

@@ -3,11 +3,13 @@
  * Invariant: it keeps no time of its own; it shows what the clock and the scene say.
  */
 import type { Scene } from '../scene';
+import { exampleOf } from '../data';
 import { button, el, place, say } from '../dom';
 import { ink } from '../figure/ink';
 import { rowAt } from '../figure/track';
 import { short } from './number';
 import { titleOf } from './presets';
+import { ownTitle } from './title';
 import type { Transport } from './transport';
 
 const WIDTH = 116, HEIGHT = 40, MARGIN = 5;
@@ -71,7 +73,7 @@ export function mini(clock: () => Transport): Mini {
     show(next) {
       scene = next;
       prepare();
-      say(title, next.state.preset ? titleOf(next.state.preset) : 'Your own equation');
+      say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || 'Your own equation');
       const track = next.solution.tracks[0];
       say(told, track ? `h = ${short(track.step, 4)} · ${track.total.toLocaleString('en').replace(/,/g, '\u2009')} steps` : '');
       draw();

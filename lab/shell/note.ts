@@ -3,6 +3,7 @@
  * Invariant: what is said of an example holds for its own text only.
  */
 import { notes } from '../theory/presets';
+import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
 import { button, el } from '../dom';
@@ -13,7 +14,7 @@ export function note(store: LiveStore): HTMLElement {
   let shown = '';
   store.subscribe((what) => {
     if (what !== 'state' && what !== 'scene') return;
-    const { preset, text } = store.state, name = presets.text(preset) === text ? preset : '';
+    const name = exampleOf(store.state);
     if (name === shown) return;
     shown = name;
     const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];

@@ -2,10 +2,10 @@
  *
  * Invariant: while a slider is held the text keeps still, so a drag costs no more than its picture. A number that the text computes from others stays set.
  */
+import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { tuple } from './number';
-import { presets } from './presets';
 import { written } from './write';
 
 const REST = 500;
@@ -36,7 +36,7 @@ export function settle(store: LiveStore): HTMLElement {
   const words = el('span', {}), take = button('Write it into the text', () => write(), { class: 'text-button' });
   const note = el('p', { class: 'overrides quiet', hidden: true }, words, ' ', take);
   let timer = 0, pressed = false;
-  const own = (): boolean => presets.text(store.state.preset) !== store.state.text;
+  const own = (): boolean => exampleOf(store.state) === '';
   function write(): void {
     const next = settledText(store);
     if (next && next.text !== store.state.text) store.change(next);

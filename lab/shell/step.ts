@@ -3,6 +3,7 @@
  * Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. Stops belong to the
  * model, not to the state: they do not move under the reader's hand.
  */
+import { exampleOf } from '../data';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
@@ -35,7 +36,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   function limits(): void {
     const { settings } = store.description ?? {};
     if (!settings || settings.step === null) return;
-    const [largest, count] = stagingOf(store.state.preset).stops ?? [4, 5];
+    const [largest, count] = stagingOf(exampleOf(store.state)).stops ?? [4, 5];
     const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
     // A lesson that begins with a step of its own has its stops about that.
     const typed = Number(store.state.step), base = store.state.place.includes('.') && typed > 0 ? typed : settings.step;
@@ -58,7 +59,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     field.style.width = `${Math.max(3, field.value.length + 0.5)}ch`;
     reset.hidden = state.step === '';
     say(suggested, description?.settings.suggested && state.step === '' ? 'suggested' : '');
-    const { units } = stagingOf(state.preset);
+    const { units } = stagingOf(exampleOf(state));
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
     say(steps, track && !wrong ? `\u2009·\u2009${track.total.toLocaleString('en').replace(/,/g, '\u2009')} ${track.total === 1 ? 'step' : 'steps'}` : '');
@@ -95,7 +96,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   field.addEventListener('focus', () => { if (!store.state.step) { field.value = own(); field.select(); } });
   field.addEventListener('blur', refresh);
   store.subscribe((what) => {
-    const key = `${store.state.preset} ${store.description?.settings.step} ${store.description?.settings.until} ${store.state.place.split('.')[0]}`;
+    const key = `${exampleOf(store.state)} ${store.description?.settings.step} ${store.description?.settings.until} ${store.state.place.split('.')[0]}`;
     if (what === 'description' && last !== key && store.description) { last = key; limits(); }
     if (what !== 'view' && what !== 'busy') refresh();
   });

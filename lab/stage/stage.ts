@@ -3,6 +3,7 @@
  * Invariant: the frame keeps still while sliders move; it moves once, afterwards, where the exact motion has left it or become small in it. Methods never
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
+import { exampleOf } from '../data';
 import { button, el, say } from '../dom';
 import { csv, download, downloadText, fileName } from '../figure/export';
 import { ink } from '../figure/ink';
@@ -116,7 +117,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const seen = hidden.length ? without(scene, hidden) : scene;
     picture = pictureOf({ scene: seen, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
   }
-  const staging = () => stagingOf(scene && scene.state.preset && scene.state.text === store.state.text ? scene.state.preset : '');
+  const staging = () => stagingOf(scene ? exampleOf(scene.state) : '');
   function draw(): void {
     asked = 0;
     if (!dirty || !visible || !scene || !fit() || !subject) return;
@@ -167,11 +168,12 @@ export function stage(store: Store, room: { column(): number }): Stage {
   function refresh(anew = false): void {
     if (anew) picture = null;
     dirty = true;
+    element.setAttribute('aria-busy', 'true');
     if (!asked) asked = requestAnimationFrame(draw);
   }
   /** The frame goes to where it belongs, once. */
   function settle(): void {
-    if (!scene || !subject || !bounds || showAll) return;
+    if (!scene || !subject || !bounds || showAll || bounds.length !== subject.axes.length) return;
     const { ranges } = extentOf(motionOf(scene, subject)), inTime = subject.kind === 'time';
     if (suits(bounds, ranges, inTime, subject.kind === 'plane')) return;
     const from = bounds, to = boundsFor(scene, subject, staging(), false, null), began = performance.now();
@@ -207,7 +209,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     document.body.dataset.decor = staging().decor ?? '';
     offer();
     turning.enable(subject?.kind === 'space');
-    if (subject?.id !== old?.id) bounds = null;
+    if (subject?.id !== old?.id || (bounds && bounds.length !== subject?.axes.length)) { bounds = null; ghost = null; cancelAnimationFrame(moveFrame); }
     // What moved: the curve of before stays for a while. A finer answer to the same question is no change.
     const changed = before && !other && subject && (JSON.stringify(before.state.set) !== JSON.stringify(next.state.set) || before.state.step !== next.state.step);
     if (changed && bounds) {
@@ -315,6 +317,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const words = summary();
     say(caption, words);
     still.setAttribute('aria-label', words);
+    element.setAttribute('aria-busy', String(dirty));
   }
   function summary(): string {
     if (!scene || !subject || !picture) return 'Nothing to show yet.';

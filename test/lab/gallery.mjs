@@ -12,13 +12,13 @@ const text = async (options) => (await build({ bundle: true, write: false, targe
 const { thumbnails, scenes, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
   stdin: { contents: "export * from './thumbs'; export { scenes } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
 })).toString('base64'));
-const made = { 'virtual:presets': models, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
+const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
 const script = await text({
-  stdin: { contents: `import { gallery } from './shell/gallery'; window.said = [];
-    document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') }));`, resolveDir: lab, loader: 'ts' }, format: 'iife',
+  stdin: { contents: `import { gallery } from './shell/gallery'; import { loadData } from './data'; window.said = [];
+    loadData().then(() => document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') })));`, resolveDir: lab, loader: 'ts' }, format: 'iife',
   plugins: [{ name: 'made', setup(b) {
     b.onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: 'made' }));
-    b.onLoad({ filter: /.*/, namespace: 'made' }, ({ path }) => ({ contents: `export default ${path === 'virtual:thumbs' ? 'async () => ' : ''}(${JSON.stringify(made[path])})`, loader: 'js' }));
+    b.onLoad({ filter: /.*/, namespace: 'made' }, ({ path }) => ({ contents: `export default async () => (${JSON.stringify(made[path])})`, loader: 'js' }));
   } }],
 });
 const style = inkStyle() + ['style.css', 'shell/gallery.css'].map((name) => readFileSync(join(lab, name), 'utf8')).join('\n');
@@ -33,6 +33,7 @@ async function open({ width = 1280, height = 900, theme = 'light', calm = false 
   page.on('console', (message) => page.wrong.push(message.text()));
   page.on('pageerror', (error) => page.wrong.push(error.message));
   await page.goto(pathToFileURL(file).href);
+  await page.locator('.thumb path').first().waitFor({ state: 'attached' });
   return page;
 }
 const close = async (name, page) => { same(`${name}: nothing is complained about`, page.wrong, []); await page.context().close(); };

@@ -1,6 +1,6 @@
 /* The exact motion in the page: drawn soon, as a draft; then the reference with the errors of all methods; and no answer with another state than its own.
  */
-import { attempt, clean, figureOf, finish, judge, open, same, settled, singleFile, summaryOf } from './help.mjs';
+import { attempt, clean, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, valuesOf } from './help.mjs';
 
 /* Keeps, of every answer with a motion, what it held and when it came; and of every picture of the store's, what it was of. */
 function keep() {
@@ -23,8 +23,8 @@ function keep() {
 }
 const answers = (page) => page.evaluate(() => window.answers);
 const order = (list) => list.map(({ truth, errors }) => `${truth}${errors ? ' with errors' : ''}`);
-/** How many pixels of the motion's still picture are of the exact line's colour. */
-const green = (page) => page.locator('#stage-figure canvas.figure-still').evaluate((canvas) => {
+/** How many pixels of the motion's picture are of the exact line's colour. */
+const green = (page) => page.locator('#stage-figure canvas.stage-moving').evaluate((canvas) => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   let some = 0;
   for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 200 && data[i + 1] > data[i] + 40 && data[i + 1] > data[i + 2] + 40) some++;
@@ -55,6 +55,7 @@ await attempt('a draft is drawn, and tells no error', async () => {
     judge('errors wait for the reference', /A reference is computed to compare with/.test(said), said);
   }
   // The state changes while the reference is computed: what follows is of the new one.
+  await valuesOf(page);
   await page.locator('#until').fill('3');
   await settled(page, 600, 60000);
   const list = await answers(page), last = list[list.length - 1];

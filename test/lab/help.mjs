@@ -182,7 +182,10 @@ export async function shareOf(page) {
 /** What a figure says of itself; one that is out of sight is not kept up to date. */
 export async function summaryOf(page, title) {
   if (title === 'Motion') {
-    await page.waitForTimeout(500);
+    // The stage is described when it is seen and drawn.
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await page.waitForFunction(() => document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false');
     return page.locator('#stage-figure figcaption').textContent();
   }
   await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();

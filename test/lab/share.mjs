@@ -36,6 +36,8 @@ await attempt('share and reload', async () => {
 
   // The text survives, with or without an address.
   const text = "# grün θ </script><!-- 'q' \"d\" & % # +\nx'' = -x\nx(0) = 1\nx'(0) = 0\nmethod rk4\nstep 0.1\nuntil 2\n";
+  await page.locator('#all-values').evaluate((sheet) => { for (const button of sheet.querySelectorAll('.reset.shown')) button.click(); });
+  await settled(page);
   await (await editorOf(page)).fill(text);
   await settled(page);
   await fields(page);
