@@ -44,3 +44,4 @@ export function firstPictures(scene: Scene): string {
 
 /** The equation under the title, typeset by the core. */
 export const equation = (scene: Scene): string => scene.description.statements.find((s) => s.kind === 'motion')?.mathml ?? '';
+export const question = (scene: Scene): string => stagingOf(scene.state.preset).ask?.text ?? '';
