@@ -29,14 +29,16 @@ const made = await theory();
 // Its sources, so that what is not used falls away.
 const alias = { 'ml-matrix': join(here, 'node_modules/ml-matrix/src/index.js') };
 
-/** What the page's own code makes here: the pictures of the gallery, the lessons. */
+/** What the page's own code makes here: the first picture, those of the gallery, the lessons. */
 const { outputFiles: [{ text: code }] } = await build({
-  stdin: { contents: "export * from './thumbs'; export * from './lessons/read'; export { Core } from './core';", resolveDir: here, loader: 'ts' },
+  stdin: { contents: "export * from './thumbs'; export * from './lessons/read'; export { Core } from './core'; export * as drawn from './stage/first';", resolveDir: here, loader: 'ts' },
   bundle: true, write: false, format: 'esm', target: 'es2022', alias,
 });
-const { thumbnails, readLessons, Core } = await import(`data:text/javascript;base64,${Buffer.from(code).toString('base64')}`);
+const { thumbnails, readLessons, Core, drawn } = await import(`data:text/javascript;base64,${Buffer.from(code).toString('base64')}`);
 const compiled = await WebAssembly.compile(wasm);
 const thumbs = thumbnails(compiled, presets);
+const first = presets.find(({ name }) => name === 'thrown-ball');
+const scene = drawn.sceneOf(compiled, first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
 const core = new Core(compiled);
 const lessonTexts = await Promise.all((await readdir(join(here, 'lessons'))).filter((name) => name.endsWith('.txt'))
   .map(async (name) => ({ name: `lab/lessons/${name}`, text: await readFile(join(here, 'lessons', name), 'utf8') })));
@@ -66,7 +68,7 @@ const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
     plugins: [virtual({
-      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, theory: made.html }))}).json();`,
+      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }))}).json();`,
       'virtual:thumbs': `${unpacking} export default () => unpack(${packed(JSON.stringify(thumbs))}).json();`, ...modules,
     })],
   });
@@ -101,13 +103,6 @@ const put = (html, mark, value) => {
 };
 
 const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
-/** What the build draws with the page's own code: bundled for node, and run here. */
-const drawn = await (async () => {
-  const code = await bundle('stage/first.ts', 'esm', {});
-  return import(`data:text/javascript;base64,${Buffer.from(code).toString('base64')}`);
-})();
-const first = presets.find(({ name }) => name === 'thrown-ball');
-const scene = drawn.sceneOf(new WebAssembly.Module(wasm), first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"><button type="button" class="ask-button"><span>${drawn.question(scene)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
 const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);

@@ -65,8 +65,9 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     if (source === typeset) return;
     typeset = source;
     const formula = source ? math(source) : null;
+    pillMath.replaceChildren(...(formula ? [formula] : []));
     // A long equation is read in the editor.
-    pillMath.replaceChildren(...(formula && source.length < 900 ? [formula] : []));
+    if (pillMath.scrollWidth > pillMath.clientWidth + 1 || pill.scrollWidth > pill.clientWidth + 1) pillMath.replaceChildren();
   }
   store.subscribe((what) => {
     if (what === 'state' || what === 'scene') show();

@@ -2,8 +2,7 @@
  *
  * Invariant: what is said of an example holds for its own text only.
  */
-import { notes } from '../theory/presets';
-import { exampleOf } from '../data';
+import { data, exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
 import { button, el } from '../dom';
@@ -17,7 +16,7 @@ export function note(store: LiveStore): HTMLElement {
     const name = exampleOf(store.state);
     if (name === shown) return;
     shown = name;
-    const written = Object.hasOwn(notes, name) ? notes[name]?.text ?? [] : [];
+    const written = Object.hasOwn(data.notes, name) ? data.notes[name]?.text ?? [] : [];
     const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? of
       : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
     element.replaceChildren(...written.map((paragraph) => el('p', {}, ...(typeof paragraph === 'string' ? [paragraph] : paragraph.map(part)))));

@@ -11,10 +11,13 @@ import { defaultView } from '../share';
 import { boundsFor, pictureOf } from './picture';
 import { placeOf } from './place';
 import { HOME } from './plot';
-import { stagingOf } from './staging';
+import type { Staging } from './staging';
+import { stagings } from './stagings';
 import { subjects } from './subject';
 
-export { inkStyle };
+export { notes } from '../theory/presets';
+export { inkStyle, stagings };
+const stagingOf = (name: string): Staging => stagings[name] ?? { words: '' };
 
 /** The stage and the page that each picture is for; the style shows the one that fits best (.first-…), tablets that of the desk. */
 const SIZES = [

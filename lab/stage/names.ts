@@ -57,8 +57,9 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
   const numberWidth = upright ? 116 * scale : 0;
   const ways = sorted.map((l) => waysOf(l, ink, size, !bracketed.includes(l)));
   const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), bracketed.length ? numberWidth : 0) : 46;
-  // Where the right is too narrow, everything stands at the left of the points.
-  const flipped = from + lead + widest > right && Math.min(...sorted.map((l) => l.x)) - lead - widest > 0;
+  // Where the right is too narrow everything stands at the left of the points; and where they are at the left of a path, outside of it.
+  const least = Math.min(...sorted.map((l) => l.x)), outward = !upright && place.names && from < (box.left + Math.min(box.right, right)) / 2 - 60 && least - lead - widest > box.left - 40;
+  const flipped = outward || (from + lead + widest > right && least - lead - widest > 0);
   const way = flipped ? -1 : 1, base = flipped ? Math.min(...sorted.map((l) => l.x)) : from, anchor = flipped ? 'end' as const : 'start' as const;
   const bracketX = base + way * (place.names ? BRACKET * scale : 16), textX = base + way * lead;
   const gaps = sorted.slice(1).map(() => lineHeight);

@@ -99,7 +99,9 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   }
   const equal = equalFor(subject, staging, bounds), ground = staging.decor === 'throw';
   const axes = [axisOf(subject.axes[0] ?? 'x', units?.x), axisOf(subject.axes[1] ?? 'y', units?.x)] as const;
-  const small = !place.names, box = ground ? frame : { ...frame, left: frame.left + (small ? 14 : 44), top: frame.top + 22, bottom: frame.bottom - (small ? 4 : 8) };
+  // Misses beside an upright path need room for their words.
+  const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
+  const box = ground ? frame : { left: frame.left + (small ? 14 : 44), top: frame.top + 22, right, bottom: frame.bottom - (small ? 4 : 8) };
   return [flatPlot({ ...common, bounds, box, equal, style: ground ? 'ground' : 'plane', axes })];
 }
 function velocityRange(scene: Scene, subject: Subject): Range {
@@ -204,6 +206,7 @@ export function pictureOf(setting: Setting): Picture {
       if (way.y(last) < ground - 1.2 * main.unit && way.y(last) > ground - 2.4 * main.unit) person(pen, ink, way.x(last), way.y(last), ground, main.unit, -1);
     }
     for (const { plot } of drawn) plot.draw(pen, ink);
+    if (subject.kind === 'plane' && main.along && main.up) for (const [x, y, r] of staging.rests ?? []) pen.mark('circle', main.along(x), main.up(y), r * (place.names ? 1 : 0.7), ink.axis, { rim: ink.surface });
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
     if (finished) return;
@@ -286,6 +289,7 @@ export function pictureOf(setting: Setting): Picture {
       own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) if (c.exit && time >= c.exit.time) arrowhead(pen, c, c.exit); });
     }
     drawArrow(pen, ink);
+    rods(pen, ink, time);
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
     const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
@@ -293,6 +297,17 @@ export function pictureOf(setting: Setting): Picture {
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     beside(pen, ink, time);
+  }
+
+  /** From the origin to one place after the other, those of the exact motion or of the first method. */
+  function rods(pen: Pen, ink: Ink, time: number): void {
+    if (!staging.rods || subject.kind !== 'plane' || !main.along || !main.up) return;
+    const indices = staging.rods.map((pair) => pair.map((name) => scene.solution.columns.indexOf(name))), of = truth && indices.flat().every((k) => truth.columns[k]?.length) ? truth : lines[0]?.track;
+    if (!of || indices.flat().some((k) => k < 0)) return;
+    const at = placeAt(of.times, time), value = (k: number): number => { const a = of.columns[k]![at.row] ?? NaN, b = of.columns[k]![at.row + 1] ?? a; return at.part === 0 ? a : a + at.part * (b - a); };
+    const xy = [main.along(0), main.up(0), ...indices.flatMap(([x, y]) => [main.along!(value(x!)), main.up!(value(y!))])];
+    pen.line(xy, { colour: ink.quiet, width: 2 });
+    for (let k = 0; k + 3 < xy.length; k += 2) pen.mark('circle', xy[k]!, xy[k + 1]!, k ? 6 : 4, ink.quiet, { rim: ink.surface });
   }
 
   /** Where everybody is now; answers the labels that belong there. */

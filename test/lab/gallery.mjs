@@ -12,7 +12,7 @@ const text = async (options) => (await build({ bundle: true, write: false, targe
 const { thumbnails, scenes, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
   stdin: { contents: "export * from './thumbs'; export { scenes } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
 })).toString('base64'));
-const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
+const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, stagings: {}, notes: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
 const script = await text({
   stdin: { contents: `import { gallery } from './shell/gallery'; import { loadData } from './data'; window.said = [];
     loadData().then(() => document.body.append(gallery({ state: { preset: 'kepler' } }, { open: name => window.said.push(name), close: () => window.said.push('closed') })));`, resolveDir: lab, loader: 'ts' }, format: 'iife',

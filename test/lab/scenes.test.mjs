@@ -8,13 +8,14 @@ import { fileURLToPath } from 'node:url';
 const lab = new URL('../../lab/', import.meta.url), need = createRequire(new URL('package.json', lab));
 const { buildSync } = need('esbuild');
 const built = buildSync({
-  stdin: { contents: `export * from './thumbs'; export * from './scenes'; export { Core } from './core'; export { Answers } from './answers';`, resolveDir: fileURLToPath(lab), loader: 'ts' },
+  stdin: { contents: `export * from './thumbs'; export * from './scenes'; export { Core } from './core'; export { Answers } from './answers'; export { stagings } from './stage/stagings';`, resolveDir: fileURLToPath(lab), loader: 'ts' },
   bundle: true, format: 'esm', write: false, target: 'es2022', alias: { 'ml-matrix': fileURLToPath(new URL('node_modules/ml-matrix/src/index.js', lab)) },
 });
-const { scenes, themes, thumbnails, Core, Answers } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { scenes, themes, thumbnails, Core, Answers, stagings } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)));
 const folder = new URL('../../models/', import.meta.url);
 const models = readdirSync(folder).filter(name => name.endsWith('.motus')).map(name => ({ name: name.slice(0, -6), text: readFileSync(new URL(name, folder), 'utf8') }));
+const lessonIds = readdirSync(new URL('lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => name.replace(/^\d+-|\.txt$/g, ''));
 const answers = new Answers(new Core(module));
 const textOf = name => models.find(model => model.name === name).text;
 const set = scene => Object.entries(scene.set ?? {}).map(([name, value]) => `${name}=${value}`);
@@ -78,4 +79,20 @@ test('a corner of the green line is where the motion is, to a pixel', () => {
     const t = (x - points[0][0]) / scale / 6;
     assert.ok(Math.abs((points[0][1] - y) - scale * (height(t) - 1.7)) < 3, `at ${t}`);
   }
+});
+
+test('the stage’s sliders, frames and lessons are there', () => {
+  for (const [name, staging] of Object.entries(stagings)) {
+    const { parameters, columns, settings } = answers.answer('describe', { model: { text: textOf(name), set: [] } });
+    for (const { name: wanted, part = 0, low, high } of staging.dials ?? []) {
+      const parameter = parameters.find(p => p.name === wanted);
+      assert.ok(parameter && part < parameter.values.length, `${name}: no ${wanted}, part ${part}`);
+      if (low !== undefined) assert.ok(low <= parameter.values[part] && parameter.values[part] <= high, `${name}: ${wanted} = ${parameter.values[part]} is not between ${low} and ${high}`);
+    }
+    for (const column of (staging.rods ?? []).flat()) assert.ok(columns.some(c => c.name === column), `${name}: ${column}`);
+    if (staging.switch) assert.ok(models.some(m => m.name === staging.switch.to), name);
+    if (staging.ask) assert.ok(lessonIds.includes(staging.ask.lesson), `${name}: ${staging.ask.lesson}`);
+    assert.ok(staging.words.length < 170 && settings.step !== null, name);
+  }
+  for (const { model } of scenes) assert.ok(stagings[model], `${model} has no words`);
 });
