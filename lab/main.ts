@@ -29,7 +29,12 @@ import { mountShell } from './shell/shell';
 import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
 
-const makers: readonly PanelMaker[] = [timePanel, errorPanel, driftPanel, phasePanel, convergence, precision, stability];
+/** What looks closer, in its order. */
+const makers: readonly { readonly id: string; readonly title: string; readonly make: PanelMaker }[] = [
+  { id: 'time', title: 'Against time', make: timePanel }, { id: 'error', title: 'Error', make: errorPanel }, { id: 'drift', title: 'Drift of an invariant', make: driftPanel },
+  { id: 'phase', title: 'Phase plane', make: phasePanel }, { id: 'convergence', title: 'Convergence', make: convergence }, { id: 'precision', title: 'Work and precision', make: precision },
+  { id: 'stability', title: 'Stability', make: stability },
+];
 
 /** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
 function stepTimes({ times, step, steps, every }: Track): Float64Array {
@@ -47,6 +52,8 @@ function each(panels: Iterable<Panel>, act: (panel: Panel) => void): void {
 
 /** Milliseconds after the first picture that nobody touched; then the motion runs once, in its own time. */
 const GENTLE = 600;
+/** Milliseconds after the last change, before what stands below the stage follows. */
+const LATER = 120;
 
 /** Where the text that stands on the stage ends; 0 where it stands above. */
 function textEdge(): number {
@@ -55,30 +62,28 @@ function textEdge(): number {
 }
 
 async function start(): Promise<void> {
-  await loadData();
+  const [client] = await Promise.all([createClient(), loadData()]);
   const { state, problem } = startState(presets);
-  const store = createStore(await createClient(), state);
-  const motion = makeStage(store, { column: textEdge }), steps = stepsPanel(store), closer = makers.map((make) => make(store));
-  const always: readonly Panel[] = [motion, steps];
-  const open = new Set<Panel>(always);
+  const store = createStore(client, state);
+  const motion = makeStage(store, { column: textEdge }), made = new Map<string, Panel>();
+  // Those below the stage that are open; they are made when the stage is drawn.
+  const open = new Set<Panel>();
+  let steps: Panel | null = null, late = 0;
 
   const small = mini(() => clock);
   const clock: Transport = transport({
-    onTime: (t) => { each(open, (panel) => panel.at(t)); small.at(t); },
+    onTime: (t) => { motion.at(t); each(open, (panel) => panel.at(t)); small.at(t); },
     onPlay: (playing) => small.playing(playing),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, closer.map(({ id, title }) => ({ id, title })), () => { each(open, (panel) => panel.redraw()); small.redraw(); });
+  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); });
   if (problem) toasts.say(problem);
   place('stage-figure').replaceChildren(motion.element);
-  place('step-view').append(steps.element);
   place('transport').append(clock.element);
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
-  // Below all else, and of the build's own making.
-  place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
   const card = place('method-card');
   let carded = '', preset = state.preset, shown = false;
   // The theory's own links to examples.
@@ -112,13 +117,22 @@ async function start(): Promise<void> {
 
   /** Opens and closes panels as the view says; those that stay are not touched. */
   function arrange(): void {
-    const wanted = closer.filter(({ id }) => store.state.view.panels.includes(id)), holder = place('panels');
-    for (const panel of closer) {
-      if (wanted.includes(panel)) continue;
+    if (!steps) {
+      steps = stepsPanel(store);
+      place('step-view').append(steps.element);
+      open.add(steps);
+      // Of the build's own making.
+      place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
+    }
+    const wanted = makers.filter(({ id }) => store.state.view.panels.includes(id)), holder = place('panels');
+    for (const [id, panel] of made) {
+      if (wanted.some((w) => w.id === id)) continue;
       open.delete(panel);
       panel.element.remove();
     }
-    wanted.forEach((panel, k) => {
+    wanted.forEach(({ id, make }, k) => {
+      const panel = made.get(id) ?? make(store);
+      made.set(id, panel);
       if (holder.children[k] !== panel.element) holder.insertBefore(panel.element, holder.children[k] ?? null);
       if (open.has(panel)) return;
       open.add(panel);
@@ -126,6 +140,20 @@ async function start(): Promise<void> {
       panel.at(clock.time());
     });
   }
+  /** The motion first, everything below it when the page has time; at once where one looks closer. */
+  function below(): void {
+    window.clearTimeout(late);
+    const act = (): void => {
+      late = 0;
+      arrange();
+      const { scene } = store;
+      if (scene) each(open, (panel) => panel.show(scene));
+      each(open, (panel) => panel.at(clock.time()));
+      showCard();
+    };
+    if (scrollY > 40) act(); else late = window.setTimeout(act, LATER);
+  }
+  addEventListener('scroll', () => { if (late && scrollY > 40) below(); }, { passive: true });
 
   function show(): void {
     const scene = store.scene;
@@ -134,7 +162,7 @@ async function start(): Promise<void> {
     const ends = scene.solution.tracks.map(({ times }) => times[times.length - 1] ?? store.numbers.start);
     const end = store.numbers.until ?? Math.max(...ends);
     nameExports(scene.state.preset || 'model');
-    each(open, (panel) => panel.show(scene));
+    motion.show(scene);
     small.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
@@ -143,8 +171,8 @@ async function start(): Promise<void> {
     preset = scene.state.preset;
     if (!shown) gentle();
     shown = true;
-    each(open, (panel) => panel.at(clock.time()));
-    showCard();
+    motion.at(clock.time());
+    below();
   }
   store.subscribe((what) => {
     // A picture that is not of what is typed looks like it.
@@ -152,12 +180,11 @@ async function start(): Promise<void> {
     document.body.classList.toggle('stale', Boolean(model || run || step || until));
     if (what === 'scene') show();
     if (what !== 'view') return;
-    arrange();
     clock.setSpeed(store.state.view.speed);
     const scene = store.scene;
-    if (scene) each(open, (panel) => panel.show(scene));
+    if (scene) motion.show(scene);
+    below();
   });
-  arrange();
 }
 
 start().catch((error: unknown) => {

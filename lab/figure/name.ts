@@ -1,17 +1,19 @@
-/* Names of a model as an equation sets them: theta as ϑ, r.x as r with index x, primes as primes.
+/* Names of a model as an equation sets them: theta as θ, r.x as r with index x, primes as primes.
  *
  * Invariant: the letters are those that the core's MathML has for the same name (lang/typeset).
  */
 import type { Span } from './types';
 
 const GREEK: Readonly<Record<string, string>> = {
-  alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', epsilon: 'ε', zeta: 'ζ', eta: 'η', theta: 'ϑ', iota: 'ι', kappa: 'κ', lambda: 'λ', mu: 'μ', nu: 'ν', xi: 'ξ', pi: 'π',
+  alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', epsilon: 'ε', zeta: 'ζ', eta: 'η', theta: 'θ', iota: 'ι', kappa: 'κ', lambda: 'λ', mu: 'μ', nu: 'ν', xi: 'ξ', pi: 'π',
   rho: 'ρ', sigma: 'σ', tau: 'τ', upsilon: 'υ', phi: 'φ', chi: 'χ', psi: 'ψ', omega: 'ω',
   Gamma: 'Γ', Delta: 'Δ', Theta: 'Θ', Lambda: 'Λ', Xi: 'Ξ', Pi: 'Π', Sigma: 'Σ', Phi: 'Φ', Psi: 'Ψ', Omega: 'Ω',
 };
 
 /** A name in italic letters, its index lowered. */
 export function nameSpans(name: string, size: number): Span[] {
+  const start = /^(.*?)(\(0\)(?:\.\w+)?)$/.exec(name);
+  if (start) return [...nameSpans(start[1] ?? '', size), { text: start[2] ?? '', size }];
   const parts = /^([\p{L}_]+)(\d*)((?:\[[^\]]*\])?)('*)((?:\.\w+)?)('*)$/u.exec(name);
   if (!parts) return [{ text: name, italic: true, size }];
   const [, word = '', digits = '', bracket = '', primes = '', part = '', later = ''] = parts;

@@ -6,6 +6,7 @@
 import type { Parameter } from '../protocol';
 import type { LiveStore } from '../state';
 import { button, el, fresh, icon, say } from '../dom';
+import { nameText } from '../figure/name';
 import { compact, normal, numberOf, short, tuple } from './number';
 import { reach, widen, type Reach } from './range';
 
@@ -64,7 +65,7 @@ export function rowsOf(store: LiveStore, parameter: Parameter, model: string, ma
     const message = el('p', { id: id + '-message', class: 'message', role: 'status' });
     const reset = button('Reset', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': `${name}: back to the model’s value`, title: 'Back to the model’s value' },
       icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
-    const words = el('label', { for: id, title: name }, name);
+    const words = el('label', { for: id, title: name }, dial && !label ? nameText(name) : name);
     const element = dial ? el('div', { class: 'dial' }, el('div', { class: 'dial-head' }, words, el('span', { class: 'dial-value' }, reset, field, el('span', { class: 'unit' }, unit ? `\u2009${unit}` : ''))),
       el('div', { class: 'dial-track' }, slider), message) : el('div', { class: 'row' }, words, slider, field, reset, message);
 

@@ -189,7 +189,8 @@ export async function summaryOf(page, title) {
     return page.locator('#stage-figure figcaption').textContent();
   }
   await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
-  await page.waitForTimeout(100);
+  // What comes into sight may ask the core.
+  await settled(page, 150);
   return figureOf(page, title).locator('figcaption').textContent();
 }
 
