@@ -5,7 +5,7 @@ import { button, el, say } from '../dom';
 /** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, or passed a singularity; or why nothing could be computed. */
 function stopped(store: LiveStore): string {
   const { run, model } = store.trouble;
-  if (model) return store.scene ? 'The model has an error, told under its text; the picture is that of the last one without.' : 'The model has an error; see under its text.';
+  if (model) return store.scene ? 'The last motion that could be read.' : 'The model has an error; see under its text.';
   if (store.trouble.step || store.trouble.until) return 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.';
   if (run) return [run.message, run.hint].filter(Boolean).join(': ');
   return store.scene?.solution.tracks.map((track, k) => {

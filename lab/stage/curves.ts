@@ -16,7 +16,7 @@ const SMOOTH = 0.03;
 /** Beyond so much of the frame outside of it, a method has left, also where it comes back once more. */
 const FAR = 0.35;
 /* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */
-const MARKED_ROWS = 240, SPACING = 15, SPARSE = 11;
+const MARKED_ROWS = 240, SPACING = 22, SPARSE = 11;
 /** Beyond so many times the stage's size a line is a band, whose dashes nobody sees. */
 const BAND = 5;
 

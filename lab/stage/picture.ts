@@ -80,7 +80,9 @@ export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): bo
 }
 
 function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, side: Side): Plot[] {
-  const { frame, scale: letters } = place, { solution } = scene, units = staging.units;
+  const { scale: letters } = place, { solution } = scene, units = staging.units;
+  // The ground of a throw runs on below the words; nothing else does.
+  const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
   const common = { solution, subject, letters };
   if (subject.kind === 'time') {
@@ -97,7 +99,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
     const name = solution.columns[velocityColumn(solution, subject.bodies[0]!.columns[0]!)] ?? '';
     return [main, flatPlot({ ...common, bounds: [[-half, half], y], box, equal: false, style: 'phase', axes: [axisOf(name), axisOf('')] })];
   }
-  const equal = equalFor(subject, staging, bounds), ground = staging.decor === 'throw';
+  const equal = equalFor(subject, staging, bounds);
   const axes = [axisOf(subject.axes[0] ?? 'x', units?.x), axisOf(subject.axes[1] ?? 'y', units?.x)] as const;
   // Misses beside an upright path need room for their words.
   const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
@@ -120,6 +122,7 @@ export function pictureOf(setting: Setting): Picture {
   const drawn = plots.map((plot) => ({ plot, curves: curvesOf(motion, plot) })), { curves } = drawn[0]!;
   const other = setting.pinned && motionOf(setting.pinned, subjects(setting.pinned.description, setting.pinned.solution).find((s) => s.id === subject.id) ?? subject);
   const pinned = other ? plots.map((plot) => ({ plot, motion: other, curves: curvesOf(other, plot) })) : [];
+  const springX = Math.max(place.frame.left, place.text + 9) + 39;
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
   const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
@@ -342,7 +345,7 @@ export function pictureOf(setting: Setting): Picture {
     }
     if (drawn.length > 1 && truth) {
       const other = pointAt(drawn[1]!.curves.exact[0]!.way, truth.times, time);
-      pen.line([staging.decor === 'spring' ? place.frame.left + 52 : exactPoint.x, exactPoint.y, other.x, exactPoint.y], { colour: ink.exact, width: 1, dash: [2, 3], alpha: 0.6 });
+      pen.line([staging.decor === 'spring' ? springX + 13 : exactPoint.x, exactPoint.y, other.x, exactPoint.y], { colour: ink.exact, width: 1, dash: [2, 3], alpha: 0.6 });
     }
     if (truth) {
       const joined = groups.get(-1) ?? [];
@@ -418,7 +421,7 @@ export function pictureOf(setting: Setting): Picture {
     const curve = curves.exact[0] ?? curves.methods[0]![0]!, times = truth?.times ?? lines[0]!.track.times, at = pointAt(curve.way, times, time);
     const colour = truth ? ink.exact : lines[0]!.look.colour;
     if (side === 'phase' && staging.decor === 'spring' && Number.isFinite(at.y)) {
-      const x = place.frame.left + 39, y = Math.min(main.box.bottom, Math.max(main.box.top + 40, at.y));
+      const x = springX, y = Math.min(main.box.bottom, Math.max(main.box.top + 40, at.y));
       spring(pen, ink, x, place.frame.top + 12, y);
       pen.mark('circle', x, y, 1.4 * place.ball, colour, { rim: ink.surface });
     }

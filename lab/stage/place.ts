@@ -8,6 +8,8 @@ export interface Place {
   readonly mode: Mode; readonly width: number; readonly height: number;
   /** Where the motion is drawn; axes stand below and at its left, names at its right. */
   readonly frame: Box;
+  /** Where the text that stands on the stage ends; 0 where it stands above. */
+  readonly text: number;
   /** Letters, times what they are on a desk. */
   readonly scale: number;
   /** Names stand in a column at the right; else at the curves, and only numbers at the right. */
@@ -24,5 +26,5 @@ export function placeOf(width: number, height: number, column: number, page: { r
     : mode === 'tablet' ? [64, 14, 186, 40] : mode === 'desk' ? [column ? column + 9 : 64, 17, 186, 40] : [column ? column - 60 : 120, 17, 217, 44];
   const frame = { left, top, right: Math.max(left + 60, width - right), bottom: Math.max(top + 60, height - below) };
   const small = mode === 'phone' || mode === 'landscape';
-  return { mode, width, height, frame, scale: mode === 'wide' ? 1.2 : 1, names: !small, marker: small ? 3.6 : 4.6, ball: small ? 7.5 : mode === 'wide' ? 11 : 9 };
+  return { mode, width, height, frame, text: column, scale: mode === 'wide' ? 1.2 : 1, names: !small, marker: small ? 3.6 : 4.6, ball: small ? 7.5 : mode === 'wide' ? 11 : 9 };
 }
