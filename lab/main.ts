@@ -19,12 +19,11 @@ import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
 import { startState } from './shell/address';
 import { stage as makeStage } from './stage/stage';
-import { stagingOf } from './stage/staging';
 import { recall, remember } from './shell/memory';
 import { data, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
-import { presets } from './shell/presets';
+import { presets, stagingFor } from './shell/presets';
 import { mountShell } from './shell/shell';
 import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
@@ -138,7 +137,7 @@ async function start(): Promise<void> {
     small.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
-    clock.setUnit(stagingOf(scene.state.preset).units?.t ?? '');
+    clock.setUnit(stagingFor(scene.state).units?.t ?? '');
     if (scene.state.preset !== preset || !shown) clock.seek(end);
     preset = scene.state.preset;
     if (!shown) gentle();

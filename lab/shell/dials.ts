@@ -7,7 +7,7 @@ import { presetState } from '../share';
 import { stagingOf, type Dial } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { el } from '../dom';
-import { presets } from './presets';
+import { presets, stagingFor } from './presets';
 import { held, rowsOf, type Row } from './sliders';
 
 const most = 3;
@@ -37,7 +37,7 @@ export function dials(store: LiveStore): HTMLElement {
   function build(): void {
     const { description, state } = store;
     if (!description || store.trouble.model) return;
-    const staging = stagingOf(presets.text(state.preset) === state.text ? state.preset : '');
+    const staging = stagingFor(state);
     const key = JSON.stringify([staging === stagingOf('') ? '' : state.preset, description.parameters.map((p) => [p.name, p.initial ? p.values : p.text, p.list])]);
     if (key === shown) return;
     shown = key;

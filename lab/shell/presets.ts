@@ -5,6 +5,8 @@
  */
 import { data } from '../data';
 import { sceneOf } from '../scenes';
+import type { State } from '../scene';
+import { stagingOf, type Staging } from '../stage/staging';
 import type { Presets } from '../share';
 
 export const presets: Presets = {
@@ -26,3 +28,5 @@ export function described(text: string): string {
 }
 
 export const titleOf = (name: string): string => sceneOf(name)?.title ?? name;
+/** How a state stands on the stage: an example's units and frame say nothing of another text. */
+export const stagingFor = ({ preset, text }: State): Staging => stagingOf(presets.text(preset) === text ? preset : '');

@@ -3,10 +3,10 @@
  * Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. Stops belong to the
  * model, not to the state: they do not move under the reader's hand.
  */
-import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
 import { compact, normal, short } from './number';
+import { stagingFor } from './presets';
 
 const positions = 1000, catching = 6;               // pixels within which a stop catches
 
@@ -35,7 +35,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   function limits(): void {
     const { settings } = store.description ?? {};
     if (!settings || settings.step === null) return;
-    const [largest, count] = stagingOf(store.state.preset).stops ?? [4, 5];
+    const [largest, count] = stagingFor(store.state).stops ?? [4, 5];
     const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
     // A lesson that begins with a step of its own has its stops about that.
     const typed = Number(store.state.step), base = store.state.place.includes('.') && typed > 0 ? typed : settings.step;
@@ -58,7 +58,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     field.style.width = `${Math.max(3, field.value.length + 0.5)}ch`;
     reset.hidden = state.step === '';
     say(suggested, description?.settings.suggested && state.step === '' ? 'suggested' : '');
-    const { units } = stagingOf(state.preset);
+    const { units } = stagingFor(state);
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
     say(steps, track && !wrong ? `\u2009·\u2009${track.total.toLocaleString('en').replace(/,/g, '\u2009')} ${track.total === 1 ? 'step' : 'steps'}` : '');

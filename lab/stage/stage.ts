@@ -11,6 +11,7 @@ import { canvasPen, svgPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
 import { short as shortNumber } from '../shell/number';
+import { stagingFor } from '../shell/presets';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { motionOf } from './motion';
@@ -116,7 +117,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const seen = hidden.length ? without(scene, hidden) : scene;
     picture = pictureOf({ scene: seen, subject, staging: staging(), place, bounds: of, camera, before: ghost, pinned });
   }
-  const staging = () => stagingOf(scene && scene.state.preset && scene.state.text === store.state.text ? scene.state.preset : '');
+  const staging = () => (scene && scene.state.text === store.state.text ? stagingFor(scene.state) : stagingOf(''));
   function draw(): void {
     asked = 0;
     if (!dirty || !visible || !scene || !fit() || !subject) return;

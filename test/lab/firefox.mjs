@@ -77,6 +77,7 @@ async function way(browser) {
     await page.goto(`${singleFile}#v=1&p=thrown-ball`);
     await page.click('.ask-button');
     await page.click('.choice', 'On the green ball');
+    await says(page, '#stage-figure figcaption', '^Path');
     await page.screenshot(join(shots, 'firefox-lesson.png'));
     await page.click('.lesson .primary', 'Throw');
     judge('it answers', await says(page, '.answer', 'It ends 1\\.96 m above\\.'));

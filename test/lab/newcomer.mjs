@@ -85,6 +85,7 @@ await attempt('an equation of one’s own', async () => {
   await page.keyboard.press('Escape');
   await page.locator('.transport-play').click();
   await page.waitForFunction(() => document.querySelector('.transport-play').getAttribute('aria-label').startsWith('Play'));
+  same('an angle is not measured in metres, nor too high', [(await drawn(page)).words.filter((w) => / m$| m |too (high|low)/.test(w)), await page.locator('.transport-unit').textContent()], [[], '']);
   numbers = await tableOf(page, 'Motion');
   judge('its numbers are a swing about zero', numbers.rows.length > 60 && numbers.rows.some((row) => Number(row[2]) < -1.9), `${numbers.head.join()}: ${numbers.rows.length} rows`);
 });
