@@ -24,6 +24,7 @@ import { data, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets, stagingFor } from './shell/presets';
+import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
 import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
@@ -78,7 +79,7 @@ async function start(): Promise<void> {
 
   // Below all else, and of the build's own making.
   place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
-  const card = place('method-card');
+  const card = place('method-card'), paper = printed();
   let carded = '', preset = state.preset, shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
@@ -135,6 +136,7 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     each(open, (panel) => panel.show(scene));
     small.show(scene);
+    paper.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingFor(scene.state).units?.t ?? '');
