@@ -42,7 +42,7 @@ for what; do
              [ -e /usr/lib/aarch64-linux-gnu/lib$library.so ] || add lib$library-dev:arm64
            done ;;
     lab)   tool node nodejs; tool npm npm; tool wasm-opt binaryen; tool clang clang; tool wasm-ld lld; wasm_links || add wasi ;;
-    page)  tool chromium chromium ;;
+    page)  tool chromium chromium; tool firefox-esr firefox-esr ;;
     bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
            header boost/version.hpp libboost-dev
            module numpy python3-numpy; module scipy python3-scipy; module numba python3-numba ;;

@@ -25,6 +25,7 @@ import { data, exampleOf, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
 import { presets } from './shell/presets';
+import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
 import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
@@ -84,7 +85,7 @@ async function start(): Promise<void> {
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
-  const card = place('method-card');
+  const card = place('method-card'), paper = printed();
   let carded = '', preset = state.preset, shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
@@ -164,6 +165,7 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     motion.show(scene);
     small.show(scene);
+    paper.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');

@@ -2,7 +2,7 @@
 # Builds the page as `make lab` does and tests it: the module against the program, byte for byte, and the page in a browser (test/lab/*.mjs).
 #
 # Each test prints what failed and, last, `N passed, N failed`; so does this script, for all of them. Screenshots are left in build/lab/shots/.
-# CHROMIUM names the browser, MOTUS the program (build/motus). `test/page.sh share clock` runs these two.
+# CHROMIUM and FIREFOX name the browsers, MOTUS the program (build/motus). `test/page.sh share clock` runs these two.
 cd "$(dirname "$0")/.." || exit 1
 export MOTUS=${MOTUS:-$PWD/build/motus}
 logs=build/lab/test
@@ -44,7 +44,7 @@ together() {
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people share presets gallery panels controls stage own bits green start parts clock speed)
+[ $# -gt 0 ] || names=(people newcomer share presets gallery panels controls stage own bits green start firefox parts clock speed)
 rm -f $logs/*.status
 others=()
 for name in "${names[@]}"; do [ "$name" = speed ] || others+=("$name"); done

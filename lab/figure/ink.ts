@@ -24,7 +24,8 @@ const GROUNDS = {
 };
 
 export function isDark(): boolean {
-  const chosen = document.documentElement.dataset.theme;
+  // Where the system forces its colours, its ground is the page's.
+  const chosen = matchMedia('(forced-colors: active)').matches ? '' : document.documentElement.dataset.theme;
   return chosen === 'dark' || (chosen !== 'light' && matchMedia('(prefers-color-scheme: dark)').matches);
 }
 

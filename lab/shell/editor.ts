@@ -11,6 +11,7 @@ import { button, el, say } from '../dom';
 import { completion, type Completion } from './complete';
 import { appended, placeOf, repairs, type Repair } from './repair';
 import { pieces, shifted } from './words';
+import { another } from './write';
 
 const fewest = 6, most = 20;                   // lines shown
 /* Milliseconds without typing, until an error is told. One that is gone is gone at once. */
@@ -202,7 +203,7 @@ export function editor(store: LiveStore): HTMLElement {
     offering = true;
     colour();
     size();
-    store.change({ text: area.value });
+    store.change({ text: area.value, ...(another(store.state.text, area.value) ? { set: {}, step: '', until: '' } : {}) });
     if (event instanceof InputEvent && event.inputType === 'insertText' && (event.data?.length ?? 0) <= 1 || offers) complete(); else close();
     offer();
     if (timer) wait();

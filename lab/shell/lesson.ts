@@ -119,7 +119,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(part.charAt(0).toUpperCase() + part.slice(1), () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
     const body = at.part === 'predict' ? predict(at) : at.part === 'try' ? attempt(at)
       : at.part === 'see' ? [...answer(at), el('p', {}, at.lesson.see.join(' ')), button('Why?', () => to(at, 'why'), { class: 'primary' })] : why(at);
-    element.replaceChildren(el('div', { class: 'lesson-head' }, el('span', {}, `Lesson ${at.number} of ${data.lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
+    element.replaceChildren(el('div', { class: 'lesson-head' }, el('h1', {}, `Lesson ${at.number} of ${data.lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
     const { rail } = at.lesson.predict;
     // The guess stays where it was, dashed.
     if (rail) stage.guess({ ...rail, place: at.answer === null ? null : at.lesson.predict.choices[at.answer]?.place ?? null, open: at.part === 'predict' });

@@ -106,3 +106,9 @@ export function written(text: string, description: Description, name: string, va
   if (by === '' || /[\n;#]/.test(by)) return null;
   return side(text, name) ? withNumber(text, name, by, component) : added(text, description, name, by, component);
 }
+
+/** Whether a text is another model, not a change of the one before: no line of it is left. What was set for that one says nothing of this one. */
+export function another(before: string, after: string): boolean {
+  const lines = new Set(before.split('\n').map((line) => line.trim()).filter(Boolean));
+  return !after.split('\n').some((line) => lines.has(line.trim()));
+}

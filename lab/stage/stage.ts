@@ -246,6 +246,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const at_ = ringAt();
     ring.hidden = !guess?.open || !at_;
     if (at_) ring.style.transform = `translate(${at_.x - 22}px, ${at_.y - 22}px)`;
+    if (at_ && place) ring.setAttribute('aria-valuenow', String(Math.round(at_.exact - at_.y)));
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
     say(all, showAll ? 'show the exact motion' : 'show all');

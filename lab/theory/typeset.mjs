@@ -60,16 +60,18 @@ function alphabet() {
   return all + 'ℎ±·×÷′″‴−∓√∛∑∫∂∇∞≈≠≤≥→⟹∧∨¬∈…⋯|‖⌊⌋⌈⌉⃗˙¨¯^~ˆ∘\u00a0';
 }
 
-async function face(family, path, text, note) {
+/** range: of the characters that this face has for all formulas, whichever elements they stand in. */
+async function face(family, path, text, note, range = '') {
   const font = await subsetFont(await readFile(new URL(`../node_modules/${path}`, import.meta.url)), text, { targetFormat: 'woff2', noHinting: true, preserveNameIds: [13, 14] });
-  return `/* ${note} */\n@font-face { font-family: '${family}'; src: url(data:font/woff2;base64,${font.toString('base64')}) format('woff2'); font-display: block; }\n`;
+  return `/* ${note} */\n@font-face { font-family: '${family}'; src: url(data:font/woff2;base64,${font.toString('base64')}) format('woff2'); font-display: block;${range && ` unicode-range: ${range};`} }\n`;
 }
 
 async function fonts(text) {
   return await face('STIX Two Math', '@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2', text,
     'STIX Two Math, in part. Copyright 2001-2021 The STIX Fonts Project Authors. SIL Open Font License 1.1, https://openfontlicense.org')
-    // In that edition a prime is raised already, and raised once more, as a superscript, it would be a dot. These lie on the line.
-    + await face('Primes', 'temml/dist/Temml.woff2', '\u2032', 'The prime of KaTeX, by way of Temml. MIT license');
+    // In that edition a prime is raised already, and raised once more, as a superscript, it would be a dot. These lie on the line. A rule of their own for
+    // the elements that hold primes would do as well, but Firefox gives a script with a font of its own the size of what it stands at.
+    + await face('Primes', 'temml/dist/Temml.woff2', '\u2032', 'The prime of KaTeX, by way of Temml. MIT license', 'U+2032');
 }
 
 /** html: the sections of the theory. cards: by method, title and body (XHTML). fontCss: the font, and theory.css. */

@@ -94,9 +94,9 @@ function watch() {
 
 /** A page, watched. address: with its fragment. `wrong` collects what should not be; call `clean` at the end. */
 export async function open(address = singleFile, options = {}) {
-  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false } = options;
+  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false, forced = false } = options;
   const context = await (await launch()).newContext({
-    viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB',
+    viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', forcedColors: forced ? 'active' : 'none',
     ...(kept ? { storageState: kept } : {}),
   });
   const page = await context.newPage();

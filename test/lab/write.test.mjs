@@ -11,7 +11,7 @@ const load = async name => {
   const built = buildSync({ entryPoints: [fileURLToPath(new URL(name, lab))], bundle: true, format: 'esm', write: false, target: 'es2022' });
   return import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 };
-const { written } = await load('shell/write.ts');
+const { another, written } = await load('shell/write.ts');
 const { repairs, appended } = await load('shell/repair.ts');
 const { pieces, shifted } = await load('shell/words.ts');
 const { completion } = await load('shell/complete.ts');
@@ -105,4 +105,11 @@ test('the title is the model’s own', () => {
   const titles = [['# a pendulum, let go\nx', 'A pendulum, let go'], ['# A spring. With friction.', 'A spring'], ["x'' = -x # no", ''], ['', ''], ['# ----\n# spring', ''],
     ['\n\n## über alles:', 'Über alles'], [`# ${'long '.repeat(20)}`, '']];
   for (const [text, title] of titles) assert.equal(ownTitle(text), title, text);
+});
+
+test('a text that keeps no line is another model', () => {
+  assert.equal(another("x'' = -k x\nk = 2\n", "x'' = -k x\nk = 3\n"), false);
+  assert.equal(another("x'' = -x\nx(0) = 1", "# mine\n\n  x'' = -x"), false);
+  assert.equal(another("x'' = -x\n\nx(0) = 1", "theta'' = -theta\n\ntheta(0) = 1"), true);
+  assert.equal(another("x'' = -x", ''), true);
 });

@@ -1,0 +1,23 @@
+/* On paper: the numbers behind the picture, as a small table after it. Invariant: it is for print alone (style.css); what it says is the scene's. */
+import { el, place, say } from '../dom';
+import { brief } from '../figure/number';
+import type { Scene } from '../scene';
+import { exampleOf } from '../data';
+import { stagingOf } from '../stage/staging';
+
+export function printed(): { show(scene: Scene): void } {
+  const head = el('tr'), body = el('tbody'), caption = el('caption');
+  const element = el('table', { class: 'printed' }, caption, el('thead', {}, head), body);
+  place('page').append(element);
+  return {
+    show({ solution: { tracks, errors }, looks, description, state }) {
+      const { units } = stagingOf(exampleOf(state)), last = errors.map(({ x }) => x[x.length - 1] ?? NaN), end = tracks[0]?.times.at(-1) ?? 0;
+      const unit = (of: 'x' | 't'): string => (units ? ` (${units[of]})` : '');
+      element.hidden = !last.some(Number.isFinite);
+      say(caption, `Distance from the ${description.has_exact ? 'exact motion' : 'reference'} at t = ${brief(end)}${units ? `\u2009${units.t}` : ''}`);
+      head.replaceChildren(...['Method', `Step${unit('t')}`, 'Steps', `Distance${unit('x')}`].map((text) => el('th', { scope: 'col' }, text)));
+      body.replaceChildren(...tracks.map(({ method, step, total, problem }, k) => el('tr', {}, el('th', { scope: 'row' }, looks[k]?.label ?? method),
+        ...[brief(Math.abs(step)), total.toLocaleString('en').replace(/,/g, '\u2009'), problem ? 'ends before' : brief(last[errors.findIndex((e) => e.method === method)] ?? NaN, 6)].map((text) => el('td', {}, text)))));
+    },
+  };
+}
