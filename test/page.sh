@@ -44,7 +44,7 @@ together() {
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people share presets gallery panels controls stage own bits green start parts clock speed)
+[ $# -gt 0 ] || names=(people share away presets gallery panels controls stage own bits green start parts clock speed)
 rm -f $logs/*.status
 others=()
 for name in "${names[@]}"; do [ "$name" = speed ] || others+=("$name"); done

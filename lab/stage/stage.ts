@@ -4,10 +4,10 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { button, el, say } from '../dom';
-import { csv, download, downloadText, fileName } from '../figure/export';
+import { csv, downloadText, fileName, savePicture } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
-import { canvasPen, svgPen } from '../figure/pen';
+import { canvasPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
 import { short as shortNumber } from '../shell/number';
@@ -22,7 +22,6 @@ import { turnable } from './turnable';
 
 /** Milliseconds: a ghost stays after the last change; the frame takes to move. */
 const GHOST = 1200, MOVE = 300;
-const PNG_SCALE = 2;
 
 export interface Stage extends Panel {
   /** Chooses the view: which of the ways to look at the motion. */
@@ -335,23 +334,10 @@ export function stage(store: Store, room: { column(): number }): Stage {
     return { head, rows };
   }
   function save(kind: 'PNG' | 'SVG' | 'CSV'): void {
-    const file = fileName('motion', kind.toLowerCase());
-    if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', file); return; }
+    if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', fileName('motion', 'csv')); return; }
     if (!picture || !place) return;
-    const now = ink(), both = (pen: Pen): void => { picture!.still(pen, now); picture!.moving(pen, now, time); };
-    if (kind === 'SVG') {
-      const pen = svgPen(place.width, place.height);
-      both(pen);
-      downloadText(pen.svg('Motion', summary(), now.surface), 'image/svg+xml', file);
-      return;
-    }
-    const sheet = el('canvas', { width: place.width * PNG_SCALE, height: place.height * PNG_SCALE }), context = sheet.getContext('2d');
-    if (!context) return;
-    context.scale(PNG_SCALE, PNG_SCALE);
-    context.fillStyle = now.surface;
-    context.fillRect(0, 0, place.width, place.height);
-    both(canvasPen(context, place.width, place.height));
-    sheet.toBlob((blob) => { if (blob) download(blob, file); }, 'image/png');
+    const { width, height } = place, of = picture;
+    savePicture(kind, 'motion', summary(), { title: 'Motion', width, height, draw(pen, now) { of.still(pen, now); of.moving(pen, now, time); } });
   }
 
   new ResizeObserver(() => refresh()).observe(holder);
