@@ -107,7 +107,7 @@ const several = new Set(['s', 'q', 'f', 'c']);
 class Wrong extends Error {}
 
 /** Control characters but tab and newline: they can rule a terminal, and no model needs them. */
-const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
+export const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
 const lineControls = /[\u0000-\u001f\u007f-\u009f]/;
 
 function word(value: string, what: string): string {

@@ -1,5 +1,8 @@
-/* Share: the address of what is seen, and the command that computes the same bits. Invariant: what is copied is shown. */
+/* Share: the address of what is seen, the frame that shows it in another page, the command and the C program that compute the same bits, the picture, the film.
+ * Invariant: what is copied is shown.
+ */
 import type { State } from '../scene';
+import { cProgram } from '../program';
 import { command, type Presets } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
@@ -21,16 +24,20 @@ async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string,
 }
 
 export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toasts: Toasts): HTMLElement {
-  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command');
+  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command'), programId = fresh('program');
   const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
   const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
+  const source = el('textarea', { id: programId, readonly: true, rows: 8, spellcheck: 'false', wrap: 'off' });
   const commandLabel = el('label', { for: commandId });
   const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
   const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
   const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
+  const copyProgram = button('Copy as C program', () => { void copy(source, 'C program', toasts); });
+  const programLabel = el('label', { for: programId });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
     commandLabel, line, older, copyCommand, refusal,
+    el('details', {}, el('summary', {}, 'As a C program'), programLabel, source, copyProgram),
     el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
       ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` }))));
   const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
@@ -57,6 +64,10 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');
     older.hidden = older.textContent === '';
     copyCommand.disabled = problem !== '';
+    const { numbers } = store, main = seen.methods[0] ?? '', made = cProgram({ text: whole(seen), set: seen.set, method: main, step: seen.step ? numbers.step : null, until: seen.until ? numbers.until : null });
+    source.value = made.text || made.problem;
+    copyProgram.disabled = !made.text;
+    say(programLabel, `Runs ${store.scene?.looks[0]?.label ?? main} and prints its last row`);
     say(refusal, problem);
     refusal.hidden = problem === '';
   }

@@ -40,4 +40,38 @@ await attempt('captions', async () => {
   await clean('captions, long', long);
 });
 
+// --- the C program -------------------------------------------------------------------------------------------------------------------------
+await attempt('the C program', async () => {
+  const page = await open(singleFile), build = dirname(program);
+  const own = "# it's \"θ\" ??/ \\ %s\nk = 2\nx'' = -k sin(x) - 0.1 x'\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 3\nenergy = x'^2/2 - k cos(x)\n";
+  for (const [fragment, label] of [['#v=1&p=projectile&a=midpoint,rk4', 'midpoint'], ['#v=1&p=pendulum&a=rk4&h=1%2F64&T=2%20pi&s=theta(0)%3D3', 'rk4'], ['#v=1&p=damped-spring&a=newmark(1%2F4,%201%2F2)', 'newmark(1/4, 1/2)'],
+    [`#v=1&m=${encodeURIComponent(own)}&a=verlet&h=0,02`, 'verlet'], [`#v=1&m=${encodeURIComponent("k = 1\ntheta'' = -k sin(theta)\ntheta(0) = 2")}&a=rk4&s=k%3D4`, 'rk4']]) {
+    await page.goto('about:blank');
+    await page.goto(singleFile + fragment);
+    // A number that the address sets is written into a text of one's own, which is computed anew.
+    await settled(page, 900);
+    const popup = await shareOf(page);
+    await popup.getByText('As a C program').click();
+    const source = await popup.getByLabel(/prints its last row/).inputValue();
+    await page.keyboard.press('Escape');
+    writeFileSync(join(place, 'motion.c'), source);
+    const cc = spawnSync('cc', ['-std=c17', '-Wall', '-Wextra', '-Wpedantic', '-Werror', '-I', join(root, 'include'), join(place, 'motion.c'), join(build, 'libmotus.a'), '-lm', '-ldl', '-pthread', '-o', join(place, 'motion')], { encoding: 'utf8' });
+    judge(`${label}: it compiles`, cc.status === 0, cc.stderr);
+    const run = spawnSync(join(place, 'motion'), { encoding: 'utf8' });
+    judge(`${label}: it runs`, run.status === 0, run.stderr);
+    const told = new Map(run.stdout.trim().split('\n').map((line) => line.split(' = '))), { head, rows } = await tableOf(page, 'Against time'), last = rows.at(-1);
+    const shown = head.map((name, i) => [name, last[i]]).filter(([name]) => name === 't' || name.endsWith(` (${label})`)).map(([name, value]) => [name.replace(` (${label})`, ''), Number(value)]);
+    judge(`${label}: its last row is the page's, bit for bit`, shown.length > 1 && shown.every(([name, value]) => Object.is(Number(told.get(name) ?? NaN), value)), JSON.stringify([shown, [...told]]));
+  }
+  const popup = await shareOf(page);
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await popup.getByText('As a C program').click().catch(() => {});
+  if (!await popup.getByRole('button', { name: 'Copy as C program' }).isVisible()) await popup.getByText('As a C program').click();
+  await popup.getByRole('button', { name: 'Copy as C program' }).click();
+  await page.waitForTimeout(100);
+  const copied = await page.evaluate(() => navigator.clipboard.readText()).catch(() => '');
+  judge('“Copy as C program” copies it, or selects it', copied.startsWith('/* cc') || await page.evaluate(() => document.activeElement.selectionEnd > 100), copied.slice(0, 40));
+  await clean('the C program', page);
+});
+
 await finish();
