@@ -21,7 +21,7 @@ import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
-import { recall, remember } from './shell/memory';
+import { forgetful, recall, remember } from './shell/memory';
 import { data, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
@@ -56,8 +56,11 @@ function textEdge(): number {
 }
 
 async function start(): Promise<void> {
+  // Before the first picture, if the page stands in another.
+  document.body.classList.toggle('embedded', /[#&]embed=1(&|$)/.test(location.hash));
   await loadData();
   const { state, problem } = startState(presets);
+  if (state.embed) forgetful();
   const store = createStore(await createClient(), state);
   const motion = makeStage(store, { column: textEdge }), steps = stepsPanel(store), closer = makers.map((make) => make(store));
   const always: readonly Panel[] = [motion, steps];
@@ -93,7 +96,7 @@ async function start(): Promise<void> {
 
   /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
   function gentle(): void {
-    if (recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    if (store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
     const touched = new AbortController(), { signal } = touched;
     for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => touched.abort(), { capture: true, passive: true, signal });
     window.setTimeout(() => {

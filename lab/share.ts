@@ -180,6 +180,7 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (!inside && sliders.length) throw new Wrong('it chooses sliders, “c”, without “embed=1”');
   if (sliders.length > most.columns) throw new Wrong('it chooses too many sliders');
   for (const slider of sliders) if (!word(slider, 'the name of a slider')) throw new Wrong('a slider has no name');
+  if (inside && place) throw new Wrong('an embed shows the stage, no lesson and no gallery');
   return {
     ...(inside ? { embed: [...new Set(sliders)] } : {}),
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,

@@ -3,6 +3,7 @@ import type { Scene } from '../scene';
 import type { Presets } from '../share';
 import { stagingOf } from '../stage/staging';
 import { addressOf } from './address';
+import { whole } from './embed';
 import { short } from './number';
 import { titleIn } from './presets';
 
@@ -18,7 +19,7 @@ function equation({ state: { text, set }, description }: Scene): string {
 export function captionOf(scene: Scene, presets: Presets): string[] {
   const { state, looks, solution } = scene, track = solution.tracks[0], unit = stagingOf(state.preset).units?.t;
   // On a disk the link is what follows the #, which any copy of the page takes.
-  const { embed: _, ...plain } = state, address = addressOf(plain, presets), link = /^https?:/.test(address) ? address : address.replace(/^[^#]*/, '');
+  const address = addressOf(whole(state), presets), link = /^https?:/.test(address) ? address : address.replace(/^[^#]*/, '');
   return [titleIn(state), equation(scene), [...(track ? [`step ${short(Math.abs(track.step), 6)}${unit ? `\u2009${unit}` : ''}`] : []), ...(looks.length ? [looks.map((l) => l.label).join(', ')] : [])].join(' · '),
     link.length > longestLink ? `${link.slice(0, longestLink)}…` : link];
 }

@@ -7,6 +7,9 @@ import { command, type Presets } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
+import { dialsOf } from './dials';
+import { snippet } from './embed';
+import { titleIn } from './presets';
 import { button, el, fresh, icon, say } from '../dom';
 import { appended } from './repair';
 import type { Toasts } from './toasts';
@@ -24,7 +27,7 @@ async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string,
 }
 
 export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toasts: Toasts): HTMLElement {
-  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command'), programId = fresh('program');
+  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command'), programId = fresh('program'), frameId = fresh('frame');
   const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
   const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
   const source = el('textarea', { id: programId, readonly: true, rows: 8, spellcheck: 'false', wrap: 'off' });
@@ -32,11 +35,14 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
   const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
   const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
   const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
+  const frame = el('textarea', { id: frameId, readonly: true, rows: 4, spellcheck: 'false' }), choices = el('fieldset', {}, el('legend', {}, 'With sliders for'));
+  const copyFrame = button('Copy frame', () => { void copy(frame, 'Frame', toasts); }), away = el('p', { class: 'quiet' });
   const copyProgram = button('Copy as C program', () => { void copy(source, 'C program', toasts); });
   const programLabel = el('label', { for: programId });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
     commandLabel, line, older, copyCommand, refusal,
+    el('details', { class: 'embed-fold' }, el('summary', {}, 'Embed'), choices, el('label', { for: frameId }, 'For the HTML of another page'), frame, away, copyFrame),
     el('details', {}, el('summary', {}, 'As a C program'), programLabel, source, copyProgram),
     el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
       ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` }))));
@@ -50,7 +56,22 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     const lines = (store.scene?.description.suggestions ?? []).map(s => numbers[/^(?:step|until)\b/.exec(s.line)?.[0] ?? ''] ?? s.line).filter(line => line !== '');
     return lines.length ? text + appended(text, lines).text : text;
   }
+  /** The frame, with the sliders that are chosen. */
+  let offered = '';
+  function fillFrame(): void {
+    const dials = [{ name: 'step', label: 'step' }, ...dialsOf(store)], key = JSON.stringify(dials);
+    if (key !== offered) {
+      offered = key;
+      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step' }), ` ${label}`)));
+    }
+    const embed = [...choices.querySelectorAll('input')].filter((box) => box.checked).map((box) => box.value), address = addressOf({ ...store.state, place: '', embed }, presets);
+    frame.value = address && snippet(address, titleIn(store.state));
+    copyFrame.disabled = !address;
+    say(away, location.protocol === 'file:' ? 'This page lies on a disk, where other pages cannot reach it: let src begin with the address of a copy on a server.' : '');
+  }
+  choices.addEventListener('change', fillFrame);
   function fill(): void {
+    fillFrame();
     const address = addressOf(store.state, presets);
     link.value = address || 'The model is too long for an address.';
     copyLink.disabled = !address;

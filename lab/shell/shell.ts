@@ -7,6 +7,7 @@ import { followAddress } from './address';
 import { place } from '../dom';
 import { dials } from './dials';
 import { dockLinks } from './dock';
+import { embedded } from './embed';
 import { gallery as makeGallery } from './gallery';
 import { history } from './history';
 import { lessonPlace } from './lesson';
@@ -58,6 +59,7 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('dock-links').append(dockLinks(store, pin(store, stage), stage.choice));
   place('status').append(status(store));
   place('panel-picker').append(panelPicker(store, panels));
+  if (store.state.embed) place('dock').append(embedded(store, presets));
   followAddress(store, presets, toasts);
   arrive();
   return toasts;

@@ -94,7 +94,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const width = holder.clientWidth, height = holder.clientHeight;
     if (!width || !height) return false;
     const s = Math.min(4, Math.max(1, devicePixelRatio || 1)), column = room.column();
-    const next = placeOf(width, height, column, { width: innerWidth, height: innerHeight });
+    const next = placeOf(width, height, column, { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
     if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
     scale = s;
     for (const canvas of [still, moving]) {

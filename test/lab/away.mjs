@@ -40,6 +40,66 @@ await attempt('captions', async () => {
   await clean('captions, long', long);
 });
 
+// --- inside another page ----------------------------------------------------------------------------------------------------------------------
+const seen = (page) => page.evaluate(() => [...document.querySelectorAll('button, input, select, textarea, a, h1, h2, p, summary, label')]
+  .filter((e) => e.checkVisibility({ visibilityProperty: true }) && e.getBoundingClientRect().width > 1 && e.closest('.dial-value') === null).map((e) => e.getAttribute('aria-label') ?? e.textContent.trim()).filter(Boolean));
+for (const [width, height, fragment, dials] of [[320, 240, '#v=1&p=thrown-ball&embed=1&c=step', ['Step h', 'Step h']], [480, 320, "#v=1&p=thrown-ball&embed=1&c=step&c=r'(0).y", ['Step h', 'Step h', 'Upwards']], [600, 400, '#v=1&p=spring&embed=1', []],
+  [720, 480, '#v=1&p=spring&embed=1&c=k&c=m', ['Stiffness', 'Mass']], [900, 600, '#v=1&p=kepler&embed=1&c=step&c=nothing', ['Step h', 'Step h']], [320, 240, '#v=1&p=three-body-figure-eight&embed=1&c=step', ['Step h', 'Step h']]]) {
+  await attempt(`an embed, ${width} × ${height}`, async () => {
+    const name = `an embed, ${width} × ${height}, ${fragment}`, writes = () => { window.writes = []; for (const way of ['setItem', 'removeItem']) { const of = Storage.prototype[way]; Storage.prototype[way] = function (...given) { window.writes.push(given[0]); return of.apply(this, given); }; } };
+    const page = await open(singleFile + fragment, { width, height, first: true, before: writes });
+    await page.waitForTimeout(900);
+    same(`${name}: nothing plays by itself`, await page.getByRole('button', { name: 'Play (space)' }).count(), 1);
+    const controls = await seen(page), known = ['Play (space)', 'Present time', ...dials, 'Open in motus lab', 'Initial velocity: arrow keys turn it up, down, left and right', 'show all'];
+    judge(`${name}: picture, Play, time, sliders, link, nothing else`, ['Play (space)', 'Present time', ...dials, 'Open in motus lab'].every((c) => controls.includes(c)) && controls.every((c) => known.includes(c) || /^Step\b/.test(c)), controls.join('; '));
+    const boxes = await page.evaluate(() => ['#stage-picture', '#dock', '.transport', '.embed-link', ...(document.querySelector('.embedded.embed-step') ? ['.dial.step'] : [])].map((s) => { const r = document.querySelector(s).getBoundingClientRect(); return [s, r.left, r.top, r.right, r.bottom]; }));
+    judge(`${name}: nothing overflows`, boxes.every(([, l, t, r, b]) => l >= 0 && t >= 0 && r <= width + 0.5 && b <= height + 0.5) && await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight && document.querySelector('#dock').scrollHeight <= document.querySelector('#dock').clientHeight + 1), JSON.stringify(boxes));
+    const [, , top, , bottom] = boxes[0];
+    judge(`${name}: the picture has most of it`, bottom - top > 0.45 * height, `${top} to ${bottom}`);
+    await page.screenshot({ path: join(root, `build/lab/shots/embed-${width}-${dials.length}.png`) });
+    await page.locator('.transport-play').click();
+    await page.waitForTimeout(300);
+    same(`${name}: it plays`, await page.getByRole('button', { name: 'Pause (space)' }).count(), 1);
+    if (dials[0] === 'Step h') {
+      await page.locator('#step-slider').focus();
+      await page.keyboard.press('ArrowRight');
+      await settled(page);
+      judge(`${name}: the link is of what is seen`, /&h=/.test(await page.locator('.embed-link').getAttribute('href')) && !/embed|&c=/.test(await page.locator('.embed-link').getAttribute('href')));
+    }
+    await page.waitForTimeout(500);
+    same(`${name}: it writes nothing, and keeps its address`, [await page.evaluate(() => window.writes), new URL(page.url()).hash], [[], fragment]);
+    await clean(name, page);
+  });
+}
+await attempt('the snippet', async () => {
+  const text = `# "><script>window.hit=1</script> & 'it'\nk = 2\nx'' = -k x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil 2\n`, { address } = await serve();
+  const page = await open(`${address}motus-lab.html#v=1&m=${encodeURIComponent(text)}&a=verlet`), popup = await shareOf(page);
+  await popup.getByText('Embed', { exact: true }).click();
+  await popup.getByLabel('k', { exact: true }).check();
+  const html = await popup.getByLabel('For the HTML of another page').inputValue();
+  const parsed = await page.evaluate((source) => { const body = new DOMParser().parseFromString(source, 'text/html').body, f = body.firstElementChild; return { n: body.querySelectorAll('*').length, ...Object.fromEntries([...f.attributes].map((a) => [a.name, a.value])) }; }, html);
+  same('the snippet is one frame, whatever the model says', [parsed.n, parsed.title, parsed.width, parsed.height, parsed.loading, Object.keys(parsed).length], [1, `"><script>window.hit=1</script> & 'it'`, '720', '480', 'lazy', 6]);
+  judge('… of this address', parsed.src.startsWith(`${address}motus-lab.html#v=1&m=`) && parsed.src.endsWith('&embed=1&c=step&c=k'), parsed.src.slice(-60));
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await popup.getByRole('button', { name: 'Copy frame' }).click();
+  await page.waitForTimeout(100);
+  same('“Copy frame” copies it', await page.evaluate(() => navigator.clipboard.readText()), html);
+  await clean('the snippet', page);
+
+  writeFileSync(join(place, 'other.html'), `<!DOCTYPE html><title>Another page</title>${html.replace('lazy', 'eager')}`);
+  const other = await serve(place), outer = await open(`${other.address}other.html`, { settle: false }), inner = outer.frameLocator('iframe');
+  await inner.locator('.dial.step').waitFor();
+  await inner.locator('canvas.stage-still[aria-label*="from t = 0 to 2"]').waitFor();
+  same('in another page it shows the motion with its sliders', [await inner.locator('.dial').count(), await inner.locator('.embed-link').getAttribute('target')], [2, '_blank']);
+  await clean('another page', outer, /404/);
+
+  const disk = await open(singleFile), share = await shareOf(disk);
+  await share.getByText('Embed', { exact: true }).click();
+  same('the dials of the scene are offered', await share.locator('fieldset label').allTextContents(), [' step', ' Upwards', ' Sideways']);
+  judge('on a disk it is told', /lies on a disk, where other pages cannot reach it/.test(await share.textContent()));
+  await clean('on a disk', disk);
+});
+
 // --- the C program -------------------------------------------------------------------------------------------------------------------------
 await attempt('the C program', async () => {
   const page = await open(singleFile), build = dirname(program);

@@ -65,7 +65,7 @@ test('an embed and its sliders come back', () => {
   assert.deepEqual(share.decode('v=1&p=projectile&embed=1&c=k&c=k', presets).state.embed, ['k']);
   assert.equal('embed' in share.decode('v=1&p=projectile', presets).state, false);
   for (const [fragment, why] of [['embed=0', /“embed” is 1/], ['embed=', /“embed” is 1/], ['embed', /“embed” is 1/], ['embed=1&embed=1', /twice/], ['c=step', /without “embed=1”/], ['embed=1&c=', /no name/],
-    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/]]) {
+    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no lesson/]]) {
     const { state, problem } = share.decode('v=1&p=spring&' + fragment, presets);
     assert.match(problem, why, fragment);
     assert.deepEqual(state, start);
