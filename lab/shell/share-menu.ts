@@ -4,6 +4,7 @@
 import type { State } from '../scene';
 import { cProgram } from '../program';
 import { command, type Presets } from '../share';
+import { films } from '../stage/film';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
@@ -13,6 +14,7 @@ import { titleIn } from './presets';
 import { button, el, fresh, icon, say } from '../dom';
 import { appended } from './repair';
 import type { Toasts } from './toasts';
+import { runSeconds } from './transport';
 
 /** The clipboard where the page may use it; else the field is selected, for the reader to copy. */
 async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string, toasts: Toasts): Promise<void> {
@@ -39,16 +41,42 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
   const copyFrame = button('Copy frame', () => { void copy(frame, 'Frame', toasts); }), away = el('p', { class: 'quiet' });
   const copyProgram = button('Copy as C program', () => { void copy(source, 'C program', toasts); });
   const programLabel = el('label', { for: programId });
+  const film = button('WebM', () => { void shoot(); }, { class: 'figure-button', 'aria-label': 'Save “Motion” as WebM' }), bar = el('progress', { hidden: true, max: 1, 'aria-label': 'Film' }), filmed = el('p', { class: 'quiet', role: 'status' });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
     commandLabel, line, older, copyCommand, refusal,
     el('details', { class: 'embed-fold' }, el('summary', {}, 'Embed'), choices, el('label', { for: frameId }, 'For the HTML of another page'), frame, away, copyFrame),
     el('details', {}, el('summary', {}, 'As a C program'), programLabel, source, copyProgram),
     el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
-      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` }))));
+      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` })), film), bar, filmed);
   const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
     icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
   const root = el('div', { class: 'share' }, opener, panel);
+
+  /** One run as a film, in the motion's own time; a second press gives it up. */
+  let filming: AbortController | null = null;
+  async function shoot(): Promise<void> {
+    if (filming) { filming.abort(); return; }
+    const { scene, numbers } = store, track = scene?.solution.tracks[0], end = numbers.until ?? track?.times.at(-1);
+    if (!films()) { say(filmed, 'This browser records no WebM. Firefox, and Chrome or Edge, do.'); return; }
+    if (!scene || end === undefined) { say(filmed, 'There is no motion to film.'); return; }
+    filming = new AbortController();
+    const seconds = runSeconds(Math.abs(end - numbers.start));
+    const name = (text: string, label: string): void => { film.textContent = text; film.setAttribute('aria-label', label); };
+    name('Cancel', 'Cancel the film');
+    say(filmed, `Recording ${Math.ceil(seconds)} s …`);
+    bar.value = 0;
+    bar.hidden = false;
+    let told = 'The film could not be made.';
+    try {
+      told = await stage.film(numbers.start, end, seconds, (part) => { bar.value = part; }, filming.signal) ? 'The film is saved.' : 'No film was made.';
+    } catch { /* The browser's recorder gave up. */ }
+    filming = null;
+    bar.hidden = true;
+    name('WebM', 'Save “Motion” as WebM');
+    say(filmed, told);
+    if (panel.hidden) toasts.say(told);
+  }
 
   /** The program wants all lines, also those that the page supposed for what is seen. */
   function whole({ text, step, until }: State): string {

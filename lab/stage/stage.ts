@@ -4,7 +4,7 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { button, el, say } from '../dom';
-import { csv, downloadText, fileName, savePicture } from '../figure/export';
+import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
 import { canvasPen } from '../figure/pen';
@@ -13,6 +13,7 @@ import type { Panel, Scene, Store } from '../scene';
 import { short as shortNumber } from '../shell/number';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
+import { film } from './film';
 import { motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
@@ -27,6 +28,8 @@ export interface Stage extends Panel {
   /** Chooses the view: which of the ways to look at the motion. */
   readonly choice: HTMLElement;
   save(kind: 'PNG' | 'SVG' | 'CSV'): void;
+  /** Saves the motion from its start to its end as a film of so many seconds; false: cancelled, or there is nothing to see. */
+  film(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean>;
   /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
   relayout(): void;
   /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
@@ -340,6 +343,25 @@ export function stage(store: Store, room: { column(): number }): Stage {
     savePicture(kind, 'motion', summary(), { title: 'Motion', width, height, draw(pen, now) { of.still(pen, now); of.moving(pen, now, time); } });
   }
 
+  async function record(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean> {
+    if (!picture || !place) return false;
+    const { width, height } = place, of = picture, now = ink(), name = fileName('motion', 'webm'), s = Math.min(2, 1920 / width);
+    // What keeps still is drawn once, with the words below; sizes are even, as encoders want them.
+    const still = sheetOf(captioned({ title: 'Motion', width, height, draw: (pen) => of.still(pen, now) }), s);
+    const sheet = el('canvas', { width: still.width & ~1, height: still.height & ~1 }), context = sheet.getContext('2d');
+    if (!context) return false;
+    const pen = canvasPen(context, width, height);
+    const content = await film(sheet, seconds, (part) => {
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.drawImage(still, 0, 0);
+      context.setTransform(s, 0, 0, s, 0, 0);
+      of.moving(pen, now, part === 1 ? end : start + part * (end - start));
+      progress(part);
+    }, signal);
+    if (content) download(content, name);
+    return content !== null;
+  }
+
   new ResizeObserver(() => refresh()).observe(holder);
   new IntersectionObserver((entries) => {
     visible = entries[entries.length - 1]?.isIntersecting ?? false;
@@ -347,7 +369,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }).observe(holder);
 
   return {
-    id: 'motion', title: 'Motion', element, choice, show, save,
+    id: 'motion', title: 'Motion', element, choice, show, save, film: record,
     at(now) { if (now !== time) { time = now; redrawMoving(); } },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
