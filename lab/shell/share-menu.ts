@@ -90,7 +90,7 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     const dials = [{ name: 'step', label: 'step' }, ...dialsOf(store)], key = JSON.stringify(dials);
     if (key !== offered) {
       offered = key;
-      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step' }), ` ${label}`)));
+      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step', 'aria-label': `Slider for ${label}` }), ` ${label}`)));
     }
     const embed = [...choices.querySelectorAll('input')].filter((box) => box.checked).map((box) => box.value), address = addressOf({ ...store.state, place: '', embed }, presets);
     frame.value = address && snippet(address, titleIn(store.state));

@@ -10,6 +10,7 @@ import { brief } from '../figure/number';
 import { canvasPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
+import { ENLARGED, lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
@@ -96,8 +97,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
   function fit(): boolean {
     const width = holder.clientWidth, height = holder.clientHeight;
     if (!width || !height) return false;
-    const s = Math.min(4, Math.max(1, devicePixelRatio || 1)), column = room.column();
-    const next = placeOf(width, height, column, { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
+    // In a lecture the style enlarges the stage: its pixels are the layout's, of which it has fewer.
+    const large = lecturing(), s = Math.min(4, Math.max(1, devicePixelRatio || 1) * (large ? ENLARGED : 1));
+    const next = large ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
     if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
     scale = s;
     for (const canvas of [still, moving]) {
@@ -265,6 +267,11 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const of = velocity();
     if (of && Number.isFinite(vx + vy)) store.change({ set: { ...store.state.set, [of.name]: `(${round(vx)}, ${round(vy)})` } });
   }
+  /** Where on the stage, in its own pixels. */
+  const pointed = ({ clientX, clientY }: PointerEvent): { readonly x: number; readonly y: number } => {
+    const box = holder.getBoundingClientRect(), large = box.width / (holder.clientWidth || box.width);
+    return { x: (clientX - box.left) / large, y: (clientY - box.top) / large };
+  };
   aim.addEventListener('pointerdown', (event) => {
     if (!event.isPrimary || event.button !== 0) return;
     aim.setPointerCapture(event.pointerId);
@@ -274,8 +281,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
   aim.addEventListener('pointermove', (event) => {
     const handle = picture?.handle;
     if (!aim.hasPointerCapture(event.pointerId) || !handle) return;
-    const box = holder.getBoundingClientRect();
-    throwAt((event.clientX - box.left - handle.fromX) / handle.unit, -(event.clientY - box.top - handle.fromY) / handle.unit);
+    const { x, y } = pointed(event);
+    throwAt((x - handle.fromX) / handle.unit, -(y - handle.fromY) / handle.unit);
   });
   aim.addEventListener('keydown', (event) => {
     const of = velocity(), by = event.shiftKey ? 0.01 : 0.05;
@@ -303,7 +310,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     attach();
   };
   ring.addEventListener('pointerdown', (event) => { if (event.isPrimary && event.button === 0) { ring.setPointerCapture(event.pointerId); event.preventDefault(); ring.focus({ preventScroll: true }); } });
-  ring.addEventListener('pointermove', (event) => { if (ring.hasPointerCapture(event.pointerId)) putRing(event.clientY - holder.getBoundingClientRect().top); });
+  ring.addEventListener('pointermove', (event) => { if (ring.hasPointerCapture(event.pointerId)) putRing(pointed(event).y); });
   ring.addEventListener('keydown', (event) => {
     const at = ringAt();
     if (!at || (event.key !== 'ArrowUp' && event.key !== 'ArrowDown')) return;
