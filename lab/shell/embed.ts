@@ -22,4 +22,4 @@ export function embedded(store: LiveStore, presets: Presets): HTMLElement {
 }
 
 /** What to write into another page. */
-export const snippet = (address: string, title: string): string => `<iframe src="${escape(address)}" title="${escape(title)}" width="720" height="480" loading="lazy"></iframe>`;
+export const snippet = (address: string, title: string): string => `<iframe src="${escape(address).replaceAll('&#38;', '&amp;')}" title="${escape(title)}" width="720" height="480" loading="lazy"></iframe>`;

@@ -62,7 +62,7 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('panel-picker').append(panelPicker(store, panels));
   if (!store.state.embed) {
     const { opener, bar } = lecture(store);
-    place('theme').prepend(opener);
+    place('share').after(opener);
     document.body.append(bar);
   } else place('dock').append(embedded(store, presets));
   followAddress(store, presets, toasts);
