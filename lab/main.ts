@@ -6,7 +6,7 @@ import { createClient } from './client';
 import { mini } from './shell/mini';
 import { STEP_EVENT, transport, type Transport } from './shell/transport';
 import { SEEK } from './figure/cursor';
-import { nameExports } from './figure/export';
+import { captionExports, nameExports } from './figure/export';
 import { convergence } from './panel/convergence';
 import { driftPanel } from './panel/drift';
 import { errorPanel } from './panel/error';
@@ -18,9 +18,10 @@ import { timePanel } from './panel/time';
 import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
 import { startState } from './shell/address';
+import { captionOf } from './shell/caption';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
-import { recall, remember } from './shell/memory';
+import { forgetful, recall, remember } from './shell/memory';
 import { data, exampleOf, loadData } from './data';
 import { place } from './dom';
 import { presetState } from './share';
@@ -63,8 +64,11 @@ function textEdge(): number {
 }
 
 async function start(): Promise<void> {
+  // Before the first picture, if the page stands in another.
+  document.body.classList.toggle('embedded', /[#&]embed=1(&|$)/.test(location.hash));
   const [client] = await Promise.all([createClient(), loadData()]);
   const { state, problem } = startState(presets);
+  if (state.embed) forgetful();
   const store = createStore(client, state);
   const motion = makeStage(store, { column: textEdge }), made = new Map<string, Panel>();
   // Those below the stage that are open; they are made when the stage is drawn.
@@ -80,6 +84,7 @@ async function start(): Promise<void> {
   });
   const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); });
   if (problem) toasts.say(problem);
+  captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
   place('transport').append(clock.element);
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
@@ -97,7 +102,7 @@ async function start(): Promise<void> {
 
   /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
   function gentle(): void {
-    if (recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    if (store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
     const touched = new AbortController(), { signal } = touched;
     for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => touched.abort(), { capture: true, passive: true, signal });
     window.setTimeout(() => {

@@ -16,6 +16,8 @@ export interface State {
   readonly view: View;
   /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
+  /** Absent: the whole page. Else the page as a picture inside another, with these sliders: 'step', and numbers as sliders.ts names them. */
+  readonly embed?: readonly string[];
 }
 export interface View {
   readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z

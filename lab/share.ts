@@ -7,6 +7,7 @@
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              o=ID,ID              open panels         e=0  green line hidden    z=SPEED
  *   l=gallery | LESSON.PART.ANSWER   where in the page one is
+ *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
  */
 import type { State, View } from './scene';
@@ -94,17 +95,19 @@ export function encode(state: State, presets: Presets): string {
   if (!view.exact) put('e', '0');
   if (view.speed !== defaultView.speed) put('z', String(view.speed));
   if (state.place) put('l', state.place);
+  if (state.embed) put('embed', '1');
+  for (const name of state.embed ?? []) put('c', name);
   return out.join('&');
 }
 
-const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z', 'l']);
-const several = new Set(['s', 'q', 'f']);
+const once = new Set(['v', 'p', 'm', 'a', 'h', 'T', 'w', 'o', 'e', 'z', 'l', 'embed']);
+const several = new Set(['s', 'q', 'f', 'c']);
 
 /** What is wrong with an address: thrown and caught in this file only. */
 class Wrong extends Error {}
 
 /** Control characters but tab and newline: they can rule a terminal, and no model needs them. */
-const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
+export const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
 const lineControls = /[\u0000-\u001f\u007f-\u009f]/;
 
 function word(value: string, what: string): string {
@@ -172,7 +175,14 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   for (const method of methods) word(method, 'the name of a method');
   const place = found.get('l')?.[0] ?? '';
   if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
+  const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
+  if (inside !== '1' && found.has('embed')) throw new Wrong('“embed” is 1');
+  if (!inside && sliders.length) throw new Wrong('it chooses sliders, “c”, without “embed=1”');
+  if (sliders.length > most.columns) throw new Wrong('it chooses too many sliders');
+  for (const slider of sliders) if (!word(slider, 'the name of a slider')) throw new Wrong('a slider has no name');
+  if (inside && place) throw new Wrong('an embed shows the stage, no lesson and no gallery');
   return {
+    ...(inside ? { embed: [...new Set(sliders)] } : {}),
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
     step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found), place,
   };

@@ -3,13 +3,12 @@
  * Invariant: nothing is drawn while it cannot be seen, and no layer more than once a frame; PNG and SVG are made by the functions that draw the screen.
  */
 import { button, el as element } from '../dom';
-import { csv, download, downloadText, fileName } from './export';
+import { csv, downloadText, fileName, savePicture } from './export';
 import { ink } from './ink';
-import { canvasPen, svgPen } from './pen';
+import { canvasPen } from './pen';
 import { tableElement } from './table';
 import type { Figure, FigureDefinition, Ink, Pen } from './types';
 
-const PNG_SCALE = 2;
 /** A picture is not higher than this share of the window, so that it can be seen whole. */
 const TALLEST = 0.8;
 /** Nor lower than this, however narrow: ticks and curves need some height. */
@@ -128,27 +127,9 @@ export function figure(definition: FigureDefinition): Figure {
   });
 
   function write(kind: 'PNG' | 'SVG' | 'CSV'): void {
-    const file = fileName(definition.id, kind.toLowerCase());
-    if (kind === 'CSV') { downloadText(csv(definition.table()), 'text/csv', file); return; }
-    const now = ink();
-    const both = (pen: Pen): void => { definition.draw(pen, now); definition.overlay?.(pen, now); };
+    if (kind === 'CSV') { downloadText(csv(definition.table()), 'text/csv', fileName(definition.id, 'csv')); return; }
     fit();
-    if (kind === 'SVG') {
-      const pen = svgPen(width, height);
-      both(pen);
-      downloadText(pen.svg(definition.title, definition.summary(), now.surface), 'image/svg+xml', file);
-      return;
-    }
-    const sheet = document.createElement('canvas');
-    sheet.width = width * PNG_SCALE;
-    sheet.height = height * PNG_SCALE;
-    const context = sheet.getContext('2d');
-    if (!context) return;
-    context.scale(PNG_SCALE, PNG_SCALE);
-    context.fillStyle = now.surface;
-    context.fillRect(0, 0, width, height);
-    both(canvasPen(context, width, height));
-    sheet.toBlob((blob) => { if (blob) download(blob, file); }, 'image/png');
+    savePicture(kind, definition.id, definition.summary(), { title: definition.title, width, height, draw(pen, now) { definition.draw(pen, now); definition.overlay?.(pen, now); } });
     // Layouts that the drawing remembers are the screen's again.
     redraw();
   }

@@ -38,6 +38,7 @@ export function addressOf(state: State, presets: Presets): string {
 
 export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts): void {
   let timer = 0, { preset, place } = store.state;
+  const { embed } = store.state;
   const write = (): void => {
     window.clearTimeout(timer);
     timer = 0;
@@ -49,13 +50,15 @@ export function followAddress(store: LiveStore, presets: Presets, toasts: Toasts
     ({ preset, place } = store.state);
     try { if (address !== location.href) history[how](null, '', address); } catch { /* Some viewers forbid it; the memory holds it. */ }
   };
-  store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
+  if (!embed) store.subscribe(what => { if ((what === 'state' || what === 'view') && !timer) timer = window.setTimeout(write, pause); });
   // The page that was opened without a state is one to come back to.
-  if (!location.hash.includes('=')) write();
+  if (!embed && !location.hash.includes('=')) write();
   window.addEventListener('pagehide', () => { if (timer) write(); });
   window.addEventListener('hashchange', () => {
-    if (!location.hash.includes('=')) { write(); return; }          // a place in the page, none of our addresses
+    if (!location.hash.includes('=')) { if (!embed) write(); return; }          // a place in the page, none of our addresses
     const { state, problem } = decode(location.hash, presets);
+    // What a page shows beside the picture is decided when it is opened.
+    if (state.embed?.join('\n') !== embed?.join('\n')) { location.reload(); return; }
     window.clearTimeout(timer);
     timer = 0;
     if (problem) toasts.say(problem);

@@ -9,9 +9,22 @@ import { stagingOf, type Dial } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { el } from '../dom';
 import { presets } from './presets';
-import { held, rowsOf, type Row } from './sliders';
+import { held, partName, rowsOf, type Row } from './sliders';
 
 const most = 3;
+
+/** A dial's name in an address. */
+const nameOf = (p: Parameter, part: number): string => partName(p, part, p.values.length);
+
+/** The dials of the dock: their names in an address, and what the reader calls them. */
+export function dialsOf({ description, state }: LiveStore): { readonly name: string; readonly label: string }[] {
+  if (!description) return [];
+  const staging = stagingOf(presets.text(state.preset) === state.text ? state.preset : '');
+  return (staging.dials ?? usual(description.parameters)).flatMap(({ name, part = 0, label }) => {
+    const p = description.parameters.find((q) => q.name === name);
+    return p ? [{ name: nameOf(p, part), label: label || nameOf(p, part) }] : [];
+  });
+}
 
 /** Where a scene names none: parameters that are numbers, then initial values. */
 function usual(parameters: readonly Parameter[]): Dial[] {
@@ -43,7 +56,9 @@ export function dials(store: LiveStore): HTMLElement {
     if (key === shown) return;
     shown = key;
     const focused = held(element);
-    const wanted = staging.dials ?? usual(description.parameters);
+    const { embed } = state, named = staging.dials ?? [], every = (): Dial[] => description.parameters.flatMap((p) => p.values.map((_, part) => named.find((d) => d.name === p.name && (d.part ?? 0) === part) ?? { name: p.name, part, label: '' }));
+    // Inside another page, those that the address chooses.
+    const wanted = embed ? every().filter(({ name, part = 0 }) => embed.includes(nameOf(description.parameters.find((p) => p.name === name)!, part))) : staging.dials ?? usual(description.parameters);
     rows = wanted.flatMap((dial) => {
       const parameter = description.parameters.find((p) => p.name === dial.name);
       if (!parameter) return [];
@@ -54,7 +69,7 @@ export function dials(store: LiveStore): HTMLElement {
     const turn = staging.switch;
     slideName.textContent = turn?.label ?? '';
     slide.checked = turn?.on ?? false;
-    element.replaceChildren(...rows.map((r) => r.element), ...(turn ? [slideRow] : []));
+    element.replaceChildren(...rows.map((r) => r.element), ...(turn && !embed ? [slideRow] : []));
     focused();
   }
   store.subscribe((what) => {

@@ -8,9 +8,8 @@ import type { LiveStore } from '../state';
 import { presetState } from '../share';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
-import { described, presets, titleOf } from './presets';
+import { described, presets, titleIn, titleOf } from './presets';
 import { settle } from './settle';
-import { ownTitle } from './title';
 import type { Toasts } from './toasts';
 import { math, typesetView } from './typeset';
 
@@ -51,7 +50,7 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     if (key === shown) return;
     shown = key;
     const staging = stagingOf(name);
-    say(title, name === '' ? ownTitle(text) || 'Your own equation' : titleOf(name));
+    say(title, titleIn(store.state));
     document.title = `${title.textContent} · motus lab`;
     say(sentence, name === '' ? '' : (staging.words || described(text)).replace('{steps}', counted(steps)));
     sentence.hidden = sentence.textContent === '';

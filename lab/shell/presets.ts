@@ -6,6 +6,7 @@
 import { data } from '../data';
 import { sceneOf } from '../scenes';
 import type { Presets } from '../share';
+import { ownTitle } from './title';
 
 export const presets: Presets = {
   first: 'thrown-ball',
@@ -24,5 +25,8 @@ export function described(text: string): string {
   }
   return /^.*?\.(?=\s|$)/s.exec(comment.join(' '))?.[0] ?? comment.join(' ');
 }
+
+/** What a text on show is called: the example's title while it is the example's. */
+export const titleIn = ({ preset, text }: { readonly preset: string; readonly text: string }): string => (preset !== '' && presets.text(preset) === text ? titleOf(preset) : ownTitle(text) || 'Your own equation');
 
 export const titleOf = (name: string): string => sceneOf(name)?.title ?? name;

@@ -1,12 +1,20 @@
-/* Share: the address of what is seen, and the command that computes the same bits. Invariant: what is copied is shown. */
+/* Share: the address of what is seen, the frame that shows it in another page, the command and the C program that compute the same bits, the picture, the film.
+ * Invariant: what is copied is shown.
+ */
 import type { State } from '../scene';
+import { cProgram } from '../program';
 import { command, type Presets } from '../share';
+import { films } from '../stage/film';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { addressOf } from './address';
+import { dialsOf } from './dials';
+import { snippet } from './embed';
+import { titleIn } from './presets';
 import { button, el, fresh, icon, say } from '../dom';
 import { appended } from './repair';
 import type { Toasts } from './toasts';
+import { runSeconds } from './transport';
 
 /** The clipboard where the page may use it; else the field is selected, for the reader to copy. */
 async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string, toasts: Toasts): Promise<void> {
@@ -21,21 +29,54 @@ async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string,
 }
 
 export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toasts: Toasts): HTMLElement {
-  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command');
+  const id = fresh('share'), linkId = fresh('link'), commandId = fresh('command'), programId = fresh('program'), frameId = fresh('frame');
   const link = el('input', { id: linkId, readonly: true, type: 'text', spellcheck: 'false' });
   const line = el('textarea', { id: commandId, readonly: true, rows: 4, spellcheck: 'false', wrap: 'soft' });
+  const source = el('textarea', { id: programId, readonly: true, rows: 8, spellcheck: 'false', wrap: 'off' });
   const commandLabel = el('label', { for: commandId });
   const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
   const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
   const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
+  const frame = el('textarea', { id: frameId, readonly: true, rows: 4, spellcheck: 'false' }), choices = el('fieldset', {}, el('legend', {}, 'With sliders for'));
+  const copyFrame = button('Copy frame', () => { void copy(frame, 'Frame', toasts); }), away = el('p', { class: 'quiet' });
+  const copyProgram = button('Copy as C program', () => { void copy(source, 'C program', toasts); });
+  const programLabel = el('label', { for: programId });
+  const film = button('WebM', () => { void shoot(); }, { class: 'figure-button', 'aria-label': 'Save “Motion” as WebM' }), bar = el('progress', { hidden: true, max: 1, 'aria-label': 'Film' }), filmed = el('p', { class: 'quiet', role: 'status' });
   const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
     el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
     commandLabel, line, older, copyCommand, refusal,
+    el('details', { class: 'embed-fold' }, el('summary', {}, 'Embed'), choices, el('label', { for: frameId }, 'For the HTML of another page'), frame, away, copyFrame),
+    el('details', {}, el('summary', {}, 'As a C program'), programLabel, source, copyProgram),
     el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
-      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` }))));
+      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` })), film), bar, filmed);
   const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
     icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
   const root = el('div', { class: 'share' }, opener, panel);
+
+  /** One run as a film, in the motion's own time; a second press gives it up. */
+  let filming: AbortController | null = null;
+  async function shoot(): Promise<void> {
+    if (filming) { filming.abort(); return; }
+    const { scene, numbers } = store, track = scene?.solution.tracks[0], end = numbers.until ?? track?.times.at(-1);
+    if (!films()) { say(filmed, 'This browser records no WebM. Firefox, and Chrome or Edge, do.'); return; }
+    if (!scene || end === undefined) { say(filmed, 'There is no motion to film.'); return; }
+    filming = new AbortController();
+    const seconds = runSeconds(Math.abs(end - numbers.start));
+    const name = (text: string, label: string): void => { film.textContent = text; film.setAttribute('aria-label', label); };
+    name('Cancel', 'Cancel the film');
+    say(filmed, `Recording ${Math.ceil(seconds)} s …`);
+    bar.value = 0;
+    bar.hidden = false;
+    let told = 'The film could not be made.';
+    try {
+      told = await stage.film(numbers.start, end, seconds, (part) => { bar.value = part; }, filming.signal) ? 'The film is saved.' : 'No film was made.';
+    } catch { /* The browser's recorder gave up. */ }
+    filming = null;
+    bar.hidden = true;
+    name('WebM', 'Save “Motion” as WebM');
+    say(filmed, told);
+    if (panel.hidden) toasts.say(told);
+  }
 
   /** The program wants all lines, also those that the page supposed for what is seen. */
   function whole({ text, step, until }: State): string {
@@ -43,7 +84,22 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     const lines = (store.scene?.description.suggestions ?? []).map(s => numbers[/^(?:step|until)\b/.exec(s.line)?.[0] ?? ''] ?? s.line).filter(line => line !== '');
     return lines.length ? text + appended(text, lines).text : text;
   }
+  /** The frame, with the sliders that are chosen. */
+  let offered = '';
+  function fillFrame(): void {
+    const dials = [{ name: 'step', label: 'step' }, ...dialsOf(store)], key = JSON.stringify(dials);
+    if (key !== offered) {
+      offered = key;
+      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step', 'aria-label': `Slider for ${label}` }), ` ${label}`)));
+    }
+    const embed = [...choices.querySelectorAll('input')].filter((box) => box.checked).map((box) => box.value), address = addressOf({ ...store.state, place: '', embed }, presets);
+    frame.value = address && snippet(address, titleIn(store.state));
+    copyFrame.disabled = !address;
+    say(away, location.protocol === 'file:' ? 'This page lies on a disk, where other pages cannot reach it: let src begin with the address of a copy on a server.' : '');
+  }
+  choices.addEventListener('change', fillFrame);
   function fill(): void {
+    fillFrame();
     const address = addressOf(store.state, presets);
     link.value = address || 'The model is too long for an address.';
     copyLink.disabled = !address;
@@ -57,6 +113,10 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
     say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');
     older.hidden = older.textContent === '';
     copyCommand.disabled = problem !== '';
+    const { numbers } = store, main = seen.methods[0] ?? '', made = cProgram({ text: whole(seen), set: seen.set, method: main, step: seen.step ? numbers.step : null, until: seen.until ? numbers.until : null });
+    source.value = made.text || made.problem;
+    copyProgram.disabled = !made.text;
+    say(programLabel, `Runs ${store.scene?.looks[0]?.label ?? main} and prints its last row`);
     say(refusal, problem);
     refusal.hidden = problem === '';
   }

@@ -7,8 +7,10 @@ import { followAddress } from './address';
 import { place } from '../dom';
 import { dials } from './dials';
 import { dockLinks } from './dock';
+import { embedded } from './embed';
 import { gallery as makeGallery } from './gallery';
 import { history } from './history';
+import { lecture } from './lecture';
 import { lessonPlace } from './lesson';
 import { methods } from './methods';
 import { nav } from './nav';
@@ -58,6 +60,11 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('dock-links').append(dockLinks(store, pin(store, stage), stage.choice));
   place('status').append(status(store));
   place('panel-picker').append(panelPicker(store, panels));
+  if (!store.state.embed) {
+    const { opener, bar } = lecture(store);
+    place('share').after(opener);
+    document.body.append(bar);
+  } else place('dock').append(embedded(store, presets));
   followAddress(store, presets, toasts);
   arrive();
   return toasts;

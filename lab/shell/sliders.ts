@@ -14,7 +14,8 @@ const mostRows = 40;
 export interface Row { readonly element: HTMLElement; readonly part: number; refresh(): void }
 
 const axes = ['x', 'y', 'z'];
-function partName(parameter: Parameter, k: number, count: number): string {
+/** How a number is called: by its parameter, and by its component where there are several. */
+export function partName(parameter: Parameter, k: number, count: number): string {
   if (count === 1 && parameter.components === 0 && !parameter.list) return parameter.name;
   return parameter.list || count > 3 ? `${parameter.name}[${k + 1}]` : `${parameter.name}.${axes[k] ?? k + 1}`;
 }

@@ -33,6 +33,9 @@ const PARTS = 10000;
 /* Ticks under the line, at most. */
 const STEPS_TICKED = 40;
 
+/** Seconds that a run of this length takes. */
+export const runSeconds = (length: number): number => (length >= REAL_FROM && length <= REAL_TO ? length : WHOLE_RUN);
+
 export function transport(options: TransportOptions): Transport {
   let start = 0, end = 1, steps: ArrayLike<number> = [0, 1], now = 0, speed = options.speed ?? 1;
   let running = false, frame = 0, stamp = NaN, owed = 0, decimals = 2;
@@ -65,7 +68,7 @@ export function transport(options: TransportOptions): Transport {
   /* Units of the model's time in a second. */
   function rate(): number {
     const length = Math.abs(end - start);
-    return (length >= REAL_FROM && length <= REAL_TO ? 1 : length / WHOLE_RUN) * speed;
+    return length / runSeconds(length) * speed;
   }
   function written(t: number): string {
     return Math.abs(t) < 1e6 && decimals <= 6 ? t.toFixed(decimals).replace('-', '−') : brief(t, 6);

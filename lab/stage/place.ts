@@ -17,12 +17,13 @@ export interface Place {
   readonly marker: number; readonly ball: number;
 }
 
-/** width, height: of the stage; column: the right edge of the text that stands on it, 0 where the text stands above. window: the width of the page. */
-export function placeOf(width: number, height: number, column: number, page: { readonly width: number; readonly height: number }): Place {
+/** width, height: of the stage; column: the right edge of the text that stands on it, 0 where the text stands above. page: the window; bare: nothing else stands
+ * on the stage. */
+export function placeOf(width: number, height: number, column: number, page: { readonly width: number; readonly height: number; readonly bare?: boolean }): Place {
   const landscape = page.height <= 480 && page.width > page.height && page.width >= 480;
   const mode: Mode = landscape ? 'landscape' : page.width < 768 ? 'phone' : page.width < 1280 ? 'tablet' : page.width < 1600 ? 'desk' : 'wide';
   // left, top, and what is kept free at the right and below.
-  const [left, top, right, below] = mode === 'phone' ? [24, height < 240 ? 24 : 8, 64, 34] : mode === 'landscape' ? [24, 52, 66, 28]
+  const [left, top, right, below] = mode === 'phone' ? [24, height < 240 ? 24 : 8, 64, 34] : mode === 'landscape' ? (page.bare ? [24, 22, 66, 40] : [24, 52, 66, 28])
     : mode === 'tablet' ? [64, 14, 186, 40] : mode === 'desk' ? [column ? column + 9 : 64, 17, 186, 40] : [column ? column - 60 : 120, 17, 217, 44];
   const frame = { left, top, right: Math.max(left + 60, width - right), bottom: Math.max(top + 60, height - below) };
   const small = mode === 'phone' || mode === 'landscape';

@@ -5,15 +5,17 @@
  */
 import { exampleOf } from '../data';
 import { button, el, say } from '../dom';
-import { csv, download, downloadText, fileName } from '../figure/export';
+import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
-import { canvasPen, svgPen } from '../figure/pen';
+import { canvasPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
+import { ENLARGED, lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
+import { film } from './film';
 import { motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
@@ -23,12 +25,13 @@ import { turnable } from './turnable';
 
 /** Milliseconds: a ghost stays after the last change; the frame takes to move. */
 const GHOST = 1200, MOVE = 300;
-const PNG_SCALE = 2;
 
 export interface Stage extends Panel {
   /** Chooses the view: which of the ways to look at the motion. */
   readonly choice: HTMLElement;
   save(kind: 'PNG' | 'SVG' | 'CSV'): void;
+  /** Saves the motion from its start to its end as a film of so many seconds; false: cancelled, or there is nothing to see. */
+  film(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean>;
   /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
   relayout(): void;
   /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
@@ -95,8 +98,9 @@ export function stage(store: Store, room: { column(): number }): Stage {
   function fit(): boolean {
     const width = holder.clientWidth, height = holder.clientHeight;
     if (!width || !height) return false;
-    const s = Math.min(4, Math.max(1, devicePixelRatio || 1)), column = room.column();
-    const next = placeOf(width, height, column, { width: innerWidth, height: innerHeight });
+    // In a lecture the style enlarges the stage: its pixels are the layout's, of which it has fewer.
+    const large = lecturing(), s = Math.min(4, Math.max(1, devicePixelRatio || 1) * (large ? ENLARGED : 1));
+    const next = large ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
     if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
     scale = s;
     for (const canvas of [still, moving]) {
@@ -266,6 +270,11 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const of = velocity();
     if (of && Number.isFinite(vx + vy)) store.change({ set: { ...store.state.set, [of.name]: `(${round(vx)}, ${round(vy)})` } });
   }
+  /** Where on the stage, in its own pixels. */
+  const pointed = ({ clientX, clientY }: PointerEvent): { readonly x: number; readonly y: number } => {
+    const box = holder.getBoundingClientRect(), large = box.width / (holder.clientWidth || box.width);
+    return { x: (clientX - box.left) / large, y: (clientY - box.top) / large };
+  };
   aim.addEventListener('pointerdown', (event) => {
     if (!event.isPrimary || event.button !== 0) return;
     aim.setPointerCapture(event.pointerId);
@@ -275,8 +284,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
   aim.addEventListener('pointermove', (event) => {
     const handle = picture?.handle;
     if (!aim.hasPointerCapture(event.pointerId) || !handle) return;
-    const box = holder.getBoundingClientRect();
-    throwAt((event.clientX - box.left - handle.fromX) / handle.unit, -(event.clientY - box.top - handle.fromY) / handle.unit);
+    const { x, y } = pointed(event);
+    throwAt((x - handle.fromX) / handle.unit, -(y - handle.fromY) / handle.unit);
   });
   aim.addEventListener('keydown', (event) => {
     const of = velocity(), by = event.shiftKey ? 0.01 : 0.05;
@@ -304,7 +313,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     attach();
   };
   ring.addEventListener('pointerdown', (event) => { if (event.isPrimary && event.button === 0) { ring.setPointerCapture(event.pointerId); event.preventDefault(); ring.focus({ preventScroll: true }); } });
-  ring.addEventListener('pointermove', (event) => { if (ring.hasPointerCapture(event.pointerId)) putRing(event.clientY - holder.getBoundingClientRect().top); });
+  ring.addEventListener('pointermove', (event) => { if (ring.hasPointerCapture(event.pointerId)) putRing(pointed(event).y); });
   ring.addEventListener('keydown', (event) => {
     const at = ringAt();
     if (!at || (event.key !== 'ArrowUp' && event.key !== 'ArrowDown')) return;
@@ -339,23 +348,29 @@ export function stage(store: Store, room: { column(): number }): Stage {
     return { head, rows };
   }
   function save(kind: 'PNG' | 'SVG' | 'CSV'): void {
-    const file = fileName('motion', kind.toLowerCase());
-    if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', file); return; }
+    if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', fileName('motion', 'csv')); return; }
     if (!picture || !place) return;
-    const now = ink(), both = (pen: Pen): void => { picture!.still(pen, now); picture!.moving(pen, now, time); };
-    if (kind === 'SVG') {
-      const pen = svgPen(place.width, place.height);
-      both(pen);
-      downloadText(pen.svg('Motion', summary(), now.surface), 'image/svg+xml', file);
-      return;
-    }
-    const sheet = el('canvas', { width: place.width * PNG_SCALE, height: place.height * PNG_SCALE }), context = sheet.getContext('2d');
-    if (!context) return;
-    context.scale(PNG_SCALE, PNG_SCALE);
-    context.fillStyle = now.surface;
-    context.fillRect(0, 0, place.width, place.height);
-    both(canvasPen(context, place.width, place.height));
-    sheet.toBlob((blob) => { if (blob) download(blob, file); }, 'image/png');
+    const { width, height } = place, of = picture;
+    savePicture(kind, 'motion', summary(), { title: 'Motion', width, height, draw(pen, now) { of.still(pen, now); of.moving(pen, now, time); } });
+  }
+
+  async function record(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean> {
+    if (!picture || !place) return false;
+    const { width, height } = place, of = picture, now = ink(), name = fileName('motion', 'webm'), s = Math.min(2, 1920 / width);
+    // What keeps still is drawn once, with the words below; sizes are even, as encoders want them.
+    const still = sheetOf(captioned({ title: 'Motion', width, height, draw: (pen) => of.still(pen, now) }), s);
+    const sheet = el('canvas', { width: still.width & ~1, height: still.height & ~1 }), context = sheet.getContext('2d');
+    if (!context) return false;
+    const pen = canvasPen(context, width, height);
+    const content = await film(sheet, seconds, (part) => {
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.drawImage(still, 0, 0);
+      context.setTransform(s, 0, 0, s, 0, 0);
+      of.moving(pen, now, part === 1 ? end : start + part * (end - start));
+      progress(part);
+    }, signal);
+    if (content) download(content, name);
+    return content !== null;
   }
 
   new ResizeObserver(() => refresh()).observe(holder);
@@ -365,7 +380,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }).observe(holder);
 
   return {
-    id: 'motion', title: 'Motion', element, choice, show, save,
+    id: 'motion', title: 'Motion', element, choice, show, save, film: record,
     at(now) { if (now !== time) { time = now; redrawMoving(); } },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },

@@ -56,6 +56,22 @@ test('every state comes back', () => {
   assert.equal({}.polluted, undefined);
 });
 
+test('an embed and its sliders come back', () => {
+  for (const embed of [[], ['step'], ['step', 'k', "r'(0).y", 'x[1,2](0)', 'm[2]']]) {
+    const state = { ...start, embed }, fragment = share.encode(state, presets);
+    assert.deepEqual(share.decode('#' + fragment, presets), { state, problem: '' });
+  }
+  assert.equal(share.encode({ ...start, embed: ['step', "r'(0).y"] }, presets), 'v=1&p=projectile&embed=1&c=step&c=r%27(0).y');
+  assert.deepEqual(share.decode('v=1&p=projectile&embed=1&c=k&c=k', presets).state.embed, ['k']);
+  assert.equal('embed' in share.decode('v=1&p=projectile', presets).state, false);
+  for (const [fragment, why] of [['embed=0', /“embed” is 1/], ['embed=', /“embed” is 1/], ['embed', /“embed” is 1/], ['embed=1&embed=1', /twice/], ['c=step', /without “embed=1”/], ['embed=1&c=', /no name/],
+    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no lesson/]]) {
+    const { state, problem } = share.decode('v=1&p=spring&' + fragment, presets);
+    assert.match(problem, why, fragment);
+    assert.deepEqual(state, start);
+  }
+});
+
 test('no address is an exception', () => {
   const wrong = ['v=2&p=projectile', 'p=projectile', 'v=1', 'v=1&p=nothing', 'v=1&p=__proto__', 'v=1&p=constructor', 'v=1&m=%', 'v=1&m=%4', 'v=1&m=%GG', 'v=1&m=%FF', 'v=1&m=%C3',
     'v=1&m=%ED%A0%80', 'v=1&m=%00', 'v=1&m=%1B%5B2J', 'v=1&p=spring&zz=1', 'v=1&p=spring&p=spring', 'v=1&p=spring&s=k', 'v=1&p=spring&s==2', 'v=1&p=spring&s=k%3D', 'v=1&p=spring&w=9',
@@ -69,7 +85,7 @@ test('no address is an exception', () => {
   let seed = 7;                                                 // and noise, always the same
   const next = n => (seed = (seed * 48271) % 2147483647) % n;
   for (let i = 0; i < 3000; i++) {
-    const noise = Array.from({ length: next(40) }, () => 'v=1&pmsahTwqfoez%0123456789ABCDEF()[]\'"<>\u00e9\ud83d'[next(50)] ?? '').join('');
+    const noise = Array.from({ length: next(40) }, () => 'v=1&pmsahTwqfoezc%0123456789ABCDEF()[]\'"<>\u00e9\ud83d'[next(51)] ?? '').join('');
     assert.equal(typeof share.decode(noise, presets).problem, 'string');
     assert.equal(typeof share.decode('v=1&p=spring&' + noise, presets).state.text, 'string');
   }
