@@ -44,7 +44,7 @@ together() {
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people newcomer share away presets gallery panels controls stage own bits green start firefox parts clock speed)
+[ $# -gt 0 ] || names=(people sizes newcomer share away presets gallery panels controls stage own bits green start firefox parts clock speed)
 rm -f $logs/*.status
 others=()
 for name in "${names[@]}"; do [ "$name" = speed ] || others+=("$name"); done

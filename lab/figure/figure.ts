@@ -17,7 +17,7 @@ let serial = 0;
 
 export function figure(definition: FigureDefinition): Figure {
   const name = `figure-${definition.id}-${++serial}`;
-  const canvas = element('canvas', { class: 'figure-still', role: 'img' });
+  const canvas = element('canvas', { class: 'figure-still', role: 'img', 'aria-label': definition.title });
   const overlay = element('canvas', { class: 'figure-moving', 'aria-hidden': 'true' });
   const message = element('p', { class: 'figure-message', hidden: true });
   const picture = element('div', { class: 'figure-picture' }, canvas, overlay, message);

@@ -231,6 +231,23 @@ export async function tableOf(page, title) {
 }
 export const motus = (...words) => execFileSync(program, words, { encoding: 'utf8', cwd: root, stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 28 });
 
+/** What axe-core finds on a page. */
+export async function audit(name, page) {
+  await page.evaluate(readFileSync(need.resolve('axe-core/axe.min.js'), 'utf8'));
+  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target.join(' ')} (${n.any[0]?.message ?? n.all[0]?.message ?? ''})`).join('; ')}`)));
+  judge(`axe: ${name}`, found.length === 0, found.join(' | '));
+}
+/** What is touched is 44 px high, or its label is. */
+export async function fingers(name, page) {
+  const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea, a[href]:not(.skip)')].filter((e) => {
+    const { width: w, height: h } = (e.closest('label') ?? e).getBoundingClientRect();
+    return w > 0 && h > 0 && h < 43.5 && e.checkVisibility();
+  }).map((e) => `${e.tagName} “${(e.getAttribute('aria-label') || e.textContent || e.id).slice(0, 30)}” ${Math.round(e.getBoundingClientRect().height)}`));
+  judge(`${name}: what is touched is 44 px high`, small.length === 0, `${small.length}: ${small.slice(0, 8).join(', ')}`);
+}
+/** How many pixels wider than its window a page is. */
+export const sideways = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+
 export async function finish() {
   await browser?.close();
   for (const server of servers) { server.closeAllConnections(); server.close(); }

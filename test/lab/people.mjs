@@ -1,27 +1,9 @@
 /* For everyone: axe-core finds nothing in either theme, wide or narrow, with all pictures open; everything by keyboard, with the focus always to be
  * seen; phones; those who asked for less motion.
  */
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-import { attempt, built, clean, editorOf, fields, figureOf, finish, judge, open, root, same, settled, shareOf, singleFile, told } from './help.mjs';
+import { attempt, audit, clean, editorOf, fields, figureOf, fingers, finish, judge, open, same, settled, shareOf, sideways, singleFile, told } from './help.mjs';
 
-const axe = readFileSync(join(root, 'lab/node_modules/axe-core/axe.min.js'), 'utf8');
 const all = '&o=time,error,drift,phase,convergence,precision,stability';
-
-async function audit(name, page) {
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }).then(({ violations }) => violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => `${n.target.join(' ')} (${n.any[0]?.message ?? n.all[0]?.message ?? ''})`).join('; ')}`)));
-  judge(`axe: ${name}`, found.length === 0, found.join(' | '));
-}
-/** What is touched is 44 px high, or its label is. */
-async function fingers(name, page) {
-  const small = await page.evaluate(() => [...document.querySelectorAll('button, select, input:not([type=range]), summary, textarea, a[href]:not(.skip)')].filter((e) => {
-    const { width: w, height: h } = (e.closest('label') ?? e).getBoundingClientRect();
-    return w > 0 && h > 0 && h < 43.5 && e.checkVisibility();
-  }).map((e) => `${e.tagName} “${(e.getAttribute('aria-label') || e.textContent || e.id).slice(0, 30)}” ${Math.round(e.getBoundingClientRect().height)}`));
-  judge(`${name}: what is touched is 44 px high`, small.length === 0, `${small.length}: ${small.slice(0, 8).join(', ')}`);
-}
-const sideways = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 
 for (const width of [1280, 320]) {
   await attempt(`${width} px`, async () => {
@@ -79,120 +61,6 @@ for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]
     await clean(`${width} px`, page);
   });
 }
-
-// --- fingers, wherever one is -----------------------------------------------------------------------------------------------------------
-for (const [width, height] of [[390, 844], [844, 390], [820, 1180]]) {
-  await attempt(`fingers, ${width} px`, async () => {
-    const page = await open(`${singleFile}#v=1&p=thrown-ball`, { width, height, touch: true, calm: true }), name = (where) => `${width} × ${height}, ${where}`;
-    await fingers(name('the stage'), page);
-    if (await page.locator('#menu-button').isVisible()) {
-      await page.locator('#menu-button').tap();
-      await fingers(name('the menu'), page);
-      await page.keyboard.press('Escape');
-    }
-    for (const [button, sheet] of [['All values', '#all-values'], [/ more$/, '#all-methods']]) {
-      await page.getByRole('button', { name: button }).first().tap();
-      await page.locator(sheet).waitFor();
-      await fingers(name(`the sheet ${sheet}`), page);
-      await page.keyboard.press('Escape');
-    }
-    for (const part of ['predict', 'try.1', 'see.1', 'why.1']) {
-      await page.goto('about:blank');
-      await page.goto(`${singleFile}#v=1&p=thrown-ball&l=too-high-too-low.${part}`);
-      await settled(page);
-      judge(`${name(part)}: the lesson is there`, await page.locator('.lesson [aria-current=step]').isVisible());
-      await fingers(name(`lesson, ${part}`), page);
-    }
-    await page.goto('about:blank');
-    await page.goto(`${singleFile}#v=1&p=thrown-ball&l=gallery`);
-    await settled(page);
-    await fingers(name('the gallery'), page);
-    await clean(`fingers, ${width} px`, page);
-  });
-}
-
-// --- 400 %: a window of 1280 × 1024 has room for 320 × 256 of the page's pixels ---------------------------------------------------------
-await attempt('400 %', async () => {
-  const page = await open(singleFile, { width: 320, height: 256, calm: true });
-  const seen = () => page.locator('#stage-picture').evaluate((p) => { const { top, bottom, width } = p.getBoundingClientRect(), r = { top: Math.max(0, top), bottom: Math.min(innerHeight, bottom) }; return [(r.bottom - r.top) / innerHeight, width, document.elementFromPoint(160, (r.top + r.bottom) / 2)?.closest('#stage-picture') !== null]; });
-  const at = async (where) => { const [part, width, free] = await seen(); judge(`400 %, ${where}: the picture has 60 % of the height`, part >= 0.6 && width === 320 && free, `${part}, ${width} px, ${free ? '' : 'covered'}`); };
-  await at('at first');
-  same('400 %: nothing scrolls sideways', await sideways(page), 0);
-  for (const what of ['.chips .chip', '#step-slider', '.transport-play', '.ask-button', '.pill']) {
-    await page.locator(what).first().focus();
-    await at(`at ${what}`);
-    const [top, bottom, covered] = await page.locator(what).first().evaluate((e) => { const r = e.getBoundingClientRect(), over = document.elementFromPoint(r.left + r.width / 2, r.top + r.height / 2); return [r.top, r.bottom, !e.contains(over) && !over?.contains(e)]; });
-    judge(`400 %: ${what} is seen below it`, top >= 0.6 * 256 && bottom <= 257 && !covered, [top, bottom, covered].join());
-  }
-  await page.locator('.transport-play').click();
-  await page.waitForFunction(() => document.querySelector('.transport-play').getAttribute('aria-label').startsWith('Play') && document.querySelector('.transport-now').textContent === '2.00');
-  await at('after Play');
-  await page.locator('.ask-button').click();
-  await page.locator('.choice').first().waitFor();
-  await page.locator('.choice input').first().focus();
-  await at('in a lesson');
-  await audit('400 %, a lesson', page);
-  await clean('400 %', page);
-});
-
-// --- colours that the system forces ---------------------------------------------------------------------------------------------------------
-/** How far the colours within a box are from its first pixel's, at most. */
-async function contrast(page, selector) {
-  const picture = `data:image/png;base64,${(await page.locator(selector).first().screenshot()).toString('base64')}`;
-  const sheet = await page.context().newPage();
-  const found = await sheet.evaluate(async (source) => {
-    const image = new Image();
-    image.src = source;
-    await image.decode();
-    const { data } = (() => { const canvas = document.createElement('canvas'), pen = canvas.getContext('2d'); [canvas.width, canvas.height] = [image.width, image.height]; pen.drawImage(image, 0, 0); return pen.getImageData(0, 0, image.width, image.height); })();
-    let most = 0;
-    for (let i = 0; i < data.length; i += 4) most = Math.max(most, Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]));
-    return most;
-  }, picture);
-  await sheet.close();
-  return found;
-}
-for (const theme of ['light', 'dark']) {
-  await attempt(`forced colours, ${theme}`, async () => {
-    const page = await open(`${singleFile}#v=1&p=thrown-ball`, { theme, calm: true, height: 800, forced: true });
-    for (const what of ['.transport-play', '.transport-line', '.transport-ticks', '.dial.step .dial-track', '.stops span:not(.on)', '.switch-track', '.chips .chip', '.chips .chip:not([aria-pressed=true])', '.transport-select', '#nav', '#scene-title', '.ask-button', '.pill', '#share button', '#theme button']) {
-      const most = await contrast(page, what);
-      judge(`forced colours, ${theme}: ${what} is seen`, most > 300, most);
-    }
-    const ground = await page.evaluate(() => { const probe = document.createElement('p'); probe.style.color = 'Canvas'; document.body.append(probe); const { color } = getComputedStyle(probe); probe.remove(); return color; });
-    same(`forced colours, ${theme}: the picture’s own ground is the system’s`, await page.evaluate(() => { const probe = document.createElement('p'); probe.style.color = 'var(--surface)'; probe.style.forcedColorAdjust = 'none'; document.body.append(probe); const { color } = getComputedStyle(probe); probe.remove(); return color; }), ground);
-    await page.screenshot({ path: join(built, 'shots', `forced-${theme}.png`) });
-    await page.getByRole('button', { name: 'Why do the two Eulers miss?' }).click();
-    await page.locator('.choice').first().click();
-    for (const what of ['.parts', '.choice', '.lesson .primary']) judge(`forced colours, ${theme}: ${what} is seen`, await contrast(page, what) > 300);
-    await page.screenshot({ path: join(built, 'shots', `forced-${theme}-lesson.png`) });
-    await page.locator('#nav button', { hasText: 'Gallery' }).click();
-    await page.locator('#gallery a.motion .thumb').first().waitFor();
-    judge(`forced colours, ${theme}: a card’s picture is seen`, await contrast(page, '#gallery .thumb') > 300);
-    await page.screenshot({ path: join(built, 'shots', `forced-${theme}-gallery.png`) });
-    await clean(`forced colours, ${theme}`, page);
-  });
-}
-
-// --- paper -----------------------------------------------------------------------------------------------------------------------------------
-await attempt('paper', async () => {
-  const page = await open(`${singleFile}#v=1&p=thrown-ball`, { calm: true, height: 800 });
-  const printed = () => page.evaluate(() => [...document.querySelectorAll('h1, h2, p, button, canvas, math, table, select, input, summary, textarea, figure')].filter((e) => e.checkVisibility() && !e.closest('.unseen') && e.getBoundingClientRect().width > 2)
-    .map((e) => e.id || e.className || e.localName));
-  const wanted = ['scene-title', 'scene-words', 'pill', 'math', 'stage-figure', 'stage-still', 'stage-moving', 'printed'];
-  await page.emulateMedia({ media: 'print' });
-  same('paper: title, equation, picture, numbers, and nothing else', (await printed()).filter((name) => !/^motion-title$/.test(name)), wanted);
-  same('paper: the numbers', await page.locator('.printed tr').evaluateAll((rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent).join(' | ')).slice(0, 3)),
-    ['Method | Step (s) | Steps | Distance (m)', 'explicit Euler | 0.2 | 10 | 1.962', 'symplectic Euler | 0.2 | 10 | 1.962']);
-  await page.emulateMedia({ media: null });
-  const pdf = await page.pdf({ format: 'A4' });
-  same('paper: one page', (pdf.toString('latin1').match(/\/Type\s*\/Page\b/g) ?? []).length, 1);
-  await page.getByRole('button', { name: 'Why do the two Eulers miss?' }).click();
-  await page.locator('.choice').first().waitFor();
-  await page.emulateMedia({ media: 'print' });
-  judge('paper, in a lesson: the picture and its equation', (await printed()).join().includes('pill,math,stage-figure') && !await page.locator('.choice').first().isVisible(), (await printed()).join());
-  await clean('paper', page);
-});
 
 // --- the keyboard -----------------------------------------------------------------------------------------------------------------------
 await attempt('the keyboard', async () => {
