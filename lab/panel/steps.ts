@@ -56,7 +56,7 @@ export function stepsPanel(store: Store): Panel {
   select.addEventListener('change', () => { chosen = select.value; choosePlane(); refresh(); });
   const view = document.createElement('label');
   view.append('view ', select);
-  const first = button('⇤', 'First event of the step', () => goTo(0)), last = button('⇥', 'Last event of the step', () => goTo(lastEvent()));
+  const first = button('⇤', 'First part of the step', () => goTo(0)), last = button('⇥', 'Last part of the step', () => goTo(lastEvent()));
 
   const shown = figure({
     id: 'steps', title: 'Step by step', aspect: 0.56, extra: width => keyHeight(width) + Math.max(0, Math.min(0.3 * width, 480 - width)),
@@ -68,7 +68,7 @@ export function stepsPanel(store: Store): Panel {
     summary, table,
     controls: [
       group('Step', button('‹ step', 'One step back', () => move(-1)), stepName, button('step ›', 'One step forward', () => move(1))),
-      group('Event', first, button('‹ event', 'The event before', () => goBy(-1)), button('event ›', 'The next event', () => goBy(1)), last),
+      group('Part', first, button('‹ part', 'The part before', () => goBy(-1)), button('part ›', 'The next part', () => goBy(1)), last),
       view,
     ],
   });
@@ -252,14 +252,14 @@ export function stepsPanel(store: Store): Panel {
     const start = trace.entries[0]!, end = trace.entries[lastEvent()]!, k = event < 0 ? lastEvent() : event;
     const what = plane ? tell(trace, k, plane.indices, byVelocity()) : null;
     return `Step ${trace.index + 1} of ${trace.total} by ${scene.looks[0]?.label ?? trace.method}, from t = ${brief(start.time, 6)} to ${brief(end.time, 6)}. `
-      + `Event ${k + 1} of ${trace.entries.length}: ${what?.title ?? ''}.${what?.note ? ` ${what.note}` : ''} Arrows show h v and h² a: what a velocity and an acceleration do in one step.`;
+      + `Part ${k + 1} of ${trace.entries.length}: ${what?.title ?? ''}.${what?.note ? ` ${what.note}` : ''} Arrows show h v and h² a: what a velocity and an acceleration do in one step.`;
   }
 
   function table(): Table {
     if (!trace) return { head: [], rows: [] };
     const { names } = trace;
     return {
-      head: ['event', 'what', 't', ...names.x, ...names.v, ...names.v.map(n => n.includes("'") ? n.replace("'", "''") : `${n}'`)],
+      head: ['part', 'what', 't', ...names.x, ...names.v, ...names.v.map(n => n.includes("'") ? n.replace("'", "''") : `${n}'`)],
       rows: trace.entries.map((e, k) => [k + 1, e.kind, e.time, ...e.x, ...e.v, ...(e.a ?? names.v.map(() => NaN))]),
       note: 'Positions, velocities and accelerations after each event.',
     };

@@ -11,7 +11,7 @@ export function eventList(choose: (event: number) => void): EventList {
   closing.className = 'steps-closing';
   list.tabIndex = 0;
   list.setAttribute('role', 'list');
-  list.setAttribute('aria-label', 'Events of this step');
+  list.setAttribute('aria-label', 'Parts of this step');
   element.append(list, closing);
   const line = (name: string, text: string): HTMLSpanElement => {
     const s = document.createElement('span');
