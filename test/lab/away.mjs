@@ -258,7 +258,12 @@ await attempt('the lecture’s keys', async () => {
   await page.mouse.move(ring.x + ring.width / 2 - 12, ring.y + ring.height / 2 + 10, { steps: 4 });
   await page.mouse.up();
   await settled(page);
-  const moved = await page.locator('.stage-aim:not(.stage-ring)').boundingBox();
+  // On a busy machine the last picture may come after the core is quiet.
+  let moved = ring;
+  for (let i = 0; i < 30 && Math.abs(moved.x - ring.x + 12) >= 4; i++) {
+    await page.waitForTimeout(100);
+    moved = await page.locator('.stage-aim:not(.stage-ring)').boundingBox();
+  }
   judge('the arrow follows the pointer', Math.abs(moved.x - ring.x + 12) < 4 && Math.abs(moved.y - ring.y - 10) < 4, JSON.stringify([ring, moved]));
   await clean('the lecture’s keys', page);
 
@@ -270,7 +275,7 @@ await attempt('the lecture’s keys', async () => {
   same('Page Down and Page Up go through the parts', told, ['Try', 'See', 'Why', 'See', 'Try', 'Predict', 'Predict']);
   for (let i = 0; i < 4; i++) { await lesson.keyboard.press('PageDown'); await lesson.waitForTimeout(100); }
   await settled(lesson);
-  same('after the last the next lesson', [await part(), (await lesson.locator('.lesson-head span').textContent())], ['Predict', 'Lesson 3 of 7']);
+  same('after the last the next lesson', [await part(), (await lesson.locator('.lesson-head > :first-child').textContent())], ['Predict', 'Lesson 3 of 7']);
   await lesson.keyboard.press('Escape');
   same('Escape leaves', await lecturing(lesson), false);
   await clean('a lecture without the whole screen', lesson);

@@ -122,6 +122,7 @@ test('a table is saved with every digit, and text is not a formula', () => {
 test('every method looks like itself alone, those of tomorrow too', () => {
   globalThis.document = { documentElement: { dataset: { theme: 'light' } } };
   globalThis.getComputedStyle = () => ({ getPropertyValue: () => '' });
+  globalThis.matchMedia = () => ({ matches: false });
   const today = JSON.parse(execFileSync(process.env.MOTUS ?? fileURLToPath(new URL('../../build/motus', import.meta.url)), ['methods', '--json'])).methods;
   const tomorrow = Array.from({ length: 40 }, (_, k) => ({ name: `new-${k}`, title: `New ${k}`, aliases: [`n${k}`] }));
   const catalogue = [...today, ...tomorrow], seen = new Map();

@@ -75,6 +75,8 @@ async function way(browser) {
   });
   await attempt('a lesson', async () => {
     await page.goto(`${singleFile}#v=1&p=thrown-ball`);
+    // The question that the build wrote opens the lesson once the script has put its own in its place.
+    await page.until(() => document.querySelector('.transport-play') !== null && document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false');
     await page.click('.ask-button');
     await page.click('.choice', 'On the green ball');
     await says(page, '#stage-figure figcaption', '^Path');

@@ -85,6 +85,7 @@ await attempt('motus lab', async () => {
   await (await editorOf(page)).fill(`${await page.locator('#model-text').inputValue()}# mine\n`);
   await settled(page);
   await fields(page);
+  await page.waitForFunction(() => Object.values(localStorage).some((kept) => kept.includes('mine')));
   await page.goto('about:blank');
   await page.goto(pathToFileURL(out).href);
   await settled(page);
