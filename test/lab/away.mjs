@@ -114,13 +114,19 @@ async function played(bytes) {
     canvas.height = video.videoHeight;
     const pixels = () => { context.drawImage(video, 0, 0); return context.getImageData(0, 0, canvas.width, canvas.height).data; };
     const first = pixels().slice();
-    // What was recorded as it went says how long it is only at its end.
-    video.currentTime = 1e6;
-    await once('seeked');
-    const last = pixels();
-    let differ = 0;
-    for (let i = 0; i < last.length; i += 4) if (Math.abs(last[i] - first[i]) + Math.abs(last[i + 1] - first[i + 1]) + Math.abs(last[i + 2] - first[i + 2]) > 90) differ++;
-    return { duration: video.duration, width: video.videoWidth, height: video.videoHeight, differ, ground: [...first.slice(0, 3)] };
+    // Played through, since what was recorded as it went can hardly be wound: the largest difference to its beginning, and how long it is.
+    let differ = 0, over = false;
+    video.addEventListener('ended', () => { over = true; });
+    setTimeout(() => { over = true; }, 12000);
+    await video.play();
+    while (!over) {
+      await Promise.race([new Promise((done) => video.requestVideoFrameCallback(done)), new Promise((done) => setTimeout(done, 300))]);
+      const now = pixels();
+      let count = 0;
+      for (let i = 0; i < now.length; i += 4) if (Math.abs(now[i] - first[i]) + Math.abs(now[i + 1] - first[i + 1]) + Math.abs(now[i + 2] - first[i + 2]) > 90) count++;
+      differ = Math.max(differ, count);
+    }
+    return { duration: video.currentTime, width: video.videoWidth, height: video.videoHeight, differ, ground: [...first.slice(0, 3)] };
   }, bytes.toString('base64'));
   await player.context().close();
   return found;
