@@ -22,25 +22,16 @@
 
 typedef enum rounding { NEAR, DOWN } rounding;
 
-static double whole(double digits, int power)
-{
-    char text[48];
-    double value = NAN;
-    const int length = snprintf(text, sizeof text, "%.0fe%d", digits, power);
-    decimal_read(text, (size_t)length, &value);
-    return value;
-}
-
 /* x > 0 with so many digits: the double of that decimal. */
 static double rounded(double x, int count, rounding way)
 {
     int exponent;
-    const double least = whole(1, count - 1), unit = (frexp(x, &exponent), 0.30103 * exponent);
+    const double least = decimal_scaled(1, count - 1), unit = (frexp(x, &exponent), 0.30103 * exponent);
     if (!(x > 1e-290 && x < 1e290)) return x;
     int power = (int)unit - count - 1; /* below, as the cast cuts towards 0 */
-    while (10 * least * whole(1, power) <= x) power++;
-    const double digits = x / whole(1, power);
-    return whole(way == DOWN ? floor(digits + 1e-9) : floor(digits + 0.5), power);
+    while (10 * least * decimal_scaled(1, power) <= x) power++;
+    const double digits = x / decimal_scaled(1, power);
+    return decimal_scaled(way == DOWN ? floor(digits + 1e-9) : floor(digits + 0.5), power);
 }
 
 /* A proposal: numbers before they are rounded. */

@@ -13,7 +13,6 @@
 #include "api/rate.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define TWO_PI 6.283185307179586
@@ -257,15 +256,6 @@ static motus_status measure(scales *s, double duration, motus_error *err)
 
 /* ---- round numbers ---- */
 
-static double round_number(int digit, int power)
-{
-    char text[16];
-    double value = NAN;
-    const int length = snprintf(text, sizeof text, "%de%d", digit, power);
-    decimal_read(text, (size_t)length, &value);
-    return value;
-}
-
 /* The largest of 1, 2 and 5 times a power of ten that is not above x. */
 static double round_down(double x)
 {
@@ -275,7 +265,7 @@ static double round_down(double x)
     frexp(x, &exponent);
     for (int power = (int)(0.30103 * exponent) + 1;; power--)
         for (int i = 0; i < 3; i++)
-            if (round_number(digits[i], power) <= x) return round_number(digits[i], power);
+            if (decimal_scaled(digits[i], power) <= x) return decimal_scaled(digits[i], power);
 }
 
 static double round_up(double x)

@@ -28,5 +28,7 @@ size_t decimal_write_plain(double, char out[DECIMAL_MAX]);
 size_t decimal_read(const char *s, size_t length, double *);
 /* The same of digits alone; 0 as well where the number is too large. */
 size_t decimal_read_whole(const char *s, size_t length, uint64_t *);
+/* The nearest double to digits * 10^power; digits: a whole number of at most 15 digits. */
+double decimal_scaled(double digits, int power);
 
 #endif

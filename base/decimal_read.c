@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 /* A tie between two doubles has at most 767 significant digits; 10^-330 rounds to 0, and 10^310 is infinite. */
@@ -146,4 +147,13 @@ size_t decimal_read_whole(const char *s, size_t length, uint64_t *value)
         *value = 10 * *value + last;
     }
     return at;
+}
+
+double decimal_scaled(double digits, int power)
+{
+    char text[48];
+    double value = NAN;
+    const int length = snprintf(text, sizeof text, "%.0fe%d", digits, power);
+    decimal_read(text, (size_t)length, &value);
+    return value;
 }

@@ -121,7 +121,7 @@ async function start(): Promise<void> {
     card.replaceChildren(methodCard(method));
   }
 
-  /** Opens and closes panels as the view says; those that stay are not touched. */
+  /** Opens and closes panels as the view says; what they show is below()'s. */
   function arrange(): void {
     if (!steps) {
       steps = stepsPanel(store);
@@ -140,10 +140,7 @@ async function start(): Promise<void> {
       const panel = made.get(id) ?? make(store);
       made.set(id, panel);
       if (holder.children[k] !== panel.element) holder.insertBefore(panel.element, holder.children[k] ?? null);
-      if (open.has(panel)) return;
       open.add(panel);
-      if (store.scene) panel.show(store.scene);
-      panel.at(clock.time());
     });
   }
   /** The motion first, everything below it when the page has time; at once where one looks closer. */

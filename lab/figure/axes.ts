@@ -20,8 +20,8 @@ export interface AxesOptions {
   readonly margin?: number;
 }
 
-/** The smallest and the largest finite number of all; [0, 1] where there is none. */
-export function extent(columns: Iterable<ArrayLike<number>>): [number, number] {
+/** The smallest and the largest finite number of all; [Infinity, -Infinity] where there is none. */
+export function rangeOf(columns: Iterable<ArrayLike<number>>): [number, number] {
   let low = Infinity, high = -Infinity;
   for (const column of columns) {
     for (let i = 0; i < column.length; i++) {
@@ -31,7 +31,12 @@ export function extent(columns: Iterable<ArrayLike<number>>): [number, number] {
       if (v > high) high = v;
     }
   }
-  return low <= high ? [low, high] : [0, 1];
+  return [low, high];
+}
+/** The same; [0, 1] where there is none. */
+export function extent(columns: Iterable<ArrayLike<number>>): [number, number] {
+  const range = rangeOf(columns);
+  return range[0] <= range[1] ? range : [0, 1];
 }
 
 /** How far above the frame the name of what goes up stands; another text may stand there on the right. */

@@ -27,6 +27,9 @@ export function readable(value: number, digits = 5): string {
   return `${minus(mantissa.replace(/\.?0+$/, ''))}×10${raised(power)}`;
 }
 
+/** A count, thousands apart: 20 000. */
+export const grouped = (n: number): string => n.toLocaleString('en').replace(/,/g, '\u2009');
+
 /** A name of a model with true primes, for the eye: r'.x as r′.x. */
 export function primed(name: string): string {
   return name.replace(/''/g, '″').replace(/'/g, '′');

@@ -2,6 +2,7 @@
  *
  * Invariant: what is said of an example holds for its own text only; of a changed text the words are its own comment's.
  */
+import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
 import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
@@ -15,7 +16,7 @@ import { math, typesetView } from './typeset';
 
 const numbers = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven', 'twelve'];
 /** "ten", up to twelve in words. */
-export const counted = (n: number): string => numbers[n] ?? n.toLocaleString('en').replace(/,/g, '\u2009');
+export const counted = (n: number): string => numbers[n] ?? grouped(n);
 
 export interface Words { readonly element: HTMLElement; openEditor(open: boolean): void; readonly editing: () => boolean }
 

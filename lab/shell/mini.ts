@@ -5,7 +5,9 @@
 import type { Scene } from '../scene';
 import { exampleOf } from '../data';
 import { button, el, place, say } from '../dom';
+import { extent } from '../figure/axes';
 import { ink } from '../figure/ink';
+import { grouped } from '../figure/number';
 import { rowAt } from '../figure/track';
 import { short } from './number';
 import { titleOf } from './presets';
@@ -41,8 +43,7 @@ export function mini(clock: () => Transport): Mini {
     if (!of || !places.length) { xy = new Float64Array(0); return; }
     const flat = description.variables.some((v) => v.order === 2 && v.components >= 2);
     const x = flat && places.length > 1 ? of.columns[places[0]!]! : of.times, y = of.columns[places[flat && places.length > 1 ? 1 : 0]!]!;
-    const box = [Infinity, -Infinity, Infinity, -Infinity] as [number, number, number, number];
-    for (let i = 0; i < x.length; i++) { box[0] = Math.min(box[0], x[i]!); box[1] = Math.max(box[1], x[i]!); box[2] = Math.min(box[2], y[i]!); box[3] = Math.max(box[3], y[i]!); }
+    const box = [...extent([x]), ...extent([y])] as const;
     const w = WIDTH - 2 * MARGIN, h = HEIGHT - 2 * MARGIN, sx = w / (box[1] - box[0] || 1), sy = h / (box[3] - box[2] || 1);
     const [kx, ky] = flat ? [Math.min(sx, sy), Math.min(sx, sy)] : [sx, sy];
     xy = new Float64Array(2 * x.length);
@@ -75,7 +76,7 @@ export function mini(clock: () => Transport): Mini {
       prepare();
       say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || 'Your own equation');
       const track = next.solution.tracks[0];
-      say(told, track ? `h = ${short(track.step, 4)} · ${track.total.toLocaleString('en').replace(/,/g, '\u2009')} steps` : '');
+      say(told, track ? `h = ${short(track.step, 4)} · ${grouped(track.total)} steps` : '');
       draw();
     },
     at(now) { if (now !== time) { time = now; draw(); } },

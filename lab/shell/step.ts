@@ -4,6 +4,7 @@
  * model, not to the state: they do not move under the reader's hand.
  */
 import { exampleOf } from '../data';
+import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
@@ -62,7 +63,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     const { units } = stagingOf(exampleOf(state));
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
-    say(steps, track && !wrong ? `\u2009·\u2009${track.total.toLocaleString('en').replace(/,/g, '\u2009')} ${track.total === 1 ? 'step' : 'steps'}` : '');
+    say(steps, track && !wrong ? `\u2009·\u2009${grouped(track.total)} ${track.total === 1 ? 'step' : 'steps'}` : '');
     if (h === null || !halves.length) return;
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
     slider.setAttribute('aria-valuetext', `${short(h, 4)}${units ? ` ${units.t}` : ''}${track ? `, ${track.total} steps` : ''}`);

@@ -3,6 +3,7 @@
  * Invariant: bounds are finite and have a size. Without an exact motion the calmest method stands for it; of what is not finite, or runs away, the
  * middle ninety per cent count.
  */
+import { rangeOf } from '../figure/axes';
 import type { Motion, Rows } from './motion';
 
 export type Range = readonly [number, number];
@@ -11,18 +12,6 @@ export type Bounds = readonly Range[];
 
 const ROOM = 0.09, KEPT = 0.4, TAIL = 0.05;
 
-function rangeOf(columns: readonly ArrayLike<number>[]): Range {
-  let low = Infinity, high = -Infinity;
-  for (const column of columns) {
-    for (let i = 0; i < column.length; i++) {
-      const value = column[i]!;
-      if (value - value !== 0) continue;
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
-  return [low, high];
-}
 /** The middle of what is finite. */
 function middleOf(columns: readonly ArrayLike<number>[]): Range {
   const all = columns.flatMap((column) => Array.from(column).filter(Number.isFinite)).sort((a, b) => a - b);

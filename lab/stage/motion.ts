@@ -1,5 +1,5 @@
 /* What is drawn: the motion of every method and the exact one, of one subject. */
-import type { Solution, Track, Truth } from '../protocol';
+import type { Track, Truth } from '../protocol';
 import type { Look, Scene } from '../scene';
 import type { Subject } from './subject';
 
@@ -7,12 +7,11 @@ export interface Line { readonly track: Track; readonly look: Look; /** Of solut
 export interface Motion { readonly scene: Scene; readonly subject: Subject; readonly lines: readonly Line[]; readonly truth: Truth | null }
 export interface Rows { readonly times: Float64Array; readonly columns: readonly Float64Array[] }
 
-const seen = (truth: Truth, subject: Subject, solution: Solution): boolean => truth.times.length > 1
-  && subject.bodies.every((b) => b.columns.every((c) => (truth.columns[c]?.length ?? 0) > 0)) && solution.columns.length > 0;
+const seen = (truth: Truth, subject: Subject): boolean => truth.times.length > 1 && subject.bodies.every((b) => b.columns.every((c) => (truth.columns[c]?.length ?? 0) > 0));
 
 export function motionOf(scene: Scene, subject: Subject): Motion {
   const lines: Line[] = [];
   scene.solution.tracks.forEach((track, index) => { const look = scene.looks[index]; if (look && track.times.length > 0) lines.push({ track, look, index }); });
   const { truth } = scene.solution;
-  return { scene, subject, lines, truth: truth && scene.state.view.exact && seen(truth, subject, scene.solution) ? truth : null };
+  return { scene, subject, lines, truth: truth && scene.state.view.exact && seen(truth, subject) ? truth : null };
 }

@@ -8,7 +8,7 @@ import { brief } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
 import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
-import { curvesOf, pointAt, type Curve, type Curves, type Exit, type Point } from './curves';
+import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
 import { motionOf, type Line, type Motion } from './motion';
 import { drawNames, missText, type Named } from './names';
@@ -84,7 +84,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   // The ground of a throw runs on below the words; nothing else does.
   const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
-  const common = { solution, subject, letters };
+  const common = { solution, letters };
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };
@@ -127,7 +127,6 @@ export function pictureOf(setting: Setting): Picture {
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
   const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
   const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
-  const ghosts = (of: Curves): readonly Curve[] => of.methods.flat();
   const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
 
   /** The points of a line where all methods and the exact motion are at a step, lowest and highest: a rung of the ladder. */
@@ -242,7 +241,7 @@ export function pictureOf(setting: Setting): Picture {
     for (const { plot, curves: own } of drawn) {
       clipped(pen, plot, () => {
         for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1.5, alpha: 0.4 }, 2 * path.count);
-        for (const c of ghosts(own)) if (!nowhere.has(c.line.index)) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.5, alpha: 0.4 }, 2 * c.path.count);
+        own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.5, alpha: 0.4 }, 2 * c.path.count); });
       });
     }
   }

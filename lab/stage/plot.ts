@@ -9,7 +9,7 @@ import type { Ink, Pen, Scale, Span } from '../figure/types';
 import type { Bounds, Range } from './bounds';
 import type { Rows } from './motion';
 import type { Box } from './place';
-import { velocityColumn, type Body, type Subject } from './subject';
+import { velocityColumn, type Body } from './subject';
 import type { Solution } from '../protocol';
 
 /** Pixels of a row. */
@@ -38,9 +38,9 @@ function fitted(box: Box, x: Range, y: Range, ground: boolean): Box {
   return { left, top, right: left + w, bottom: top + h };
 }
 
-export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly subject: Subject; readonly letters: number }
+export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly letters: number }
 
-export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, subject, letters }: Flat): Plot {
+export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, letters }: Flat): Plot {
   const x = bounds[0]!, y = bounds[1]!, frame = equal ? fitted(box, x, y, style === 'ground') : box;
   const size = 12 * letters, small = frame.right - frame.left < 480, count = Math.max(2, Math.round((frame.bottom - frame.top) / ((small ? 56 : style === 'ground' ? 118 : 64) * letters)));
   const up = scaleOf({ min: y[0], max: y[1], label: '' }, frame.bottom, frame.top, count);
@@ -107,7 +107,6 @@ export function flatPlot({ bounds, box, equal, style, axes: [across, upward], so
     },
     draw(pen, ink) {
       if (style === 'ground') ground(pen, ink); else if (style === 'time') time(pen, ink); else plane(pen, ink);
-      void subject;
     },
   };
 }

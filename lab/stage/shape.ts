@@ -18,7 +18,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
   const first = Math.min(...number), lastNumber = Math.max(...number), y = bounds[bounds.length - 1]!;
   const { frame, names } = place, plot = flatPlot({
     bounds: [[first - 1, lastNumber + 1], y], box: { left: frame.left + (names ? 52 : 18), top: frame.top + 24, right: names ? place.width - 210 * place.scale : frame.right + 40, bottom: frame.bottom },
-    equal: false, style: 'time', axes: [{ name: 'i', unit: '' }, { name: subject.axes[1] ?? '', unit: '' }], solution: scene.solution, subject, letters: place.scale,
+    equal: false, style: 'time', axes: [{ name: 'i', unit: '' }, { name: subject.axes[1] ?? '', unit: '' }], solution: scene.solution, letters: place.scale,
   });
   const xy = new Float64Array(2 * cells.length);
   function shape(of: Rows, time: number): Float64Array {
