@@ -3,6 +3,7 @@
  * Invariant: nothing is drawn while it cannot be seen, and no layer more than once a frame; PNG and SVG are made by the functions that draw the screen.
  */
 import { button, el as element } from '../dom';
+import { words } from '../words';
 import { csv, downloadText, fileName, savePicture } from './export';
 import { ink } from './ink';
 import { canvasPen } from './pen';
@@ -22,10 +23,10 @@ export function figure(definition: FigureDefinition): Figure {
   const message = element('p', { class: 'figure-message', hidden: true });
   const picture = element('div', { class: 'figure-picture' }, canvas, overlay, message);
   const caption = element('figcaption', { class: 'figure-caption' });
-  const data = element('details', { class: 'figure-data' }, element('summary', {}, 'Data table'));
-  const save = element('div', { class: 'figure-save', role: 'group', 'aria-label': `Save “${definition.title}”` },
+  const data = element('details', { class: 'figure-data' }, element('summary', {}, words.frame.data));
+  const save = element('div', { class: 'figure-save', role: 'group', 'aria-label': words.frame.save(definition.title) },
     ...(['PNG', 'SVG', 'CSV'] as const).map((kind) =>
-      button(kind, () => write(kind), { class: 'figure-button', 'aria-label': `Save “${definition.title}” as ${kind}`, title: `Save as ${kind}` })));
+      button(kind, () => write(kind), { class: 'figure-button', 'aria-label': words.frame.saveTitleAs(definition.title, kind), title: words.frame.saveAs(kind) })));
   const root = element('figure', { class: 'figure', 'aria-labelledby': name },
     element('div', { class: 'figure-head' }, element('h3', { id: name, class: 'figure-title' }, definition.title), save),
     ...(definition.controls?.length ? [element('div', { class: 'figure-controls' }, ...definition.controls)] : []),

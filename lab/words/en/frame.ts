@@ -1,0 +1,7 @@
+/* The frame of a picture: lab/figure/figure.ts. */
+export const frame = {
+  data: 'Data table',
+  save: (title: string) => `Save “${title}”`,
+  saveAs: (kind: string) => `Save as ${kind}`,
+  saveTitleAs: (title: string, kind: string) => `Save “${title}” as ${kind}`,
+} as const;
