@@ -5,6 +5,7 @@
 import { minus } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen, Span } from '../figure/types';
+import { words } from '../words';
 import { spread } from './labels';
 import type { Place } from './place';
 
@@ -14,7 +15,7 @@ export interface Named {
   readonly colour: string; readonly line: string;
   readonly x: number; readonly y: number;
   /** How far from the exact motion, in words; '' where that is not known, or is nothing. */
-  readonly miss: { readonly size: number; readonly text: string; readonly words: string } | null;
+  readonly miss: { readonly size: number; readonly text: string; readonly how: string } | null;
   readonly exact: boolean;
 }
 
@@ -30,8 +31,8 @@ export function missText(value: number, frame: number): string {
 /** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. */
 function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean): Span[][] {
   const full = namesOf(label, ink), { miss } = label, first = label.names[0];
-  const words = first?.text.split(/[ ,]/)[0] ?? '', brief: Span[] = [{ text: words, colour: first?.colour, bold: true }], rest = full.slice(1);
-  const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.words ? ` ${miss.words}` : ''}`, size: size - 2 }] : [];
+  const start = first?.text.split(/[ ,]/)[0] ?? '', brief: Span[] = [{ text: start, colour: first?.colour, bold: true }], rest = full.slice(1);
+  const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.how ? ` ${miss.how}` : ''}`, size: size - 2 }] : [];
   return [...(number.length ? [[...full, ...number]] : []), full, ...(rest.length ? [[...brief, ...rest]] : []), brief];
 }
 function namesOf(label: Named, ink: Ink): Span[] {
@@ -39,8 +40,8 @@ function namesOf(label: Named, ink: Ink): Span[] {
   if (!first) return [];
   const head: Span = { text: first.text, colour: first.colour, bold: true };
   if (more === 1) return [head];
-  const equals: Span = { text: ' = ', colour: ink.quiet };
-  return more === 2 && second ? [head, equals, { text: second.text, colour: second.colour, bold: true }] : [head, equals, { text: `${more - 1} methods`, colour: ink.text, bold: true }];
+  const equals: Span = { text: words.stage.equals, colour: ink.quiet };
+  return more === 2 && second ? [head, equals, { text: second.text, colour: second.colour, bold: true }] : [head, equals, { text: words.stage.several(String(more - 1)), colour: ink.text, bold: true }];
 }
 
 const BRACKET = 58, GAP = 14, LEAST = 20;
@@ -71,11 +72,11 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     const x = bracketX - (sameSide ? way * 14 * scale : 0), down = label.y > exact!.y ? 1 : -1, tip = label.y - down * 2;
     pen.line([x, exact!.y + down * 5, x, tip], { colour: label.line, width: 1.75 });
     pen.line([x - 4.5, tip - down * 7, x, tip, x + 4.5, tip - down * 7], { colour: label.line, width: 1.75 });
-    const middle = (label.y + exact!.y) / 2, { text, words } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
-    if (place.names) pen.text(textX, middle, [{ text, bold: true }, { text: ` ${words}` }], { ...letters, size: 16 * scale, baseline: 'middle' });
+    const middle = (label.y + exact!.y) / 2, { text, how } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
+    if (place.names) pen.text(textX, middle, [{ text, bold: true }, { text: ` ${how}` }], { ...letters, size: 16 * scale, baseline: 'middle' });
     else if (Math.abs(label.y - exact!.y) > 30) {
       pen.text(textX, middle - 2, [{ text, bold: true }], { ...letters, size: 13 });
-      pen.text(textX, middle + 12, words, { ...letters, size: 12 });
+      pen.text(textX, middle + 12, how, { ...letters, size: 12 });
     } else pen.text(textX, label.y, [{ text, bold: true }], { ...letters, size: 13, baseline: down > 0 ? 'top' : 'bottom' });
   });
   sorted.forEach((label, k) => {
@@ -84,7 +85,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
       pen.line([label.x + way * (place.ball + 4), label.y, bracketX + way * 5, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
     }
     if (!place.names) {
-      if (label.exact && upright) pen.text(textX, y, [{ text: 'exact', bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
+      if (label.exact && upright) pen.text(textX, y, [{ text: words.stage.short, bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
       return;
     }
     if (!named) return;
