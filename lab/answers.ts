@@ -256,7 +256,7 @@ export class Answers {
   /** When the motion starts, and when it ends. */
   private span(ask: Solve): { start: number; until: number } {
     const settings = (this.description as Description).settings, until = ask.until ?? settings.until;
-    if (until === null) throw limit('the model names no end', 'an end');
+    if (until === null) throw limit(refused.noEnd, refused.end);
     return { start: settings.start, until };
   }
 

@@ -44,7 +44,7 @@ export function transport(options: TransportOptions): Transport {
 
   const element = make('div', 'transport');
   element.setAttribute('role', 'group');
-  element.setAttribute('aria-label', 'Time');
+  element.setAttribute('aria-label', words.dock.clock.group);
   const play = iconButton(PLAY, words.dock.clock.play, () => toggle());
   play.classList.add('transport-play');
 

@@ -5,7 +5,7 @@ export const dock = {
   all: 'All values', oneStep: 'One step', closer: 'Look closer',
   /** The clock; its keys are in brackets. */
   clock: {
-    play: 'Play (space)', pause: 'Pause (space)', time: 'Present time', speed: 'Speed of the animation',
+    group: 'Time', play: 'Play (space)', pause: 'Pause (space)', time: 'Present time', speed: 'Speed of the animation',
     back: 'One step back (left arrow)', forward: 'One step forward (right arrow)',
     value: (time: string, end: string) => `t = ${time} of ${end}`,
   },

@@ -1,4 +1,4 @@
-/* English. Each part of the page has its file. */
+/* English. Each part of the page has its file; page, refused, faults and html stand alone (../index.ts). */
 import { address } from './address';
 import { dock } from './dock';
 import { editor } from './editor';
@@ -9,7 +9,6 @@ import { headline } from './headline';
 import { lecture } from './lecture';
 import { lesson } from './lesson';
 import { methods } from './methods';
-import { page } from './page';
 import { scenes } from './scenes';
 import { share } from './share';
 import { stage } from './stage';
@@ -27,7 +26,6 @@ export const words = {
   lecture,
   lesson,
   methods,
-  page,
   scenes,
   share,
   stage,

@@ -5,6 +5,7 @@ export const refused = {
   nearer: 'a larger step, a nearer end, or the program motus',
   slow: (seconds: string) => `this takes longer than ${seconds} seconds`,
   column: (name: string) => `there is no column ${name}`, columns: (names: readonly string[]) => `columns: ${names.join(', ')}`,
+  noEnd: 'the model names no end', end: 'an end',
   points: (count: string) => `${count} points`, mostPoints: (most: string) => `at most ${most} points`,
   region: (width: string, height: string) => `a region of ${width} by ${height} points`,
   eigenvalues: (count: string) => `${count} eigenvalues are too many to look at`, most: (most: string) => `at most ${most}`,
