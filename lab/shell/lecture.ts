@@ -1,4 +1,4 @@
-/* The lecture: the whole screen, large letters (style.css, stage.ts), and a key for all that one does while speaking.
+/* The lecture: the whole screen, large letters (style.css), and a key for all that one does while speaking.
  *
  * Invariant: no key is taken from a text field, none that comes with Ctrl, Alt or ⌘; a browser that refuses the whole screen shows the same in its window.
  */
@@ -8,8 +8,6 @@ import { button, el, icon } from '../dom';
 import { words } from '../words';
 import { short } from './number';
 
-/** Letters and strokes, times what they are elsewhere; style.css has the same number. */
-export const ENLARGED = 1.6;
 export const lecturing = (): boolean => document.body.classList.contains('lecture');
 
 /** The button of the header; bar: what stands on the screen meanwhile. */
