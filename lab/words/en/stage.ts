@@ -14,7 +14,7 @@ export const stage = {
   },
   /** Ways to look at a motion. */
   views: {
-    space: 'space', plane: (across: string, up: string) => `${across} – ${up}`, time: (name: string) => `${name} over t`, shape: (name: string) => `shape of ${name}`,
+    space: 'in space', path: 'path', plane: (across: string, up: string) => `path in ${across}, ${up}`, time: (name: string) => `${name} against time`, shape: (name: string) => `shape of ${name}`,
     mass: (number: string) => `mass ${number}`,
   },
   velocity: 'velocity ',
@@ -31,7 +31,7 @@ export const stage = {
   summary: {
     nothing: 'Nothing to show yet.',
     shape: (name: string, from: string, to: string) => `Shape of the family ${name}, number by number, from t = ${from} to ${to}.`,
-    time: (name: string, from: string, to: string) => `${name} over time, from t = ${from} to ${to}.`,
+    time: (name: string, from: string, to: string) => `${name} against time, from t = ${from} to ${to}.`,
     space: (from: string, to: string) => `Path in space, from t = ${from} to ${to}.`,
     plane: (across: string, up: string, from: string, to: string) => `Path in the plane of ${across} and ${up}, from t = ${from} to ${to}.`,
     distance: (value: string, method: string) => `${value} for ${method}`,
