@@ -149,7 +149,8 @@ export async function fields(page) {
   }
   return found;
 }
-export const figureOf = (page, title) => page.locator('figure', { has: page.locator('h3', { hasText: new RegExp(`^${title}$`) }) });
+/** A figure by its short name; its heading is a question. */
+export const figureOf = (page, title) => page.locator(`figure[data-title="${title}"]`);
 /** Another example, as its address opens it; the gallery is tested by itself. */
 export async function example(page, name) {
   await page.evaluate((hash) => { if (location.hash === hash) history.replaceState(null, '', '#'); location.hash = hash; }, `#v=1&p=${name}`);
@@ -191,7 +192,7 @@ export async function summaryOf(page, title) {
   await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
   // What comes into sight may ask the core.
   await settled(page, 150);
-  return figureOf(page, title).locator('figcaption').textContent();
+  return figureOf(page, title).locator('.figure-summary').textContent();
 }
 
 /** CSV by RFC 4180, as rows of texts. */

@@ -36,7 +36,7 @@ for (const name of names) {
       const figure = figureOf(page, title);
       await figure.scrollIntoViewIfNeeded();
       await page.waitForTimeout(60);
-      const said = (await figure.locator('figcaption').textContent()) || (await figure.locator('.figure-message').textContent());
+      const said = (await figure.locator('.figure-summary').textContent()) || (await figure.locator('.figure-message').textContent());
       judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
     }
     for (const [theme, width, height] of [['dark', 375, 740], ['light', 1280, 900]]) {
