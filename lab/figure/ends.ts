@@ -7,7 +7,7 @@
 import type { Look, Marker } from '../scene';
 import { spread } from '../stage/labels';
 import { words } from '../words';
-import { textWidth } from './shapes';
+import { FAMILY, textWidth } from './shapes';
 import { valueAt } from './track';
 import type { Frame, Ink, Pen, Span } from './types';
 
@@ -37,7 +37,14 @@ const MOST = 0.34;
 
 /** "midpoint" of "midpoint (RK2)", as at the curves of the stage. */
 export const shortLabel = (label: string): string => label.replace(/\s*\(.*\)$/, '');
-const bold = (text: string, size: number): number => 1.06 * textWidth(text, size);
+let context: CanvasRenderingContext2D | null | undefined;
+/** How wide bold letters are: measured, where there is a page; else nearly. */
+function bold(text: string, size: number): number {
+  context ??= typeof document === 'undefined' ? null : document.createElement('canvas').getContext('2d');
+  if (!context) return 1.06 * textWidth(text, size);
+  context.font = `600 ${size}px ${FAMILY}`;
+  return context.measureText(text).width;
+}
 
 export function endsLayout(width: number, labels: readonly string[]): EndsLayout {
   if (!labels.length) return { above: 0, right: 0, narrow: width < NARROW };
@@ -80,9 +87,9 @@ export function endIn(frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>):
   return { at: { x: exit.x, y: exit.y }, exit, rows: out + 1 };
 }
 
-/** Heights of a curve against time at places that are the same for all of a frame. */
+/** Heights of a curve against time at places that are the same for all of a frame; between its edges, where one time may be beyond a last one by a digit. */
 export function heightsIn(frame: Frame, times: ArrayLike<number>, column: ArrayLike<number>): Float64Array {
-  return Float64Array.from({ length: PLACES }, (_, k) => frame.y(valueAt(times, column, frame.x.invert(frame.left + frame.width * k / (PLACES - 1)))));
+  return Float64Array.from({ length: PLACES }, (_, k) => frame.y(valueAt(times, column, frame.x.invert(frame.left + frame.width * (k + 0.5) / PLACES))));
 }
 export const endOf = (look: Look, found: { readonly at: End['at']; readonly exit: Exit | null }, heights?: ArrayLike<number>): End =>
   ({ label: look.label, colour: look.tone, marker: look.marker, at: found.at, exit: found.exit, ...(heights ? { heights } : {}) });
@@ -113,7 +120,7 @@ function linesOf({ members }: Group, ink: Ink, room: number): Span[][] {
   if (!second) return [[span(first!)]];
   const others: Span = members.length === 2 ? span(second) : { text: words.panel.others(members.length - 1), colour: ink.text, bold: true };
   const line = [span(first!), equals, others];
-  return 1.04 * textWidth(line, SIZE) <= room ? [line] : [[span(first!), { text: ' =', colour: ink.quiet }], [others]];
+  return bold(line.map((part) => part.text).join(''), SIZE) <= room ? [line] : [[span(first!), { text: ' =', colour: ink.quiet }], [others]];
 }
 
 const HEAD = 9;

@@ -33,10 +33,11 @@ export interface Pen {
 export type InkName = 'text' | 'quiet' | 'grid' | 'axis' | 'surface' | 'exact' | 'accent' | 'danger' | 'ghost' | 'figure';
 export type Ink = Readonly<Record<InkName, string>>;
 
-export interface Table { readonly head: readonly string[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
-
 /** A sentence; with names of a model in it as spans, which stand as an equation sets them. */
 export type Said = string | readonly Span[];
+/** head: as a file has it; shown: as a reader sees it, where that differs. */
+export interface Table { readonly head: readonly string[]; readonly shown?: readonly Said[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
+
 export interface FigureDefinition {
   /** title: the short name, for saved files, the data table, links to the figure. */
   readonly id: string; readonly title: string | (() => string);
@@ -71,9 +72,9 @@ export interface Figure {
 }
 
 export interface AxisDefinition {
-  readonly min: number; readonly max: number; readonly log?: boolean; readonly label: string;
-  /** Linear within this distance of zero, logarithmic beyond it on both sides. */
-  readonly linear?: number;
+  readonly min: number; readonly max: number; readonly log?: boolean; readonly label: Said;
+  /** Set behind the last number along, and behind the name of what goes up. */
+  readonly unit?: string;
 }
 /** A mapping from numbers to pixels. */
 export interface Scale { (value: number): number; invert(pixel: number): number; readonly ticks: readonly number[]; label(value: number): string }

@@ -13,7 +13,7 @@ import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
 import { ENLARGED, lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
-import { boundsFor, pictureOf, type Picture } from './picture';
+import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { motionOf } from './motion';
@@ -41,7 +41,10 @@ export interface Stage extends Panel {
   /** A ring on a rail at the end of the exact motion: somebody's guess of where a method's ball will be; open: it can be dragged. */
   guess(guess: Guess | null): void;
   onGuess(listener: (place: GuessPlace) => void): void;
+  sees(): Sees;
 }
+/** What the stage shows: which kind of view, and which other plot beside it. */
+export interface Sees { readonly kind: Subject['kind'] | null; readonly side: Side }
 export type GuessPlace = 'above' | 'on' | 'below';
 export interface Guess { readonly method: string; readonly place: GuessPlace | null; readonly open: boolean }
 
@@ -392,5 +395,6 @@ export function stage(store: Store, room: { column(): number }): Stage {
       if (picture) { redrawMoving(); attach(); }
     },
     onGuess(listener) { guessed = listener; },
+    sees: () => ({ kind: subject?.kind ?? null, side: scene && subject && (place ?? (fit() ? place : null)) ? sideOf(scene, subject, staging(), place!) : '' }),
   };
 }
