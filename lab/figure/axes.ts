@@ -166,7 +166,7 @@ export function scaleAlong(definition: AxisDefinition, left: number, right: numb
 
 function named({ label, unit }: AxisDefinition, scale: Built, up: boolean): Span[] {
   const base = scale.base === 0 ? '' : ` ${scale.base < 0 ? '+' : '−'} ${String(Math.abs(Number(scale.base.toPrecision(15))))}`;
-  return [...spansOf(label), ...(base ? [{ text: base }] : []), ...(up && unit ? [{ text: `\u2009${unit}` }] : [])];
+  return [...spansOf(label), ...(base ? [{ text: base }] : []), ...(up && unit ? [{ text: `, ${unit}` }] : [])];
 }
 
 export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, options: AxesOptions = {}): Frame {

@@ -114,13 +114,13 @@ function groupsOf(ends: readonly End[]): Group[] {
   return sets.map((members) => ({ members, y: members[0]!.at.y, x: members[0]!.at.x, exit: members[0]!.exit ?? null }));
 }
 
-/** One line, or more where it would be wider than the room: "exact =" above "Verlet". From the third name on they are counted, as on the stage. */
+/** One line, or two where it would be wider than the room: "exact" above "= Verlet". From the third name on they are counted, as on the stage. */
 function linesOf({ members }: Group, ink: Ink, room: number): Span[][] {
   const [first, second] = members, span = (end: End): Span => ({ text: shortLabel(end.label), colour: end.colour, bold: true }), equals: Span = { text: ' = ', colour: ink.quiet };
   if (!second) return [[span(first!)]];
   const others: Span = members.length === 2 ? span(second) : { text: words.panel.others(members.length - 1), colour: ink.text, bold: true };
   const line = [span(first!), equals, others];
-  return bold(line.map((part) => part.text).join(''), SIZE) <= room ? [line] : [[span(first!), { text: ' =', colour: ink.quiet }], [others]];
+  return bold(line.map((part) => part.text).join(''), SIZE) <= room ? [line] : [[span(first!)], [{ text: '= ', colour: ink.quiet }, others]];
 }
 
 const HEAD = 9;

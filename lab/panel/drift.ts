@@ -23,9 +23,11 @@ import { keepingOf, type Keeping } from './keeping';
 import { endTime, exactName, listed, moment, several, timeUnit } from './told';
 
 const say = words.panel.drift;
-/** A relative change that is round-off. And so many times further than the next one is further by a class: it leaves the frame, which has room for so many times the next one. What is nearer than
- * a millionth of it is no such next one. */
-const ROUNDED = 1e-14, APART = 30, ROOM = 10, NEXT = 1e-6;
+/** A relative change that is round-off. */
+const ROUNDED = 1e-14;
+/** Who has more than doubled the value, and goes so many times further than the next one, leaves the frame, which has room for so many times the next one; a next
+ * one that hardly moves is not worth it. */
+const APART = 30, ROOM = 10, NEXT = 1e-3;
 
 /** 0.0256 as "2.56 %"; below a hundred-thousandth, and where there is no first value to compare with, as it is. */
 const share = (value: number, relative: boolean): string => (relative && value >= 1e-5 ? `${brief(100 * value, 3)}\u2009%` : brief(value, 3));
@@ -65,9 +67,12 @@ export const driftPanel: PanelMaker = (): Panel => {
     changes = values.map((c) => c.map((v) => (v - first) / unit));
     const reach = changes.map((d) => { const [a, b] = extent([d]); return d.length ? Math.max(Math.abs(a), Math.abs(b)) : 0; });
     const sorted = [...reach].sort((a, b) => b - a), largest = sorted[0] ?? 0;
-    // The furthest leave one after the other, as long as the next one is nearer by a class, and still to be seen.
     let kept = largest;
-    for (let k = 0; k + 1 < sorted.length && sorted[k + 1]! > NEXT * sorted[k]!; k++) if (sorted[k]! > APART * sorted[k + 1]!) kept = ROOM * sorted[k + 1]!;
+    for (let k = 0; k + 1 < sorted.length; k++) {
+      const [far, next] = [sorted[k]!, sorted[k + 1]!];
+      if (!(far > APART * next && next > NEXT * (relative ? 1 : far) && (!relative || far > 1))) break;
+      kept = ROOM * next;
+    }
     if (logarithmic) {
       const smallest = Math.max(Math.min(...reach.filter((r) => r > 0), largest || 1), Number.EPSILON);
       // An exact step changes it by 0 at times: such rows, and what is below round-off, stand at the foot.
@@ -127,7 +132,7 @@ export const driftPanel: PanelMaker = (): Panel => {
       const kept = keepingOf(track, values[k] ?? [], changes[k] ?? [], relative), name = scene!.looks[k]?.label ?? '';
       if (!kept) return;
       const said = kinds.get(kept.kind), number = numberOf(kept);
-      if (said) said.push(say.also(name, number)); else kinds.set(kept.kind, [say[kept.kind](name, number)]);
+      if (said) said.push(kept.kind === 'keeps' ? say.alsoKeeps(name, number) : say.also(name, number)); else kinds.set(kept.kind, [say[kept.kind](name, number)]);
     });
     return kinds.size ? begin(say.join([...kinds.values()].map((parts) => several(parts, 5)))) : '';
   }

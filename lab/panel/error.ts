@@ -91,7 +91,7 @@ export const errorPanel: PanelMaker = (): Panel => {
     if (!scene) return;
     const names = layout(pen.width), { tracks, truth } = scene.solution;
     const region = { left: 0, top: names.above, width: pen.width - names.right, height: pen.height - names.above }, t = timeUnit(scene);
-    frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : [{ text: 't', italic: true }], unit: t }, { min: low, max: high, log: true, label: unit() ? [{ text: `${say.axis[of]},` }] : say.axis[of], unit: unit() }, { region, plain: true });
+    frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : [{ text: 't', italic: true }], unit: t }, { min: low, max: high, log: true, label: say.axis[of], unit: unit() }, { region, plain: true });
     const f = frame, foot = f.top + f.height;
     const shade = (upTo: number, words: string): void => {
       if (!(upTo > low)) return;

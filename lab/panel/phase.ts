@@ -107,7 +107,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     if (repeats) return put({ text: say.swings(value(pair[0], repeats.low), value(pair[0], repeats.high), amount(repeats.period, timeUnit(scene))) });
     if (first && last) return put({ text: say.turns(turns.length, value(pair[0], first.at), value(pair[0], last.at)) });
     const [a, b] = extent([x]), [c, d] = extent([y]);
-    return put({ text: say.between(value(pair[0], a), value(pair[0], b)) + say.andThen }, ...name(pair[1]), { text: say.between(value(pair[1], c), value(pair[1], d)) + say.end });
+    return put({ text: say.between(value(pair[0], a), value(pair[0], b)) }, ...name(pair[1]), { text: say.andBetween(value(pair[1], c), value(pair[1], d)) });
   }
   function summary(): string {
     if (!scene || !views) return '';

@@ -1,11 +1,12 @@
 /* How a number swings: where it turns back, and whether it does so again and again.
  *
- * Invariant: a swing is said to repeat only where it turned back at least twice at either end, and each time within a hundredth of its width and its period.
+ * Invariant: a swing is said to repeat only where it turned back at least twice at either end, and each time the same to a part of its width and its period
+ * that three digits do not show.
  */
 export interface Turn { readonly time: number; readonly at: number }
 export interface Swings { readonly turns: readonly Turn[]; readonly repeats: { readonly low: number; readonly high: number; readonly period: number } | null }
 
-const ALIKE = 0.01;
+const ALIKE = 0.002;
 
 /** Between two rows the velocity is a straight line, the position Hermite's cubic. */
 function turnBetween(times: ArrayLike<number>, x: ArrayLike<number>, v: ArrayLike<number>, i: number): Turn {

@@ -150,8 +150,8 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const track = scene?.solution.tracks[0];
     if (!scene || !track) return '';
     const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? endTime(scene) : track.times[track.times.length - 1]!;
-    const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)) : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
-    const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: `${value(name).startsWith('≈') ? ' ' : ' = '}${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
+    const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)).replace('≈ ', '') : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
+    const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
     return [{ text: say.at(moment(scene, end), exact ? '' : scene.looks[0]?.label ?? '') }, ...spans, { text: '.' }];
   }
   function summary(): string {
@@ -183,7 +183,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     scene = next;
     nameExports(next.state.preset);
     const names = movable(next), there = wanted.filter((n) => names.includes(n));
-    const all = there.length ? there : positions(next).slice(0, 3);
+    const own = positions(next), all = there.length ? there : (own.length ? own : states(next)).slice(0, 3);
     chosen = (all.length ? all : names.slice(0, 1)).slice(0, MOST);
     dropped = Math.max(0, all.length - MOST);
     offer(names);

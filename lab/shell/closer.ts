@@ -80,7 +80,8 @@ export function closer(store: Store, stage: () => Sees, links: (links: readonly 
     if (!entries.some((entry) => entry.isIntersecting)) return;
     first.disconnect();
     make();
-  });
+    // Where the first screen ends is not yet in sight.
+  }, { rootMargin: '0px 0px -1px' });
   first.observe(section);
 
   return {

@@ -40,11 +40,11 @@ export function mini(clock: () => Transport): Mini {
     if (away) draw();
   }).observe(place('page'));
 
-  /** The exact motion, or the first method's: its first two positions, or the first against time. */
+  /** The exact motion, or the first method's: its first two positions, or the first number against time. */
   function prepare(): void {
     if (!scene) return;
     const { solution, description } = scene, of = solution.truth ?? solution.tracks[0];
-    const places = description.columns.filter((c) => c.kind === 'position').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
+    const places = description.columns.filter((c) => c.kind === 'position' || c.kind === 'first-order').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
     if (!of || !places.length) { xy = new Float64Array(0); return; }
     const flat = description.variables.some((v) => v.order === 2 && v.components >= 2);
     const x = flat && places.length > 1 ? of.columns[places[0]!]! : of.times, y = of.columns[places[flat && places.length > 1 ? 1 : 0]!]!;

@@ -1,9 +1,9 @@
-/* Every example: it starts without an error, something moves, each open panel says what it shows, and pictures of it are kept in build/lab/shots/
- * to be looked at: light and wide, dark and narrow.
+/* Every example: it starts without an error, something moves, each question below the stage that is there has an answer and a picture, a note says what to
+ * try, and pictures of it are kept in build/lab/shots/ to be looked at: light and wide, dark and narrow.
  */
 import { mkdirSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, built, clean, example, figureOf, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
+import { attempt, built, clean, closer, example, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
 
 const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
@@ -32,14 +32,21 @@ for (const name of names) {
     await page.waitForTimeout(80);
     const after = await pixels(page);
     judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
-    for (const title of ['Against time', 'Error', 'Drift of an invariant', 'Phase plane']) {
-      const figure = figureOf(page, title);
-      await figure.scrollIntoViewIfNeeded();
-      await page.waitForTimeout(60);
-      const said = (await figure.locator('.figure-summary').textContent()) || (await figure.locator('.figure-message').textContent());
-      judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
+    await closer(page);
+    const figures = page.locator('#panels > figure:not([hidden]):is([data-figure="error"], [data-figure="drift"], [data-figure="time"], [data-figure="phase"])'), count = await figures.count();
+    judge(`${name}: there are questions`, count >= 1, count);
+    for (let k = 0; k < count; k++) {
+      const figure = figures.nth(k), id = await figure.getAttribute('data-figure');
+      await figure.locator('.figure-picture').scrollIntoViewIfNeeded();
+      // A reference may be computed first.
+      await page.waitForFunction((of) => !document.querySelector(`figure[data-figure="${of}"] .figure-answer`).hidden, id, { timeout: 60000 });
+      const [question, answer, summary] = await Promise.all(['h3', '.figure-answer', '.figure-summary'].map((part) => figure.locator(part).textContent()));
+      judge(`${name}: ${id}: a question with an answer`, /\?$/.test(question) && /^\S.{8,}\.$/.test(answer), `${question} ${answer}`);
+      judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it/.test(answer), `${answer} ${summary}`);
+      judge(`${name}: ${id}: a picture`, await figure.locator('canvas.figure-still').evaluate((canvas) => canvas.width > 100 && new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 5));
     }
-    for (const [theme, width, height] of [['dark', 375, 740], ['light', 1280, 900]]) {
+    judge(`${name}: a note says what to try`, (await page.locator('#scene-note').textContent()).length > 60);
+    for (const [theme, width, height] of [['dark', 390, 844], ['light', 1280, 900]]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
