@@ -40,6 +40,7 @@ export function cursor(definition: CursorDefinition): Cursor {
 
   slider.removeAttribute('aria-hidden');
   slider.setAttribute('role', 'slider');
+  for (const name of ['aria-valuemin', 'aria-valuemax', 'aria-valuenow']) slider.setAttribute(name, '0');
   slider.setAttribute('tabindex', '0');
   slider.setAttribute('aria-label', words.panel.cursor(definition.title));
 

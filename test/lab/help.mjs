@@ -244,6 +244,8 @@ export async function tableOf(page, title) {
 }
 /** The motion on the stage as its file has it, a column for each method as in the tables below the stage: "r.x (rk4)", "exact r.x". */
 export async function numbersOf(page) {
+  // While something moves a run has fewer rows than when it rests.
+  await settled(page, 500);
   const { head: [, , ...columns], rows } = await tableOf(page, 'Motion'), titles = new Map(JSON.parse(motus('methods', '--json')).methods.map((m) => [m.title, m.name]));
   const motions = [...new Set(rows.map(([motion]) => motion))], known = (motion) => motion === 'exact' || motion === 'reference';
   const nameOf = (motion) => motion.replace(/^([^(]*[^( ])(\([^)]*\))$|^(.*)$/, (_, stem, rest, whole) => (whole === undefined ? `${titles.get(stem) ?? stem}${rest}` : titles.get(whole) ?? whole));

@@ -51,7 +51,8 @@ for (const name of names) {
       await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
       await page.waitForTimeout(150);
-      judge(`${name}, ${width} px: the page does not scroll sideways`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth, null, { timeout: 3000 }).then(() => true, () => false);
+      judge(`${name}, ${width} px: the page does not scroll sideways`, fits, await page.evaluate(() => `${document.documentElement.scrollWidth} of ${innerWidth}`));
       await page.screenshot({ path: join(shots, `${name}-${theme}.png`) });
     }
   });
