@@ -1,24 +1,18 @@
 /* The page, put together: the core, the state, the controls, the clock, the pictures. What each does stands in its own file.
  *
- * Invariant: panels that are closed cost nothing; those that are open are shown each new scene once, and told the time as it passes.
+ * Invariant: a panel costs nothing before it comes near what is seen; then it is shown each new scene once, and told the time as it passes.
  */
 import { createClient } from './client';
 import { mini } from './shell/mini';
 import { STEP_EVENT, transport, type Transport } from './shell/transport';
 import { SEEK } from './figure/cursor';
 import { captionExports, nameExports } from './figure/export';
-import { convergence } from './panel/convergence';
-import { driftPanel } from './panel/drift';
-import { errorPanel } from './panel/error';
-import { phasePanel } from './panel/phase';
-import { precision } from './panel/precision';
-import { stability } from './panel/stability';
 import { stepsPanel } from './panel/steps';
-import { timePanel } from './panel/time';
 import type { Track } from './protocol';
-import type { Panel, PanelMaker } from './scene';
+import type { Panel } from './scene';
 import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
+import { closer } from './shell/closer';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { forgetful, recall, remember } from './shell/memory';
@@ -31,13 +25,6 @@ import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
 import { createStore, family } from './state';
 import { methodCard } from './theory/cards';
-
-/** What looks closer, in its order. */
-const makers: readonly { readonly id: string; readonly title: string; readonly make: PanelMaker }[] = [
-  { id: 'time', title: 'Against time', make: timePanel }, { id: 'error', title: 'Error', make: errorPanel }, { id: 'drift', title: 'Drift of an invariant', make: driftPanel },
-  { id: 'phase', title: 'Phase plane', make: phasePanel }, { id: 'convergence', title: 'Convergence', make: convergence }, { id: 'precision', title: 'Work and precision', make: precision },
-  { id: 'stability', title: 'Stability', make: stability },
-];
 
 /** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
 function stepTimes({ times, step, steps, every }: Track): Float64Array {
@@ -71,19 +58,19 @@ async function start(): Promise<void> {
   const { state, problem } = startState(presets);
   if (state.embed) forgetful();
   const store = createStore(client, state);
-  const motion = makeStage(store, { column: textEdge }), made = new Map<string, Panel>();
-  // Those below the stage that are open; they are made when the stage is drawn.
+  const motion = makeStage(store, { column: textEdge });
+  // What stands below the stage is made when that is drawn.
   const open = new Set<Panel>();
   let steps: Panel | null = null, late = 0;
 
-  const small = mini(() => clock);
+  const small = mini(() => clock), closely = closer(store, () => motion.sees(), (links) => small.links(links));
   const clock: Transport = transport({
-    onTime: (t) => { motion.at(t); each(open, (panel) => panel.at(t)); small.at(t); },
+    onTime: (t) => { motion.at(t); each(open, (panel) => panel.at(t)); closely.at(t); small.at(t); },
     onPlay: (playing) => small.playing(playing),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); });
+  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, () => { each([motion, ...open], (panel) => panel.redraw()); closely.redraw(); small.redraw(); });
   if (problem) toasts.say(problem);
   captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
@@ -122,7 +109,7 @@ async function start(): Promise<void> {
     card.replaceChildren(methodCard(method));
   }
 
-  /** Opens and closes panels as the view says; what they show is below()'s. */
+  /** What is there from the first picture on. */
   function arrange(): void {
     if (!steps) {
       steps = stepsPanel(store);
@@ -131,18 +118,6 @@ async function start(): Promise<void> {
       // Of the build's own making.
       place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
     }
-    const wanted = makers.filter(({ id }) => store.state.view.panels.includes(id)), holder = place('panels');
-    for (const [id, panel] of made) {
-      if (wanted.some((w) => w.id === id)) continue;
-      open.delete(panel);
-      panel.element.remove();
-    }
-    wanted.forEach(({ id, make }, k) => {
-      const panel = made.get(id) ?? make(store);
-      made.set(id, panel);
-      if (holder.children[k] !== panel.element) holder.insertBefore(panel.element, holder.children[k] ?? null);
-      open.add(panel);
-    });
   }
   /** The motion first, everything below it when the page has time; at once where one looks closer. */
   function below(): void {
@@ -151,7 +126,7 @@ async function start(): Promise<void> {
       late = 0;
       arrange();
       const { scene } = store;
-      if (scene) each(open, (panel) => panel.show(scene));
+      if (scene) { each(open, (panel) => panel.show(scene)); closely.show(scene); }
       each(open, (panel) => panel.at(clock.time()));
       showCard();
     };

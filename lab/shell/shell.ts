@@ -16,7 +16,6 @@ import { lessonPlace } from './lesson';
 import { methods } from './methods';
 import { nav } from './nav';
 import { note } from './note';
-import { panelPicker, type PanelName } from './panels';
 import { pin } from './pin';
 import { presets } from './presets';
 import { shareMenu } from './share-menu';
@@ -26,8 +25,8 @@ import { themeButton } from './theme';
 import { createToasts, type Toasts } from './toasts';
 import { headline } from './headline';
 
-/** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
-export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, panels: readonly PanelName[], themeChanged: () => void): Toasts {
+/** themeChanged: colours differ now; the scene's looks are new already. */
+export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
   const said = headline(store, toasts, () => stage.relayout());
   const lesson = lessonPlace(store, stage, clock);
@@ -60,7 +59,6 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('dials').append(stepSlider(store), dials(store));
   place('dock-links').append(dockLinks(store, pin(store, stage), stage.choice));
   place('status').append(status(store));
-  place('panel-picker').append(panelPicker(store, panels));
   if (!store.state.embed) {
     const { opener, bar } = lecture(store);
     place('share').after(opener);

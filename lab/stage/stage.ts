@@ -14,7 +14,7 @@ import type { Panel, Scene, Store } from '../scene';
 import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { words } from '../words';
-import { boundsFor, pictureOf, type Picture } from './picture';
+import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { motionOf } from './motion';
@@ -42,7 +42,10 @@ export interface Stage extends Panel {
   /** A ring on a rail at the end of the exact motion: somebody's guess of where a method's ball will be; open: it can be dragged. */
   guess(guess: Guess | null): void;
   onGuess(listener: (place: GuessPlace) => void): void;
+  sees(): Sees;
 }
+/** What the stage shows: which kind of view, and which other plot beside it. */
+export interface Sees { readonly kind: Subject['kind'] | null; readonly side: Side }
 export type GuessPlace = 'above' | 'on' | 'below';
 export interface Guess { readonly method: string; readonly place: GuessPlace | null; readonly open: boolean }
 
@@ -396,5 +399,6 @@ export function stage(store: Store, room: { column(): number }): Stage {
       if (picture) { redrawMoving(); attach(); }
     },
     onGuess(listener) { guessed = listener; },
+    sees: () => ({ kind: subject?.kind ?? null, side: scene && subject && (place ?? (fit() ? place : null)) ? sideOf(scene, subject, staging(), place!) : '' }),
   };
 }

@@ -32,7 +32,7 @@ export const notes: Readonly<Record<string, Note>> = {
     title: 'An oscillator driven near its own frequency',
     text: [
       'The motion swells and dies away again: the softening spring falls out of step with the drive. Raise F from 0.1 to 0.11 and the mass escapes over the hill at |x| = 1.',
-      'Verlet ends 7e-7 away from the motion at t = 100; halve the step and a quarter of that is left. The error panel shows it.',
+      'Verlet ends 7×10⁻⁷ away from the motion at t = 100; halve the step and a quarter of that is left. The error panel shows it.',
     ],
   },
   'damped-cubic': {
@@ -60,7 +60,7 @@ export const notes: Readonly<Record<string, Note>> = {
     title: 'A planet on an ellipse',
     text: [
       'The orbit should close. Explicit Euler leaves it at once; symplectic methods keep the energy, but let the ellipse turn slowly, into a rosette.',
-      'High order pays on a smooth orbit: with 35 700 evaluations of the force for these ten turns velocity Verlet is off by 0.004, kahan-li8 by 2×10⁻¹¹.',
+      'High order pays on a smooth orbit: with 35 700 evaluations of the force for these ten turns velocity Verlet is off by 0.004, Kahan–Li 8 by 2×10⁻¹¹.',
     ],
   },
   duffing: {
@@ -108,5 +108,47 @@ export const notes: Readonly<Record<string, Note>> = {
   chain: {
     title: 'A chain of springs that stiffen',
     text: ['Started in its longest wave, the chain does not share its energy out among all waves, as was once expected. Plot E1 and E3: the energy wanders to a few waves, and in time comes back.'],
+  },
+  'thrown-ball': {
+    title: 'A thrown ball',
+    text: [[
+      'After two seconds one Euler is 1.962 m too high and the other 1.962 m too low, ½ g h t each; halve the step and it is 0.981 m. The midpoint rule is on the green line to the last digit, as under constant gravity the velocity in the ',
+      'middle of a step is exactly the mean. The mass changes the energy, but not the path; ', { to: 'thrown-ball-air', label: 'in air' }, ' it does.',
+    ]],
+  },
+  'thrown-ball-air': {
+    title: 'A thrown ball in air',
+    text: [[
+      'Air takes 1.45 m from the throw: the ball ends at (10.55, 1.09) m and not at (12, 2.08) m. Make it 4 kg heavy, and it comes to (11.81, 1.95) m, nearly as ', { to: 'thrown-ball', label: 'without air' },
+      '. The midpoint rule is not exact any more: it misses by 1.5 cm with the step 0.2, by 3.6 mm with 0.1.',
+    ]],
+  },
+  resonance: {
+    title: 'A push in time with the swing',
+    text: [
+      'Held still, the push would stretch the spring by 2 cm. Given in time with the swing it adds to it each time: after a minute the mass swings 60 cm to each side, thirty times as far. Verlet’s own frequency is 1 % too high with the step 0.5; '
+      + 'run that to 700, and its swing comes to no more than 1.93 m, at t = 289, and dies away again, while the true one grows.',
+    ],
+  },
+  comet: {
+    title: 'Halley’s comet',
+    text: [
+      'At the far end of its orbit the comet creeps with 0.19 au a year, at the near end it is sixty times as fast, and there a step of two weeks is long. After one turn velocity Verlet is 2.3 au off and RK4 4.6 au; Kahan–Li 8 comes back to 7×10⁻⁶ au. '
+      + 'Explicit Euler has thrown the comet out, 211 au away.',
+    ],
+  },
+  'crossed-fields': {
+    title: 'An electron in crossed fields',
+    text: [
+      'On one half of its circle the electric field makes the electron faster, and it turns in a wider arc than on the other: so it drifts sideways, with |E|/B = 1 mm a nanosecond, whatever its charge, mass and start. Boris’ method keeps the energy to the last digits and is '
+      + '0.23 mm off after 150 ns; explicit Euler’s arcs widen, and it ends 28 mm away.',
+    ],
+  },
+  ueda: {
+    title: 'A spring that stiffens, driven hard',
+    text: [
+      'Nothing in the equation is random, and still no two turns are alike. Start at x = 3.0001 in place of 3: the two motions are 0.001 apart after 9 units of time, 0.01 after 37 and 0.1 after 96. '
+      + 'Seen once in each period of the force, at t = 2π n, the points (x, x′) fall on one folded figure, the same from every start.',
+    ],
   },
 };

@@ -9,6 +9,7 @@ import { headline } from './headline';
 import { lecture } from './lecture';
 import { lesson } from './lesson';
 import { methods } from './methods';
+import { panel } from './panel';
 import { scenes } from './scenes';
 import { share } from './share';
 import { stage } from './stage';
@@ -26,6 +27,7 @@ export const words = {
   lecture,
   lesson,
   methods,
+  panel,
   scenes,
   share,
   stage,
