@@ -1,0 +1,125 @@
+/* One step as a recipe (lab/panel/steps/recipe.ts), by the module of build/lab. Run by `node --test`. Laws, for every model and every method that it admits, at the
+ * first step, the second and a later one: at most four lines; each calculation, evaluated with the figures as they are written, gives its own right-hand
+ * side within what their rounding allows; the last place or velocity is the core's; each line has a mark for its disc.
+ */
+import assert from 'node:assert/strict';
+import { readFileSync, readdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+import test from 'node:test';
+
+const lab = new URL('../../lab/', import.meta.url), root = new URL('../../', import.meta.url);
+const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
+const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures';`;
+const built = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022', platform: 'node' });
+const { Core, Answers, recipeOf, seenIn, plain, figure, factor } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const module = new WebAssembly.Module(readFileSync(new URL('build/lab/motus.wasm', root)));
+
+/** A figure as it is read: the number, and half a unit of its last digit where it was rounded. */
+function read({ text, rounded }) {
+  const [, mantissa, power] = /^(−?[\d\u2009.]+)(?:×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?$/.exec(text) ?? [];
+  if (text === '½') return { value: 0.5, off: 0 };
+  assert.ok(mantissa !== undefined, `“${text}” is no figure`);
+  const p = power ? Number([...power].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join('')) : 0, digits = mantissa.replace(/\u2009/g, '').replace('−', '-');
+  return { value: Number(digits) * 10 ** p, off: rounded ? 0.5000001 * 10 ** (p - (digits.split('.')[1] ?? '').length) : 0 };
+}
+const each = (a, b, act) => Array.from({ length: Math.max(a.length, b.length) }, (_, k) => act(a[a.length === 1 ? 0 : k], b[b.length === 1 ? 0 : k]));
+/** A calculation between its equals signs: numbers and vectors with what they may be off; names: of lines above. */
+function evaluate(tokens, names) {
+  let at = 0;
+  const sign = (s) => tokens[at]?.kind === 'sign' && tokens[at].sign === s && ++at > 0;
+  function term() {
+    if (sign('(')) { const inner = total(); assert.ok(sign(')'), 'a bracket is closed'); return inner; }
+    const token = tokens[at++];
+    if (token.kind === 'name') { const known = names.get(`${token.name}${token.index ?? ''}`); assert.ok(known, `${token.name}${token.index ?? ''} stands in a line above`); return known; }
+    return token.figures.map(read);
+  }
+  function product() {
+    let left = term();
+    for (;;) {
+      if (sign('·')) left = each(left, term(), (a, b) => ({ value: a.value * b.value, off: Math.abs(a.value) * b.off + Math.abs(b.value) * a.off + a.off * b.off }));
+      else if (sign('/')) left = each(left, term(), (a, b) => ({ value: a.value / b.value, off: a.off / Math.abs(b.value) }));
+      else return left;
+    }
+  }
+  function total() {
+    let left = product();
+    for (;;) {
+      const way = sign('+') ? 1 : sign('−') ? -1 : 0;
+      if (!way) return left;
+      left = each(left, product(), (a, b) => ({ value: a.value + way * b.value, off: a.off + b.off }));
+    }
+  }
+  const found = total();
+  assert.equal(at, tokens.length, 'all of it is read');
+  return found;
+}
+/** The sides of a calculation. */
+function sides(sum) {
+  const out = [[]];
+  for (const token of sum) if (token.kind === 'sign' && token.sign === '=') out.push([]); else out.at(-1).push(token);
+  return out;
+}
+
+const models = readdirSync(new URL('models/', root)).filter((name) => name.endsWith('.motus')).map((name) => [name.slice(0, -6), readFileSync(new URL(`models/${name}`, root), 'utf8')]);
+models.push(['decay', "s' = -s\ns(0) = 1\nstep 0.1\nuntil 2\n"], ['backward', "x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil -2\n"],
+  ['lorenz', "x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 2\n"], ['at rest', "x'' = 0\nx(0) = 3\nx'(0) = 0\nstep 0.1\nuntil 2\n"], ['small', "x'' = -x\nx(0) = 1e-9\nx'(0) = 2e-9\nstep 0.1\nuntil 2\n"], ['large', "x'' = -x\nx(0) = 123456789\nx'(0) = 0\nstep 0.1\nuntil 2\n"]);
+for (const [name, text] of models) {
+  test(`${name}: recipes of one step`, () => {
+    const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model });
+    let seen_ = 0, calculated = 0;
+    for (const { name: method } of description.methods.filter((m) => m.admitted && m.name !== 'exact')) for (const index of [0, 1, 7]) {
+      let trace;
+      try { trace = answers.answer('trace', { model, method, step: null, until: null, index }); } catch (e) { if (e.problem) continue; throw e; }
+      for (const seen of seenIn(trace.names).filter((_, k) => k < 4)) {
+        const recipe = recipeOf(trace, seen, description.velocity_dependent), what = `${name} by ${method}, step ${index + 1}, ${seen.id}`;
+        assert.ok(recipe && recipe.lines.length >= 1 && recipe.lines.length <= 4, what);
+        const names = new Map(), told = (e, k) => (seen.order === 2 ? e.x[k] : e.v[k]), end = trace.entries.at(-1), ends = seen.indices.map((k) => told(end, k));
+        let arrives = false;
+        seen_++;
+        for (const [k, line] of recipe.lines.entries()) {
+          assert.ok(line.disc && line.marks.length && line.sentence.length > 8 && !/undefined|NaN/.test(line.sentence), `${what}, line ${k + 1}: ${line.sentence}`);
+          assert.ok(line.sums.length >= 1, what);
+          for (const sum of line.sums) {
+            const parts = sides(sum), right = parts.at(-1), written = `${what}, line ${k + 1}: ${plain(sum)}`;
+            assert.ok(!/NaN|undefined|–|∞/.test(plain(sum)), written);
+            assert.equal(right.length, 1, written);
+            const result = right[0].figures.map(read);
+            if (parts[0].length === 1 && parts[0][0].kind === 'name') names.set(`${parts[0][0].name}${parts[0][0].index ?? ''}`, result);
+            if (parts.length === 3 || (parts.length === 2 && parts[0].some((t) => t.kind === 'sign' && t.sign === '·'))) {
+              calculated++;
+              const left = evaluate(parts.at(-2), names);
+              left.forEach(({ value, off }, i) => {
+                const limit = off + result[i].off + 1e-9 * Math.abs(result[i].value) + 1e-300;
+                assert.ok(Math.abs(value - result[i].value) <= limit, `${written}: ${value} is not ${result[i].value} within ${limit}`);
+                // What rounding allows is little beside what is written.
+                assert.ok(off <= 25 * Math.max(result[i].off, 0.5 * 10 ** -9 * Math.abs(value), 1e-300) || off <= 0.02 * Math.max(Math.abs(value), 1e-300) || result[i].off === 0, `${written}: off by ${off}`);
+              });
+            }
+            if (result.length === ends.length && result.every(({ value, off }, i) => Math.abs(value - ends[i]) <= off + 1e-12 * Math.abs(ends[i]) + 1e-300)) arrives = true;
+          }
+        }
+        assert.ok(arrives, `${what}: one of the lines comes to where the step ends`);
+      }
+    }
+    assert.ok(seen_ > 0 && calculated >= seen_, `${calculated} calculations in ${seen_} recipes`);
+  });
+}
+
+test('the two steps of the concept’s picture', () => {
+  const answers = new Answers(new Core(module)), model = { text: readFileSync(new URL('models/spring.motus', root), 'utf8'), set: [] };
+  const said = (method, index) => {
+    const trace = answers.answer('trace', { model, method, step: 0.8, until: 20, index }), recipe = recipeOf(trace, seenIn(trace.names)[0], false);
+    return recipe.lines.map((line) => [line.sentence, ...line.sums.map(plain)].join(' '));
+  };
+  assert.deepEqual(said('midpoint', 0), ['Go half a step with the velocity you have. x = 1 + 0.4 · 0 = 1', 'Read the velocity there. v = 0 + 0.4 · (−1) = −0.4', 'Start again, and go the whole step with it. x = 1 + 0.8 · (−0.4) = 0.680']);
+  assert.deepEqual(said('verlet', 1), ['Keep going: the same stretch once more. 2 · 0.68 − 1 = 0.36', 'Fall: what the force does in a whole step. h²a = 0.64 · (−0.68) = −0.435', 'There you are. No velocity was needed. x = 0.36 − 0.435 = −0.075']);
+  assert.deepEqual(said('kahan-li8', 0).length, 4);
+  assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
+});
+test('figures', () => {
+  const kind = { decimals: 3, most: 1 };
+  assert.deepEqual([figure(1, kind), figure(-0.4, kind), figure(0.68, kind, true), figure(0.69671, kind), figure(-0, kind), figure(1e-17, kind)].map((f) => f.text), ['1', '−0.4', '0.680', '0.697', '0', '0']);
+  assert.deepEqual([figure(1e-9, { decimals: 12, most: 1e-9 }).text, figure(123456789, { decimals: 0, most: 2e8 }).text, figure(12345.678, { decimals: 1, most: 2e4 }).text], ['1×10⁻⁹', '1.23456789×10⁸', '12\u2009345.7']);
+  assert.deepEqual([factor(Math.PI / 100, 4), factor(0.4, 4)], [{ text: '0.03142', rounded: true }, { text: '0.4', rounded: false }]);
+});
