@@ -13,7 +13,6 @@ import { errorPanel } from './panel/error';
 import { phasePanel } from './panel/phase';
 import { precision } from './panel/precision';
 import { stability } from './panel/stability';
-import { stepsPanel } from './panel/steps';
 import { timePanel } from './panel/time';
 import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
@@ -28,8 +27,8 @@ import { presetState } from './share';
 import { presets } from './shell/presets';
 import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
-import { createStore, family } from './state';
-import { methodCard } from './theory/cards';
+import { openedPlace } from './shell/opened';
+import { createStore } from './state';
 
 /** What looks closer, in its order. */
 const makers: readonly { readonly id: string; readonly title: string; readonly make: PanelMaker }[] = [
@@ -73,7 +72,7 @@ async function start(): Promise<void> {
   const motion = makeStage(store, { column: textEdge }), made = new Map<string, Panel>();
   // Those below the stage that are open; they are made when the stage is drawn.
   const open = new Set<Panel>();
-  let steps: Panel | null = null, late = 0;
+  let late = 0, told = false;
 
   const small = mini(() => clock);
   const clock: Transport = transport({
@@ -82,7 +81,8 @@ async function start(): Promise<void> {
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); });
+  const opened = openedPlace(store, clock, motion.shows);
+  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); opened.redraw(); });
   if (problem) toasts.say(problem);
   captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
@@ -90,8 +90,8 @@ async function start(): Promise<void> {
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
-  const card = place('method-card'), paper = printed();
-  let carded = '', preset = state.preset, shown = false;
+  const paper = printed();
+  let preset = state.preset, shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
@@ -113,20 +113,10 @@ async function start(): Promise<void> {
     }, GENTLE);
   }
 
-  function showCard(): void {
-    const name = family(store.scene?.solution.tracks[0]?.method ?? '');
-    const method = store.catalogue.find((m) => m.name === name);
-    if (name === carded || !method) return;
-    carded = name;
-    card.replaceChildren(methodCard(method));
-  }
-
   /** Opens and closes panels as the view says; what they show is below()'s. */
   function arrange(): void {
-    if (!steps) {
-      steps = stepsPanel(store);
-      place('step-view').append(steps.element);
-      open.add(steps);
+    if (!told) {
+      told = true;
       // Of the build's own making.
       place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
     }
@@ -152,7 +142,6 @@ async function start(): Promise<void> {
       const { scene } = store;
       if (scene) each(open, (panel) => panel.show(scene));
       each(open, (panel) => panel.at(clock.time()));
-      showCard();
     };
     if (scrollY > 40) act(); else late = window.setTimeout(act, LATER);
   }
@@ -168,6 +157,7 @@ async function start(): Promise<void> {
     motion.show(scene);
     small.show(scene);
     paper.show(scene);
+    opened.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');

@@ -6,7 +6,7 @@
  * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&T=UNTIL  and of the view
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              o=ID,ID              open panels         e=0  green line hidden    z=SPEED
- *   l=gallery | LESSON.PART.ANSWER   where in the page one is
+ *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
  */
@@ -174,13 +174,13 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (methods.length > most.methods) throw new Wrong('it asks for too many methods');
   for (const method of methods) word(method, 'the name of a method');
   const place = found.get('l')?.[0] ?? '';
-  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
+  if (!/^(gallery|step|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
   if (inside !== '1' && found.has('embed')) throw new Wrong('“embed” is 1');
   if (!inside && sliders.length) throw new Wrong('it chooses sliders, “c”, without “embed=1”');
   if (sliders.length > most.columns) throw new Wrong('it chooses too many sliders');
   for (const slider of sliders) if (!word(slider, 'the name of a slider')) throw new Wrong('a slider has no name');
-  if (inside && place) throw new Wrong('an embed shows the stage, no lesson and no gallery');
+  if (inside && place) throw new Wrong('an embed shows the stage and no other place');
   return {
     ...(inside ? { embed: [...new Set(sliders)] } : {}),
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,

@@ -15,5 +15,5 @@ export function dockLinks(store: LiveStore, pin: HTMLElement, view: HTMLElement)
   const sheet = el('div', { id: 'all-values', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All values' }, endField(store), sliders(store));
   return el('div', { class: 'links' },
     button('All values', () => {}, { class: 'quiet-button', popovertarget: 'all-values' }), sheet, pin, view,
-    leads('One step', '#step-view', 'step'), leads('Look closer', '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
+    button('One step', () => store.go('step'), { class: 'quiet-button', id: 'open-step' }), leads('Look closer', '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
 }

@@ -10,9 +10,9 @@ import test from 'node:test';
 
 const lab = new URL('../../lab/', import.meta.url), root = new URL('../../', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
-const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures';`;
+const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures'; export * from './panel/steps/local_exact';`;
 const built = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022', platform: 'node' });
-const { Core, Answers, recipeOf, seenIn, plain, figure, factor } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { Core, Answers, recipeOf, seenIn, plain, figure, factor, localExact } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('build/lab/motus.wasm', root)));
 
 /** A figure as it is read: the number, and half a unit of its last digit where it was rounded. */
@@ -122,4 +122,19 @@ test('figures', () => {
   assert.deepEqual([figure(1, kind), figure(-0.4, kind), figure(0.68, kind, true), figure(0.69671, kind), figure(-0, kind), figure(1e-17, kind)].map((f) => f.text), ['1', '−0.4', '0.680', '0.697', '0', '0']);
   assert.deepEqual([figure(1e-9, { decimals: 12, most: 1e-9 }).text, figure(123456789, { decimals: 0, most: 2e8 }).text, figure(12345.678, { decimals: 1, most: 2e4 }).text], ['1×10⁻⁹', '1.23456789×10⁸', '12\u2009345.7']);
   assert.deepEqual([factor(Math.PI / 100, 4), factor(0.4, 4)], [{ text: '0.03142', rounded: true }, { text: '0.4', rounded: false }]);
+});
+
+test('the exact motion from where a step starts: for every model, and no further from a step by Gauss’ method than that errs', async () => {
+  for (const [name, text] of models) {
+    const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
+    for (const index of [0, 5]) for (const way of [1, -1]) {
+      const trace = answers.answer('trace', { model, method: 'gauss8', step: null, until: null, index }), end = trace.entries.at(-1), start = trace.entries[0];
+      const found = await localExact(client, { description, state: { text, set: {} } }, trace, way), what = `${name}, step ${index + 1}, way ${way}`;
+      assert.ok(found, `${what}: it is there`);
+      const all = [...trace.names.x, ...trace.names.v], of = (e) => [...e.x, ...e.v], at = all.map((column) => found.columns.get(column)?.[found.end]), size = Math.max(...[...of(start), ...of(end)].map(Math.abs));
+      assert.ok(Math.abs(found.times[found.end] - (start.time + way * start.step)) <= 1e-9 * Math.abs(start.step), `${what}: its times`);
+      if (way > 0) at.forEach((x, k) => assert.ok(Math.abs(x - of(end)[k]) <= 1e-7 * size, `${what}, ${all[k]}: ${x} is not ${of(end)[k]}`));
+      all.forEach((column, k) => assert.equal(found.columns.get(column)?.[0], of(start)[k], `${what}, ${column}: it starts where the step starts`));
+    }
+  }
 });

@@ -1,6 +1,6 @@
 /* The figures of one step: as many digits as let its calculation be followed.
  *
- * Invariant: of what changes in the step three digits are written, of what it is added to as many decimals; a figure that was rounded says so (`rounded`).
+ * Invariant: of what changes in the step three digits or four are written, of what it is added to as many decimals; a figure that was rounded says so (`rounded`).
  * Nothing is computed with these texts.
  */
 import { minus, raised, readable, shortened } from '../../figure/number';
@@ -12,8 +12,8 @@ export interface Kind { readonly decimals: number; readonly most: number }
 export interface Kinds { readonly value: Kind; readonly rate: Kind; readonly force: Kind; /** Significant digits of what multiplies. */ readonly factor: number }
 export interface Figure { readonly text: string; readonly rounded: boolean }
 
-/** Digits that matter of what changes, and the most that a figure has. */
-const CHANGE = 3, MOST = 10;
+/** Digits that matter of what changes (a thousandth of it may be seen), and the most that a figure has. */
+const CHANGE = 3, MOST = 10, COARSE = 2.5;
 const power = (x: number): number => (x > 0 && Number.isFinite(x) ? Math.floor(Math.log10(x) + 1e-12) : 0);
 
 export function kindsOf(trace: Trace, { indices, order }: Seen): Kinds {
@@ -24,7 +24,7 @@ export function kindsOf(trace: Trace, { indices, order }: Seen): Kinds {
   const before = all((e, k) => (order === 2 ? e.before_x?.[k] : undefined));
   const mostValue = Math.max(before, all(value)), mostRate = all(rate), mostForce = order === 2 ? all((e, k) => e.a?.[k]) : 0;
   const kind = (change: number, least: number, most: number): Kind => {
-    const wanted = Math.max(change > 0 ? CHANGE - 1 - power(change) : -Infinity, least);
+    const wanted = Math.max(change > 0 ? CHANGE - 1 - power(change / COARSE) : -Infinity, least);
     return { decimals: Math.max(0, Math.min(Number.isFinite(wanted) ? wanted : CHANGE - 1 - power(most), MOST - 1 - power(most))), most };
   };
   const moved = all((e, k) => value(e, k) - value(start, k)) || h * mostRate, way = Math.log10(h);
@@ -48,6 +48,9 @@ export function figure(value: number, { decimals, most }: Kind, keep = false): F
   const digits = Number(fixed) === 0 ? fixed.replace('-', '') : fixed, short = rounded || keep ? digits : shortened(digits);
   return { text: apart(minus(short)) + (scaled ? `×10${raised(p)}` : ''), rounded };
 }
+
+/** The most letters of a figure of its kind: sign, digits, point. */
+export const lettersOf = ({ decimals, most }: Kind): number => (most < 1e-3 || most >= 1e5 ? 6 + Math.max(0, decimals + power(most)) : 2 + Math.max(0, power(most)) + (decimals ? 1 + decimals : 0));
 
 /** A multiple of the step. */
 export function factor(value: number, digits: number): Figure {

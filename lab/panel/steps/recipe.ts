@@ -6,14 +6,14 @@
  */
 import type { Trace, TraceEntry } from '../../protocol';
 import { words } from '../../words';
-import { factor, figure, kindsOf, type Figure, type Kind, type Kinds } from './figures';
+import { factor, figure, kindsOf, lettersOf, type Figure, type Kind, type Kinds } from './figures';
 import type { Seen } from './seen';
 
 type Sign = '=' | '+' | '−' | '·' | '/' | '(' | ')';
 /** Letters of a calculation; index: which stage. A number has one figure, a vector two; result: what the calculation comes to. */
 export type Token =
   | { readonly kind: 'name'; readonly name: string; readonly index?: number; readonly power?: number }
-  | { readonly kind: 'number'; readonly figures: readonly Figure[]; readonly bracket?: boolean; readonly result?: boolean }
+  | { readonly kind: 'number'; readonly figures: readonly Figure[]; readonly bracket?: boolean; readonly result?: boolean; /** Letters that it may have in another step. */ readonly most?: number }
   | { readonly kind: 'sign'; readonly sign: Sign; /** A line may be broken before it. */ readonly outer?: boolean };
 export type Sum = readonly Token[];
 
@@ -27,7 +27,7 @@ export type Mark =
 export interface Line { readonly sentence: string; readonly sums: readonly Sum[]; readonly marks: readonly Mark[]; /** Where the disc belongs: a mark of the line. */ readonly disc: Mark | null }
 export interface Recipe {
   readonly lines: readonly Line[];
-  /** Between the lines' own, without a disc. */
+  /** The moves between those of the lines, without a disc. */
   readonly rest: readonly Mark[];
   readonly start: TraceEntry; readonly end: TraceEntry;
   /** A recurrence begins one step before: there. */
@@ -64,7 +64,7 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
 
   // --- calculations ----------------------------------------------------------------------------------------------------------------------
   const sign = (s: Sign, outer = false): Token => ({ kind: 'sign', sign: s, outer });
-  const number = (v: Vec, kind: Kind, how: { bracket?: boolean; result?: boolean; keep?: boolean } = {}): Token => ({ kind: 'number', figures: v.map((n) => figure(n, kind, how.keep)), bracket: how.bracket === true && flat && v[0]! < 0, result: how.result === true });
+  const number = (v: Vec, kind: Kind, how: { bracket?: boolean; result?: boolean; keep?: boolean } = {}): Token => ({ kind: 'number', figures: v.map((n) => figure(n, kind, how.keep)), bracket: how.bracket === true && flat && v[0]! < 0, result: how.result === true, most: v.length * lettersOf(kind) + (how.bracket && flat ? 2 : 0) });
   const times = (by: number): Token => ({ kind: 'number', figures: [factor(by, kinds.factor)], bracket: false });
   const whole = seen.name || '';
   /** The name of what is looked at: a vector of two names has none of its own. */
@@ -132,7 +132,7 @@ export function recipeOf(trace: Trace, seen: Seen, byVelocity: boolean): Recipe 
         const b = place(value(e), clock);
         marks = [{ kind: 'go', from: a, to: b }, k === lastMove ? { kind: 'end', at: b } : { kind: 'stage', at: b }];
       } else marks = [stroke(place(value(e), clock), rate(e))];
-      if (many && k >= 3 && !closing) rest.push(...marks);
+      if (many && k >= 3 && !closing) rest.push(...(moves ? marks : []));
       else {
         const v = order === 1 ? force(e) : rate(e), written = moves ? sum(named, kinds.value, value(previous), [{ by: c * h, of: v, kind: kinds.rate }], value(e), k === lastMove)
           : sum(one(rateName), kinds.rate, rate(previous), [{ by: c * h, of: force(e), kind: kinds.force }], rate(e));

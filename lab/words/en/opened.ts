@@ -63,5 +63,22 @@ export const opened = {
   there: (hidden: boolean) => `There you are. ${hidden ? 'Two places were enough' : 'No velocity was needed'}.`, thereFirst: 'There you are. Now two places are enough.', thereBeeman: 'There you are.',
   velocityBeeman: 'The velocity, with the force at the new place too.',
   twoPlaces: 'Two places and one force: that is all it remembers.',
+  /** Every part of a step; times come written. */
+  part: {
+    startTitle: (t: string) => `Start, t = ${t}`, endTitle: (t: string) => `End, t = ${t}`,
+    kick: 'Kick', implicitKick: 'Implicit kick', drift: 'Drift', solve: 'Solve', taylor: 'First step', recurrence: 'Recurrence', position: 'Position',
+    stage: (k: number, n: number) => (n === 1 ? 'Slope' : `Stage ${k} of ${n}`),
+    kickNote: (t: string) => `The acceleration at t = ${t} changes the velocity; the position stays.`,
+    implicitNote: (t: string, turns: number) => `The acceleration at t = ${t}, taken at the mean of the velocities before and after, changes the velocity; the position stays.${turns > 0 ? ` Newton's method solved that equation in ${turns} iteration${turns === 1 ? '' : 's'}.` : ''}`,
+    driftNote: (t: string) => `Free flight with this velocity, to t = ${t}.`,
+    solveNote: (n: number) => `The stages depend on one another: Newton's method found them together in ${n} iteration${n === 1 ? '' : 's'}.`,
+    stageNote: (t: string, start: boolean) => `At t = ${t}${start ? ', the start' : ''}: the place that is tried, and the slopes found there.`,
+    taylorNote: 'There is no step before: the Taylor series of the start gives the second point.',
+    recurrenceNote: 'As far again as in the step before, and the acceleration on top.',
+    positionNote: 'The acceleration now and the one a step before tell how it changes.',
+    slopes: (n: number) => (n === 1 ? 'The one slope, for the whole step.' : 'The slopes, each with its weight.'),
+    velocityNote: 'The velocity, with the acceleration at the new place.',
+    meanNote: 'The velocity at the same time as the position: the mean over the step, and half a kick by the acceleration at the new place.',
+  },
   alongside: 'The method takes this number along with the motion.',
 } as const;
