@@ -94,7 +94,9 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
     later.disabled = index >= total - 1;
     foot.at(index, total, told.stepSpoken(grouped(index + 1), grouped(total), t(index), t(index + 1)));
     say(back, from ? told.backToLesson : told.back);
-    say(note, scene && !track ? told.nobody : store.trouble.model || store.trouble.run ? told.stale : '');
+    const wrong = store.trouble.model ?? store.trouble.run;
+    say(note, scene && !track ? told.nobody : !wrong ? '' : scene ? told.stale : told.broken);
+    if (wrong && !scene) grid.replaceChildren();
   }
   function render(): void {
     if (!scene || !here) return;

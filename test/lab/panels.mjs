@@ -3,7 +3,7 @@
  */
 import { attempt, clean, figureOf, finish, judge, open, readCsv, same, saved, settled, singleFile, summaryOf } from './help.mjs';
 
-const titles = ['Step by step', 'Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Convergence', 'Work and precision', 'Stability'];
+const titles = ['Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Convergence', 'Work and precision', 'Stability'];
 const all = '&o=time,error,drift,phase,convergence,precision,stability';
 const colours = { light: /#15803D/i, dark: /#4ADE80/i };
 
@@ -39,12 +39,12 @@ const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {
 for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 'dark', 375], ['three-body-figure-eight', 'light', 800]]) {
   const page = await open(`${singleFile}#v=1&p=${preset}${all}`, { theme, width });
   // Studies begin when they come into view.
-  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(5)) {
+  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(4)) {
     await figureOf(page, title).scrollIntoViewIfNeeded();
     await settled(page, 600, 60000);
     await compute(page, title);
   }
-  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 5) : titles) {
+  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 4) : titles) {
     const name = `${preset}, ${theme}, “${title}”`;
     await attempt(name, async () => {
       const figure = figureOf(page, title);

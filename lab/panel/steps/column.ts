@@ -5,6 +5,7 @@
 import { button, el, say } from '../../dom';
 import { csv, downloadText, fileName, savePicture } from '../../figure/export';
 import { ink } from '../../figure/ink';
+import { nameText } from '../../figure/name';
 import { brief, grouped } from '../../figure/number';
 import { svgPen } from '../../figure/pen';
 import type { Look, Scene } from '../../scene';
@@ -38,6 +39,8 @@ const vector = (figures: readonly string[]): string => (figures.length > 1 ? `($
 const apartOf = (a: readonly number[], b: readonly number[]): number[] => a.map((x, k) => x - b[k]!);
 const bare = (label: string): string => label.replace(/ \(.*\)$/, '');
 
+/** An angle is no height. */
+const GREEK = /^\p{Script=Greek}/u;
 /** Where the exact motion is when the step ends, how far off the step is, and what is said of it. */
 interface Closing { readonly exact: Place | null; readonly miss: string; readonly says: string }
 
@@ -87,7 +90,7 @@ export function column(method: string, wide: Set<string>): Column {
     const is = indices.length > 1 ? exact : [exact[1]], apart = apartOf(ends, is), far = Math.hypot(...apart), up = apart[apart.length - 1]!, length = `${missed(far, value)}${unit}`;
     // What is left of a difference between numbers of this size is rounding.
     const on = far <= 64 * Number.EPSILON * Math.max(...[...ends, ...is].map(Math.abs)), upright = apart.length === 1 || Math.abs(apart[0]!) <= 1e-6 * Math.abs(up);
-    const miss = on ? '' : !upright ? told.off(length) : up > 0 ? told.tooHigh(length) : told.tooLow(length);
+    const miss = on ? '' : !upright ? told.off(length) : told.tooFar(length, up > 0, order === 2 && !GREEK.test(nameText(seen.names[seen.names.length - 1]!)));
     return { exact, miss, says: [told.exact(vector(is.map((x) => figure(x, value, true).text)), bare(look().label), miss, step?.index === 0), next].filter(Boolean).join(' ') };
   }
   /** The error of the whole run up to here, where the step's own is not known. */
@@ -114,6 +117,7 @@ export function column(method: string, wide: Set<string>): Column {
     const seen = setting?.seen, trace = step?.trace;
     made = seen && trace ? recipeOf(trace, seen, byVelocity()) : null;
     drawn = null;
+    element.dataset.step = String((step?.index ?? 0) + 1);
     why.hidden = made !== null;
     say(why, made ? '' : step?.why || told.over);
     for (const part of [picture, recipe, closing, folds]) part.hidden = made === null;

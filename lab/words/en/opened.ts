@@ -25,7 +25,8 @@ export const opened = {
 
   start: 'start', half: 'half a step', end: 'end', earlier: 'before', now: 'now', later: 'next',
   at: (what: string, time: string) => `${what}, ${time}`,
-  tooHigh: (size: string) => `${size} too high`, tooLow: (size: string) => `${size} too low`, off: (size: string) => `${size} off`,
+  /** height: of a place; else of an angle, or any number. */
+  tooFar: (size: string, more: boolean, height: boolean) => `${size} too ${height ? (more ? 'high' : 'low') : more ? 'large' : 'small'}`, off: (size: string) => `${size} off`,
   /** first: the start of the run, through which the exact motion goes. */
   exact: (value: string, method: string, miss: string, first: boolean) => `${first ? 'Exact is' : 'Exact from here is'} ${value}: ${method} is ${miss || 'on it'}.`,
   soFar: (miss: string) => `After all steps up to here it is ${miss} off.`,
@@ -34,6 +35,7 @@ export const opened = {
   cannot: (method: string, why: string) => `No step by ${method} can be opened here: ${why}.`,
   nobody: 'Choose a method to open its steps.',
   stale: 'The equation cannot be computed as it stands. These are steps of the last one that could.',
+  broken: 'The equation cannot be computed as it stands: there is no step to open.',
   opening: 'Opening the step …',
 
   velocity: 'velocity', rate: 'rate of change',
