@@ -39,9 +39,9 @@ const compiled = await WebAssembly.compile(wasm);
 const thumbs = thumbnails(compiled, presets);
 const first = presets.find(({ name }) => name === 'thrown-ball');
 const scene = drawn.sceneOf(compiled, first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
-const core = new Core(compiled);
-const lessonTexts = await Promise.all((await readdir(join(here, 'lessons'))).filter((name) => name.endsWith('.txt'))
-  .map(async (name) => ({ name: `lab/lessons/${name}`, text: await readFile(join(here, 'lessons', name), 'utf8') })));
+const core = new Core(compiled), { language } = drawn.html;
+const lessonTexts = await Promise.all((await readdir(join(here, 'words', language, 'lessons'))).filter((name) => name.endsWith('.txt'))
+  .map(async (name) => ({ name: `lab/words/${language}/lessons/${name}`, text: await readFile(join(here, 'words', language, 'lessons', name), 'utf8') })));
 let lessons;
 try {
   lessons = readLessons(lessonTexts, { models: presets.map(({ name }) => name), methods: core.catalogue(core.create()).map(({ name }) => name) });
@@ -50,27 +50,14 @@ try {
   process.exit(1);
 }
 
-/** A text or bytes, packed into a script: what is only needed later, or by a worker. Zipped, then four bytes as five of 85 characters that no quoted string has
- * to escape; the first digit counts the bytes by which the last group was filled up. */
+/** A text or bytes for lab/unpack.ts. */
 const packed = (contents) => {
   const zipped = gzipSync(contents, { level: 9 }), fill = -zipped.length & 3, whole = Buffer.concat([zipped, Buffer.alloc(fill)]);
   const digit = (n) => String.fromCharCode(n + 35 + (n > 24) + (n > 55));
   let out = digit(fill);
   for (let i = 0; i < whole.length; i += 4) for (let n = whole.readUInt32BE(i), unit = 85 ** 4; unit >= 1; n %= unit, unit /= 85) out += digit(Math.floor(n / unit));
-  return `"${out}"`;
+  return out;
 };
-const unpacking = `
-const digit = (text, i) => { const c = text.charCodeAt(i); return c - 35 - (c > 60) - (c > 92); };
-const unpack = (text) => {
-  const bytes = new DataView(new ArrayBuffer((text.length - 1) / 5 * 4));
-  for (let i = 1, at = 0; i < text.length; at += 4) {
-    let n = 0;
-    for (const end = i + 5; i < end; i++) n = 85 * n + digit(text, i);
-    bytes.setUint32(at, n);
-  }
-  return new Response(new Blob([new Uint8Array(bytes.buffer, 0, bytes.byteLength - digit(text, 0))]).stream().pipeThrough(new DecompressionStream('gzip')));
-};
-`;
 
 /** Modules that exist in the build only. */
 const virtual = (modules) => ({
@@ -83,31 +70,45 @@ const virtual = (modules) => ({
 const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
-    plugins: [virtual({
-      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }))}).json();`,
-      'virtual:thumbs': `${unpacking} export default () => unpack(${packed(JSON.stringify(thumbs))}).json();`, ...modules,
-    })],
+    plugins: [virtual(modules)],
   });
   return outputFiles[0].text;
 };
 
-const hosted = `
+/** What is needed once the first picture stands. */
+const later = {
+  data: JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }),
+  thumbs: JSON.stringify(thumbs),
+};
+const quoted = (contents) => `import { unpack } from './unpack'; export default () => unpack("${packed(contents)}").json();`;
+const hosted = {
+  'virtual:data': quoted(later.data),
+  'virtual:thumbs': quoted(later.thumbs),
+  'virtual:host': `
 export const coreModule = async () => {
   const answer = await fetch('motus.wasm');
   return answer.headers.get('content-type') === 'application/wasm' ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 };
 export const createWorker = () => new Worker('worker.js');
-`;
-/* From disk a page may load nothing: module and worker are inside it. */
-const single = (worker) => `${unpacking}
+`,
+};
+/* From disk a page may load nothing: all is inside it, packed, each part in an element of its own that no browser runs. The only script that stands in the
+ * page unpacks the others; the policy names the hash of what it puts into a script element. */
+const inside = (id) => `import { unpackElement } from './unpack'; export default () => unpackElement('${id}').json();`;
+const single = {
+  'virtual:data': inside('data'),
+  'virtual:thumbs': inside('thumbs'),
+  'virtual:host': `
+import { unpackElement } from './unpack';
 let address = '';
 export const coreModule = async () => {
-  const [module, script] = await Promise.all([unpack(${packed(wasm)}).arrayBuffer().then((bytes) => WebAssembly.compile(bytes)), unpack(${packed(worker)}).blob()]);
+  const [module, script] = await Promise.all([unpackElement('core').arrayBuffer().then((bytes) => WebAssembly.compile(bytes)), unpackElement('worker').blob()]);
   address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   return module;
 };
 export const createWorker = () => new Worker(address);
-`;
+`,
+};
 
 const hash = (text) => `'sha256-${createHash('sha256').update(text, 'utf8').digest('base64')}'`;
 /* A script element ends at the first "</script", whatever stands around it. */
@@ -120,8 +121,14 @@ const put = (html, mark, value) => {
 
 const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
-const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"><button type="button" class="ask-button"><span>${drawn.question(scene)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
-const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
+const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`), said = drawn.said(scene);
+const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">${escaped(said.title)}</h1></div><p id="scene-words">${escaped(said.sentence)}</p><p class="ask"><button type="button" class="ask-button"><span>${escaped(said.ask)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>${escaped(drawn.words.headline.type)}</small></button></div>`;
+/** The words of the language in the marks {{…}}. */
+const spoken = (html) => html.replace(/\{\{(\w+)\}\}/g, (mark, name) => {
+  if (!Object.hasOwn(drawn.html, name)) throw new Error(`index.html wants ${mark}, which words/${language}/html.ts does not have`);
+  return escaped(drawn.html[name]);
+});
+const template = put(put(spoken(await readFile(join(here, 'index.html'), 'utf8')), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
 const page = ({ script, element, connect, worker }) => {
   const policy = ["default-src 'none'", `script-src ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');
@@ -132,12 +139,14 @@ const page = ({ script, element, connect, worker }) => {
 
 await mkdir(out, { recursive: true });
 const worker = await bundle('worker.ts', 'iife', {});
-const main = await bundle('main.ts', 'esm', { 'virtual:host': hosted });
-const all = closed(await bundle('main.ts', 'iife', { 'virtual:host': single(worker) }));
+const whole = await bundle('main.ts', 'iife', single);
+const boot = closed(await bundle('boot.ts', 'iife', {}));
+const parts = { main: whole, core: wasm, worker, ...later };
+const elements = [...Object.entries(parts).map(([id, contents]) => `<script type="text/plain" id="packed-${id}">${packed(contents)}</script>`), `<script>${boot}</script>`];
 const files = {
-  'motus.wasm': wasm, 'worker.js': worker, 'main.js': main,
+  'motus.wasm': wasm, 'worker.js': worker, 'main.js': await bundle('main.ts', 'esm', hosted),
   'index.html': page({ script: "'self'", element: '<script type="module" src="main.js"></script>', connect: "'self'", worker: "'self'" }),
-  'motus-lab.html': page({ script: hash(all), element: `<script>${all}</script>`, connect: "'none'", worker: 'blob:' }),
+  'motus-lab.html': page({ script: `${hash(boot)} ${hash(whole)}`, element: elements.join('\n'), connect: "'none'", worker: 'blob:' }),
 };
 for (const [name, contents] of Object.entries(files)) await writeFile(join(out, name), contents);
 const size = (contents) => `${(Buffer.byteLength(contents) / 1000).toFixed(0)} KB`;
