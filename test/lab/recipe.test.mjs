@@ -68,7 +68,8 @@ for (const [name, text] of models) {
   test(`${name}: recipes of one step`, () => {
     const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model });
     let seen_ = 0, calculated = 0;
-    for (const { name: method } of description.methods.filter((m) => m.admitted && m.name !== 'exact')) for (const index of [0, 1, 7]) {
+    const admitted = description.methods.filter((m) => m.admitted && m.name !== 'exact').map((m) => m.name);
+    for (const method of admitted.flatMap((m) => (m === 'newmark' ? [m, 'newmark(0.3, 0.6)', 'newmark(0, 0.5)'] : [m]))) for (const index of [0, 1, 7]) {
       let trace;
       try { trace = answers.answer('trace', { model, method, step: null, until: null, index }); } catch (e) { if (e.problem) continue; throw e; }
       for (const seen of seenIn(trace.names).filter((_, k) => k < 4)) {
@@ -116,6 +117,13 @@ test('the two steps of the concept’s picture', () => {
   assert.deepEqual(said('verlet', 1), ['Keep going: the same stretch once more. 2 · 0.68 − 1 = 0.36', 'Fall: what the force does in a whole step. h²a = 0.64 · (−0.68) = −0.435', 'There you are. No velocity was needed. x = 0.36 − 0.435 = −0.075']);
   assert.deepEqual(said('kahan-li8', 0).length, 4);
   assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
+});
+test('a method of more stages than lines', () => {
+  const stage = (k) => ({ kind: 'stage', stage: k, stages: 6, iterations: 0, time: 0.1 * k, step: 1, coefficient: 0.1 * k, weight: 1 / 6, weight_x: 0, row: [0, 0, 0, 0, 0, 0].map((_, j) => (j === k - 2 ? 0.1 * k : 0)), row_x: null, x: [k], v: [2], a: [0], before_x: null, before_a: null });
+  const end = (kind, time, x) => ({ ...stage(0), kind, stage: 0, time, row: null, x: [x], v: [2], a: [0] });
+  const trace = { method: 'six', step: 1, index: 0, total: 5, names: { x: ['x'], v: ["x'"] }, entries: [end('start', 0, 0), ...[1, 2, 3, 4, 5, 6].map(stage), end('end', 1, 2)] }, { lines } = recipeOf(trace, seenIn(trace.names)[0], false);
+  assert.deepEqual(lines.map((l) => l.sums.map(plain).join()), ['v1 = 2', 'v2 = 2 + 0.2 · 0 = 2', 'v3 = 2 + 0.3 · 0 = 2', 'x = 2']);
+  assert.match(lines[3].sentence, /^And so on: 6 in all\./);
 });
 test('figures', () => {
   const kind = { decimals: 3, most: 1 };

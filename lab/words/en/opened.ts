@@ -57,7 +57,7 @@ export const opened = {
   also: (k: number, n: number, noun: string, together: boolean) => `${n === 2 ? 'The other, further on' : `The ${ordinals[k] ?? 'next'} ${noun}`}${together ? '; then the whole step, with all four, weighed' : ''}.`,
   forceAtStart: 'Read what the force does at the start.',
   seekForce: (n: number) => `Look for the force at the end that fits the place it leads to${rounds(n)}.`,
-  forces: (n: number) => (n === 1 ? 'Go the whole step, with this force.' : 'Go the whole step, with both forces.'),
+  forces: 'Go the whole step, with both forces.',
   forcesVelocity: 'The velocity, with both as well.',
   keepGoing: 'Keep going: the same stretch once more.',
   fall: (hidden: boolean, half: boolean) => (hidden ? 'Fall: the force, with (next − before)/2h for the velocity.' : half ? 'Fall: what the force does in a first step.' : 'Fall: what the force does in a whole step.'),
