@@ -118,6 +118,14 @@ test('the two steps of the concept’s picture', () => {
   assert.deepEqual(said('kahan-li8', 0).length, 4);
   assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
 });
+test('what does not fit is not said: a start that is written in another way, numbers of a part that are not its formula’s', async () => {
+  const text = "x'' = -x + cos(t)\nx(abs(0)) = 1\nx'(abs(0)) = 0\nstep 0.1\nuntil 2\n", answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
+  const trace = answers.answer('trace', { model, method: 'leapfrog', step: null, until: null, index: 5 });
+  assert.equal(await localExact(client, { description, state: { text, set: {} } }, trace), null);
+  const [start, drift, kick, ...rest] = trace.entries, other = { ...trace, entries: [start, drift, { ...kick, v: [kick.v[0] + 0.001] }, ...rest] };
+  const lines = (of) => recipeOf(of, seenIn(of.names)[0], false).lines.map((l) => l.sums[0].filter((t) => t.kind === 'sign' && t.sign === '=').length);
+  assert.deepEqual([lines(trace), lines(other)], [[2, 2, 2], [2, 1, 2]]);
+});
 test('a method of more stages than lines', () => {
   const stage = (k) => ({ kind: 'stage', stage: k, stages: 6, iterations: 0, time: 0.1 * k, step: 1, coefficient: 0.1 * k, weight: 1 / 6, weight_x: 0, row: [0, 0, 0, 0, 0, 0].map((_, j) => (j === k - 2 ? 0.1 * k : 0)), row_x: null, x: [k], v: [2], a: [0], before_x: null, before_a: null });
   const end = (kind, time, x) => ({ ...stage(0), kind, stage: 0, time, row: null, x: [x], v: [2], a: [0] });
@@ -133,7 +141,8 @@ test('figures', () => {
 });
 
 test('the exact motion from where a step starts: for every model, and no further from a step by Gauss’ method than that errs', async () => {
-  for (const [name, text] of models) {
+  const cells = (start) => `x[i]'' = -x[i] for i = 1..3\n${start}\nx[i]'(0) = 0 for i = 1..3\nstep 0.1\nuntil 2\n`;
+  for (const [name, text] of [...models, ['one cell', cells('x[i](0) = 0 for i = 1..3\nx[2](0) = 1')], ['two ranges', cells('x[i](0) = 0 for i = 1..2 # at rest\nx[3](0) = 1 # pulled')]]) {
     const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
     for (const index of [0, 5]) for (const way of [1, -1]) {
       const trace = answers.answer('trace', { model, method: 'gauss8', step: null, until: null, index }), end = trace.entries.at(-1), start = trace.entries[0];

@@ -40,9 +40,14 @@ function startingAt(text: string, initial: readonly Initial[], time: number): st
     const letters = base.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
     if (!list) { out = out.replace(new RegExp(`^\\s*${letters}${prime}\\s*\\([^()]*\\)\\s*=[^#\\n]*`, 'gmu'), () => `${base}${prime}(${time}) = ${vector(cells[0]!, components)} `)
       .replace(new RegExp(`(?<![\\p{L}\\p{N}_.'])${letters}${prime}\\s*\\([^()]*\\)`, 'gu'), () => `${base}${prime}(${time})`); return; }
-    const lists = cells[0]!.map((_, c) => `motusStart${k}c${c}`), said = lists.map((name, c) => `${name} = [${cells.map((cell) => cell[c]).join(', ')}]`).join('\n');
-    out = out.replace(new RegExp(`^\\s*${letters}\\s*\\[\\s*(\\w+)\\s*\\]\\s*${prime}\\s*\\([^()]*\\)\\s*=[^#\\n]*?\\b(for\\s[^#\\n]*)`, 'gmu'),
-      (_, index: string, range: string) => `${said}\n${base}[${index}]${prime}(${time}) = ${vector(lists.map((name) => `${name}[${index} - ${first - 1}]`), components)} ${range}`);
+    const numbered = `^\\s*${letters}\\s*\\[\\s*(-?\\w+)\\s*\\]\\s*${prime}\\s*\\([^()]*\\)\\s*=[^#\\n]*?`;
+    const lists = cells[0]!.map((_, c) => `motusStart${k}c${c}`), said = lists.map((name, c) => `${name} = [${cells.map((cell) => cell[c]).join(', ')}]\n`).join('');
+    let before = said;
+    out = out.replace(new RegExp(`${numbered}(?:\\b(for\\s[^#\\n]*)|(?=#|$))`, 'gmu'), (_, index: string, range: string | undefined) => {
+      const defined = before;
+      before = '';
+      return `${defined}${base}[${index}]${prime}(${time}) = ${vector(lists.map((name) => `${name}[${index} - ${first - 1}]`), components)} ${range ?? ''}`;
+    });
   });
   return out;
 }
