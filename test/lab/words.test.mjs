@@ -15,7 +15,7 @@ const built = buildSync({ entryPoints: [join(lab, 'words/index.ts')], bundle: tr
 const spoken = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 
 /** Not yet: their texts move with the work on them. */
-const later = new Set(['main.ts', 'figure/legend.ts', 'panel/convergence.ts', 'panel/plane.ts', 'panel/precision.ts', 'panel/stability.ts', 'panel/steps.ts', 'panel/study.ts']);
+const later = new Set(['figure/legend.ts', 'panel/convergence.ts', 'panel/precision.ts', 'panel/stability.ts', 'panel/study.ts', 'panel/steps.ts']);
 const laterFolders = ['panel/steps/', 'theory/'];
 
 const files = ['.', 'figure', 'lessons', 'panel', 'panel/steps', 'shell', 'stage', 'theory'].flatMap((folder) => readdirSync(join(lab, folder)).filter((name) => name.endsWith('.ts')).map((name) => join(folder, name)));
@@ -95,14 +95,8 @@ const LETTERS = /\p{L}{2}/u;
 /** Where a reader reads: whatever letters stand here are a text. */
 const READ = /(?:(?:'aria-(?:label|valuetext|description|roledescription)'|\b(?:title|placeholder|label|caption|head)):\s*\[?|\.(?:textContent|title|placeholder)\s*=\s*|setAttribute\('aria-(?:label|valuetext|roledescription)',\s*|\b(?:say|button|pen\.text)\((?:[^()'`]*,\s*)?|new Option\()$/;
 
-/** Names of the page's own inside of the document: classes, ids, paths of pictures, selectors; and what only a programmer meets. */
-const NAMES = [
-  /(?:\b(?:class|id|d|viewBox|name|rel|kind|spellcheck|style|transform|href|for)|'(?:aria-(?:controls|describedby|labelledby)|data-[a-z-]+)'):\s*(?:[^,'`{}]*\? )?$/,
-  /\bclass: .*\? '[^']*' : $/, /\.className = $/, /\bmake\('[a-z]+', $/,
-  /(?:querySelector(?:All)?|closest|matches|matchMedia|locator)(?:<[^>]*>)?\($/, /classList\.\w+\($/, /setAttribute\('(?:class|d|viewBox|id|style)', $/,
-  /\bnew (?:Error|DOMException)\($/, /\breportError\($/,
-  /\bfrom $/, /^import $/,
-];
+/** What stands here is no text: classes, selectors, what a programmer meets. */
+const NAMES = [/(?:\b(?:class|d|viewBox)|'data-[a-z]+'): (?:[^,'`{}]*\? )?$/, /(?:querySelector(?:All)?|closest|matches|matchMedia)(?:<[^>]*>)?\($/, /\bnew Error\($/];
 /** Each with its reason. */
 const EXCEPTIONS = [
   // Keys of the keyboard, as events name them.
@@ -158,7 +152,7 @@ function named() {
   for (const source of [...sources.values(), readFileSync(join(lab, 'build.mjs'), 'utf8')]) {
     const roots = new Map([...Object.keys(spoken), 'drawn.words', 'drawn.html'].map((root) => [root, root.replace('drawn.', '')]));
     // A part that gets a name of its own is not said by that.
-    const rest = source.replace(/\b(\w+) = ((?:words|refused|faults)(?:\.\w+)+)(?=[,;])/g, (all, own, path) => {
+    const rest = source.replace(/\b(\w+) = ((?:words|computed|faults)(?:\.\w+)+)(?=[,;])/g, (all, own, path) => {
       if (said.some((leaf) => leaf.path === path)) return all;
       roots.set(own, path);
       return own;

@@ -1,4 +1,4 @@
-/* English. Each part of the page has its file; page, refused, faults and html stand alone (../index.ts). */
+/* English. Each part of the page has its file; page, computed, faults and html stand alone (../index.ts). */
 import { address } from './address';
 import { dock } from './dock';
 import { editor } from './editor';
