@@ -5,6 +5,7 @@
 import type { Figure, Frame, Ink, Pen } from './types';
 import { brief } from './number';
 import { textWidth } from './shapes';
+import { words } from '../words';
 import { rowAt } from './track';
 
 /** A CustomEvent<number> that bubbles: the time somebody would like to see. */
