@@ -333,10 +333,24 @@ export class Answers {
         for (let k = 0; k < nv; k++) matrix.set(nx + i, nx + k, byV[i * nv + k] as number);
       }
       const { realEigenvalues, imaginaryEigenvalues } = new EigenvalueDecomposition(matrix);
-      out.push({ re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues) });
+      out.push({
+        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: nv === nx && symmetric(byV, nv),
+      });
     }
     return out;
   }
+}
+
+/** Up to rounding. */
+function symmetric(m: Float64Array, n: number): boolean {
+  let most = 0, off = 0;
+  for (let i = 0; i < n; i++) {
+    for (let k = 0; k < n; k++) {
+      most = Math.max(most, Math.abs(m[i * n + k]!));
+      off = Math.max(off, Math.abs(m[i * n + k]! - m[k * n + i]!));
+    }
+  }
+  return off <= 1e-12 * most;
 }
 
 /** An answer or a problem, whatever happens: nothing is thrown past here. */
