@@ -29,7 +29,7 @@ export interface EndsLayout {
   readonly above: number; readonly right: number; readonly narrow: boolean;
 }
 
-const SIZE = 13, SMALL = 12, LINE = 18, GAP = 10, NARROW = 480, SAME = 2, PLACES = 48, ARROW = 16;
+const SIZE = 13, SMALL = 12, LINE = 18, GAP = 10, NARROW = 480, SAME = 2, PLACES = 512, ARROW = 16;
 /** What axes() itself leaves at the right of a frame. */
 const EDGE = 14;
 /** The names may take this part of the width. */
@@ -48,7 +48,7 @@ function bold(text: string, size: number): number {
 
 export function endsLayout(width: number, labels: readonly string[]): EndsLayout {
   if (!labels.length) return { above: 0, right: 0, narrow: width < NARROW };
-  if (width >= NARROW) return { above: 0, right: Math.min(MOST * width, Math.max(...labels.map((l) => bold(shortLabel(l), SIZE))) + GAP + 4) - EDGE, narrow: false };
+  if (width >= NARROW) return { above: 0, right: Math.min(MOST * width, Math.max(...labels.map((l) => bold(shortLabel(l), SIZE))) + (labels.length > 1 ? bold('= ', SIZE) : 0) + GAP + 4) - EDGE, narrow: false };
   let x = 0, rows = 1;
   for (const label of labels) {
     const wide = item(shortLabel(label)) + ARROW;

@@ -8,7 +8,7 @@ import { minus } from './number';
 import { saidNodes } from './name';
 import type { Table } from './types';
 
-const ROWS = 200, DIGITS = 10;
+const ROWS = 200, DIGITS = 6;
 
 /** Which rows of so many are shown. */
 export function evenly(count: number, most = ROWS): number[] {

@@ -20,7 +20,7 @@ import type { AxisDefinition, Figure, Frame, Ink, Pen, Said, Table } from '../fi
 import { words } from '../words';
 import { columnOf, headName, invariants, timeTable } from './columns';
 import { keepingOf, type Keeping } from './keeping';
-import { endTime, exactName, listed, moment, several, timeUnit } from './told';
+import { endTime, exactName, listed, moment, nameAt, several, timeUnit } from './told';
 
 const say = words.panel.drift;
 /** A relative change that is round-off. */
@@ -129,7 +129,7 @@ export const driftPanel: PanelMaker = (): Panel => {
     if (!scene) return '';
     const { tracks } = scene.solution, kinds = new Map<Keeping['kind'], string[]>();
     tracks.forEach((track, k) => {
-      const kept = keepingOf(track, values[k] ?? [], changes[k] ?? [], relative), name = scene!.looks[k]?.label ?? '';
+      const kept = keepingOf(track, values[k] ?? [], changes[k] ?? [], relative), name = nameAt(scene!, k);
       if (!kept) return;
       const said = kinds.get(kept.kind), number = numberOf(kept);
       if (said) said.push(kept.kind === 'keeps' ? say.alsoKeeps(name, number) : say.also(name, number)); else kinds.set(kept.kind, [say[kept.kind](name, number)]);
@@ -140,7 +140,7 @@ export const driftPanel: PanelMaker = (): Panel => {
     if (!scene) return '';
     const name = nameText(chosen), far = changes.map((d, k) => {
       const [a, b] = extent([d]);
-      return { name: scene!.looks[k]?.label ?? '', top: d.length ? Math.max(Math.abs(a), Math.abs(b)) : NaN };
+      return { name: nameAt(scene!, k), top: d.length ? Math.max(Math.abs(a), Math.abs(b)) : NaN };
     }).sort((a, b) => a.top - b.top);
     const said = far.map((w) => (w.top < 1e-14 && w.top > 0 && relative ? words.panel.error.small(w.name, brief(w.top, 2)) : words.panel.error.one(w.name, brief(w.top, 3))));
     return [begin(relative ? say.begins(name, brief(first, 6)) : say.zero(name)), said.length ? say.furthest(relative, listed(said, 5)) : ''].filter(Boolean).join(' ');

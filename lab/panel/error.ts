@@ -17,7 +17,7 @@ import { drawTrack, begin, rowAt } from '../figure/track';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
 import { words } from '../words';
 import { columnOf, timeTable } from './columns';
-import { amount, endTime, listed, moment, several, timeUnit, unitOf } from './told';
+import { amount, endTime, listed, moment, nameAt, several, timeUnit, unitOf } from './told';
 
 const say = words.panel.error;
 /* What an error is of: the kind of the columns, and its sign in tables. */
@@ -136,7 +136,7 @@ export const errorPanel: PanelMaker = (): Panel => {
     if (!scene) return '';
     const { tracks, truth } = scene.solution, end = endTime(scene), at = moment(scene, end);
     const parts = tracks.map((track, k) => {
-      const name = scene!.looks[k]?.label ?? '', all = errors(k), last = track.times.length - 1, e = all[last] ?? NaN;
+      const name = nameAt(scene!, k), all = errors(k), last = track.times.length - 1, e = all[last] ?? NaN;
       if (track.problem || !Number.isFinite(e)) {
         const lost = track.problem?.time ?? track.times[Math.max(0, all.findIndex((v) => !Number.isFinite(v)))] ?? end;
         return say.leaves(name, moment(scene!, lost));
@@ -160,12 +160,12 @@ export const errorPanel: PanelMaker = (): Panel => {
     const worst = tracks.map((_, k) => {
       let top = 0;
       for (const e of errors(k)) if (e > top) top = e;
-      return { name: scene!.looks[k]?.label ?? '', top };
+      return { name: nameAt(scene!, k), top };
     }).sort((a, b) => a.top - b.top);
     const said = worst.map((w) => (w.top <= 16 * floor && w.top > 0 ? say.small(w.name, brief(w.top, 2)) : say.one(w.name, brief(w.top, 3))));
     return [
       said.length ? say.largest(say.kinds[of], listed(said, 5)) : '', against(), zeros ? say.zeros : '',
-      leaving.length ? begin(words.panel.leave(leaving.map((k) => scene!.looks[k]?.label ?? ''))) : '',
+      leaving.length ? begin(words.panel.leave(leaving.map((k) => nameAt(scene!, k)))) : '',
     ].filter(Boolean).join(' ');
   }
   function table(): Table {

@@ -18,11 +18,11 @@ import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
 import { swingsOf } from './swings';
-import { amount, exactName, timeUnit, unitOf } from './told';
+import { amount, exactName, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.phase;
 /** Curves are compared at so many times: those that agree share a name. */
-const TIMES = 48;
+const TIMES = 256;
 
 export const phasePanel = (store: Store, stage: () => Sees): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, pair: [string, string] = ['', ''], offered = '', time = 0;
@@ -102,7 +102,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     const { truth, tracks } = scene.solution, exact = truthShown() && truth, times = exact ? exact.times : tracks[0]!.times;
     const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? track(0, name)) as [Float64Array, Float64Array];
     const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => nameSpans(of, 15);
-    const head: Span[] = exact ? [] : [{ text: say.by(scene.looks[0]?.label ?? '') }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
+    const head: Span[] = exact ? [] : [{ text: say.by(nameAt(scene, 0)) }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
     const { turns, repeats } = speedOf() ? swingsOf(times, x, y) : { turns: [], repeats: null }, first = turns[0], last = turns[turns.length - 1];
     if (repeats) return put({ text: say.swings(value(pair[0], repeats.low), value(pair[0], repeats.high), amount(repeats.period, timeUnit(scene))) });
     if (first && last) return put({ text: say.turns(turns.length, value(pair[0], first.at), value(pair[0], last.at)) });

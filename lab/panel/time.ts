@@ -18,7 +18,7 @@ import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
-import { endTime, exactName, listed, moment, timeUnit, unitOf } from './told';
+import { endTime, exactName, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.time;
 const STRIP = 130, MOST = 6, ANSWERED = 3;
@@ -152,7 +152,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? endTime(scene) : track.times[track.times.length - 1]!;
     const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)).replace('≈ ', '') : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
     const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
-    return [{ text: say.at(moment(scene, end), exact ? '' : scene.looks[0]?.label ?? '') }, ...spans, { text: '.' }];
+    return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: '.' }];
   }
   function summary(): string {
     if (!scene) return '';
@@ -162,7 +162,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     const first = chosen[spread.indexOf(Math.max(...spread))] ?? chosen[0] ?? '', read = texts(first, end), final = values(first, end).flatMap((v, i) =>
       // No exact value is known of some quantities; a method without one stopped before.
       (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? say.before(labels()[i] ?? '') : `${labels()[i]} ${shortened(read[i] ?? '')}`]));
-    const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? ''), name = (k: number): string => begin(scene!.looks[k]?.label ?? '');
+    const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? ''), name = (k: number): string => begin(nameAt(scene!, k));
     return [
       say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
       leaving.length ? begin(words.panel.leave(leaving)) : '',

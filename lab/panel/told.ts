@@ -30,6 +30,9 @@ export function endTime(scene: Scene): number {
   return ends.map((t) => t[t.length - 1]!).reduce((a, b) => (Math.abs(b - start) > Math.abs(a - start) ? b : a), start);
 }
 
+/** A method's name in a sentence: "Kahan–Li 8" is not broken before its number. */
+export const nameAt = (scene: Scene, k: number): string => (scene.looks[k]?.label ?? '').replace(/ (?=\d)/g, '\u00a0');
+
 /** How the exact line is called: as on the stage. */
 export const exactName = (scene: Scene): string => (scene.description.has_exact ? words.panel.exact : words.panel.computed);
 

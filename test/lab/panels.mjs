@@ -20,7 +20,7 @@ function agree(cell, other) {
   const plain = cell.replaceAll('\u2212', '-').replace(/^–$/, '');
   if (plain === other) return true;
   const number = Number(plain), exact = Number(other);
-  return plain !== '' && other !== '' && Math.abs(number - exact) <= 5e-10 * Math.abs(exact);
+  return plain !== '' && other !== '' && Math.abs(number - exact) <= 5.01e-6 * Math.abs(exact);
 }
 /** Size and number of colours of a picture, as the browser decodes it. */
 const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {

@@ -1,7 +1,6 @@
 /* The pictures that look closer: lab/panel/. Numbers come formatted, with their units; names as the page sets them. */
 /** A number may follow the name of a method that ends in one, Kahan–Li 8. */
-const by = (name: string, number: string): string => `${bound(name)} ${/\d$/.test(name) ? 'by ' : ''}${number}`;
-const bound = (name: string): string => name.replace(/ (?=\d)/g, '\u00a0');
+const by = (name: string, number: string): string => `${name} ${/\d$/.test(name) ? 'by ' : ''}${number}`;
 const and = (parts: readonly string[]): string => (parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts[parts.length - 1]}`);
 export const panel = {
   exact: 'exact',
@@ -67,7 +66,7 @@ export const panel = {
     times: (name: string, factor: string) => `${name} ends with ${factor} times as much`,
     leaves: (name: string, at: string) => `${name} leaves at ${at}`,
     also: by,
-    alsoKeeps: (name: string, to: string) => `${bound(name)} to ${to}`,
+    alsoKeeps: (name: string, to: string) => `${name} to ${to}`,
     rounding: 'round-off',
     join: (parts: readonly string[]) => `${parts.join('; ')}.`,
     invariant: 'Of',
