@@ -119,7 +119,7 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
+const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'];
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"><button type="button" class="ask-button"><span>${drawn.question(scene)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
 const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);

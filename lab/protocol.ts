@@ -147,7 +147,7 @@ export interface Spectrum {
   readonly re: Float64Array; readonly im: Float64Array;
   /** The force depends on neither position nor velocity there. */
   readonly free: boolean;
-  /** Velocities enter by friction alone (∂a/∂v is symmetric), and there are no first-order variables. */
+  /** Velocities enter by friction alone (∂a/∂v is symmetric), and first-order variables do not act back. */
   readonly springs: boolean;
 }
 

@@ -17,10 +17,10 @@ export interface Bars {
   readonly name: string;
 }
 
-const ROW = 30, TOP = 14, BELOW = 26, FOOT = 46, LEFT = 12, GAP = 12, THICK = 7, SIZE = 13;
+const ROW = 30, TOP = 14, BELOW = 26, FOOT = 46, LEFT = 12, GAP = 12, THICK = 7, SIZE = 13, LEAST = 170;
 /** The line of the run is in the picture up to so many times the longest bar. */
 const FAR = 1.6;
-export const heightOf = (count: number): number => TOP + ROW * count + BELOW + FOOT;
+export const heightOf = (count: number): number => Math.max(LEAST, TOP + ROW * count + BELOW + FOOT);
 
 const wide = (text: string): number => 1.08 * textWidth(text, SIZE);
 /** Numbers that fit into the width with the names behind the bars. */
@@ -32,8 +32,8 @@ function reach({ bars, here }: Bars, room: number): number {
 }
 
 export function drawBars(pen: Pen, ink: Ink, of: Bars): void {
-  const room = pen.width - LEFT - 8, right = LEFT + room, foot = pen.height - FOOT, scale = scaleAlong({ min: 0, max: reach(of, room), label: '' }, LEFT, right, 110);
-  const crisp = (p: number): number => Math.round(p) + 0.5;
+  const room = pen.width - LEFT - 8, right = LEFT + room, foot = pen.height - FOOT, scale = scaleAlong({ min: 0, max: reach(of, room), label: '' }, LEFT, right, 150);
+  const row = (foot - BELOW - TOP) / Math.max(1, of.bars.length), crisp = (p: number): number => Math.round(p) + 0.5;
   for (const tick of scale.ticks) {
     const x = scale(tick);
     pen.line([crisp(x), TOP - 8, crisp(x), foot], { colour: ink.grid, width: 1 });
@@ -42,7 +42,7 @@ export function drawBars(pen: Pen, ink: Ink, of: Bars): void {
   pen.text(right, foot + 26, of.name, { colour: ink.quiet, anchor: 'end', baseline: 'top' });
   const x0 = scale(0), at = scale(of.here), inside = of.here > 0 && at <= right;
   of.bars.forEach(({ look, limit, label }, k) => {
-    const y = TOP + ROW * (k + 0.5), letters = { colour: look.tone, size: SIZE, bold: true, baseline: 'middle' as const, halo: ink.surface };
+    const y = TOP + row * (k + 0.5), letters = { colour: look.tone, size: SIZE, bold: true, baseline: 'middle' as const, halo: ink.surface };
     // Names of methods without a bar stand behind the line of the run, where that is near.
     const free = inside && at < x0 + 90 ? at + GAP : x0 + 2 * GAP;
     if (limit.kind === 'upTo') {

@@ -19,13 +19,15 @@ import { amount, timeUnit } from './told';
 const say = words.study.convergence;
 /** The present step is in the picture if it is no further from the measured ones than this factor. */
 const NEAR = 16;
+/** Shown are so many times the model's step, and so much less of it; steps that show a slope; halvings at least. */
+const ABOUT = 4, SEEN = 4, OCTAVES = 5;
 const orderText = (order: number): string => say.share(order);
 
 /** What half the step leaves: "half", "0.35", "1/190". */
 function shareText(slope: number, power: number | null): string {
   if (power !== null) return say.share(power);
   const left = 2 ** -slope;
-  return left >= 0.1 ? brief(left, 2) : say.part(brief(2 ** slope, 2));
+  return left >= 0.1 ? brief(left, 2) : say.part(brief(Number((2 ** slope).toPrecision(2)), 4));
 }
 
 /** The answer, from the rows and the names of their methods. */
@@ -69,25 +71,29 @@ export const convergence: PanelMaker = (store): Panel => {
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? 0);
 
   /** The steps of the slider's stops, and further halves and doubles as far as the picture goes; largest first. */
-  function stops(most: number, least: number): number[] {
-    const own = Math.abs(scene?.description.settings.step ?? 0) || step() || most, first = own * 2 ** Math.floor(Math.log2(most / own) + 1e-9);
-    const list: number[] = [];
+  function stops([most, least]: readonly [number, number]): number[] {
+    const own = Math.abs(scene?.description.settings.step ?? 0) || step() || most, first = own * 2 ** Math.floor(Math.log2(most / own) + 1e-9), list: number[] = [];
     for (let h = first; h >= least * (1 - 1e-9); h /= 2) list.push(h);
     return list;
   }
+  /** The steps that are shown, the largest first: those about the present one, and as many smaller ones as show each slope. */
+  function shownSteps(found: readonly ConvergeRow[]): [number, number] {
+    const all = found.flatMap((row) => row.points.map((point) => point.step)), own = Math.abs(scene?.description.settings.step ?? 0) || step(), h = step() || own, largest = Math.max(...all), smallest = Math.min(...all);
+    const seen = found.flatMap((row) => row.points.filter((point) => point.used).sort((a, b) => b.step - a.step).slice(SEEN - 1, SEEN).map((point) => point.step));
+    const most = Math.min(Math.max(largest, h < NEAR * largest ? h : 0), Math.max(ABOUT * own, h, 2 ** SEEN * Math.max(smallest, ...seen)));
+    const least = Math.max(Math.min(smallest, h > smallest / NEAR ? h : Infinity), Math.min(own / ABOUT, h, most / 2 ** OCTAVES, ...seen));
+    return [1.2 * most, least / 1.2];
+  }
 
   function draw(pen: Pen, ink: Ink): void {
-    const found = rows(), shown = looks(), points = found.flatMap((row) => row.points).filter((point) => errorOf(point) > 0);
-    if (!scene || !points.length) return;
-    const names = labels(pen.width), room = namesLayout(pen.width, names), steps = points.map((point) => point.step), h = step();
-    let most = Math.max(...steps), least = Math.min(...steps);
-    if (h > most && h < NEAR * most) most = h;
-    if (h > 0 && h < least && h > least / NEAR) least = h;
-    const frame = errorFrame(pen, ink, room, points.map(errorOf), { from: 1.25 * most, to: least / 1.25, ticks: stops(1.2 * most, least / 1.2), keep: h, label: (v) => brief(v, 3), name: say.axis });
-    const lines = found.map((row) => [...row.points].sort((a, b) => b.step - a.step).flatMap((point) => { const e = errorOf(point); return e > 0 ? [frame.x(point.step), frame.y(e)] : [NaN, NaN]; }));
+    const found = rows(), shown = looks();
+    if (!scene || !found.some((row) => row.points.some((point) => errorOf(point) > 0))) return;
+    const names = labels(pen.width), room = namesLayout(pen.width, names), h = step(), [from, to] = shownSteps(found);
+    const within = found.map((row) => row.points.filter((point) => point.step <= from && point.step >= to).sort((a, b) => b.step - a.step));
+    const frame = errorFrame(pen, ink, room, within.flat().map(errorOf).filter((e) => e > 0), { from, to, ticks: stops([from, to]), keep: h, label: (v) => brief(v, 3), name: say.axis });
+    const lines = within.map((points) => points.flatMap((point) => { const e = errorOf(point); return e > 0 ? [frame.x(point.step), frame.y(e)] : [NaN, NaN]; }));
     pen.clip(frame.left, frame.top - 4, frame.width + 8, frame.height + 8, () => found.forEach((row, i) => {
-      const used = [...row.points].sort((a, b) => b.step - a.step).map((point) => point.used || row.exact_here);
-      drawErrors(pen, shown[i]!, lines[i]!, (k) => used[k]!);
+      drawErrors(pen, shown[i]!, lines[i]!, (k) => within[i]![k]!.used || row.exact_here);
     }));
     if (h > 0) mark(pen, ink, frame, h);
     errorEnds(pen, ink, frame, room, names, shown, lines);
@@ -97,7 +103,7 @@ export const convergence: PanelMaker = (store): Panel => {
     const right = frame.left + frame.width, x = frame.x(h), inside = Math.min(right, Math.max(frame.left, x)), text = words.study.here(amount(h, scene ? timeUnit(scene) : '')), foot = frame.top + frame.height;
     if (x === inside) pen.line([x, frame.top - 4, x, foot], { colour: ink.text, width: 1.5 });
     const flip = inside + 8 + textWidth(text) > right;
-    pen.text(inside + (flip ? -6 : 6), foot - 5, text, { colour: ink.text, anchor: flip ? 'end' : 'start', baseline: 'bottom', halo: ink.surface });
+    pen.text(inside + (flip ? -6 : 6), frame.top - 5, text, { colour: ink.text, anchor: flip ? 'end' : 'start', baseline: 'top', halo: ink.surface });
   }
 
   const fig = figure({

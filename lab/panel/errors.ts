@@ -15,7 +15,7 @@ const say = words.study;
 /** An error of so many sizes of the motion is an explosion; how large, tells nothing, and would press all else together. */
 const CEILING = 30;
 /** Room below for the numbers and the name of what goes along; of a name at the end, the widest part of the picture; pixels between two markers. */
-const FOOT = 34, WIDEST = 0.32, APART = 13;
+const FOOT = 34, WIDEST = 0.32, APART = 13, PLACES = 32;
 
 export interface Along {
   readonly from: number; readonly to: number;
@@ -45,6 +45,7 @@ export function errorFrame(pen: Pen, ink: Ink, layout: EndsLayout, errors: reado
   const region = { left: 0, top: layout.above, width: pen.width - layout.right, height: pen.height - layout.above - FOOT };
   const made = axes(pen, ink, { min: 0, max: 1, label: '' }, { min: 10 ** low, max: 10 ** high, log: true, label: say.error }, { region, plain: true, bare: true });
   const ticks = fitting(along, scaleOf(along, made.left, made.width, [])), x = scaleOf(along, made.left, made.width, ticks), foot = made.top + made.height;
+  for (const t of along.ticks) pen.line([Math.round(x(t)) + 0.5, foot, Math.round(x(t)) + 0.5, foot + 4], { colour: ink.axis, width: 1 });
   for (const t of ticks) pen.text(x(t), foot + 7, along.label(t), { colour: ink.quiet, anchor: 'middle', baseline: 'top' });
   pen.text(made.left + made.width, foot + 24, along.name, { colour: ink.quiet, anchor: 'end', baseline: 'top' });
   return { ...made, x };
@@ -62,13 +63,25 @@ export function drawErrors(pen: Pen, look: Look, xy: readonly number[], marked: 
   }
 }
 
+/** Heights of a line at places that are the same for all of a frame. */
+function heightsOf(frame: Frame, xy: readonly number[]): number[] {
+  return Array.from({ length: PLACES }, (_, i) => {
+    const x = frame.left + frame.width * (i + 0.5) / PLACES;
+    for (let k = 0; k + 3 < xy.length; k += 2) {
+      const a = xy[k]!, b = xy[k + 2]!;
+      if (a <= x && x <= b) return xy[k + 1]! + (xy[k + 3]! - xy[k + 1]!) * (x - a) / ((b - a) || 1);
+    }
+    return NaN;
+  });
+}
+
 /** The names at the ends of such lines: where the last point that is in the frame lies. */
 export function errorEnds(pen: Pen, ink: Ink, frame: Frame, layout: EndsLayout, labels: readonly string[], looks: readonly Look[], lines: readonly (readonly number[])[]): void {
   drawEnds(pen, ink, frame, layout, looks.flatMap((look, i): End[] => {
     const xy = lines[i]!;
     let k = xy.length - 2;
     while (k >= 0 && !Number.isFinite(xy[k]! + xy[k + 1]!)) k -= 2;
-    return k < 0 ? [] : [{ label: labels[i]!, colour: look.tone, marker: look.marker, at: { x: xy[k]!, y: xy[k + 1]! } }];
+    return k < 0 ? [] : [{ label: labels[i]!, colour: look.tone, marker: look.marker, at: { x: xy[k]!, y: xy[k + 1]! }, heights: heightsOf(frame, xy) }];
   }));
 }
 export const namesLayout = (width: number, labels: readonly string[]): EndsLayout => endsLayout(width, labels);

@@ -17,6 +17,8 @@ import { convergenceStudy, lookFor, measurable, rowsFor, studyBar } from './stud
 import { several } from './told';
 
 const say = words.study.precision;
+/** So many comparisons in the sentence: the nearest, and the furthest. */
+const COMPARED = 3;
 /** To so many digits, thousands apart. */
 const rounded = (n: number, digits = 2): string => (n < 1e6 ? (n < 10 ? brief(n, digits) : grouped(Number(n.toPrecision(n < 100 ? 2 : digits)))) : shortened(readable(n, digits)));
 
@@ -51,7 +53,7 @@ export function accuracy(rows: readonly ConvergeRow[], names: readonly string[],
     if (same) same.names.push(name); else groups.push({ ratio, names: [name] });
   }
   if (!groups.length) return say.alone(say.digits(digits), best.name, best.need.exact ? count : say.atMost(count), until, rest);
-  return say.answer(say.digits(digits), best.name, groups.map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), rest);
+  return say.answer(say.digits(digits), best.name, (groups.length > COMPARED ? [...groups.slice(0, COMPARED - 1), groups[groups.length - 1]!] : groups).map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), rest);
 }
 
 export const precision: PanelMaker = (store): Panel => {

@@ -22,7 +22,7 @@ import { amount, moment, timeUnit } from './told';
 const say = words.study.stability;
 /** Moments of the run at which it is linearised: fewer where that is dear, by the numbers of the state; after the last change, so many milliseconds later. */
 const momentsFor = (numbers: number): number => (numbers <= 8 ? 128 : numbers <= 24 ? 32 : 16);
-const PAUSE = 120, LEAST = 230, PLANE = { aspect: 0.78, tallest: 0.8 };
+const PAUSE = 120, PLANE = { aspect: 0.78, tallest: 0.8 };
 
 const cardOf = (scene: Scene, name: string): Method | undefined =>
   scene.catalogue.find((m) => m.name === name || m.aliases.includes(name)) ?? scene.catalogue.find((m) => name.startsWith(`${m.name}(`) || name.startsWith(`${m.name} (`));
@@ -67,6 +67,8 @@ export const stability: PanelMaker = (store): Panel => {
   const main = (): Method | undefined => { const look = methods()[0]; return scene && look ? cardOf(scene, look.method) : undefined; };
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? scene?.description.settings.step ?? 0);
   const unit = (): string => (scene ? timeUnit(scene) : '');
+  /** A step, with its unit. */
+  const written = (h: number): string => (h >= 1000 && h < 1e5 ? `${grouped(Number(h.toPrecision(3)))}${unit() && `\u2009${unit()}`}` : amount(h, unit()));
   const frequency = (): number => motion?.frequencies[0] ?? 0;
   /** Bars are of step times frequency, or of the step. */
   const swinging = (): boolean => motion?.kind === 'swings';
@@ -179,7 +181,7 @@ export const stability: PanelMaker = (store): Panel => {
   function barsOf(): Bar[] {
     return judged.map(({ look, limit }) => {
       const name = shortLabel(look.label);
-      const label = limit.kind === 'upTo' ? say.label(name, swinging() ? brief(limit.value, 3) : amount(limit.value, unit()))
+      const label = limit.kind === 'upTo' ? say.label(name, swinging() ? brief(limit.value, 3) : written(limit.value))
         : { any: say.anyLabel, never: say.neverLabel, slow: say.slowLabel, unknown: say.unknownLabel }[limit.kind](name);
       return { look, limit, label };
     });
@@ -193,7 +195,7 @@ export const stability: PanelMaker = (store): Panel => {
     const h = step(), f = frequency();
     drawBars(pen, ink, swinging()
       ? { bars: barsOf(), here: h * f, hereText: brief(h * f, 3), others: motion.frequencies.slice(1).map((w) => h * w), name: say.axis }
-      : { bars: barsOf(), here: h, hereText: amount(h, unit()), others: [], name: say.stepAxis });
+      : { bars: barsOf(), here: h, hereText: written(h), others: [], name: say.stepAxis });
   }
 
   /* ---- saying ---- */
@@ -209,12 +211,12 @@ export const stability: PanelMaker = (store): Panel => {
     if (judgedFor === '') return '';
     if (boris() && judged.length === 1) return say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3));
     const at = fastest(), lead = !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
-    return largestSteps(judged.map(({ look, limit }) => ({ name: shortLabel(look.label), limit })), swinging() ? frequency() : 1, step(), (h) => amount(h, unit()), lead);
+    return largestSteps(judged.map(({ look, limit }) => ({ name: look.label, limit })), swinging() ? frequency() : 1, step(), written, lead);
   }
   function summary(): string {
     if (!scene || !motion || !judged.length || !drawable()) return '';
     const at = fastest(), h = step(), parts: string[] = [swinging() ? say.inside : say.insideStep];
-    if (swinging() && at) parts.push(say.frequency(brief(frequency(), 4), motion.steady ? '' : moment(scene, Number(at.time.toPrecision(3))), brief(h * frequency(), 4)));
+    if (swinging() && at) parts.push(say.frequency(brief(frequency(), 4), motion.steady ? '' : moment(scene, Number(at.time.toPrecision(3))), brief(h * frequency(), 4), motion.frequencies.length > 1));
     if (!motion.steady) parts.push(say.linear(String(motion.moments)));
     if (!swinging() && motion.springs) parts.push(say.friction);
     if (motion.growing) parts.push(say.own);
@@ -230,7 +232,7 @@ export const stability: PanelMaker = (store): Panel => {
     let worst = -1;
     motion.rates.forEach((rate, k) => { if (motion!.judged.includes(rate) && !Number.isNaN(growth![k]!) && (worst < 0 || growth![k]! > growth![worst]!)) worst = k; });
     if (worst < 0) return '';
-    const g = growth[worst]!, z = motion.rates[worst]!, where = `hλ = ${complex(h * z.re, h * z.im)}`, name = shortLabel(look.label), steps = scene?.solution.tracks[0]?.total ?? 0, all = g ** steps;
+    const g = growth[worst]!, z = motion.rates[worst]!, where = `hλ = ${complex(h * z.re, h * z.im)}`, name = look.label, steps = scene?.solution.tracks[0]?.total ?? 0, all = g ** steps;
     const said = g > 1 + tolerance ? [say.unstable(growthText(g), where), steps > 0 && motion.steady ? say.over(grouped(steps), Number.isFinite(all) ? brief(all, 3) : say.endless) : ''].filter(Boolean).join(' ')
       : g >= 1 - tolerance ? say.border(where) : z.re === 0 ? say.damps(name, growthText(g), where) : say.within(growthText(g), where, growthText(Math.exp(h * z.re)));
     return `${look.label}: ${said.charAt(0).toLowerCase()}${said.slice(1)}`;
@@ -238,9 +240,9 @@ export const stability: PanelMaker = (store): Panel => {
 
   const toggle = button(say.whole, () => { whole = !whole; void wantPlane(); tell(); }, { class: 'figure-button', 'aria-pressed': 'false' });
   const fig = figure({
-    id: 'stability', title: say.title, question: say.question, aspect: 0, draw, answer, summary,
+    id: 'stability', title: say.title, question: say.question, aspect: 0, least: 0, draw, answer, summary,
     overlay(pen, ink) { if (whole && motion) picture.overlay(pen, motion.rates, step(), now, colour(ink)); },
-    extra: (width) => (whole && plane ? Math.max(0, Math.min(PLANE.aspect * width, PLANE.tallest * window.innerHeight) - LEAST) : Math.max(0, heightOf(judged.length) - LEAST)),
+    extra: (width) => (whole && plane ? Math.min(PLANE.aspect * width, PLANE.tallest * window.innerHeight) : heightOf(judged.length)),
     table: () => {
       const h = step();
       return {

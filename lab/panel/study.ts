@@ -33,7 +33,9 @@ export class Study<K extends Kind> {
   private ask: Requests[K]['ask'] | null = null;
   private control: AbortController | null = null;
   private timer = 0;
+  /** What it took, when it came to an end; and whether it was given up, which is not begun again by itself. */
   private took = 0;
+  private dear = false;
   /** What the reference took where it was the page's own: most of what a long study takes. */
   private guess = 0;
   private pressed = false;
@@ -58,7 +60,7 @@ export class Study<K extends Kind> {
   silentFor(scene: Scene): boolean { return this.silent && this.asked === this.about(scene); }
   /** What it will take, as far as that is known: "17 s", ''. */
   get price(): string {
-    const seconds = Math.max(this.took > ALONE ? this.took : 0, this.guess) / 1000;
+    const seconds = (this.took || this.guess) / 1000;
     return seconds > ALONE / 1000 ? `${brief(seconds, seconds < 10 ? 1 : 2)}\u2009s` : '';
   }
 
@@ -79,6 +81,7 @@ export class Study<K extends Kind> {
     // The picture before an edit may stay for the moment until the next is there, but not longer; another example's may not.
     if (state.text !== this.text) {
       this.took = 0;
+      this.dear = false;
       if (state.preset !== this.preset) this.answer = null;
     }
     this.text = state.text;
@@ -95,7 +98,7 @@ export class Study<K extends Kind> {
       this.phase = 'failed';
       this.answer = null;
       this.problem = '';
-    } else if (this.took < ALONE) {
+    } else if (!this.dear) {
       this.timer = window.setTimeout(() => { void this.start(true); }, PAUSE);
     }
     this.tell();
@@ -126,6 +129,7 @@ export class Study<K extends Kind> {
       this.stale = false;
       this.phase = 'done';
       this.took = performance.now() - this.since;
+      this.dear = this.took > ALONE;
     } catch (reason) {
       clearTimeout(limit);
       if (key !== this.key || control.signal.aborted) return;
@@ -141,8 +145,7 @@ export class Study<K extends Kind> {
 
   cancel(): void {
     if (this.phase !== 'asking') return;
-    // What takes long enough to be called off is not begun again by itself.
-    this.took = Math.max(this.took, performance.now() - this.since, ALONE);
+    this.dear = true;
     this.phase = 'cancelled';
     this.control?.abort();
     this.control = null;

@@ -112,7 +112,7 @@ export const study = {
     any: (names: readonly string[]) => `any step for ${people(names)}`,
     never: (names: readonly string[]) => `no step is small enough for ${people(names)}`,
     slow: (names: readonly string[], alone: boolean) => `${alone ? 'no step is small enough for' : 'nor for'} ${people(names)}, though ${names.length > 1 ? 'they grow' : 'it grows'} slowly`,
-    unknown: (names: readonly string[]) => `${people(names)} cannot be judged by a rate, as the velocity turns here`,
+    unknown: (names: readonly string[]) => `${people(names)} cannot be judged by a rate here`,
     answer: (lead: string, limits: readonly string[], rest: readonly string[]) => {
       const sentence = `${lead}${[limits.join(', '), ...rest].filter(Boolean).join('; ')}.`;
       return sentence.charAt(0).toUpperCase() + sentence.slice(1);
@@ -130,7 +130,7 @@ export const study = {
     /** For those who do not see the bars, and above the numbers. */
     inside: 'Step times frequency must stay inside the bar, or the motion grows without end.',
     insideStep: 'The step must stay inside the bar, or the motion grows where it should swing or fade.',
-    frequency: (frequency: string, at: string, here: string) => `Its ${at ? 'fastest ' : ''}frequency is ${frequency}${at ? `, near ${at}` : ''}; times the step that is ${here}.`,
+    frequency: (frequency: string, at: string, here: string, several: boolean) => `Its ${at || several ? 'fastest ' : ''}frequency is ${frequency}${at ? `, near ${at}` : ''}; times the step that is ${here}.`,
     linear: (count: string) => `The frequencies are those of the motion linearised at ${count} moments of the run: where they change, the bar is what they allow at those moments, no promise for all between.`,
     own: 'Where the motion itself grows, that is no fault of a method, and is left out here.',
     friction: 'Each rate is taken as that of a single spring with friction.',
