@@ -51,9 +51,10 @@ export function drawBars(pen: Pen, ink: Ink, of: Bars): void {
       const fits = end + GAP + wide(label) <= pen.width;
       pen.text(fits ? end + GAP : pen.width - 2, fits ? y : y - 12, label, { ...letters, anchor: fits ? 'start' : 'end' });
     } else if (limit.kind === 'any') {
-      bar(pen, x0, right - 6, y, look.colour);
-      pen.line([right - 8, y - 7, right, y, right - 8, y + 7], { colour: look.colour, width: 2.5 });
-      pen.text(Math.max(x0 + 2 * GAP, free), y - 12, label, letters);
+      const end = right - GAP - wide(label);
+      bar(pen, x0, end - 2, y, look.colour);
+      pen.line([end - 8, y - 8, end, y, end - 8, y + 8], { colour: look.colour, width: 2.5 });
+      pen.text(end + GAP, y, label, letters);
     } else {
       if (limit.kind !== 'unknown') pen.mark('ring', x0, y, 4, look.colour);
       pen.text(free, y, label, letters);

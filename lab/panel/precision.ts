@@ -6,7 +6,8 @@ import type { EndsLayout } from '../figure/ends';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { brief, grouped, readable, shortened, tenTo } from '../figure/number';
-import type { Ink, Pen } from '../figure/types';
+import { textWidth } from '../figure/shapes';
+import type { Frame, Ink, Pen } from '../figure/types';
 import type { ConvergeRow } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
 import { words } from '../words';
@@ -56,6 +57,17 @@ export function accuracy(rows: readonly ConvergeRow[], names: readonly string[],
   return say.answer(say.digits(digits), best.name, (groups.length > COMPARED ? [...groups.slice(0, COMPARED - 1), groups[groups.length - 1]!] : groups).map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), rest);
 }
 
+/** Whether a line of points passes through a box: at a pixel every so often. */
+function crosses(xy: readonly number[], left: number, right: number, top: number, foot: number): boolean {
+  for (let k = 0; k + 3 < xy.length; k += 2) {
+    for (let part = 0; part <= 1; part += 1 / 16) {
+      const x = xy[k]! + part * (xy[k + 2]! - xy[k]!), y = xy[k + 1]! + part * (xy[k + 3]! - xy[k + 1]!);
+      if (x >= left && x <= right && y >= top && y <= foot) return true;
+    }
+  }
+  return false;
+}
+
 export const precision: PanelMaker = (store): Panel => {
   const study = convergenceStudy(store), side = comparedDetails(store);
   let scene: Scene | null = null, nothing = '';
@@ -78,8 +90,19 @@ export const precision: PanelMaker = (store): Panel => {
       if (at > 0) pen.line([frame.left, frame.y(at), frame.left + frame.width, frame.y(at)], { colour: ink.text, width: 1, dash: [2, 3] });
       found.forEach((_, i) => drawErrors(pen, names[i]!, paths[i]!, () => true));
     });
-    if (at > 0 && costs) pen.text(frame.left + 6, frame.y(at) + 4, say.digits(costs.digits), { colour: ink.text, baseline: 'top', halo: ink.surface });
+    if (at > 0 && costs) level(pen, ink, frame, at, say.digits(costs.digits), paths);
     errorEnds(pen, ink, frame, room, ends, names, paths);
+  }
+
+  /** The name of the level, at its line, where the fewest curves pass. */
+  function level(pen: Pen, ink: Ink, frame: Frame, at: number, text: string, paths: readonly (readonly number[])[]): void {
+    const y = frame.y(at), wide = textWidth(text) + 12, right = frame.left + frame.width;
+    const places = ([[frame.left, 1], [right - wide, -1], [frame.left, -1], [right - wide, 1]] as const).map(([x, way]) => {
+      const passing = paths.filter((xy) => crosses(xy, x, x + wide, Math.min(y, y + 20 * way), Math.max(y, y + 20 * way))).length;
+      return { x, way, passing };
+    });
+    const best = places.reduce((a, b) => (b.passing < a.passing ? b : a));
+    pen.text(best.x + 6, y + 4 * best.way, text, { colour: ink.text, baseline: best.way > 0 ? 'top' : 'bottom', halo: ink.surface });
   }
 
   const fig = figure({
