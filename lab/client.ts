@@ -5,6 +5,7 @@
  */
 import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
+import { refused } from './words';
 import { coreModule, createWorker } from 'virtual:host';
 
 /** Nobody waits for this answer any more. */
@@ -18,7 +19,7 @@ const LATE = 250;
 /** Longer than this no quick answer may take: a model of somebody else's must not hang the page. */
 const QUICK_LIMIT = 20_000;
 
-const tooLong = problem('limit', `this takes longer than ${QUICK_LIMIT / 1000} seconds`, 'a larger step, a nearer end, or the program motus');
+const tooLong = problem('limit', refused.slow(String(QUICK_LIMIT / 1000)), refused.nearer);
 
 class Line {
   private worker: Worker | null = null;
@@ -91,7 +92,7 @@ class Line {
     const worker = createWorker();
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.settle(data);
     // A worker that cannot be started, or that broke down, leaves its question unanswered.
-    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', `the worker failed${message && `: ${message}`}`, 'a smaller model')));
+    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', refused.worker(message), refused.model)));
     worker.postMessage(this.module);
     return worker;
   }

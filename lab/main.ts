@@ -48,7 +48,7 @@ const LATER = 120;
 /** Where the text that stands on the stage ends; 0 where it stands above. */
 function textEdge(): number {
   const text = place('words').getBoundingClientRect(), picture = place('stage-picture').getBoundingClientRect();
-  return text.top < picture.bottom - 40 && text.bottom > picture.top + 40 && text.right < picture.right ? Math.round(text.right - picture.left) : 0;
+  return text.top < picture.bottom - 40 && text.bottom > picture.top + 40 && text.right < picture.right ? Math.round((text.right - picture.left) * place('stage-picture').clientWidth / picture.width) : 0;
 }
 
 async function start(): Promise<void> {

@@ -42,7 +42,7 @@ export function extent(columns: Iterable<ArrayLike<number>>): [number, number] {
 }
 
 /** How far above the frame the name of what goes up stands; another text may stand there on the right. */
-export const LABEL = 22;
+const LABEL = 22;
 
 /** Some room beyond both ends. */
 export function padded([low, high]: readonly [number, number], share = 0.06): [number, number] {

@@ -2,10 +2,10 @@
  *
  * Invariant: a panel does not set the page's time. It asks, by the event SEEK on its figure, and shows what it is told by `set`.
  */
+import { words } from '../words';
 import type { Figure, Frame, Ink, Pen } from './types';
 import { brief } from './number';
 import { textWidth } from './shapes';
-import { words } from '../words';
 import { rowAt } from './track';
 
 /** A CustomEvent<number> that bubbles: the time somebody would like to see. */
@@ -42,7 +42,7 @@ export function cursor(definition: CursorDefinition): Cursor {
   slider.setAttribute('role', 'slider');
   for (const name of ['aria-valuemin', 'aria-valuemax', 'aria-valuenow']) slider.setAttribute(name, '0');
   slider.setAttribute('tabindex', '0');
-  slider.setAttribute('aria-label', words.panel.cursor(definition.title));
+  slider.setAttribute('aria-label', words.figure.cursor(definition.title));
 
   /** Attributes are for reading, not for animation: they follow when the clock rests, or at once for the keys. */
   function tell(at = time): void {

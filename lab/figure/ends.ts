@@ -48,7 +48,7 @@ function bold(text: string, size: number): number {
 
 export function endsLayout(width: number, labels: readonly string[]): EndsLayout {
   if (!labels.length) return { above: 0, right: 0, narrow: width < NARROW };
-  if (width >= NARROW) return { above: 0, right: Math.min(MOST * width, Math.max(...labels.map((l) => bold(shortLabel(l), SIZE))) + (labels.length > 1 ? bold('= ', SIZE) : 0) + GAP + 4) - EDGE, narrow: false };
+  if (width >= NARROW) return { above: 0, right: Math.min(MOST * width, Math.max(...labels.map((l) => bold(shortLabel(l), SIZE))) + (labels.length > 1 ? bold(words.stage.equals.trimStart(), SIZE) : 0) + GAP + 4) - EDGE, narrow: false };
   let x = 0, rows = 1;
   for (const label of labels) {
     const wide = item(shortLabel(label)) + ARROW;
@@ -116,11 +116,11 @@ function groupsOf(ends: readonly End[]): Group[] {
 
 /** One line, or two where it would be wider than the room: "exact" above "= Verlet". From the third name on they are counted, as on the stage. */
 function linesOf({ members }: Group, ink: Ink, room: number): Span[][] {
-  const [first, second] = members, span = (end: End): Span => ({ text: shortLabel(end.label), colour: end.colour, bold: true }), equals: Span = { text: ' = ', colour: ink.quiet };
+  const [first, second] = members, span = (end: End): Span => ({ text: shortLabel(end.label), colour: end.colour, bold: true }), equals: Span = { text: words.stage.equals, colour: ink.quiet };
   if (!second) return [[span(first!)]];
-  const others: Span = members.length === 2 ? span(second) : { text: words.panel.others(members.length - 1), colour: ink.text, bold: true };
+  const others: Span = members.length === 2 ? span(second) : { text: words.stage.several(String(members.length - 1)), colour: ink.text, bold: true };
   const line = [span(first!), equals, others];
-  return bold(line.map((part) => part.text).join(''), SIZE) <= room ? [line] : [[span(first!)], [{ text: '= ', colour: ink.quiet }, others]];
+  return bold(line.map((part) => part.text).join(''), SIZE) <= room ? [line] : [[span(first!)], [{ text: words.stage.equals.trimStart(), colour: ink.quiet }, others]];
 }
 
 const HEAD = 9;
@@ -146,7 +146,7 @@ function drawAbove(pen: Pen, ink: Ink, frame: Frame, groups: readonly Group[]): 
       const text = shortLabel(end.label), wide = item(text) + (end.exit ? ARROW : 0) + (k > 0 ? 12 : 0);
       if (x > 1 && x + wide > pen.width) { x = 1; y += LINE; }
       let at = x;
-      if (k > 0) { pen.text(at, y, '=', { colour: ink.quiet, size: SMALL, baseline: 'middle' }); at += 12; }
+      if (k > 0) { pen.text(at, y, words.stage.equals.trim(), { colour: ink.quiet, size: SMALL, baseline: 'middle' }); at += 12; }
       if (end.marker) pen.mark(end.marker, at + 5, y, 3.6, end.colour); else pen.line([at, y, at + 10, y], { colour: end.colour, width: 4 });
       pen.text(at + 14, y, text + (end.exit ? '\u2009↗' : ''), { colour: end.colour, size: SMALL, bold: true, baseline: 'middle' });
       x += wide + (k + 1 < names.length ? 6 : GAP);
@@ -160,7 +160,7 @@ function drawBeside(pen: Pen, ink: Ink, frame: Frame, layout: EndsLayout, groups
   // Those that leave are named where they do, the later ones nearer to the edge, as the earlier ones' names cross their curves else.
   const taken: { readonly from: number; readonly to: number; readonly y: number }[] = [];
   for (const group of [...groups].sort((a, b) => (b.exit?.x ?? 0) - (a.exit?.x ?? 0))) {
-    const { exit, members } = group, text = words.panel.leaves(shortLabel(members[0]!.label)), wide = bold(text, SIZE);
+    const { exit, members } = group, text = words.stage.leaves(shortLabel(members[0]!.label)), wide = bold(text, SIZE);
     if (!exit) { column.push(group); continue; }
     const after = exit.x + 12 + wide <= right, before = exit.x - 14 - wide >= frame.left;
     if (!after && !before) { column.push(group); continue; }

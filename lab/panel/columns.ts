@@ -6,7 +6,7 @@ import type { Scene } from '../scene';
 import type { Column } from '../protocol';
 import { extent } from '../figure/axes';
 import { nameSpans } from '../figure/name';
-import { readable } from '../figure/number';
+import { grouped, readable } from '../figure/number';
 import { rowAt, valueAt } from '../figure/track';
 import type { Said, Span, Table } from '../figure/types';
 import { SEEN } from '../sample';
@@ -107,14 +107,14 @@ export function timeTable(scene: Scene, names: readonly string[], series?: (trac
     const fine = solution.truth?.columns[at], said = heads[name] ?? headName(name), set: readonly Span[] = typeof said === 'string' ? [{ text: said }] : said;
     if (!series && exact >= 0) {
       head.push(`exact ${name}`);
-      shown.push([...set, { text: `, ${words.panel.exact}` }]);
+      shown.push([...set, { text: `, ${words.stage.exact}` }]);
       readers.push((t) => exactAt(scene, name, t));
     } else if (!series && solution.truth && !solution.truth.coarse && fine?.length) {
       const read = atRow(solution.truth.times, fine);
       // A reference has its own times: a column of it, where it has a number for every row.
       if (times.every((t) => !Number.isNaN(read(t)))) {
         head.push(`${solution.truth.name} ${name}`);
-        shown.push([...set, { text: `, ${words.panel.computed}` }]);
+        shown.push([...set, { text: `, ${words.stage.computed}` }]);
         readers.push(read);
       }
     }
@@ -125,5 +125,5 @@ export function timeTable(scene: Scene, names: readonly string[], series?: (trac
     });
   }
   const kept = solution.tracks.find((t) => t.every > 1);
-  return { head, shown, rows: times.map((t) => [t, ...readers.map((read) => read(t))]), note: kept ? words.panel.step(kept.every) : '' };
+  return { head, shown, rows: times.map((t) => [t, ...readers.map((read) => read(t))]), note: kept ? words.panel.step(grouped(kept.every)) : '' };
 }

@@ -12,13 +12,13 @@ import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable, shortened } from '../figure/number';
-import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
+import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View, listed } from '../figure/track';
 import { thin } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
-import { endTime, exactName, listed, moment, nameAt, timeUnit, unitOf } from './told';
+import { endTime, exactName, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.time;
 const STRIP = 130, MOST = 6, ANSWERED = 3;
@@ -167,7 +167,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
       say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
       leaving.length ? begin(words.panel.leave(leaving)) : '',
       ...tracks.flatMap((track, k) => (track.problem ? [say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
-      dropped ? say.most(MOST, MOST + dropped) : '',
+      dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
     ].filter(Boolean).join(' ');
   }
 

@@ -34,10 +34,8 @@ export function endTime(scene: Scene): number {
 export const nameAt = (scene: Scene, k: number): string => (scene.looks[k]?.label ?? '').replace(/ (?=\d)/g, '\u00a0');
 
 /** How the exact line is called: as on the stage. */
-export const exactName = (scene: Scene): string => (scene.description.has_exact ? words.panel.exact : words.panel.computed);
+export const exactName = (scene: Scene): string => (scene.description.has_exact ? words.stage.exact : words.stage.computed);
 
 /** "a, b, c"; from `most` on counted. */
 export const several = (parts: readonly string[], most = 6): string =>
-  (parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(parts.length - most + 1)] : parts).join(', ');
-/** "a", "a and b", "a, b and 3 more". */
-export const listed = (parts: readonly string[], most = 6): string => words.panel.and(parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(parts.length - most + 1)] : parts);
+  (parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(String(parts.length - most + 1))] : parts).join(', ');

@@ -79,7 +79,7 @@ export function mini(clock: () => Transport): Mini {
     show(next) {
       scene = next;
       prepare();
-      say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || texts.own);
+      say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || words.headline.own);
       const track = next.solution.tracks[0];
       say(told, track ? texts.steps(`${short(track.step, 4)}${timeUnit(next) && `\u2009${timeUnit(next)}`}`, grouped(track.total)) : '');
       draw();

@@ -3,10 +3,11 @@
  * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
  * scene and that time alone.
  */
-import { extent } from '../figure/axes';
+import { extent, rangeOf } from '../figure/axes';
 import { brief } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
+import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
@@ -125,7 +126,7 @@ export function pictureOf(setting: Setting): Picture {
   const springX = Math.max(place.frame.left, place.text + 9) + 39;
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
-  const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
+  const exactName = scene.description.has_exact ? words.stage.exact : words.stage.computed;
   const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
   const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
 
@@ -183,6 +184,7 @@ export function pictureOf(setting: Setting): Picture {
     // The ring stays on the stage.
     if (at.y - unit * v[1]! < 24 && v[1]! > 0) unit = Math.max(0, at.y - 24) / v[1]!;
     if (at.x + unit * v[0]! > place.width - 24 && v[0]! > 0) unit = Math.max(0, place.width - 24 - at.x) / v[0]!;
+    if (at.x + unit * v[0]! < place.text + 32 && v[0]! < 0) unit = Math.max(0, at.x - place.text - 32) / -v[0]!;
     if (!(unit * speed > 16) || !(speed > 0) || !Number.isFinite(unit)) return null;
     return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
   }
@@ -246,6 +248,14 @@ export function pictureOf(setting: Setting): Picture {
     }
   }
 
+  /** A path reaches from here to there, as far as it is seen. */
+  function spanOf(): readonly [number, number] | null {
+    if (subject.kind === 'time') return null;
+    const { left, right } = main.box, [low, high] = rangeOf((truth ? curves.exact : curves.methods.map((of) => of[0]!)).map(({ path }) => path.xy.subarray(0, 2 * path.count).filter((_, i) => i % 2 === 0)));
+    return high >= low ? [Math.max(left, low), Math.min(right, high)] : null;
+  }
+  const names = { span: spanOf(), all: [exactName, ...lines.map((l) => short(l.look.label))] };
+
   const present: Point = { x: 0, y: 0 };
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
@@ -257,8 +267,8 @@ export function pictureOf(setting: Setting): Picture {
     const at = placeAt(line.track.times, time), row = at.part === 1 ? at.row + 1 : at.row, value = errors[row];
     if (value === undefined || !Number.isFinite(value)) return null;
     const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
-    if (value <= 1e-12 * size) return { size: 0, text: 'on it', words: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, words: upright ? (y < exactY ? 'too high' : 'too low') : 'off' };
+    if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (y < exactY ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
   }
 
   function moving(pen: Pen, ink: Ink, time: number): void {
@@ -295,7 +305,7 @@ export function pictureOf(setting: Setting): Picture {
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
     const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
-    drawNames(pen, ink, place, labels, upright, Math.max(right, farthest + 20));
+    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     beside(pen, ink, time);
@@ -409,7 +419,7 @@ export function pictureOf(setting: Setting): Picture {
     for (const l of leaving) {
       if (time < l.time) continue;
       const size = (place.names ? 14 : 12) * place.scale, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
-      pen.text(l.x, l.y, [{ text: `${l.name} leaves`, bold: true }], letters);
+      pen.text(l.x, l.y, [{ text: words.stage.leaves(l.name), bold: true }], letters);
       if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
     }
   }
@@ -444,9 +454,12 @@ export function pictureOf(setting: Setting): Picture {
     end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
     remarks: () => lines.map((line) => {
       const { problem, times } = line.track;
-      if (problem) return `${line.look.label} stops at t = ${brief(problem.time ?? times[times.length - 1] ?? 0)}${problem.variable ? `: ${problem.variable} is no finite number` : ''}`;
+      if (problem) {
+        const at = brief(problem.time ?? times[times.length - 1] ?? 0);
+        return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
+      }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
-      return c?.exit ? `${line.look.label} leaves the picture at t = ${brief(c.exit.time)}` : '';
+      return c?.exit ? words.stage.summary.leaves(line.look.label, brief(c.exit.time)) : '';
     }).filter(Boolean),
   };
 }
@@ -461,7 +474,7 @@ export function short(label: string): string {
 function told(motion: Motion, curve: Curve, staging: Staging): string {
   const { track } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
   const end = track.times[track.times.length - 1] ?? 0;
-  if (track.problem) return `and ends at ${brief(track.problem.time ?? end, 3)}${unit}, no longer a number`;
+  if (track.problem) return words.stage.ends(`${brief(track.problem.time ?? end, 3)}${unit}`);
   if (motion.subject.kind === 'time' && truth) {
     // How large the ellipse of place and velocity is that it ends on, beside that of the exact motion.
     const column = motion.subject.bodies[curve.body]!.columns[0]!, speed = velocityColumn(motion.scene.solution, column);
@@ -472,7 +485,7 @@ function told(motion: Motion, curve: Curve, staging: Staging): string {
       return ((own[own.length - 1]! - (low + high) / 2) / ((high - low) / 2)) ** 2;
     };
     const times = Math.sqrt(part(column) + part(speed));
-    if (Number.isFinite(times) && times >= 1.5) return `${brief(times, 2)} times too wide at ${brief(end, 3)}${unit}`;
+    if (Number.isFinite(times) && times >= 1.5) return words.stage.wide(brief(times, 2), `${brief(end, 3)}${unit}`);
   }
-  return `at ${brief(curve.exit!.time, 3)}${unit}`;
+  return words.stage.at(`${brief(curve.exit!.time, 3)}${unit}`);
 }

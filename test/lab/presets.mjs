@@ -20,6 +20,7 @@ const pixels = (page) => page.locator('#stage-figure canvas.stage-moving').evalu
 const page = await open(singleFile);
 for (const name of names) {
   await attempt(name, async () => {
+    await page.evaluate(() => scrollTo(0, 0));
     await example(page, name);
     await page.waitForTimeout(200);
     const summary = await page.locator('#stage-figure figcaption').textContent();
@@ -43,7 +44,13 @@ for (const name of names) {
       const [question, answer, summary] = await Promise.all(['h3', '.figure-answer', '.figure-summary'].map((part) => figure.locator(part).textContent()));
       judge(`${name}: ${id}: a question with an answer`, /\?$/.test(question) && /^\S.{8,}\.$/.test(answer), `${question} ${answer}`);
       judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it/.test(answer), `${answer} ${summary}`);
-      judge(`${name}: ${id}: a picture`, await figure.locator('canvas.figure-still').evaluate((canvas) => canvas.width > 100 && new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 5));
+      // Grey are the axes; names stand at the right.
+      const part = await figure.locator('canvas.figure-still').evaluate((canvas) => {
+        const width = Math.round(0.6 * canvas.width), { data } = canvas.getContext('2d').getImageData(0, 0, width, canvas.height), columns = new Set();
+        for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 60 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40) columns.add(i / 4 % width);
+        return columns.size / width;
+      });
+      judge(`${name}: ${id}: a picture, with a curve across it`, part > 0.3, part);
     }
     judge(`${name}: a note says what to try`, (await page.locator('#scene-note').textContent()).length > 60);
     for (const [theme, width, height] of [['dark', 390, 844], ['light', 1280, 900]]) {

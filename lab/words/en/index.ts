@@ -1,12 +1,38 @@
-/* English. Each part of the page has its file. */
+/* English. Each part of the page has its file; page, refused, faults and html stand alone (../index.ts). */
+import { address } from './address';
+import { dock } from './dock';
+import { editor } from './editor';
+import { figure } from './figure';
 import { frame } from './frame';
-import { page } from './page';
+import { gallery } from './gallery';
+import { headline } from './headline';
+import { lecture } from './lecture';
+import { lesson } from './lesson';
+import { methods } from './methods';
 import { panel } from './panel';
+import { scenes } from './scenes';
+import { share } from './share';
+import { stage } from './stage';
 import { study } from './study';
+import { top } from './top';
+import { trouble } from './trouble';
 
 export const words = {
+  address,
+  dock,
+  editor,
+  figure,
   frame,
-  page,
+  gallery,
+  headline,
+  lecture,
+  lesson,
+  methods,
   panel,
+  scenes,
+  share,
+  stage,
   study,
+  top,
+  trouble,
 } as const;

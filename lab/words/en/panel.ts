@@ -1,16 +1,12 @@
 /* The pictures that look closer: lab/panel/. Numbers come formatted, with their units; names as the page sets them. */
+import { figure } from './figure';
+
 /** A number may follow the name of a method that ends in one, Kahan–Li 8. */
 const by = (name: string, number: string): string => `${name} ${/\d$/.test(name) ? 'by ' : ''}${number}`;
-const and = (parts: readonly string[]): string => (parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts[parts.length - 1]}`);
 export const panel = {
-  exact: 'exact',
-  computed: 'exact, computed',
-  leaves: (name: string) => `${name} leaves`,
-  others: (count: number) => `${count} methods`,
-  more: (count: number) => `${count} more`,
-  and,
-  step: (every: number) => `Every ${every}th step was kept, and the last one.`,
-  leave: (names: readonly string[]) => `${and(names)} ${names.length > 1 ? 'leave' : 'leaves'} the picture.`,
+  more: (count: string) => `${count} more`,
+  step: (every: string) => `Every ${every}th step was kept, and the last one.`,
+  leave: (names: readonly string[]) => `${figure.list(names)} ${names.length > 1 ? 'leave' : 'leaves'} the picture.`,
   time: {
     title: 'Time',
     question: 'Where is it, and when?',
@@ -23,7 +19,7 @@ export const panel = {
     before: (name: string) => `${name} stopped before`,
     stopped: (name: string, why: string) => `${name} stopped: ${why}.`,
     passing: (name: string, what: string) => `${name}: ${what}.`,
-    most: (shown: number, chosen: number) => `${shown} of ${chosen} chosen quantities are shown.`,
+    most: (shown: string, chosen: string) => `${shown} of ${chosen} chosen quantities are shown.`,
   },
   error: {
     title: 'Error',
@@ -95,8 +91,7 @@ export const panel = {
   },
   /** The bar above them. */
   bar: {
-    play: 'Play', pause: 'Pause', back: 'Back to the motion ↑', questions: 'Questions', own: 'Your own equation',
+    play: 'Play', pause: 'Pause', back: 'Back to the motion ↑', questions: 'Questions',
     steps: (h: string, steps: string) => `h = ${h} · ${steps} steps`,
   },
-  cursor: (title: string) => `Time in “${title}”`,
 } as const;
