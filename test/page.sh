@@ -44,7 +44,7 @@ together() {
     wait
 }
 names=("$@")
-[ $# -gt 0 ] || names=(people sizes newcomer share away presets gallery panels opened controls stage own bits green start firefox parts clock speed)
+[ $# -gt 0 ] || names=(people sizes newcomer share away presets gallery panels studies opened controls stage own bits green start firefox parts clock speed)
 rm -f $logs/*.status
 # Films are encoded while they run, and speed is measured: these come last, one at a time.
 others=() alone=()

@@ -41,8 +41,8 @@ export function figure(definition: FigureDefinition): Figure {
   let tableTimer = 0, sentenceTimer = 0;
 
   const tall = (w: number): number => {
-    const extra = definition.extra?.(w) ?? 0;
-    return Math.round(Math.min(Math.max(LEAST, w * (definition.aspect ?? 0.62)), Math.max(LEAST, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
+    const extra = definition.extra?.(w) ?? 0, least = definition.least ?? LEAST;
+    return Math.round(Math.min(Math.max(least, w * (definition.aspect ?? 0.62)), Math.max(least, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
   };
   /** The canvases get the size of the page's picture, in the pixels of the screen. Its width is what was last observed: to ask for it would have the
    * browser lay out the page twice a frame while a slider is dragged. */

@@ -47,6 +47,8 @@ export interface FigureDefinition {
   answer?(): Said;
   /** Height over width where the page leaves the choice; height is bounded by the page. */
   readonly aspect?: number;
+  /** Nor lower than this, in pixels; absent: what curves need. */
+  readonly least?: number;
   draw(pen: Pen, ink: Ink): void;
   /** What moves with the time: on a layer of its own, above. */
   overlay?(pen: Pen, ink: Ink): void;

@@ -13,7 +13,7 @@ for (const width of [1280, 320]) {
         await audit(`${width} px, ${theme}, ${name}`, page);
       }
     };
-    for (const title of ['Error', 'Phase', 'Convergence', 'Work and precision', 'Stability']) {
+    for (const title of ['Error', 'Phase', 'Order', 'Cost', 'Stability']) {
       await closer(page, title);
       await settled(page, 300, 60000);
     }
@@ -63,7 +63,7 @@ for (const [width, height] of [[320, 568], [375, 667], [768, 1024], [3840, 2160]
 // --- the keyboard -----------------------------------------------------------------------------------------------------------------------
 await attempt('the keyboard', async () => {
   const page = await open(`${singleFile}#v=1&p=projectile`);
-  for (const title of ['Convergence', 'Work and precision', 'Stability']) {
+  for (const title of ['Order', 'Cost']) {
     await closer(page, title);
     await settled(page, 400);
   }

@@ -15,6 +15,7 @@ import { panel } from './panel';
 import { scenes } from './scenes';
 import { share } from './share';
 import { stage } from './stage';
+import { study } from './study';
 import { top } from './top';
 import { trouble } from './trouble';
 
@@ -35,6 +36,7 @@ export const words = {
   scenes,
   share,
   stage,
+  study,
   top,
   trouble,
 } as const;
