@@ -33,7 +33,7 @@ function column(values: Float64Array, width: number, c: number): Float64Array {
 }
 
 /** A run that was recorded: rows of numbers, and all of the track but its arrays. */
-interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'> }
+interface Recorded { readonly values: Float64Array; readonly track: Omit<Track, 'times' | 'columns'>; readonly examined: boolean }
 /** A curve of the state, all positions and then all velocities, and of the quantities, for one model and end. off, coarse: of the curve; most: the number of points that it was
  *  allowed. */
 interface Told {
@@ -138,7 +138,7 @@ export class Answers {
         problem = e.problem;
       }
     }
-    return { description, columns: wanted, tracks, truth, errors, problem, milliseconds: performance.now() - began };
+    return { description, columns: wanted, tracks, truth, errors, problem, examined: !ask.unexamined, milliseconds: performance.now() - began };
   }
 
   /** The runs of all methods. Those of the last question are kept: a picture is asked for first, then the same with the truth. */
@@ -147,7 +147,7 @@ export class Answers {
     const kept = key === this.recordedFor ? this.recorded : new Map<string, Recorded>();
     let numbers = 0;
     for (const method of ask.methods) {
-      const run = kept.get(method) ?? this.run(method, ask, all);
+      const found = kept.get(method) ?? this.run(method, ask, all), run = ask.unexamined || found.examined ? found : this.examined(found, ask);
       runs.set(method, run);
       numbers += run.values.length;
     }
@@ -167,8 +167,11 @@ export class Answers {
     const every = Math.max(1, Math.ceil(total / (rows - 1)));
     const { values, problem } = this.core.record(this.lab, all, every, rows, true);
     const now = this.core.progress(this.lab);
-    const singular = problem ? null : this.core.singular(this.lab, method, ask.step, ask.until);
-    return { values, track: { method, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular } };
+    return { values, examined: false, track: { method, step, steps: now.steps, total, lastStep: last, evaluations: now.evaluations, every, problem, singular: null } };
+  }
+
+  private examined({ values, track }: Recorded, { step, until }: Solve): Recorded {
+    return { values, examined: true, track: { ...track, singular: track.problem ? null : this.core.singular(this.lab, track.method, step, until) } };
   }
 
   private track({ values, track }: Recorded, width: number, count: number): Track {

@@ -73,7 +73,8 @@ async function start(): Promise<void> {
   const motion = makeStage(store, { column: textEdge }), made = new Map<string, Panel>();
   // Those below the stage that are open; they are made when the stage is drawn.
   const open = new Set<Panel>();
-  let steps: Panel | null = null, late = 0;
+  // Whether one looks closer: kept, as the browser lays the page out to answer it.
+  let steps: Panel | null = null, late = 0, away = scrollY > 40;
 
   const small = mini(() => clock);
   const clock: Transport = transport({
@@ -150,13 +151,13 @@ async function start(): Promise<void> {
       late = 0;
       arrange();
       const { scene } = store;
-      if (scene) each(open, (panel) => panel.show(scene));
+      if (scene) { paper.show(scene); each(open, (panel) => panel.show(scene)); }
       each(open, (panel) => panel.at(clock.time()));
       showCard();
     };
-    if (scrollY > 40) act(); else late = window.setTimeout(act, LATER);
+    if (away) act(); else late = window.setTimeout(act, LATER);
   }
-  addEventListener('scroll', () => { if (late && scrollY > 40) below(); }, { passive: true });
+  addEventListener('scroll', () => { away = scrollY > 40; if (late && away) below(); }, { passive: true });
 
   function show(): void {
     const scene = store.scene;
@@ -167,7 +168,6 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     motion.show(scene);
     small.show(scene);
-    paper.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');

@@ -16,13 +16,18 @@ function stopped(store: LiveStore): string {
 
 export function status(store: LiveStore): HTMLElement {
   const words = el('span', {}, ''), cancel = button('Cancel', () => store.cancel(), { class: 'text-button', hidden: true });
+  let of = '', told = '';
   const element = el('div', { class: 'status' }, el('p', { class: 'message', role: 'status' }, words), cancel);
   const show = (): void => {
     // What is drawn already, and only made finer, is not waited for.
     const busy = store.busy && (!store.scene?.solution.truth || store.scene.state.text !== store.state.text);
     element.classList.toggle('busy', busy);
     cancel.hidden = !busy;
-    say(words, busy ? 'Computing …' : stopped(store));
+    // What was said of this model stays until its runs have been examined again.
+    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.until;
+    if (!waits) told = stopped(store);
+    if (!busy) of = scene?.state.text ?? '';
+    say(words, busy ? 'Computing …' : told);
   };
   store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
   return element;

@@ -130,14 +130,15 @@ export function stage(store: Store, room: { column(): number }): Stage {
     bounds ??= boundsFor(scene, subject, staging(), showAll, null);
     if (!picture) make(bounds);
     if (!picture) return;
-    onto(still, (pen, i) => picture!.still(pen, i));
+    finished = picture.over(time);
+    onto(still, (pen, i) => picture!.still(pen, i, finished));
     drawMoving();
     // The build's picture has done its work.
     holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
     attach();
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
-  let busy = false, again = false;
+  let busy = false, again = false, finished = false;
   function drawMoving(): void {
     if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
   }
@@ -381,7 +382,12 @@ export function stage(store: Store, room: { column(): number }): Stage {
 
   return {
     id: 'motion', title: 'Motion', element, choice, show, save, film: record,
-    at(now) { if (now !== time) { time = now; redrawMoving(); } },
+    at(now) {
+      if (now === time) return;
+      time = now;
+      // What is to come is drawn with what keeps still, unless nothing is.
+      if (picture && picture.over(now) !== finished) { dirty = true; draw(); } else redrawMoving();
+    },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
     pin(of) { pinned = of; refresh(true); },
