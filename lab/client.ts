@@ -3,6 +3,7 @@
  * Invariant: each question is settled once: by an answer, by a problem, or by an AbortError. A worker that is busy with what nobody wants any more is
  * ended and replaced: the module imports nothing, so there is no other way to stop it.
  */
+import { milestone } from './dom';
 import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
 import { coreModule, createWorker } from 'virtual:host';
@@ -95,6 +96,7 @@ class Line {
     if (!task || task.question.id !== message.id) return;
     window.clearTimeout(this.timer);
     this.running = null;
+    milestone('module running');
     if ('problem' in message) task.reject(new Refused(message.problem));
     else task.resolve(message.answer);
     this.next();

@@ -4,7 +4,7 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { exampleOf } from '../data';
-import { button, el, say } from '../dom';
+import { button, el, milestone, say } from '../dom';
 import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
@@ -136,6 +136,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     // The build's picture has done its work.
     holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
     attach();
+    milestone('first motion drawn');
+    if (scene.solution.truth) milestone('exact motion drawn');
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
   let busy = false, again = false, finished = false;

@@ -15,7 +15,7 @@ export const root = fileURLToPath(new URL('../../', import.meta.url));
 export const built = join(root, 'build/lab');
 export const program = resolve(process.env.MOTUS ?? join(root, 'build/motus'));
 const need = createRequire(join(root, 'lab/package.json'));
-const { chromium } = need('playwright-core');
+export const { chromium } = need('playwright-core');
 
 export const singleFile = pathToFileURL(join(built, 'motus-lab.html')).href;
 export const place = mkdtempSync(join(tmpdir(), 'motus-page-'));
@@ -39,7 +39,7 @@ export async function attempt(name, work) {
   }
 }
 
-function browserPath() {
+export function browserPath() {
   const names = [process.env.CHROMIUM, 'chromium', 'chromium-browser', 'google-chrome'].filter(Boolean);
   for (const name of names) {
     const found = name.includes('/') ? (existsSync(name) ? name : '') : spawnSync('sh', ['-c', `command -v ${name}`], { encoding: 'utf8' }).stdout.trim();
