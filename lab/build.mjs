@@ -50,27 +50,14 @@ try {
   process.exit(1);
 }
 
-/** A text or bytes, packed into a script: what is only needed later, or by a worker. Zipped, then four bytes as five of 85 characters that no quoted string has
- * to escape; the first digit counts the bytes by which the last group was filled up. */
+/** A text or bytes for lab/unpack.ts. */
 const packed = (contents) => {
   const zipped = gzipSync(contents, { level: 9 }), fill = -zipped.length & 3, whole = Buffer.concat([zipped, Buffer.alloc(fill)]);
   const digit = (n) => String.fromCharCode(n + 35 + (n > 24) + (n > 55));
   let out = digit(fill);
   for (let i = 0; i < whole.length; i += 4) for (let n = whole.readUInt32BE(i), unit = 85 ** 4; unit >= 1; n %= unit, unit /= 85) out += digit(Math.floor(n / unit));
-  return `"${out}"`;
+  return out;
 };
-const unpacking = `
-const digit = (text, i) => { const c = text.charCodeAt(i); return c - 35 - (c > 60) - (c > 92); };
-const unpack = (text) => {
-  const bytes = new DataView(new ArrayBuffer((text.length - 1) / 5 * 4));
-  for (let i = 1, at = 0; i < text.length; at += 4) {
-    let n = 0;
-    for (const end = i + 5; i < end; i++) n = 85 * n + digit(text, i);
-    bytes.setUint32(at, n);
-  }
-  return new Response(new Blob([new Uint8Array(bytes.buffer, 0, bytes.byteLength - digit(text, 0))]).stream().pipeThrough(new DecompressionStream('gzip')));
-};
-`;
 
 /** Modules that exist in the build only. */
 const virtual = (modules) => ({
@@ -83,31 +70,45 @@ const virtual = (modules) => ({
 const bundle = async (entry, format, modules) => {
   const { outputFiles } = await build({
     entryPoints: [join(here, entry)], bundle: true, minify: !process.argv.includes('--readable'), write: false, format, target: 'es2022', charset: 'utf8', legalComments: 'none', alias,
-    plugins: [virtual({
-      'virtual:data': `${unpacking} export default () => unpack(${packed(JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }))}).json();`,
-      'virtual:thumbs': `${unpacking} export default () => unpack(${packed(JSON.stringify(thumbs))}).json();`, ...modules,
-    })],
+    plugins: [virtual(modules)],
   });
   return outputFiles[0].text;
 };
 
-const hosted = `
+/** What is needed once the first picture stands. */
+const later = {
+  data: JSON.stringify({ presets, lessons: lessons.map(({ numbers, ...lesson }) => lesson), cards: made.cards, stagings: drawn.stagings, notes: drawn.notes, theory: made.html }),
+  thumbs: JSON.stringify(thumbs),
+};
+const quoted = (contents) => `import { unpack } from './unpack'; export default () => unpack("${packed(contents)}").json();`;
+const hosted = {
+  'virtual:data': quoted(later.data),
+  'virtual:thumbs': quoted(later.thumbs),
+  'virtual:host': `
 export const coreModule = async () => {
   const answer = await fetch('motus.wasm');
   return answer.headers.get('content-type') === 'application/wasm' ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 };
 export const createWorker = () => new Worker('worker.js');
-`;
-/* From disk a page may load nothing: module and worker are inside it. */
-const single = (worker) => `${unpacking}
+`,
+};
+/* From disk a page may load nothing: all is inside it, packed, each part in an element of its own that no browser runs. The only script that stands in the
+ * page unpacks the others; the policy names the hash of what it puts into a script element. */
+const inside = (id) => `import { unpackElement } from './unpack'; export default () => unpackElement('${id}').json();`;
+const single = {
+  'virtual:data': inside('data'),
+  'virtual:thumbs': inside('thumbs'),
+  'virtual:host': `
+import { unpackElement } from './unpack';
 let address = '';
 export const coreModule = async () => {
-  const [module, script] = await Promise.all([unpack(${packed(wasm)}).arrayBuffer().then((bytes) => WebAssembly.compile(bytes)), unpack(${packed(worker)}).blob()]);
+  const [module, script] = await Promise.all([unpackElement('core').arrayBuffer().then((bytes) => WebAssembly.compile(bytes)), unpackElement('worker').blob()]);
   address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   return module;
 };
 export const createWorker = () => new Worker(address);
-`;
+`,
+};
 
 const hash = (text) => `'sha256-${createHash('sha256').update(text, 'utf8').digest('base64')}'`;
 /* A script element ends at the first "</script", whatever stands around it. */
@@ -132,12 +133,14 @@ const page = ({ script, element, connect, worker }) => {
 
 await mkdir(out, { recursive: true });
 const worker = await bundle('worker.ts', 'iife', {});
-const main = await bundle('main.ts', 'esm', { 'virtual:host': hosted });
-const all = closed(await bundle('main.ts', 'iife', { 'virtual:host': single(worker) }));
+const whole = await bundle('main.ts', 'iife', single);
+const boot = closed(await bundle('boot.ts', 'iife', {}));
+const parts = { main: whole, core: wasm, worker, ...later };
+const elements = [...Object.entries(parts).map(([id, contents]) => `<script type="text/plain" id="packed-${id}">${packed(contents)}</script>`), `<script>${boot}</script>`];
 const files = {
-  'motus.wasm': wasm, 'worker.js': worker, 'main.js': main,
+  'motus.wasm': wasm, 'worker.js': worker, 'main.js': await bundle('main.ts', 'esm', hosted),
   'index.html': page({ script: "'self'", element: '<script type="module" src="main.js"></script>', connect: "'self'", worker: "'self'" }),
-  'motus-lab.html': page({ script: hash(all), element: `<script>${all}</script>`, connect: "'none'", worker: 'blob:' }),
+  'motus-lab.html': page({ script: `${hash(boot)} ${hash(whole)}`, element: elements.join('\n'), connect: "'none'", worker: 'blob:' }),
 };
 for (const [name, contents] of Object.entries(files)) await writeFile(join(out, name), contents);
 const size = (contents) => `${(Buffer.byteLength(contents) / 1000).toFixed(0)} KB`;

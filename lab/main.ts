@@ -24,6 +24,7 @@ import { stagingOf } from './stage/staging';
 import { forgetful, recall, remember } from './shell/memory';
 import { data, exampleOf, loadData } from './data';
 import { place } from './dom';
+import { failed } from './failed';
 import { presetState } from './share';
 import { presets } from './shell/presets';
 import { printed } from './shell/print';
@@ -60,7 +61,7 @@ const LATER = 120;
 /** Where the text that stands on the stage ends; 0 where it stands above. */
 function textEdge(): number {
   const text = place('words').getBoundingClientRect(), picture = place('stage-picture').getBoundingClientRect();
-  return text.top < picture.bottom - 40 && text.bottom > picture.top + 40 && text.right < picture.right ? Math.round(text.right - picture.left) : 0;
+  return text.top < picture.bottom - 40 && text.bottom > picture.top + 40 && text.right < picture.right ? Math.round((text.right - picture.left) * place('stage-picture').clientWidth / picture.width) : 0;
 }
 
 async function start(): Promise<void> {
@@ -191,11 +192,4 @@ async function start(): Promise<void> {
   });
 }
 
-start().catch((error: unknown) => {
-  console.error(error);
-  const message = document.createElement('p');
-  message.className = 'message';
-  message.setAttribute('role', 'alert');
-  message.textContent = `The page could not start: ${error instanceof Error ? error.message : String(error)}. It needs WebAssembly, and a browser of the last few years.`;
-  place('status').append(message);
-});
+start().catch(failed);

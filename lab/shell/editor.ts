@@ -140,8 +140,10 @@ export function editor(store: LiveStore): HTMLElement {
       seen += length;
     }
     const word = range.getBoundingClientRect(), home = element.getBoundingClientRect();
-    names.style.top = `${word.bottom - home.top + 2}px`;
-    names.style.left = `${Math.max(0, Math.min(word.left - home.left, home.width - names.offsetWidth))}px`;
+    // Very large screens enlarge the page: distances on the screen are not those of the style.
+    const large = home.width / element.offsetWidth || 1;
+    names.style.top = `${(word.bottom - home.top) / large + 2}px`;
+    names.style.left = `${Math.max(0, Math.min((word.left - home.left) / large, element.offsetWidth - names.offsetWidth))}px`;
   }
   function complete(force = false): void {
     const caret = area.selectionStart;

@@ -1,4 +1,4 @@
-/* The lecture: the whole screen, large letters (style.css, stage.ts), and a key for all that one does while speaking.
+/* The lecture: the whole screen, large letters (style.css), and a key for all that one does while speaking.
  *
  * Invariant: no key is taken from a text field, none that comes with Ctrl, Alt or ⌘; a browser that refuses the whole screen shows the same in its window.
  */
@@ -7,8 +7,6 @@ import type { LiveStore } from '../state';
 import { button, el, icon } from '../dom';
 import { short } from './number';
 
-/** Letters and strokes, times what they are elsewhere; style.css has the same number. */
-export const ENLARGED = 1.6;
 export const lecturing = (): boolean => document.body.classList.contains('lecture');
 
 const keys = [['Space', 'play, pause'], ['← →', 'a step back, a step forward'], ['Home, End', 'to the start, to the end'], ['[ ]', 'half the step, twice the step'], ['1 … 9', 'a method on or off'],

@@ -27,10 +27,16 @@ export function missText(value: number, frame: number): string {
   return value.toFixed(Math.max(0, decimals));
 }
 
-/** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. */
-function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean): Span[][] {
+/** The last word of a name where no other name has it ("Verlet"), else the first ("symplectic"). */
+function briefly(name: string, all: readonly string[]): string {
+  const words = name.split(/,? /), last = words[words.length - 1] ?? '';
+  return words.length > 1 && all.some((other) => other !== name && other.split(/,? /).includes(last)) ? words[0]! : last;
+}
+
+/** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. all: every name in the picture. */
+function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean, all: readonly string[]): Span[][] {
   const full = namesOf(label, ink), { miss } = label, first = label.names[0];
-  const words = first?.text.split(/[ ,]/)[0] ?? '', brief: Span[] = [{ text: words, colour: first?.colour, bold: true }], rest = full.slice(1);
+  const words = label.exact ? first?.text.split(',')[0] ?? '' : briefly(first?.text ?? '', all), brief: Span[] = [{ text: words, colour: first?.colour, bold: true }], rest = full.slice(1);
   const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.words ? ` ${miss.words}` : ''}`, size: size - 2 }] : [];
   return [...(number.length ? [[...full, ...number]] : []), full, ...(rest.length ? [[...brief, ...rest]] : []), brief];
 }
@@ -43,52 +49,90 @@ function namesOf(label: Named, ink: Ink): Span[] {
   return more === 2 && second ? [head, equals, { text: second.text, colour: second.colour, bold: true }] : [head, equals, { text: `${more - 1} methods`, colour: ink.text, bold: true }];
 }
 
-const BRACKET = 58, GAP = 14, LEAST = 20;
+const BRACKET = 58, GAP = 14, LEAST = 20, OUTSIDE = 18;
 
-/** Draws the labels of these points; says where the words of each begin. upright: misses are bracketed. */
-export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], upright: boolean, right: number): void {
+export interface Surroundings {
+  /** Misses are bracketed. */
+  readonly upright: boolean;
+  /** How far names may reach. */
+  readonly right: number;
+  /** From where to where a path reaches: names stand outside of it, so that none lies on curves; null: they stand at the points. */
+  readonly span: readonly [left: number, right: number] | null;
+  /** Every name in the picture. */
+  readonly all: readonly string[];
+}
+
+/** Where the number of a miss stands between two heights, clear of the names there; null: nowhere. */
+function clear(from: number, to: number, names: readonly number[], room: number): number | null {
+  const marks = [from, to, ...names.filter((y) => y > Math.min(from, to) && y < Math.max(from, to))].sort((a, b) => a - b);
+  let best: number | null = null, widest = 2 * room, middle = (from + to) / 2;
+  if (!marks.some((y) => Math.abs(y - middle) < room)) return middle;
+  for (let i = 0; i + 1 < marks.length; i++) {
+    const free = marks[i + 1]! - marks[i]!;
+    if (free >= widest) { widest = free; best = (marks[i]! + marks[i + 1]!) / 2; }
+  }
+  return best;
+}
+
+/** Draws the labels of these points. */
+export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], { upright, right, span, all }: Surroundings): void {
   if (!labels.length) return;
   const { scale } = place, size = (place.names ? 15 : 13) * scale, lineHeight = (place.names ? 20 : 15) * scale, box = place.frame;
   const sorted = [...labels].sort((a, b) => a.y - b.y), exact = sorted.find((l) => l.exact);
-  const missing = exact && upright ? sorted.filter((l) => l.miss && Math.abs(l.y - exact.y) >= 4).sort((a, b) => Math.abs(b.y - exact.y) - Math.abs(a.y - exact.y)).slice(0, 2) : [];
-  const bracketed = missing.filter((l) => Math.abs(l.y - exact!.y) >= (place.names ? LEAST : 12));
+  const heights = place.names ? spread(sorted.map((l) => l.y), sorted.slice(1).map(() => lineHeight), box.top + 4, box.bottom - 8) : sorted.map((l) => l.y);
+  // Brackets for the two largest misses; the number of one stands in its middle, or behind the name where there is no room.
+  const missing = exact && upright ? sorted.filter((l) => l.miss && Math.abs(l.y - exact.y) >= (place.names ? LEAST : 12)).sort((a, b) => Math.abs(b.y - exact.y) - Math.abs(a.y - exact.y)).slice(0, 2) : [];
+  const numbered = new Map(missing.flatMap((label): [Named, number][] => {
+    const y = place.names ? clear(exact!.y, label.y, heights, 0.95 * lineHeight) : (label.y + exact!.y) / 2;
+    return y === null ? [] : [[label, y]];
+  }));
   const lead = upright && exact ? (place.names ? BRACKET * scale : 16) + (place.names ? GAP : 8) : place.ball + 8;
-  const from = Math.max(...sorted.map((l) => l.x)), reach = (name: Span[]): number => textWidth(name, size) * 1.04;
-  const numberWidth = upright ? 116 * scale : 0;
-  const ways = sorted.map((l) => waysOf(l, ink, size, !bracketed.includes(l)));
-  const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), bracketed.length ? numberWidth : 0) : 46;
-  // Where the right is too narrow everything stands at the left of the points; and where they are at the left of a path, outside of it.
-  const least = Math.min(...sorted.map((l) => l.x)), outward = !upright && place.names && from < (box.left + Math.min(box.right, right)) / 2 - 60 && least - lead - widest > box.left - 40;
-  const flipped = outward || (from + lead + widest > right && least - lead - widest > 0);
-  const way = flipped ? -1 : 1, base = flipped ? Math.min(...sorted.map((l) => l.x)) : from, anchor = flipped ? 'end' as const : 'start' as const;
-  const bracketX = base + way * (place.names ? BRACKET * scale : 16), textX = base + way * lead;
-  const gaps = sorted.slice(1).map(() => lineHeight);
-  const heights = place.names ? spread(sorted.map((l) => l.y), gaps, box.top + 4, box.bottom - 8) : sorted.map((l) => l.y);
-  const named = place.names && !(sorted.length > 1 && heights.length > 0 && right - base < 40);
+  const from = Math.max(...sorted.map((l) => l.x)), least = Math.min(...sorted.map((l) => l.x)), reach = (name: Span[]): number => textWidth(name, size) * 1.04;
+  const ways = sorted.map((l) => waysOf(l, ink, size, !numbered.has(l), all));
+  const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), numbered.size ? 116 * scale : 0) : 46;
+  // Clear of the text that stands on the stage.
+  const leftmost = place.text ? place.text + 8 : box.left - 40, { way, textX } = side();
+  const anchor = way < 0 ? 'end' as const : 'start' as const, base = way < 0 ? least : from, bracketX = base + way * (place.names ? BRACKET * scale : 16);
+  const named = place.names && !(sorted.length > 1 && right - base < 40);
 
-  bracketed.forEach((label, k) => {
-    const other = bracketed[0]!, sameSide = k === 1 && (label.y - exact!.y) * (other.y - exact!.y) > 0;
+  /** Where names begin: outside of a path, at the nearer side; else beside the points, at the left where the right is too narrow. */
+  function side(): { readonly way: 1 | -1; readonly textX: number } {
+    if (span && !upright && place.names) {
+      const after = Math.max(span[1] + OUTSIDE, from + lead), before = Math.min(span[0] - OUTSIDE, least - lead);
+      const fits = { 1: after + widest <= right, [-1]: before - widest > leftmost }, nearer = from + least > span[0] + span[1] ? 1 : -1;
+      const chosen = fits[nearer] ? nearer : fits[1] ? 1 : fits[-1] ? -1 : 0;
+      if (chosen) return { way: chosen, textX: chosen > 0 ? after : before };
+    }
+    const flipped = from + lead + widest > right && least - lead - widest > 0;
+    return flipped ? { way: -1, textX: least - lead } : { way: 1, textX: from + lead };
+  }
+
+  missing.forEach((label, k) => {
+    const other = missing[0]!, sameSide = k === 1 && (label.y - exact!.y) * (other.y - exact!.y) > 0;
     const x = bracketX - (sameSide ? way * 14 * scale : 0), down = label.y > exact!.y ? 1 : -1, tip = label.y - down * 2;
     pen.line([x, exact!.y + down * 5, x, tip], { colour: label.line, width: 1.75 });
     pen.line([x - 4.5, tip - down * 7, x, tip, x + 4.5, tip - down * 7], { colour: label.line, width: 1.75 });
-    const middle = (label.y + exact!.y) / 2, { text, words } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
+    const middle = numbered.get(label), { text, words } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
+    if (middle === undefined) return;
     if (place.names) pen.text(textX, middle, [{ text, bold: true }, { text: ` ${words}` }], { ...letters, size: 16 * scale, baseline: 'middle' });
-    else if (Math.abs(label.y - exact!.y) > 30) {
-      pen.text(textX, middle - 2, [{ text, bold: true }], { ...letters, size: 13 });
-      pen.text(textX, middle + 12, words, { ...letters, size: 12 });
+    else if (Math.abs(label.y - exact!.y) > 32) {
+      // In two lines beside the end of the curve, clear of the exact motion's name.
+      const first = down > 0 ? label.y - 10 : label.y + 9;
+      pen.text(textX, first, [{ text, bold: true }], { ...letters, size: 13 });
+      pen.text(textX, first + 13, words, { ...letters, size: 12 });
     } else pen.text(textX, label.y, [{ text, bold: true }], { ...letters, size: 13, baseline: down > 0 ? 'top' : 'bottom' });
   });
   sorted.forEach((label, k) => {
-    const y = heights[k]!;
-    if (place.names && upright && exact) {
-      pen.line([label.x + way * (place.ball + 4), label.y, bracketX + way * 5, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
+    const y = heights[k]!, start = label.x + way * (place.ball + 4), bracketed = upright && exact, end = bracketed ? bracketX + way * 5 : textX - way * 5;
+    if (place.names && (bracketed || (span && way * (end - start) > 8))) {
+      pen.line([start, label.y, end, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
     }
     if (!place.names) {
       if (label.exact && upright) pen.text(textX, y, [{ text: 'exact', bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
       return;
     }
     if (!named) return;
-    const free = flipped ? textX - box.left : right - textX;
+    const free = way < 0 ? textX - leftmost : right - textX;
     pen.text(textX, y, ways[k]!.find((spans) => reach(spans) <= free) ?? ways[k]![ways[k]!.length - 1]!, { colour: label.colour, size, anchor, baseline: 'middle', halo: ink.surface });
   });
 }

@@ -3,7 +3,7 @@
  * Invariant: pictures of the screen, of exports and of the build are drawn by these two functions, on whatever pen. What a time shows follows from the
  * scene and that time alone.
  */
-import { extent } from '../figure/axes';
+import { extent, rangeOf } from '../figure/axes';
 import { brief } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
@@ -185,6 +185,7 @@ export function pictureOf(setting: Setting): Picture {
     // The ring stays on the stage.
     if (at.y - unit * v[1]! < 24 && v[1]! > 0) unit = Math.max(0, at.y - 24) / v[1]!;
     if (at.x + unit * v[0]! > place.width - 24 && v[0]! > 0) unit = Math.max(0, place.width - 24 - at.x) / v[0]!;
+    if (at.x + unit * v[0]! < place.text + 32 && v[0]! < 0) unit = Math.max(0, at.x - place.text - 32) / -v[0]!;
     if (!(unit * speed > 16) || !(speed > 0) || !Number.isFinite(unit)) return null;
     return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
   }
@@ -248,6 +249,14 @@ export function pictureOf(setting: Setting): Picture {
     }
   }
 
+  /** A path reaches from here to there, as far as it is seen. */
+  function spanOf(): readonly [number, number] | null {
+    if (subject.kind === 'time') return null;
+    const { left, right } = main.box, [low, high] = rangeOf((truth ? curves.exact : curves.methods.map((of) => of[0]!)).map(({ path }) => path.xy.subarray(0, 2 * path.count).filter((_, i) => i % 2 === 0)));
+    return high >= low ? [Math.max(left, low), Math.min(right, high)] : null;
+  }
+  const names = { span: spanOf(), all: [exactName, ...lines.map((l) => short(l.look.label))] };
+
   const present: Point = { x: 0, y: 0 };
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
@@ -297,7 +306,7 @@ export function pictureOf(setting: Setting): Picture {
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
     const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
-    drawNames(pen, ink, place, labels, upright, Math.max(right, farthest + 20));
+    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     beside(pen, ink, time);

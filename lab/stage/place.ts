@@ -23,8 +23,8 @@ export function placeOf(width: number, height: number, column: number, page: { r
   const landscape = page.height <= 480 && page.width > page.height && page.width >= 480;
   const mode: Mode = landscape ? 'landscape' : page.width < 768 ? 'phone' : page.width < 1280 ? 'tablet' : page.width < 1600 ? 'desk' : 'wide';
   // left, top, and what is kept free at the right and below.
-  const [left, top, right, below] = mode === 'phone' ? [24, height < 240 ? 24 : 8, 64, 34] : mode === 'landscape' ? (page.bare ? [24, 22, 66, 40] : [24, 52, 66, 28])
-    : mode === 'tablet' ? [64, 14, 186, 40] : mode === 'desk' ? [column ? column + 9 : 64, 17, 186, 40] : [column ? column - 60 : 120, 17, 217, 44];
+  const [left, top, right, below] = mode === 'phone' ? [24, height < 240 ? 24 : 8, 72, 34] : mode === 'landscape' ? (page.bare ? [24, 22, 66, 40] : [24, 52, 66, 28])
+    : mode === 'tablet' ? [64, 14, 200, 40] : mode === 'desk' ? [column ? column + 9 : 64, 17, 186, 40] : [column ? column - 60 : 120, 17, 217, 44];
   const frame = { left, top, right: Math.max(left + 60, width - right), bottom: Math.max(top + 60, height - below) };
   const small = mode === 'phone' || mode === 'landscape';
   return { mode, width, height, frame, text: column, scale: mode === 'wide' ? 1.2 : 1, names: !small, marker: small ? 3.6 : 4.6, ball: small ? 7.5 : mode === 'wide' ? 11 : 9 };

@@ -55,7 +55,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
           labels.push({ names: [{ text: look.label, colour: look.tone }], colour: look.tone, line: look.colour, x: right, y: xy[xy.length - 1]!, miss: null, exact: false });
         }
       });
-      drawNames(pen, ink, place, labels, false, place.width - 8);
+      drawNames(pen, ink, place, labels, { upright: false, right: place.width - 8, span: null, all: labels.flatMap((l) => l.names.map(({ text }) => text)) });
     },
   };
 }

@@ -11,7 +11,7 @@ import { brief } from '../figure/number';
 import { canvasPen } from '../figure/pen';
 import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
-import { ENLARGED, lecturing } from '../shell/lecture';
+import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
@@ -95,12 +95,13 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
 
   // --- drawing -----------------------------------------------------------------------------------------------------------------------
+  const enlarged = (): number => Number((holder.getBoundingClientRect().width / (holder.clientWidth || 1)).toFixed(3)) || 1;
   function fit(): boolean {
     const width = holder.clientWidth, height = holder.clientHeight;
     if (!width || !height) return false;
-    // In a lecture the style enlarges the stage: its pixels are the layout's, of which it has fewer.
-    const large = lecturing(), s = Math.min(4, Math.max(1, devicePixelRatio || 1) * (large ? ENLARGED : 1));
-    const next = large ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
+    // In a lecture, and on a very large screen, the style enlarges the stage: its pixels are the layout's, of which it has fewer.
+    const s = Math.min(4, Math.max(1, devicePixelRatio || 1) * enlarged());
+    const next = lecturing() ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
     if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
     scale = s;
     for (const canvas of [still, moving]) {
@@ -275,7 +276,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
   /** Where on the stage, in its own pixels. */
   const pointed = ({ clientX, clientY }: PointerEvent): { readonly x: number; readonly y: number } => {
-    const box = holder.getBoundingClientRect(), large = box.width / (holder.clientWidth || box.width);
+    const box = holder.getBoundingClientRect(), large = enlarged();
     return { x: (clientX - box.left) / large, y: (clientY - box.top) / large };
   };
   aim.addEventListener('pointerdown', (event) => {

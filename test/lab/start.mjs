@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, editorOf, fields, finish, judge, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, built, clean, editorOf, fields, finish, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -73,6 +73,19 @@ await attempt('motus compare', async () => {
   }
   await clean('errors', page);
 });
+
+/* Without what it is made of, the page says so, and the first picture stays. */
+for (const [name, missing] of [['packed', 'DecompressionStream'], ['compiled', 'WebAssembly']]) {
+  await attempt(`what cannot be ${name}`, async () => {
+    const page = await (await launch()).newPage();
+    await page.addInitScript((what) => { delete globalThis[what]; }, missing);
+    await page.goto(singleFile);
+    const said = await page.locator('[role=alert]').textContent();
+    judge(`without ${missing} the page says that it cannot start, and what it needs`, said.includes('could not start') && said.includes(missing), said);
+    judge(`without ${missing} the first picture is there`, await page.locator('#stage-picture svg').first().isVisible());
+    await page.close();
+  });
+}
 
 // --- motus lab ----------------------------------------------------------------------------------------------------------------------
 await attempt('motus lab', async () => {
