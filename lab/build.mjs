@@ -123,11 +123,13 @@ const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/edit
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"><button type="button" class="ask-button"><span>${drawn.question(scene)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
 const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
+const early = closed(await bundle('early.ts', 'iife', {}));
 const page = ({ script, element, connect, worker }) => {
-  const policy = ["default-src 'none'", `script-src ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
+  const policy = ["default-src 'none'", `script-src ${hash(early)} ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');
   let html = put(template, '<!-- csp -->', `<meta http-equiv="Content-Security-Policy" content="${policy}">`);
   html = put(html, '<!-- style -->', `<style>${style}</style>`);
+  html = put(html, '<!-- early -->', `<script>${early}</script>`);
   return put(html, '<!-- script -->', element);
 };
 

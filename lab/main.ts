@@ -19,6 +19,7 @@ import type { Track } from './protocol';
 import type { Panel, PanelMaker } from './scene';
 import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
+import { early } from './shell/early';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { forgetful, recall, remember } from './shell/memory';
@@ -67,7 +68,7 @@ function textEdge(): number {
 async function start(): Promise<void> {
   // Before the first picture, if the page stands in another.
   document.body.classList.toggle('embedded', /[#&]embed=1(&|$)/.test(location.hash));
-  const [client] = await Promise.all([createClient(), loadData()]);
+  const [client] = await Promise.all([createClient(), loadData()]), catchUp = early();
   const { state, problem } = startState(presets);
   if (state.embed) forgetful();
   const store = createStore(client, state);
@@ -86,6 +87,7 @@ async function start(): Promise<void> {
   });
   const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, makers, () => { each([motion, ...open], (panel) => panel.redraw()); small.redraw(); });
   if (problem) toasts.say(problem);
+  const touched = catchUp();
   captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
   place('transport').append(clock.element);
@@ -104,12 +106,12 @@ async function start(): Promise<void> {
 
   /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
   function gentle(): void {
-    if (store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
-    const touched = new AbortController(), { signal } = touched;
-    for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => touched.abort(), { capture: true, passive: true, signal });
+    if (touched || store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    const hand = new AbortController(), { signal } = hand;
+    for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => hand.abort(), { capture: true, passive: true, signal });
     window.setTimeout(() => {
       if (signal.aborted || document.hidden) return;
-      touched.abort();
+      hand.abort();
       remember('seen', '1');
       if (!clock.playing()) clock.toggle();
     }, GENTLE);

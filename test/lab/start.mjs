@@ -87,6 +87,43 @@ for (const [name, missing] of [['packed', 'DecompressionStream'], ['compiled', '
   });
 }
 
+// --- before it has started ------------------------------------------------------------------------------------------------------------
+/** A page whose script comes when it is told to. */
+async function held(url) {
+  let release;
+  const gate = new Promise((done) => { release = done; });
+  const page = await open('about:blank', { settle: false, before: () => {
+    const text = Response.prototype.text;
+    Response.prototype.text = async function () { await window.held; return text.call(this); };
+    window.held = new Promise((done) => { window.letGo = done; });
+  } });
+  await page.route('**/main.js', async (route) => { await gate; await route.continue(); });
+  await page.goto(url, { waitUntil: 'commit' });
+  await page.locator('#words .pill').waitFor();
+  return { page, start: async () => { release(); await page.evaluate(() => window.letGo()); await settled(page); } };
+}
+for (const [name, url] of [['from disk', singleFile], ['from a server', address]]) {
+  for (const [what, selector, done] of [['the question', '.ask-button', '.lesson'], ['the equation', '.pill', '#model-text']]) {
+    await attempt(`a click on ${what} before the start, ${name}`, async () => {
+      const { page, start } = await held(url);
+      await page.locator(`#words ${selector}`).click();
+      const before = await page.locator(done).count();
+      await start();
+      judge(`a click on ${what} before the start is done afterwards, ${name}`, before === 0 && await page.locator(done).first().isVisible(), before);
+      await clean(`a click on ${what}, ${name}`, page);
+    });
+  }
+  await attempt(`nothing clicked, ${name}`, async () => {
+    const { page, start } = await held(`${url}#v=1&p=spring`);
+    await page.locator('#words .ask-button').click();
+    await page.locator('#words .pill').focus();
+    await start();
+    judge(`what had the focus has it still, ${name}`, await page.locator('#words .pill').evaluate((pill) => pill === document.activeElement));
+    same(`a question that the page no longer asks is not answered, ${name}`, [await page.locator('#scene-title').textContent(), await page.locator('.lesson').first().isVisible()], ['Mass on a spring', false]);
+    await clean(`another scene, ${name}`, page);
+  });
+}
+
 // --- motus lab ----------------------------------------------------------------------------------------------------------------------
 await attempt('motus lab', async () => {
   const out = join(place, 'mine.html');
