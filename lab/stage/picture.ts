@@ -86,7 +86,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   // The ground of a throw runs on below the words; nothing else does.
   const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
-  const common = { solution, letters };
+  const common = { solution, letters, fine: place.fine };
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };

@@ -116,6 +116,21 @@ export async function open(address = singleFile, options = {}) {
   return page;
 }
 
+/** A page as it is before its script has come; that comes with `start`. */
+export async function held(address, options = {}) {
+  let release;
+  const gate = new Promise((done) => { release = done; });
+  const page = await open('about:blank', { ...options, settle: false, before: () => {
+    const text = Response.prototype.text;
+    Response.prototype.text = async function () { await window.held; return text.call(this); };
+    window.held = new Promise((done) => { window.letGo = done; });
+  } });
+  await page.route('**/main.js', async (route) => { await gate; await route.continue(); });
+  await page.goto(address, { waitUntil: 'commit' });
+  await page.locator('#words .pill').waitFor();
+  return { page, start: async () => { release(); await page.evaluate(() => window.letGo()); await settled(page); } };
+}
+
 /** Waits until the workers have owed nothing for a while, and what they answered is drawn. */
 export async function settled(page, calm = 300, limit = 25000) {
   // What was just done is asked in the next frame.

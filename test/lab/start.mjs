@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, editorOf, fields, finish, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, built, clean, editorOf, fields, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -88,20 +88,6 @@ for (const [name, missing] of [['packed', 'DecompressionStream'], ['compiled', '
 }
 
 // --- before it has started ------------------------------------------------------------------------------------------------------------
-/** A page whose script comes when it is told to. */
-async function held(url) {
-  let release;
-  const gate = new Promise((done) => { release = done; });
-  const page = await open('about:blank', { settle: false, before: () => {
-    const text = Response.prototype.text;
-    Response.prototype.text = async function () { await window.held; return text.call(this); };
-    window.held = new Promise((done) => { window.letGo = done; });
-  } });
-  await page.route('**/main.js', async (route) => { await gate; await route.continue(); });
-  await page.goto(url, { waitUntil: 'commit' });
-  await page.locator('#words .pill').waitFor();
-  return { page, start: async () => { release(); await page.evaluate(() => window.letGo()); await settled(page); } };
-}
 for (const [name, url] of [['from disk', singleFile], ['from a server', address]]) {
   for (const [what, selector, done] of [['the question', '.ask-button', '.lesson'], ['the equation', '.pill', '#model-text']]) {
     await attempt(`a click on ${what} before the start, ${name}`, async () => {
