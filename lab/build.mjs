@@ -39,9 +39,9 @@ const compiled = await WebAssembly.compile(wasm);
 const thumbs = thumbnails(compiled, presets);
 const first = presets.find(({ name }) => name === 'thrown-ball');
 const scene = drawn.sceneOf(compiled, first.name, first.text, ['explicit-euler', 'symplectic-euler', 'midpoint']);
-const core = new Core(compiled);
-const lessonTexts = await Promise.all((await readdir(join(here, 'lessons'))).filter((name) => name.endsWith('.txt'))
-  .map(async (name) => ({ name: `lab/lessons/${name}`, text: await readFile(join(here, 'lessons', name), 'utf8') })));
+const core = new Core(compiled), { language } = drawn.html;
+const lessonTexts = await Promise.all((await readdir(join(here, 'words', language, 'lessons'))).filter((name) => name.endsWith('.txt'))
+  .map(async (name) => ({ name: `lab/words/${language}/lessons/${name}`, text: await readFile(join(here, 'words', language, 'lessons', name), 'utf8') })));
 let lessons;
 try {
   lessons = readLessons(lessonTexts, { models: presets.map(({ name }) => name), methods: core.catalogue(core.create()).map(({ name }) => name) });
@@ -121,8 +121,14 @@ const put = (html, mark, value) => {
 
 const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
-const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">A thrown ball</h1></div><p id="scene-words">Green is how it really flies. The others are a computer’s answers, ten straight steps each.</p><p class="ask"><button type="button" class="ask-button"><span>${drawn.question(scene)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>Type your own</small></button></div>`;
-const template = put(put(await readFile(join(here, 'index.html'), 'utf8'), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
+const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`), said = drawn.said(scene);
+const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">${escaped(said.title)}</h1></div><p id="scene-words">${escaped(said.sentence)}</p><p class="ask"><button type="button" class="ask-button"><span>${escaped(said.ask)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>${escaped(drawn.words.headline.type)}</small></button></div>`;
+/** The words of the language in the marks {{…}}. */
+const spoken = (html) => html.replace(/\{\{(\w+)\}\}/g, (mark, name) => {
+  if (!Object.hasOwn(drawn.html, name)) throw new Error(`index.html wants ${mark}, which words/${language}/html.ts does not have`);
+  return escaped(drawn.html[name]);
+});
+const template = put(put(spoken(await readFile(join(here, 'index.html'), 'utf8')), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
 const early = closed(await bundle('early.ts', 'iife', {}));
 const page = ({ script, element, connect, worker }) => {
   const policy = ["default-src 'none'", `script-src ${hash(early)} ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,

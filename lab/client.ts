@@ -6,6 +6,7 @@
 import { milestone } from './dom';
 import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
+import { computed } from './words';
 import { coreModule, createWorker } from 'virtual:host';
 
 /** Nobody waits for this answer any more. */
@@ -21,7 +22,7 @@ const QUICK_LIMIT = 20_000;
 /** Milliseconds without a question, after which a worker is made ready for when the present one has to be ended. */
 const SPARE_AFTER = 1500;
 
-const tooLong = problem('limit', `this takes longer than ${QUICK_LIMIT / 1000} seconds`, 'a larger step, a nearer end, or the program motus');
+const tooLong = problem('limit', computed.slow(String(QUICK_LIMIT / 1000)), computed.nearer);
 
 class Line {
   private worker: Worker | null = null;
@@ -108,7 +109,7 @@ class Line {
     // A worker that cannot be started, or that broke down, leaves its question unanswered.
     worker.onerror = ({ message }) => {
       if (worker === this.spare) this.spare = null;
-      else this.stop(new Refused(problem('memory', `the worker failed${message && `: ${message}`}`, 'a smaller model')));
+      else this.stop(new Refused(problem('memory', computed.worker(message), computed.model)));
     };
     worker.postMessage(this.module);
     return worker;

@@ -4,6 +4,7 @@
  * octal, and question marks are escaped, so that there are no trigraphs. Other control characters are refused, as in a command.
  */
 import { controls, type Command } from './share';
+import { words } from './words';
 
 /** A string of C, a line of the text a line; indent: of the lines after the first. */
 export function literal(text: string, indent = ''): string {
@@ -20,8 +21,8 @@ export interface Motion { readonly text: string; readonly set: Readonly<Record<s
 
 export function cProgram({ text, set, method, step, until }: Motion): Command {
   const sets = Object.entries(set).map(([name, value]) => `${name}=${value}`), numbers = [step, until];
-  if ([text, method, ...sets].some((t) => controls.test(t))) return { text: '', problem: 'There is no C program: the model holds a control character.' };
-  if (numbers.some((n) => n !== null && !Number.isFinite(n))) return { text: '', problem: 'There is no C program: the step or the end is no number.' };
+  if ([text, method, ...sets].some((t) => controls.test(t))) return { text: '', problem: words.address.program.control };
+  if (numbers.some((n) => n !== null && !Number.isFinite(n))) return { text: '', problem: words.address.program.number };
   const given = ['step', 'until'].map((name, k) => (numbers[k] === null ? '' : `    how.${name} = ${numbers[k]};\n`)).join('');
   return {
     problem: '', text: `/* cc -std=c17 motion.c -lmotus -lm -o motion */

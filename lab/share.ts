@@ -12,6 +12,7 @@
  */
 import type { State, View } from './scene';
 import { normal, plain } from './shell/number';
+import { words } from './words';
 
 /** What the state is compared with: the models of the build and the methods each is shown with. */
 export interface Presets {
@@ -110,9 +111,9 @@ class Wrong extends Error {}
 export const controls = /[\u0000-\u0008\u000b-\u001f\u007f-\u009f]/;
 const lineControls = /[\u0000-\u001f\u007f-\u009f]/;
 
-function word(value: string, what: string): string {
-  if (value.length > most.words) throw new Wrong(`${what} is too long`);
-  if (lineControls.test(value)) throw new Wrong(`${what} holds a control character`);
+function word(value: string, { long, control }: { readonly long: string; readonly control: string }): string {
+  if (value.length > most.words) throw new Wrong(long);
+  if (lineControls.test(value)) throw new Wrong(control);
   return value;
 }
 
@@ -122,11 +123,11 @@ function fields(fragment: string): Map<string, string[]> {
     if (field === '') continue;
     const at = field.indexOf('=');
     const key = at < 0 ? field : field.slice(0, at);
-    if (!once.has(key) && !several.has(key)) throw new Wrong(`it has a part that this page does not know, “${key.slice(0, 20)}”`);
+    if (!once.has(key) && !several.has(key)) throw new Wrong(words.address.part(key.slice(0, 20)));
     const value = unescape(at < 0 ? '' : field.slice(at + 1));
-    if (value === null) throw new Wrong('a percent code in it is broken');
+    if (value === null) throw new Wrong(words.address.code);
     const values = found.get(key) ?? [];
-    if (values.length && once.has(key)) throw new Wrong(`it says “${key}” twice`);
+    if (values.length && once.has(key)) throw new Wrong(words.address.twice(key));
     values.push(value);
     found.set(key, values);
   }
@@ -135,56 +136,56 @@ function fields(fragment: string): Map<string, string[]> {
 
 function viewOf(found: Map<string, string[]>): View {
   const plane = found.get('w')?.[0] ?? defaultView.plane;
-  if (plane !== 'auto' && plane !== 'time' && plane !== 'plane' && plane !== 'space') throw new Wrong('it asks for a view that does not exist');
+  if (plane !== 'auto' && plane !== 'time' && plane !== 'plane' && plane !== 'space') throw new Wrong(words.address.view);
   const quantities = found.get('q') ?? [], phase = found.get('f');
-  if (quantities.length > most.columns) throw new Wrong('it asks for too many quantities');
-  for (const name of [...quantities, ...(phase ?? [])]) word(name, 'the name of a quantity');
-  if (phase && phase.length !== 2) throw new Wrong('a phase plane needs two axes');
+  if (quantities.length > most.columns) throw new Wrong(words.address.quantities);
+  for (const name of [...quantities, ...(phase ?? [])]) word(name, words.address.texts.quantity);
+  if (phase && phase.length !== 2) throw new Wrong(words.address.axes);
   const open = found.get('o')?.[0];
   const panels = open === undefined ? defaultPanels : splitList(open);
-  if (panels.length > most.columns || !panels.every(id => /^[a-z-]{1,40}$/.test(id))) throw new Wrong('it names a panel that does not exist');
+  if (panels.length > most.columns || !panels.every(id => /^[a-z-]{1,40}$/.test(id))) throw new Wrong(words.address.panel);
   const hidden = found.get('e')?.[0] ?? '1';
-  if (hidden !== '0' && hidden !== '1') throw new Wrong('“e” is 0 or 1');
+  if (hidden !== '0' && hidden !== '1') throw new Wrong(words.address.exact);
   const speed = found.get('z')?.[0] ?? '1';
-  if (!/^\d{1,6}(\.\d{1,9})?$/.test(speed) || !(Number(speed) > 0)) throw new Wrong('the speed of the animation is no number above 0');
+  if (!/^\d{1,6}(\.\d{1,9})?$/.test(speed) || !(Number(speed) > 0)) throw new Wrong(words.address.speed);
   return {
     plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, panels: [...new Set(panels)], exact: hidden === '1', speed: Number(speed),
   };
 }
 
 function stateOf(fragment: string, presets: Presets, limit: number): State {
-  if (fragment.length > limit) throw new Wrong(`it is longer than ${limit / 1024} KiB`);
+  if (fragment.length > limit) throw new Wrong(words.address.long(String(limit / 1024)));
   const found = fields(fragment);
   const version = found.get('v')?.[0];
-  if (version !== '1') throw new Wrong(version === undefined ? 'it does not say its version' : 'it is of a version that this page does not know');
+  if (version !== '1') throw new Wrong(version === undefined ? words.address.noVersion : words.address.version);
   const model = found.get('m')?.[0], name = found.get('p')?.[0] ?? '';
   const text = model?.replace(/\r\n?/g, '\n') ?? presets.text(name);
-  if (text === undefined) throw new Wrong(name ? `there is no example “${name.slice(0, 40)}”` : 'it holds no model');
-  if (controls.test(text)) throw new Wrong('the model holds a control character');
+  if (text === undefined) throw new Wrong(name ? words.address.example(name.slice(0, 40)) : words.address.noModel);
+  if (controls.test(text)) throw new Wrong(words.address.modelControl);
   const sets = found.get('s') ?? [];
-  if (sets.length > most.sets) throw new Wrong('it sets too many parameters');
+  if (sets.length > most.sets) throw new Wrong(words.address.sets);
   const set: [string, string][] = sets.map(item => {
     const at = item.indexOf('=');
-    if (at < 1 || at === item.length - 1) throw new Wrong('a parameter is not written name=value');
-    return [word(item.slice(0, at), 'the name of a parameter'), word(item.slice(at + 1), 'the value of a parameter')];
+    if (at < 1 || at === item.length - 1) throw new Wrong(words.address.setForm);
+    return [word(item.slice(0, at), words.address.texts.parameter), word(item.slice(at + 1), words.address.texts.value)];
   });
   const usual = model === undefined ? presets.methods(name) : [];
   const listed = found.get('a')?.[0];
   const methods = listed === undefined ? usual : [...new Set(splitList(listed))];
-  if (methods.length > most.methods) throw new Wrong('it asks for too many methods');
-  for (const method of methods) word(method, 'the name of a method');
+  if (methods.length > most.methods) throw new Wrong(words.address.methods);
+  for (const method of methods) word(method, words.address.texts.method);
   const place = found.get('l')?.[0] ?? '';
-  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong('it names a place that does not exist');
+  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
-  if (inside !== '1' && found.has('embed')) throw new Wrong('“embed” is 1');
-  if (!inside && sliders.length) throw new Wrong('it chooses sliders, “c”, without “embed=1”');
-  if (sliders.length > most.columns) throw new Wrong('it chooses too many sliders');
-  for (const slider of sliders) if (!word(slider, 'the name of a slider')) throw new Wrong('a slider has no name');
-  if (inside && place) throw new Wrong('an embed shows the stage, no lesson and no gallery');
+  if (inside !== '1' && found.has('embed')) throw new Wrong(words.address.embed);
+  if (!inside && sliders.length) throw new Wrong(words.address.noEmbed);
+  if (sliders.length > most.columns) throw new Wrong(words.address.sliders);
+  for (const slider of sliders) if (!word(slider, words.address.texts.slider)) throw new Wrong(words.address.noSlider);
+  if (inside && place) throw new Wrong(words.address.embedPlace);
   return {
     ...(inside ? { embed: [...new Set(sliders)] } : {}),
     preset: presets.text(name) === undefined ? '' : name, text, set: Object.fromEntries(set), methods,
-    step: word(found.get('h')?.[0] ?? '', 'the step'), until: word(found.get('T')?.[0] ?? '', 'the end'), view: viewOf(found), place,
+    step: word(found.get('h')?.[0] ?? '', words.address.texts.step), until: word(found.get('T')?.[0] ?? '', words.address.texts.until), view: viewOf(found), place,
   };
 }
 
@@ -193,8 +194,8 @@ export function decode(fragment: string, presets: Presets, limit = longest): Dec
   try {
     return { state: stateOf(fragment.replace(/^#/, ''), presets, limit), problem: '' };
   } catch (wrong) {
-    const why = wrong instanceof Wrong ? wrong.message : 'it could not be read';
-    return { state: presetState(presets, presets.first), problem: `The address could not be used: ${why}. Here is the first example instead.` };
+    const why = wrong instanceof Wrong ? wrong.message : words.address.unreadable;
+    return { state: presetState(presets, presets.first), problem: words.address.unusable(why) };
   }
 }
 
@@ -217,13 +218,13 @@ const number = (typed: string): string => (!lineControls.test(typed) && plain(no
 
 /** The command that computes the same bits wherever motus is installed: the model comes with it. methods: those in use, resolved; state.methods may be empty. */
 export function command(state: State, methods: readonly string[]): Command {
-  const words = methods.length > 1 ? ['motus', 'compare', '-', '--methods', methods.join(',')] : ['motus', 'run', '-'];
-  if (methods.length === 1) words.push('--method', methods[0]!);
-  if (state.step) words.push('--step', number(state.step));
-  if (state.until) words.push('--until', number(state.until));
-  for (const [name, expression] of Object.entries(state.set)) words.push('--set', `${name}=${expression}`);
+  const line = methods.length > 1 ? ['motus', 'compare', '-', '--methods', methods.join(',')] : ['motus', 'run', '-'];
+  if (methods.length === 1) line.push('--method', methods[0]!);
+  if (state.step) line.push('--step', number(state.step));
+  if (state.until) line.push('--until', number(state.until));
+  for (const [name, expression] of Object.entries(state.set)) line.push('--set', `${name}=${expression}`);
   const text = state.text.endsWith('\n') || state.text === '' ? state.text : state.text + '\n';
-  if (words.some(w => lineControls.test(w)) || controls.test(text)) return { text: '', problem: 'There is no safe command: the model holds a control character.' };
+  if (line.some(w => lineControls.test(w)) || controls.test(text)) return { text: '', problem: words.address.command };
   const end = delimiter(text);
-  return { text: `${words.map(quote).join(' ')} <<'${end}'\n${text}${end}\n`, problem: '' };
+  return { text: `${line.map(quote).join(' ')} <<'${end}'\n${text}${end}\n`, problem: '' };
 }

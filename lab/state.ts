@@ -10,6 +10,7 @@ import { brief } from './figure/number';
 import { STEPS_MAX, problem, type Description, type Method, type Problem, type Solution } from './protocol';
 import { Refused, type Client, type Scene, type State, type Store, type View } from './scene';
 import { normal, plain, short } from './shell/number';
+import { words } from './words';
 
 export interface Trouble {
   readonly model: Problem | null;               // the text, or a replaced parameter
@@ -90,16 +91,16 @@ export function createStore(client: Client, initial: State): LiveStore {
   /** A constant expression as the core reads it, by the model that the program uses for the same purpose; a string: what is wrong. */
   async function constant(typed: string): Promise<number | string> {
     const text = normal(typed);
-    if (plain(text)) return Number.isFinite(Number(text)) ? Number(text) : `${text} is too large for a number.`;
+    if (plain(text)) return Number.isFinite(Number(text)) ? Number(text) : words.trouble.tooLarge(text);
     const known = constants.get(text);
     if (known !== undefined) return known;
-    let answer: number | string = `“${text}” is no number.`;
+    let answer: number | string = words.trouble.noNumber(text);
     try {
       const read = await client.ask('describe', { model: { text: "x' = 0\nx(0) = 0\nstep 1\nuntil 1", set: [`x(0)=${text}`] } });
       const initial = read.parameters.find(p => p.initial);
       if (initial?.values.length === 1 && Number.isFinite(initial.values[0])) answer = initial.values[0] as number;
     } catch (error) {
-      if (error instanceof Refused) answer = `“${text}” is no number.`;
+      if (error instanceof Refused) answer = words.trouble.noNumber(text);
       else throw error;
     }
     if (constants.size > 500) constants.clear();
@@ -114,24 +115,24 @@ export function createStore(client: Client, initial: State): LiveStore {
     if (of.until) {
       const value = await constant(of.until);
       if (typeof value === 'string') said.until = value;
-      else if (value === model.settings.start) said.until = `The motion starts at ${short(value)}: an end at the same time leaves nothing to compute.`;
+      else if (value === model.settings.start) said.until = words.trouble.untilStart(short(value));
       else until = value;
     }
     if (of.step) {
       const value = await constant(of.step);
       if (typeof value === 'string') said.step = value;
-      else if (value === 0) said.step = 'With a step of zero, time would stand still: a number above 0.';
-      else if (value < 0) said.step = 'A step is a length of time, above 0. To run backward, set an end before the start.';
+      else if (value === 0) said.step = words.trouble.stepZero;
+      else if (value < 0) said.step = words.trouble.stepBackward;
       else step = value;
     }
     if (step !== null && until !== null && !said.step && !said.until) {
       const span = Math.abs(until - model.settings.start), steps = span / step;
       if (span === 0) {
-        said.until = `The motion starts and ends at ${short(until)}: there is nothing to compute.`;
+        said.until = words.trouble.untilNothing(short(until));
       } else if (steps > STEPS_MAX) {
         // Said where it was caused.
-        said[of.until && !of.step ? 'until' : 'step'] = `That makes ${brief(steps, 2)} steps; the page stops at 10 million. The program has no such limit.`;
-      } else if (step > span) said.remark = `The step is longer than the whole motion: one step of ${short(span, 6)} is taken.`;
+        said[of.until && !of.step ? 'until' : 'step'] = words.trouble.stepMany(brief(steps, 2));
+      } else if (step > span) said.remark = words.trouble.stepLong(short(span, 6));
     }
     return { step, until, trouble: said };
   }
@@ -183,7 +184,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     of = as;
     const measured = await measure(of, model);
     const { methods, refused } = admittedMethods(of, model);
-    trouble = { ...well, ...measured.trouble, methods: refused.length ? `Not for this force: ${looksOf(refused, catalogue).map(l => l.label).join(', ')}.` : '' };
+    trouble = { ...well, ...measured.trouble, methods: refused.length ? words.trouble.methods(looksOf(refused, catalogue).map(l => l.label)) : '' };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
     if ((measured.trouble.step || measured.trouble.until) && scene?.state.text === of.text) return;
@@ -191,8 +192,8 @@ export function createStore(client: Client, initial: State): LiveStore {
     const asked = { step: measured.trouble.step ? settings.step : measured.step, until: measured.trouble.until ? settings.until : measured.until };
     if (asked.step === null || asked.until === null) {
       trouble = {
-        ...trouble, step: trouble.step || (asked.step === null ? 'The model names no step: type one, for example 0.01.' : ''),
-        until: trouble.until || (asked.until === null ? 'The model names no end: type one, for example 10.' : ''),
+        ...trouble, step: trouble.step || (asked.step === null ? words.trouble.noStep : ''),
+        until: trouble.until || (asked.until === null ? words.trouble.noUntil : ''),
       };
       tell('description');
       return;
@@ -301,7 +302,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     cancel() {
       waiting = false;
       running?.abort();
-      trouble = { ...trouble, run: failure('The computation was stopped. The picture is the last one that was finished.') };
+      trouble = { ...trouble, run: failure(words.trouble.cancelled) };
       tell('description');
     },
     recolour() {

@@ -2,6 +2,7 @@
  *
  * Invariant: a panel does not set the page's time. It asks, by the event SEEK on its figure, and shows what it is told by `set`.
  */
+import { words } from '../words';
 import type { Figure, Frame, Ink, Pen } from './types';
 import { LABEL } from './axes';
 import { readable } from './number';
@@ -38,7 +39,7 @@ export function cursor(definition: CursorDefinition): Cursor {
   slider.removeAttribute('aria-hidden');
   slider.setAttribute('role', 'slider');
   slider.setAttribute('tabindex', '0');
-  slider.setAttribute('aria-label', `Time in “${definition.title}”`);
+  slider.setAttribute('aria-label', words.figure.cursor(definition.title));
 
   /** Attributes are for reading, not for animation: they follow when the clock rests, or at once for the keys. */
   function tell(at = time): void {

@@ -3,6 +3,7 @@
  * Invariant: numbers are written with every digit they have, and a file is the same text whatever the reader's language. A text cell that a
  * spreadsheet would take for a formula gets an apostrophe; a number, however it begins, is left alone. Every picture that is saved says below what it is of.
  */
+import { words } from '../words';
 import { ink } from './ink';
 import { canvasPen, svgPen } from './pen';
 import { textWidth } from './shapes';
@@ -36,7 +37,7 @@ function cut(text: string, room: number, bold = false): string {
 }
 /** The picture with the strip below that says what it is of. */
 export function captioned({ title, width, height, draw }: Shot): Shot {
-  const [first = '', ...rest] = told(), lines = [title === first || title === 'Motion' ? first : `${title} · ${first}`, ...rest].filter(Boolean);
+  const [first = '', ...rest] = told(), lines = [title === first || title === words.stage.motion ? first : `${title} · ${first}`, ...rest].filter(Boolean);
   return {
     title, width, height: height + lines.length * LINE + EDGE,
     draw(pen, now) {

@@ -4,6 +4,7 @@
  * 0.15000000000000002); the file that can be saved has all of them.
  */
 import { el as element } from '../dom';
+import { words } from '../words';
 import { minus } from './number';
 import type { Table } from './types';
 
@@ -26,10 +27,10 @@ export function tableElement(table: Table, caption: string): HTMLElement {
   for (const i of rows) {
     body.append(element('tr', {}, ...table.rows[i]!.map((value) => element('td', typeof value === 'number' ? {} : { class: 'words' }, shown(value)))));
   }
-  const notes = [table.note ?? '', rows.length < table.rows.length ? `${rows.length} of ${table.rows.length} rows, evenly taken; the CSV file has them all.` : ''];
-  const note = notes.filter(Boolean).join(' ');
+  const notes = [table.note ?? '', rows.length < table.rows.length ? words.figure.rows(String(rows.length), String(table.rows.length)) : ''];
+  const note = words.figure.notes(notes.filter(Boolean));
   // Wide tables scroll in a box of their own, which has to be reachable with the keyboard.
-  const box = element('div', { class: 'figure-table', tabindex: '0', role: 'region', 'aria-label': `${caption}: data table` },
+  const box = element('div', { class: 'figure-table', tabindex: '0', role: 'region', 'aria-label': words.figure.table(caption) },
     element('table', {}, element('caption', {}, caption), element('thead', {}, head), body));
   return element('div', {}, box, ...(note ? [element('p', { class: 'figure-note' }, note)] : []));
 }

@@ -5,6 +5,7 @@
  */
 import type { Look } from '../scene';
 import { extent, padded } from './axes';
+import { words } from '../words';
 import { thin, thinPath } from './thin';
 import type { Frame, Pen } from './types';
 
@@ -89,6 +90,5 @@ export function begin(sentence: string): string {
 
 /** "a", "a and b", "a, b and c". */
 export function listed(names: readonly string[], most = 6): string {
-  if (names.length > most) return `${names.slice(0, most - 1).join(', ')} and ${names.length - most + 1} more`;
-  return names.length < 2 ? names.join('') : `${names.slice(0, -1).join(', ')} and ${names[names.length - 1]}`;
+  return names.length > most ? words.figure.listMore(names.slice(0, most - 1), String(names.length - most + 1)) : words.figure.list(names);
 }

@@ -3,6 +3,7 @@
  * Invariant: a lesson that is returned names scenes, methods and pictures that exist, has one right choice at most and something to try; whatever is
  * wrong is said with file, line and what would be right, all of it at once.
  */
+import { faults } from '../words';
 
 /** What ticks a task off. */
 export type Condition =
@@ -80,7 +81,7 @@ class Reader {
       if (raw.startsWith('#')) return;
       if (content === '') { gap = true; return; }
       if (/^\s/.test(raw)) {
-        if (!field) this.wrong(line, 'an indented line belongs to the key above it, and there is none', 'lesson: Too high, too low');
+        if (!field) this.wrong(line, faults.indented, faults.exampleKey);
         else if (gap || field.below.length === 0) {
           field.joined ||= !gap;
           field.below.push(content);
@@ -88,8 +89,8 @@ class Reader {
         else field.below.push(`${field.below.pop()} ${content}`);
       } else {
         const [, key, value] = /^([a-z]+)\s*:\s*(.*)$/.exec(raw.trimEnd()) ?? [];
-        if (key === undefined || value === undefined) this.wrong(line, `“${content.slice(0, 40)}” is no “key: text”`, 'lines that go on with a text are indented, comments start with #');
-        else if (!Object.hasOwn(keys, key)) this.wrong(line, `there is no key “${key}”`, this.like(key, Object.keys(keys)));
+        if (key === undefined || value === undefined) this.wrong(line, faults.noKey(content.slice(0, 40)), faults.lines);
+        else if (!Object.hasOwn(keys, key)) this.wrong(line, faults.key(key), this.like(key, Object.keys(keys)));
         field = key === undefined || value === undefined ? null : { key, line, value, below: [], joined: false };
         if (field) this.fields.push(field);
       }
@@ -97,17 +98,17 @@ class Reader {
     });
     for (const [key, { needed, many }] of Object.entries(keys)) {
       const found = this.all(key);
-      if (needed && !found.length) this.wrong(0, `“${key}:” is missing`);
-      if (!many && found[1]) this.wrong(found[1].line, `“${key}:” stands here a second time; it is in line ${found[0]?.line} already`);
+      if (needed && !found.length) this.wrong(0, faults.missing(key));
+      if (!many && found[1]) this.wrong(found[1].line, faults.again(key, String(found[0]?.line)));
     }
   }
 
   wrong(line: number, what: string, hint = ''): void {
-    this.problems.push(`${this.file}${line ? `:${line}` : ''}: ${what}${hint ? ` (${hint})` : ''}`);
+    this.problems.push(faults.at(this.file, line ? String(line) : '', what, hint));
   }
   like(word: string, list: readonly string[]): string {
     const near = nearest(word, list);
-    return near ? `did you mean “${near}”?` : list.length <= 24 ? `one of ${list.join(', ')}` : '';
+    return near ? faults.alike(near) : list.length <= 24 ? faults.oneOf(list) : '';
   }
   all(key: string): Field[] { return this.fields.filter(field => field.key === key); }
   one(key: string): Field { return this.all(key)[0] ?? { key, line: 0, value: '', below: [], joined: false }; }
@@ -118,48 +119,48 @@ class Reader {
   }
   words(key: string): string {
     const field = this.one(key), text = this.text(field).join(' ');
-    if (field.line && text === '') this.wrong(field.line, `“${key}:” is empty`);
+    if (field.line && text === '') this.wrong(field.line, faults.empty(key));
     return text;
   }
   paragraphs(key: string): string[] {
     const field = this.one(key), text = this.text(field);
-    if (field.line && text.length === 0) this.wrong(field.line, `“${key}:” is empty`);
+    if (field.line && text.length === 0) this.wrong(field.line, faults.empty(key));
     return text;
   }
-  member(line: number, word: string, list: readonly string[], what: string): void {
-    if (!list.includes(word)) this.wrong(line, `there is no ${what} “${word}”`, this.like(word, list));
+  member(line: number, word: string, list: readonly string[], none: (word: string) => string): void {
+    if (!list.includes(word)) this.wrong(line, none(word), this.like(word, list));
   }
-  list(key: string, from: readonly string[], what: string): string[] {
+  list(key: string, from: readonly string[], none: (word: string) => string): string[] {
     const field = this.one(key), words = this.text(field).join(' ').split(/\s*,\s*/).filter(Boolean);
-    for (const word of words) this.member(field.line, word, from, what);
+    for (const word of words) this.member(field.line, word, from, none);
     return words;
   }
   number(line: number, text: string, what: string): number {
     const value = Number(text);
-    if (!/^\d+(\.\d+)?$/.test(text) || !(value > 0)) this.wrong(line, `${what} is a number above 0, not “${text}”`, `${what} 0.1`);
+    if (!/^\d+(\.\d+)?$/.test(text) || !(value > 0)) this.wrong(line, faults.number(what, text), faults.exampleNumber(what));
     return value;
   }
   method(line: number, name: string): string {
-    this.member(line, name, this.known.methods, 'method');
+    this.member(line, name, this.known.methods, faults.no.method);
     return name;
   }
 
   condition({ line, value }: Field): Condition {
     const [kind = '', name = '', state = '', ...more] = value.split(/\s+/);
     const surplus = kind === 'method' ? more[0] : state;
-    if (surplus) this.wrong(line, `“${surplus}” is too much`, 'one condition a line');
+    if (surplus) this.wrong(line, faults.surplus(surplus), faults.one);
     switch (kind) {
       case 'method':
-        if (state !== 'on' && state !== 'off') this.wrong(line, 'a method is switched on or off', 'do: method symplectic-euler on');
+        if (state !== 'on' && state !== 'off') this.wrong(line, faults.onOff, faults.exampleOn);
         return { kind, method: this.method(line, name), on: state !== 'off' };
       case 'step': case 'until': return { kind, value: this.number(line, name, kind) };
       case 'set':
-        if (name === '') this.wrong(line, 'which number is to be changed is not said', 'do: set gamma');
+        if (name === '') this.wrong(line, faults.whichSet, faults.exampleSet);
         return { kind, name };
-      case 'opened': this.member(line, name, opened, 'place to open'); return { kind, place: name };
-      case 'scene': this.member(line, name, this.known.models, 'scene'); return { kind, model: name };
+      case 'opened': this.member(line, name, opened, faults.no.opened); return { kind, place: name };
+      case 'scene': this.member(line, name, this.known.models, faults.no.scene); return { kind, model: name };
       default:
-        this.wrong(line, `“${value}” is no condition`, 'method NAME on, method NAME off, step H, until T, set NAME, opened step, scene NAME');
+        this.wrong(line, faults.condition(value), faults.conditions);
         return { kind: 'opened', place: '' };
     }
   }
@@ -167,49 +168,49 @@ class Reader {
   choices(): Choice[] {
     const fields = this.fields.filter(({ key }) => key === 'right' || key === 'wrong');
     const rail = this.one('rail'), listed = rail.line ? rail.value.split(/\s*,\s*/)[1]?.split(/\s+/) ?? [] : [];
-    if (fields.length < 2) this.wrong(this.one('predict').line, 'a prediction has two choices or more', 'right: Too high, and below it, indented, what is answered');
-    if (fields.length && !this.one('right').line) this.wrong(fields[0]?.line ?? 0, 'none of the choices is right', 'right: in place of wrong:');
+    if (fields.length < 2) this.wrong(this.one('predict').line, faults.choices, faults.exampleChoice);
+    if (fields.length && !this.one('right').line) this.wrong(fields[0]?.line ?? 0, faults.noneRight, faults.exampleRight);
     if (rail.line) {
-      for (const word of listed) this.member(rail.line, word, places, 'place on a rail');
-      if (listed.length !== fields.length) this.wrong(rail.line, `the rail has ${listed.length} places for ${fields.length} choices`, 'rail: explicit-euler r.y, above on below');
+      for (const word of listed) this.member(rail.line, word, places, faults.no.place);
+      if (listed.length !== fields.length) this.wrong(rail.line, faults.rail(String(listed.length), String(fields.length)), faults.exampleRail);
     }
     return fields.map(({ key, line, value, below }, k) => {
-      if (value === '') this.wrong(line, 'a choice needs the word of its button', 'right: Too high');
-      if (!below.length) this.wrong(line, `what is answered to “${value}” is missing`, 'it stands below, indented');
+      if (value === '') this.wrong(line, faults.choiceWord, faults.exampleWord);
+      if (!below.length) this.wrong(line, faults.answer(value), faults.below);
       return { label: value, right: key === 'right', answer: below.join(' '), place: places.find(place => place === listed[k]) ?? null };
     });
   }
 
   lesson(id: string): Lesson {
     const scene = this.one('scene'), until = this.one('until'), step = this.one('step'), rail = this.one('rail'), why = this.one('why'), picture = this.one('picture');
-    if (scene.line) this.member(scene.line, scene.value, this.known.models, 'scene');
+    if (scene.line) this.member(scene.line, scene.value, this.known.models, faults.no.scene);
     for (const { line, key, value } of [step, until]) if (line) this.number(line, value, key);
     const set: Record<string, string> = {};
     for (const { line, value } of this.all('set')) {
       const [, name, expression] = /^(.+?)\s*=\s*(.+)$/.exec(value) ?? [];
-      if (name === undefined || expression === undefined) this.wrong(line, `“${value}” sets nothing`, 'set: gamma = 0');
+      if (name === undefined || expression === undefined) this.wrong(line, faults.sets(value), faults.exampleSets);
       else set[name] = expression;
     }
     const [, railMethod = '', railColumn = ''] = /^(\S+)\s+([^,]+?)\s*,/.exec(rail.value) ?? [];
-    if (rail.line && railColumn === '') this.wrong(rail.line, 'a rail says whose column is guessed, and where each choice is', 'rail: explicit-euler r.y, above on below');
+    if (rail.line && railColumn === '') this.wrong(rail.line, faults.railSays, faults.exampleRail);
     else if (rail.line) this.method(rail.line, railMethod);
-    if (picture.line) this.member(picture.line, picture.value, pictures, 'close-up picture');
+    if (picture.line) this.member(picture.line, picture.value, pictures, faults.no.picture);
     const caption = this.one('caption');
-    if (caption.line && !picture.line) this.wrong(caption.line, 'a caption needs a picture', 'picture: old-new-speed');
-    if (why.line && !why.below.length) this.wrong(why.line, 'the explanation is missing', 'it stands below its title, indented');
+    if (caption.line && !picture.line) this.wrong(caption.line, faults.caption, faults.examplePicture);
+    if (why.line && !why.below.length) this.wrong(why.line, faults.why, faults.belowTitle);
     const numbers = this.all('number').map(({ line, value }) => {
       const [, said, given, quantity] = /^(?:“([^”]+)”\s*)?(\S+)\s*=\s*(.+)$/.exec(value) ?? [];
-      if (given === undefined || quantity === undefined || !Number.isFinite(Number(given))) this.wrong(line, `“${value}” says nothing about a number`, 'number: 1.96 = miss(explicit-euler, r.y)');
+      if (given === undefined || quantity === undefined || !Number.isFinite(Number(given))) this.wrong(line, faults.says(value), faults.exampleSays);
       return { said: said ?? given ?? '', value: given ?? '0', quantity: quantity ?? '', line };
     });
     return {
       id, title: this.words('lesson'),
       scene: {
-        model: scene.value, set, methods: this.list('methods', this.known.methods, 'method'), step: step.value, until: until.value,
-        view: this.list('view', views, 'view') as Lesson['scene']['view'],
+        model: scene.value, set, methods: this.list('methods', this.known.methods, faults.no.method), step: step.value, until: until.value,
+        view: this.list('view', views, faults.no.view) as Lesson['scene']['view'],
       },
       predict: {
-        text: this.paragraphs('predict'), hide: this.list('hide', this.one('methods').line ? this.list('methods', this.known.methods, 'method') : [], 'method in this lesson'),
+        text: this.paragraphs('predict'), hide: this.list('hide', this.one('methods').line ? this.list('methods', this.known.methods, faults.no.method) : [], faults.no.methodHere),
         choices: this.choices(), button: this.words('button'), hint: this.words('hint'), rail: rail.line ? { method: railMethod, column: railColumn } : null,
       },
       attempt: { text: this.paragraphs('try'), tasks: this.all('do').map(field => ({ condition: this.condition(field), label: field.below.join(' ') || field.value })) },
@@ -223,7 +224,7 @@ class Reader {
 /** One lesson; its file is named NUMBER-ID.txt. Throws an Error that says all that is wrong with it. */
 export function readLesson(file: string, text: string, known: Known): Lesson {
   const reader = new Reader(file, text, known), id = /^(?:.*\/)?\d+-([a-z0-9-]+)\.txt$/.exec(file)?.[1];
-  if (id === undefined) reader.wrong(0, 'a lesson’s file is named by its number and its address', '2-too-high.txt');
+  if (id === undefined) reader.wrong(0, faults.file, faults.exampleFile);
   const lesson = reader.lesson(id ?? '');
   if (reader.problems.length) throw new Error([...new Set(reader.problems)].join('\n'));
   return lesson;
@@ -237,7 +238,7 @@ export function readLessons(files: readonly { readonly name: string; readonly te
   for (const { name, text } of [...files].sort((a, b) => numberOf(a.name) - numberOf(b.name))) {
     try {
       const lesson = readLesson(name, text, known);
-      if (lessons.some(({ id }) => id === lesson.id)) problems.push(`${name}: another lesson has the address “${lesson.id}”`);
+      if (lessons.some(({ id }) => id === lesson.id)) problems.push(faults.at(name, '', faults.address(lesson.id), ''));
       lessons.push(lesson);
     } catch (e) {
       problems.push(e instanceof Error ? e.message : String(e));

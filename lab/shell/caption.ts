@@ -2,6 +2,7 @@
 import type { Scene } from '../scene';
 import type { Presets } from '../share';
 import { stagingOf } from '../stage/staging';
+import { words } from '../words';
 import { addressOf } from './address';
 import { whole } from './embed';
 import { short } from './number';
@@ -20,6 +21,7 @@ export function captionOf(scene: Scene, presets: Presets): string[] {
   const { state, looks, solution } = scene, track = solution.tracks[0], unit = stagingOf(state.preset).units?.t;
   // On a disk the link is what follows the #, which any copy of the page takes.
   const address = addressOf(whole(state), presets), link = /^https?:/.test(address) ? address : address.replace(/^[^#]*/, '');
-  return [titleIn(state), equation(scene), [...(track ? [`step ${short(Math.abs(track.step), 6)}${unit ? `\u2009${unit}` : ''}`] : []), ...(looks.length ? [looks.map((l) => l.label).join(', ')] : [])].join(' · '),
+  const step = track ? `${short(Math.abs(track.step), 6)}${unit ? `\u2009${unit}` : ''}` : '';
+  return [titleIn(state), equation(scene), words.share.caption(step, looks.map((l) => l.label)),
     link.length > longestLink ? `${link.slice(0, longestLink)}…` : link];
 }

@@ -8,6 +8,7 @@ import type { Pen, Ink } from '../figure/types';
 import type { Scene } from '../scene';
 import type { LiveStore } from '../state';
 import { svg } from '../dom';
+import { words } from '../words';
 
 const WIDTH = 250, HEIGHT = 132;
 type Draw = (pen: Pen, ink: Ink, scene: Scene) => void;
@@ -34,14 +35,14 @@ const drawings: Readonly<Record<string, Draw>> = {
   'straight': (pen, i, scene) => {
     flight(pen, i, 24);
     const [x, y] = along(pen, 0, colourOf(scene, 'explicit-euler', i.text), 'circle', [7, 3]);
-    pen.text(x + 9, y, 'the step', { colour: i.text, baseline: 'middle' });
-    pen.text(x + 9, THROW.y0 - THROW.vy + THROW.g / 2, 'the ball', { colour: i.exact, baseline: 'middle' });
+    pen.text(x + 9, y, words.lesson.drawn.step, { colour: i.text, baseline: 'middle' });
+    pen.text(x + 9, THROW.y0 - THROW.vy + THROW.g / 2, words.lesson.drawn.ball, { colour: i.exact, baseline: 'middle' });
     start(pen, i);
   },
   'old-new-speed': (pen, i, scene) => {
     const colours = ['explicit-euler', 'symplectic-euler'].map((m) => colourOf(scene, m, i.text)) as [string, string];
     const [x, high] = along(pen, 0, colours[0], 'circle', [7, 3]), [, middle] = along(pen, 0.5, i.exact, 'circle'), [, low] = along(pen, 1, colours[1], 'square');
-    for (const [y, words, colour] of [[high, 'old speed', colours[0]], [middle, 'what happens', i.exact], [low, 'new speed', colours[1]]] as const) pen.text(x + 9, y, words, { colour, baseline: 'middle' });
+    for (const [y, label, colour] of [[high, words.lesson.drawn.oldSpeed, colours[0]], [middle, words.lesson.drawn.happens, i.exact], [low, words.lesson.drawn.newSpeed, colours[1]]] as const) pen.text(x + 9, y, label, { colour, baseline: 'middle' });
     start(pen, i);
   },
   'middle': (pen, i, scene) => {
@@ -49,18 +50,18 @@ const drawings: Readonly<Record<string, Draw>> = {
     flight(pen, i, 24);
     pen.line([x0, y0, x0 + vx / 2, y0 - vy / 2], { colour: i.quiet, width: 1.25, dash: [2, 3] });
     pen.mark('ring', x0 + vx / 2, y0 - vy / 2, 4, colour);
-    pen.text(x0 + vx / 2 + 8, y0 - vy / 2 - 8, 'half a step, look', { colour: i.quiet });
+    pen.text(x0 + vx / 2 + 8, y0 - vy / 2 - 8, words.lesson.drawn.half, { colour: i.quiet });
     const [x, y] = along(pen, 0.5, colour, 'diamond', [9, 3, 2, 3]);
-    pen.text(x + 9, y, 'on the ball', { colour, baseline: 'middle' });
+    pen.text(x + 9, y, words.lesson.drawn.on, { colour, baseline: 'middle' });
     start(pen, i);
   },
   'halves': (pen, i, scene) => {
     // Errors of order one and two at a step, a half, a quarter of it.
-    for (const [k, order, method, words] of [[0, 1, 'symplectic-euler', 'order 1: a half'], [1, 2, 'verlet', 'order 2: a quarter']] as const) {
+    for (const [k, order, method, label] of [[0, 1, 'symplectic-euler', words.lesson.drawn.order1], [1, 2, 'verlet', words.lesson.drawn.order2]] as const) {
       const left = 16 + 122 * k, colour = colourOf(scene, method, i.text);
       for (let n = 0; n < 4; n++) pen.box(left + 24 * n, 104 - 88 * 2 ** (-order * n), 16, 88 * 2 ** (-order * n), colour);
       pen.line([left - 4, 104.5, left + 96, 104.5], { colour: i.axis, width: 1 });
-      pen.text(left, 122, words, { colour: i.quiet });
+      pen.text(left, 122, label, { colour: i.quiet });
     }
   },
   'energy': (pen, i, scene) => {
@@ -72,7 +73,7 @@ const drawings: Readonly<Record<string, Draw>> = {
     pen.line([16, 96, 196, 96], { colour: i.exact, width: 3 });
     pen.clip(0, 6, WIDTH, HEIGHT, () => pen.line(run((x, v) => [x + h * v, v - h * x]), { colour: colourOf(scene, 'explicit-euler', i.text), width: 1.75, dash: [7, 3] }));
     pen.line(run((x, v) => { const w = v - h * x; return [x + h * w, w]; }), { colour: colourOf(scene, 'symplectic-euler', i.text), width: 1.75 });
-    pen.text(16, 122, 'energy against time', { colour: i.quiet });
+    pen.text(16, 122, words.lesson.drawn.energy, { colour: i.quiet });
   },
   'two-places': (pen, i, scene) => {
     const at = (t: number): readonly [number, number] => [24 + 90 * t, 26 + 24 * t * t], colour = colourOf(scene, 'verlet', i.text), [b, n, x] = [at(0), at(1), at(2)];
@@ -80,7 +81,7 @@ const drawings: Readonly<Record<string, Draw>> = {
     pen.line([...b, 2 * n[0] - b[0], 2 * n[1] - b[1]], { colour: i.quiet, width: 1.25, dash: [2, 3] });
     pen.arrow(2 * n[0] - b[0], 2 * n[1] - b[1], x[0], x[1] - 4, { colour, width: 2 });
     pen.line([...b, ...x], { colour, width: 1.25 });
-    for (const [[px, py], words] of [[b, 'before'], [n, 'now'], [x, 'next']] as const) { pen.mark('circle', px, py, 4.5, i.text); pen.text(px, py - 10, words, { colour: i.quiet, anchor: 'middle' }); }
+    for (const [[px, py], label] of [[b, words.lesson.drawn.before], [n, words.lesson.drawn.now], [x, words.lesson.drawn.next]] as const) { pen.mark('circle', px, py, 4.5, i.text); pen.text(px, py - 10, label, { colour: i.quiet, anchor: 'middle' }); }
   },
   'overshoot': (pen, i, scene) => {
     const h = scene.solution.tracks[0]?.step ?? 2.1, colour = colourOf(scene, 'verlet', i.text), x = [1, 1 - h * h / 2];
@@ -89,7 +90,7 @@ const drawings: Readonly<Record<string, Draw>> = {
     pen.line([10, 66, 236, 66], { colour: i.exact, width: 2 });
     pen.line(xy, { colour, width: 1.5, dash: [2, 2.5] });
     x.forEach((_, n) => pen.mark('triangle', xy[2 * n]!, xy[2 * n + 1]!, 4.5, colour));
-    pen.text(20, 126, `each step: h = ${Number(h.toPrecision(3))}`, { colour: i.quiet });
+    pen.text(20, 126, words.lesson.drawn.each(String(Number(h.toPrecision(3)))), { colour: i.quiet });
   },
 };
 

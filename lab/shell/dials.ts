@@ -6,23 +6,27 @@ import { exampleOf } from '../data';
 import type { Parameter } from '../protocol';
 import { presetState } from '../share';
 import { stagingOf, type Dial } from '../stage/staging';
+import { saidOf } from '../scenes';
 import type { LiveStore } from '../state';
 import { el } from '../dom';
 import { presets } from './presets';
-import { held, partName, rowsOf, type Row } from './sliders';
+import { axes, held, partName, rowsOf, type Row } from './sliders';
 
 const most = 3;
 
 /** A dial's name in an address. */
 const nameOf = (p: Parameter, part: number): string => partName(p, part, p.values.length);
 
+/** What the reader calls a number of an example; undefined: by its own name. */
+const labelOf = (model: string, { name, part }: Dial): string | undefined => saidOf(model)?.dials?.[part === undefined ? name : `${name}.${axes[part]}`];
+
 /** The dials of the dock: their names in an address, and what the reader calls them. */
 export function dialsOf({ description, state }: LiveStore): { readonly name: string; readonly label: string }[] {
   if (!description) return [];
-  const staging = stagingOf(presets.text(state.preset) === state.text ? state.preset : '');
-  return (staging.dials ?? usual(description.parameters)).flatMap(({ name, part = 0, label }) => {
-    const p = description.parameters.find((q) => q.name === name);
-    return p ? [{ name: nameOf(p, part), label: label || nameOf(p, part) }] : [];
+  const model = presets.text(state.preset) === state.text ? state.preset : '';
+  return (stagingOf(model).dials ?? usual(description.parameters)).flatMap((dial) => {
+    const p = description.parameters.find((q) => q.name === dial.name), name = p ? nameOf(p, dial.part ?? 0) : '';
+    return p ? [{ name, label: labelOf(model, dial) ?? name }] : [];
   });
 }
 
@@ -31,7 +35,7 @@ function usual(parameters: readonly Parameter[]): Dial[] {
   const dials: Dial[] = [];
   for (const p of [...parameters.filter((q) => !q.initial), ...parameters.filter((q) => q.initial)]) {
     if (p.values.length > 3 || p.list) continue;
-    p.values.forEach((_, part) => { if (dials.length < most) dials.push({ name: p.name, part, label: '' }); });
+    p.values.forEach((_, part) => { if (dials.length < most) dials.push({ name: p.name, part }); });
   }
   return dials;
 }
@@ -51,23 +55,23 @@ export function dials(store: LiveStore): HTMLElement {
   function build(): void {
     const { description, state } = store;
     if (!description || store.trouble.model) return;
-    const staging = stagingOf(exampleOf(state));
+    const model = exampleOf(state), staging = stagingOf(model);
     const key = JSON.stringify([staging === stagingOf('') ? '' : state.preset, description.parameters.map((p) => [p.name, p.initial ? p.values : p.text, p.list])]);
     if (key === shown) return;
     shown = key;
     const focused = held(element);
-    const { embed } = state, named = staging.dials ?? [], every = (): Dial[] => description.parameters.flatMap((p) => p.values.map((_, part) => named.find((d) => d.name === p.name && (d.part ?? 0) === part) ?? { name: p.name, part, label: '' }));
+    const { embed } = state, named = staging.dials ?? [], every = (): Dial[] => description.parameters.flatMap((p) => p.values.map((_, part) => named.find((d) => d.name === p.name && (d.part ?? 0) === part) ?? { name: p.name, part }));
     // Inside another page, those that the address chooses.
     const wanted = embed ? every().filter(({ name, part = 0 }) => embed.includes(nameOf(description.parameters.find((p) => p.name === name)!, part))) : staging.dials ?? usual(description.parameters);
     rows = wanted.flatMap((dial) => {
       const parameter = description.parameters.find((p) => p.name === dial.name);
       if (!parameter) return [];
-      const made = rowsOf(store, parameter, state.text, () => ({ ...dial, label: dial.label || undefined, dial: true }) as Dial & { dial: true });
+      const made = rowsOf(store, parameter, state.text, () => ({ ...dial, label: labelOf(model, dial), dial: true }));
       const row = made.find((r) => r.part === (dial.part ?? 0));
       return row ? [row] : [];
     });
     const turn = staging.switch;
-    slideName.textContent = turn?.label ?? '';
+    slideName.textContent = (turn && saidOf(model)?.switch) ?? '';
     slide.checked = turn?.on ?? false;
     element.replaceChildren(...rows.map((r) => r.element), ...(turn && !embed ? [slideRow] : []));
     focused();

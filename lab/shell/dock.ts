@@ -1,19 +1,20 @@
 /* The end of the dock: all values of the model in a sheet, the view, and the way to the pictures below. */
 import type { LiveStore } from '../state';
 import { button, el, icon } from '../dom';
+import { words } from '../words';
 import { endField } from './end';
 import { sliders } from './sliders';
 
 /** A link to what stands below; lessons hear that it was followed. */
-function leads(words: string, href: string, what: string, ...more: Node[]): HTMLElement {
-  const link = el('a', { class: 'quiet-button', href }, words, ...more);
+function leads(label: string, href: string, what: string, ...more: Node[]): HTMLElement {
+  const link = el('a', { class: 'quiet-button', href }, label, ...more);
   link.addEventListener('click', () => document.dispatchEvent(new CustomEvent('motus-opened', { detail: what })));
   return link;
 }
 
 export function dockLinks(store: LiveStore, pin: HTMLElement, view: HTMLElement): HTMLElement {
-  const sheet = el('div', { id: 'all-values', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All values' }, endField(store), sliders(store));
+  const sheet = el('div', { id: 'all-values', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.dock.all }, endField(store), sliders(store));
   return el('div', { class: 'links' },
-    button('All values', () => {}, { class: 'quiet-button', popovertarget: 'all-values' }), sheet, pin, view,
-    leads('One step', '#step-view', 'step'), leads('Look closer', '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
+    button(words.dock.all, () => {}, { class: 'quiet-button', popovertarget: 'all-values' }), sheet, pin, view,
+    leads(words.dock.oneStep, '#step-view', 'step'), leads(words.dock.closer, '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
 }

@@ -8,9 +8,10 @@
 import type { Problem, Vocabulary, Word } from '../protocol';
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { words } from '../words';
 import { completion, type Completion } from './complete';
 import { appended, placeOf, repairs, type Repair } from './repair';
-import { pieces, shifted } from './words';
+import { pieces, shifted } from './kinds';
 import { another } from './write';
 
 const fewest = 6, most = 20;                   // lines shown
@@ -27,20 +28,20 @@ export function editor(store: LiveStore): HTMLElement {
     'aria-describedby': 'model-problem model-keys', 'aria-autocomplete': 'list', 'aria-haspopup': 'listbox', 'aria-controls': 'model-names',
   });
   const mirror = el('pre', { class: 'mirror', 'aria-hidden': 'true' }), numbers = el('pre', { class: 'numbers', 'aria-hidden': 'true' });
-  const supposed = el('ul', { class: 'supposed', 'aria-label': 'Chosen for you, not in the text' });
+  const supposed = el('ul', { class: 'supposed', 'aria-label': words.editor.supposed });
   const field = el('div', { class: 'editor-field' }, el('div', { class: 'editor-text' }, area, mirror, numbers), supposed);
-  const names = el('ul', { id: 'model-names', class: 'names', role: 'listbox', 'aria-label': 'Names', hidden: true });
-  const take = el('p', { class: 'take' }, 'Grey is chosen for you. ', button('Write it into the text', () => takeAll(), { class: 'text-button', id: 'model-take' }));
+  const names = el('ul', { id: 'model-names', class: 'names', role: 'listbox', 'aria-label': words.editor.names, hidden: true });
+  const take = el('p', { class: 'take' }, words.editor.grey, button(words.editor.take, () => takeAll(), { class: 'text-button', id: 'model-take' }));
   const keys = el('p', { id: 'model-keys', class: 'keys' });
   const column = el('span', { class: 'unseen' }), where = el('span', { class: 'where' }), line = document.createTextNode(''), after = document.createTextNode('');
   const what = el('span', { class: 'what' }), hint = el('span', { class: 'hint' });
   where.append(line, column, after);
   const message = el('p', { id: 'model-problem', class: 'message', role: 'status' }, where, what, hint), mend = el('div', { class: 'mend' });
   const problem = el('div', { class: 'problem' }, message, mend);
-  const element = el('div', { class: 'editor' }, el('label', { for: 'model-text' }, 'Model'), field, names, el('div', { class: 'below' }, take, keys), problem);
+  const element = el('div', { class: 'editor' }, el('label', { for: 'model-text' }, words.editor.label), field, names, el('div', { class: 'below' }, take, keys), problem);
 
   let told: { problem: Problem; text: string } | null = null, timer = 0, typed = -Infinity;
-  let words: readonly Word[] = [], worded = '', asked = '', vocabulary: Vocabulary | null = null;
+  let kinds: readonly Word[] = [], worded = '', asked = '', vocabulary: Vocabulary | null = null;
   let offers: Completion | null = null, active = -1, offering = false, held = 0, counted = 0, shownLines = '';
 
   // ---- the mirror
@@ -50,7 +51,7 @@ export function editor(store: LiveStore): HTMLElement {
     const mark = told && told.text === text ? placeOf(text, told.problem) : null;
     // At the end of a line there is nothing to underline but a blank.
     const blank = mark !== null && (text.slice(...mark).trim() === '');
-    mirror.replaceChildren(...pieces(text, words, mark).map(piece => (piece.kind === 'mark' ? el('mark', {}, blank ? ' ' + piece.text.slice(1) : piece.text)
+    mirror.replaceChildren(...pieces(text, kinds, mark).map(piece => (piece.kind === 'mark' ? el('mark', {}, blank ? ' ' + piece.text.slice(1) : piece.text)
       : piece.kind === '' || piece.kind === 'operator' ? piece.text : el('span', { class: piece.kind }, piece.text))), '\n');
     const count = linesOf(text);
     if (counted !== count) say(numbers, Array.from({ length: count }, (_, k) => `${k + 1}\n`).join(''));
@@ -72,14 +73,14 @@ export function editor(store: LiveStore): HTMLElement {
   }
   function colour(): void {
     const text = area.value;
-    words = shifted(words, worded, text);
+    kinds = shifted(kinds, worded, text);
     worded = text;
     draw();
     if (asked === text) return;
     asked = text;
     store.client.ask('words', { text }, { key: 'words' }).then(found => {
       if (area.value !== text) return;
-      words = found;
+      kinds = found;
       draw();
     }, () => { asked = ''; });
   }
@@ -114,7 +115,7 @@ export function editor(store: LiveStore): HTMLElement {
     const key = JSON.stringify(list);
     if (key !== shownLines) {
       shownLines = key;
-      supposed.replaceChildren(...list.map(s => el('li', {}, button('', () => takeOne(s.line), { tabindex: -1, title: 'Write this line into the text' },
+      supposed.replaceChildren(...list.map(s => el('li', {}, button('', () => takeOne(s.line), { tabindex: -1, title: words.editor.takeLine },
         el('span', { class: 'line' }, s.line), el('span', { class: 'why' }, s.why)))));
     }
     take.classList.toggle('shown', list.length > 0);
@@ -148,7 +149,7 @@ export function editor(store: LiveStore): HTMLElement {
   function complete(force = false): void {
     const caret = area.selectionStart;
     const methods = store.catalogue.map(m => m.name);
-    offers = area.selectionEnd === caret ? completion(area.value, caret, { words, vocabulary, description: store.description, methods }, force) : null;
+    offers = area.selectionEnd === caret ? completion(area.value, caret, { words: kinds, vocabulary, description: store.description, methods }, force) : null;
     if (!offers) { close(); return; }
     active = -1;
     area.removeAttribute('aria-activedescendant');
@@ -183,7 +184,7 @@ export function editor(store: LiveStore): HTMLElement {
   }
   function tellKeys(): void {
     const first = offers?.offers[Math.max(0, active)];
-    say(keys, first !== undefined ? `Tab: ${first} · Escape: no` : field.classList.contains('offered') ? 'Tab writes the next grey line · Escape: no' : '');
+    say(keys, first !== undefined ? words.editor.keyName(first) : field.classList.contains('offered') ? words.editor.keyLine : '');
   }
 
   area.addEventListener('keydown', event => {
@@ -231,9 +232,10 @@ export function editor(store: LiveStore): HTMLElement {
     field.classList.toggle('wrong', now !== null);
     problem.classList.toggle('shown', now !== null);
     const placed = now !== null && now.line > 0, asks = now !== null && /^did you mean/.test(now.hint);
-    line.data = placed ? `Line ${now.line}` : '';
-    say(column, placed ? `, column ${now.column}` : '');
-    after.data = placed ? ': ' : '';
+    const [seen, heard, colon] = placed ? words.editor.place(String(now.line), String(now.column)) : ['', '', ''];
+    line.data = seen;
+    say(column, heard);
+    after.data = colon;
     what.replaceChildren(...(now ? coded(now.message + (asks ? '. ' : ''), now.word) : []));
     hint.classList.toggle('next', !asks);
     hint.replaceChildren(...(now ? coded(asks ? `D${now.hint.slice(1)}` : now.hint, now.instead) : []));

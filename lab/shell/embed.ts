@@ -2,6 +2,7 @@
  * Invariant: it writes nothing into the browser's memory or the address, and nothing moves by itself.
  */
 import { el } from '../dom';
+import { words } from '../words';
 import type { State } from '../scene';
 import type { Presets } from '../share';
 import type { LiveStore } from '../state';
@@ -12,7 +13,7 @@ import { addressOf } from './address';
 export const whole = ({ embed: _, ...state }: State): State => state;
 
 export function embedded(store: LiveStore, presets: Presets): HTMLElement {
-  const link = el('a', { class: 'embed-link', target: '_blank', rel: 'noopener' }, 'Open in motus lab');
+  const link = el('a', { class: 'embed-link', target: '_blank', rel: 'noopener' }, words.top.whole);
   document.body.classList.add('embedded');
   document.body.classList.toggle('embed-step', Boolean(store.state.embed?.includes('step')));
   const fill = (): void => { link.href = addressOf(whole(store.state), presets) || location.href.replace(/#.*$/s, ''); };

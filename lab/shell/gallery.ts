@@ -6,11 +6,12 @@
 import unpacked from 'virtual:thumbs';
 import { data } from '../data';
 import { el, say, svg } from '../dom';
-import { scenes, themes, type SceneEntry } from '../scenes';
+import { saidOf, scenes, themes, type SceneEntry } from '../scenes';
 import { encode, presetState } from '../share';
 import type { LiveStore } from '../state';
 import type { Runner, Thumb } from '../thumbs';
-import { described, presets } from './presets';
+import { words } from '../words';
+import { described, presets, titleOf } from './presets';
 
 export interface GalleryOptions {
   /** A scene was chosen, by the name of its model. */
@@ -85,7 +86,7 @@ function card(scene: SceneEntry, current: boolean, open: (name: string) => void)
     link.addEventListener('pointerenter', run);
     link.addEventListener('focus', run);
   });
-  link.append(frame, el('span', { class: 'motion-title' }, scene.title), el('span', { class: 'question' }, scene.question));
+  link.append(frame, el('span', { class: 'motion-title' }, titleOf(scene.model)), el('span', { class: 'question' }, saidOf(scene.model)?.question ?? ''));
   link.addEventListener('click', event => {
     if (event.ctrlKey || event.metaKey || event.shiftKey) return;      // a new tab or window, which reads the address
     event.preventDefault();
@@ -97,31 +98,31 @@ function card(scene: SceneEntry, current: boolean, open: (name: string) => void)
 /** What a search finds a scene by. */
 function wordsOf(scene: SceneEntry): string {
   const text = data.presets.find(model => model.name === scene.model)?.text ?? '';
-  return [scene.title, scene.question, scene.theme, scene.model, described(text), ...scene.methods].join(' ').toLowerCase();
+  return [titleOf(scene.model), saidOf(scene.model)?.question, scene.theme && words.gallery.themes[scene.theme], scene.model, described(text), ...scene.methods].join(' ').toLowerCase();
 }
 
 export function gallery(store: LiveStore, { open, close }: GalleryOptions): HTMLElement {
-  const heading = el('h1', { id: 'gallery-title', tabindex: -1 }, 'What shall move?');
+  const heading = el('h1', { id: 'gallery-title', tabindex: -1 }, words.gallery.title);
   const search = el('input', {
-    type: 'search', class: 'gallery-search', placeholder: `Search ${shown.length} motions`, 'aria-label': `Search ${shown.length} motions`, autocomplete: 'off', spellcheck: 'false', enterkeyhint: 'search',
+    type: 'search', class: 'gallery-search', placeholder: words.gallery.search(String(shown.length)), 'aria-label': words.gallery.search(String(shown.length)), autocomplete: 'off', spellcheck: 'false', enterkeyhint: 'search',
   });
   const found = el('p', { class: 'gallery-found', role: 'status' });
-  const cards = shown.map(scene => ({ scene, words: wordsOf(scene), item: card(scene, store.state.preset === scene.model, open) }));
+  const cards = shown.map(scene => ({ scene, known: wordsOf(scene), item: card(scene, store.state.preset === scene.model, open) }));
   const rows = themes.map((theme, k) => {
     const mine = cards.filter(({ scene }) => scene.theme === theme), id = `gallery-theme-${k}`;
-    return { mine, section: el('section', { class: 'gallery-row', 'aria-labelledby': id }, el('h2', { id }, theme), el('ul', {}, ...mine.map(({ item }) => item))) };
+    return { mine, section: el('section', { class: 'gallery-row', 'aria-labelledby': id }, el('h2', { id }, words.gallery.themes[theme]), el('ul', {}, ...mine.map(({ item }) => item))) };
   });
 
   const find = (): void => {
-    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const wanted = search.value.toLowerCase().split(/\s+/).filter(Boolean);
     let count = 0;
     for (const { mine, section } of rows) {
-      for (const { words: known, item } of mine) item.hidden = !words.every(word => known.includes(word));
+      for (const { known, item } of mine) item.hidden = !wanted.every(word => known.includes(word));
       const left = mine.filter(({ item }) => !item.hidden).length;
       section.hidden = left === 0;
       count += left;
     }
-    say(found, words.length === 0 ? '' : count === 0 ? `No motion here has “${search.value.trim()}” in its name, its question or its description.` : count === 1 ? '1 motion' : `${count} motions`);
+    say(found, wanted.length === 0 ? '' : count === 0 ? words.gallery.none(search.value.trim()) : words.gallery.found(count));
   };
   search.addEventListener('input', find);
   search.addEventListener('keydown', event => {

@@ -6,7 +6,9 @@ import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
 import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
+import { saidOf } from '../scenes';
 import { presetState } from '../share';
+import { words } from '../words';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
 import { fitPill } from './pill';
@@ -15,27 +17,23 @@ import { settle } from './settle';
 import type { Toasts } from './toasts';
 import { math, typesetView } from './typeset';
 
-const numbers = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven', 'twelve'];
-/** "ten", up to twelve in words. */
-export const counted = (n: number): string => numbers[n] ?? grouped(n);
-
-export interface Words { readonly element: HTMLElement; openEditor(open: boolean): void; readonly editing: () => boolean }
+export interface Headline { readonly element: HTMLElement; openEditor(open: boolean): void; readonly editing: () => boolean }
 
 /** lesson: opens a lesson by its number, where there is one. */
-export function words(store: LiveStore, toasts: Toasts, changed: () => void): Words {
+export function headline(store: LiveStore, toasts: Toasts, changed: () => void): Headline {
   const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
   const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' }, ...document.querySelectorAll('#words .pill-math > *'));
-  const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, 'Type your own'));
-  const began = document.createTextNode(''), revert = button('Back to the example', () => { open(store.state.preset); }, { class: 'text-button' });
+  const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, words.headline.type));
+  const began = document.createTextNode(''), revert = button(words.headline.back, () => { open(store.state.preset); }, { class: 'text-button' });
   const edited = el('p', { class: 'edited', hidden: true }, began, revert);
-  const close = button('Close', () => openEditor(false), { class: 'text-button close' });
+  const close = button(words.headline.close, () => openEditor(false), { class: 'text-button close' });
   const own = el('div', { class: 'own', hidden: true }, editor(store), settle(store), typesetView(store));
   const element = el('div', { class: 'words-inner' }, el('div', { class: 'words-head' }, title, close), sentence, ask, edited, pill, own);
 
   function open(name: string): void {
     const before = store.state, changedText = presets.text(before.preset) !== before.text;
     store.load({ ...presetState(presets, name), view: { ...before.view, plane: 'auto', quantities: [], phase: null } });
-    if (changedText) toasts.say('Your own text was put aside.', { label: 'Bring it back', act: () => store.load(before) });
+    if (changedText) toasts.say(words.headline.aside, { label: words.headline.bring, act: () => store.load(before) });
   }
   function openEditor(now: boolean): void {
     if (own.hidden !== now) return;
@@ -51,15 +49,15 @@ export function words(store: LiveStore, toasts: Toasts, changed: () => void): Wo
     const steps = store.scene?.solution.tracks[0]?.total ?? 0, key = `${preset} ${name === '' ? text : ''} ${steps}`;
     if (key === shown) return;
     shown = key;
-    const staging = stagingOf(name);
+    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.ask ?? '', about = said?.sentence ?? '';
     say(title, titleIn(store.state));
-    document.title = `${title.textContent} · motus lab`;
-    say(sentence, name === '' ? '' : (staging.words || described(text)).replace('{steps}', counted(steps)));
+    document.title = words.top.title(title.textContent ?? '');
+    say(sentence, name === '' ? '' : (typeof about === 'string' ? about : about(words.headline.counted(steps, grouped(steps)))) || described(text));
     sentence.hidden = sentence.textContent === '';
-    ask.replaceChildren(...(staging.ask ? [button(staging.ask.text, () => element.dispatchEvent(new CustomEvent('lesson', { detail: staging.ask!.lesson, bubbles: true })), { class: 'ask-button' },
-      el('span', {}, staging.ask.text), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
+    ask.replaceChildren(...(lesson ? [button(question, () => element.dispatchEvent(new CustomEvent('lesson', { detail: lesson, bubbles: true })), { class: 'ask-button' },
+      el('span', {}, question), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
     edited.hidden = preset === '' || !altered;
-    began.data = preset === '' ? '' : `It began as “${titleOf(preset)}”. `;
+    began.data = preset === '' ? '' : words.headline.began(titleOf(preset));
   }
   function equation(): void {
     const first = store.description?.statements.find((s) => s.kind === 'motion' || s.kind === 'first-order'), source = first?.mathml ?? '';

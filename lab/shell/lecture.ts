@@ -5,19 +5,17 @@
 import { SEEK } from '../figure/cursor';
 import type { LiveStore } from '../state';
 import { button, el, icon } from '../dom';
+import { words } from '../words';
 import { short } from './number';
 
 export const lecturing = (): boolean => document.body.classList.contains('lecture');
 
-const keys = [['Space', 'play, pause'], ['← →', 'a step back, a step forward'], ['Home, End', 'to the start, to the end'], ['[ ]', 'half the step, twice the step'], ['1 … 9', 'a method on or off'],
-  ['Page Down', 'the next part of the lesson; else play'], ['Page Up', 'the part before; else to the start'], ['?', 'these keys'], ['L, Escape', 'leave the lecture']] as const;
-
 /** The button of the header; bar: what stands on the screen meanwhile. */
 export function lecture(store: LiveStore): { readonly opener: HTMLElement; readonly bar: HTMLElement } {
-  const help = el('div', { id: 'keys', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'Keys' }, el('h2', {}, 'Keys'), el('dl', {}, ...keys.flatMap(([key, what]) => [el('dt', {}, key), el('dd', {}, what)])));
-  const opener = button('', () => turn(!lecturing()), { class: 'icon-button', 'aria-label': 'Lecture: full screen, large letters (L)', title: 'Lecture (L)' }, icon('M3 5h18v11H3zM12 16v4M8 20h8'));
-  const bar = el('div', { class: 'lecture-bar' }, button('?', () => {}, { class: 'icon-button', 'aria-label': 'Keys (?)', popovertarget: 'keys' }),
-    button('', () => turn(false), { class: 'icon-button', 'aria-label': 'Leave the lecture (L)', title: 'Leave (L)' }, icon('M6 6l12 12M18 6L6 18')), help);
+  const help = el('div', { id: 'keys', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.lecture.keys }, el('h2', {}, words.lecture.keys), el('dl', {}, ...words.lecture.list.flatMap(([key, what]) => [el('dt', {}, key), el('dd', {}, what)])));
+  const opener = button('', () => turn(!lecturing()), { class: 'icon-button', 'aria-label': words.lecture.open, title: words.lecture.openTitle }, icon('M3 5h18v11H3zM12 16v4M8 20h8'));
+  const bar = el('div', { class: 'lecture-bar' }, button('?', () => {}, { class: 'icon-button', 'aria-label': words.lecture.keysLabel, popovertarget: 'keys' }),
+    button('', () => turn(false), { class: 'icon-button', 'aria-label': words.lecture.leave, title: words.lecture.leaveTitle }, icon('M6 6l12 12M18 6L6 18')), help);
   let full = false;
 
   function turn(on: boolean): void {
@@ -52,7 +50,7 @@ export function lecture(store: LiveStore): { readonly opener: HTMLElement; reado
     const parts = [...document.querySelectorAll<HTMLElement>('.in-lesson .parts button')], at = parts.findIndex((part) => part.hasAttribute('aria-current'));
     if (at >= 0) (parts[at + way] ?? (way > 0 ? document.querySelector<HTMLElement>('.lesson > .primary') : null))?.click();
     else if (way < 0) document.dispatchEvent(new CustomEvent(SEEK, { detail: store.numbers.start }));
-    else document.querySelector<HTMLElement>('.transport-play[aria-label^=Play]')?.click();
+    else document.querySelector<HTMLElement>('.transport-play:not([data-playing])')?.click();
   }
   document.addEventListener('keydown', (event) => {
     const { key, target } = event;

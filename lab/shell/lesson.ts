@@ -1,4 +1,4 @@
-/* A lesson, in the place of the words: predict, try, see, why. Lessons are data (lessons/*.txt); how far one has come stands in the address.
+/* A lesson, in the place of the words: predict, try, see, why. Lessons are data (words/en/lessons/*.txt); how far one has come stands in the address.
  *
  * Invariant: nothing is judged: a guess is answered, a task ticks itself off by what the page does, and every part can be opened at any time.
  */
@@ -9,6 +9,7 @@ import { presetState } from '../share';
 import type { Stage } from '../stage/stage';
 import type { LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
+import { words } from '../words';
 import { closeUp } from './closeup';
 import { recall, remember } from './memory';
 import { presets } from './presets';
@@ -29,13 +30,13 @@ export interface Lessons { readonly element: HTMLElement; readonly list: HTMLEle
 
 /** clock: plays the motion from its start. */
 export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): void }): Lessons {
-  const element = el('div', { class: 'lesson', hidden: true }), list = el('div', { id: 'lessons', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'Lessons' });
+  const element = el('div', { class: 'lesson', hidden: true }), list = el('div', { id: 'lessons', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.lesson.lessons });
   const opened = new Set<string>(), finished = new Set((recall('lessons') ?? '').split(' ').filter(Boolean));
   let shown = '', chosen: number | null = null, ticks: (() => void) | null = null, sketch: (() => void) | null = null;
 
   function fill(): void {
-    list.replaceChildren(el('h2', {}, 'Lessons'), el('ol', { class: 'lesson-list' }, ...data.lessons.map((lesson) => el('li', {},
-      button('', () => { list.hidePopover(); open(lesson.id); }, { 'aria-current': read(store.state.place)?.lesson === lesson && 'true' }, el('span', {}, lesson.title), el('small', {}, finished.has(lesson.id) ? 'done' : ''))))));
+    list.replaceChildren(el('h2', {}, words.lesson.lessons), el('ol', { class: 'lesson-list' }, ...data.lessons.map((lesson) => el('li', {},
+      button('', () => { list.hidePopover(); open(lesson.id); }, { 'aria-current': read(store.state.place)?.lesson === lesson && 'true' }, el('span', {}, lesson.title), el('small', {}, finished.has(lesson.id) ? words.lesson.done : ''))))));
   }
   list.addEventListener('beforetoggle', (event) => { if ((event as ToggleEvent).newState === 'open') fill(); });
 
@@ -83,11 +84,11 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
       task.tasks.forEach(({ condition }, k) => {
         if (!doneAlready.has(k) && met(condition, at.lesson, now)) doneAlready.add(k);
         items[k]!.classList.toggle('done', doneAlready.has(k));
-        say(items[k]!.lastElementChild!, doneAlready.has(k) ? ' done' : '');
+        say(items[k]!.lastElementChild!, doneAlready.has(k) ? words.lesson.ticked : '');
       });
     };
     ticks();
-    return [...answer(at), el('p', {}, task.text.join(' ')), el('ul', { class: 'tasks', role: 'status' }, ...items), button('', () => to(at, 'see'), { class: 'primary' }, 'What did you see?')];
+    return [...answer(at), el('p', {}, task.text.join(' ')), el('ul', { class: 'tasks', role: 'status' }, ...items), button('', () => to(at, 'see'), { class: 'primary' }, words.lesson.saw)];
   }
   const answer = (at: At): Node[] => {
     const choice = at.answer === null ? null : at.lesson.predict.choices[at.answer];
@@ -101,7 +102,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     sketch = () => drawing?.firstElementChild?.replaceChildren(...[closeUp(told.picture, store)].filter((d) => d !== null));
     sketch();
     return [...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, paragraph)), ...(drawing ? [drawing] : []),
-      following ? button('', () => open(following.id), { class: 'primary' }, `Next: ${next || following.title}`, icon('M5 12h13M12.5 6l5.5 6-5.5 6')) : button('Back to the gallery', () => store.go('gallery'), { class: 'primary' })];
+      following ? button('', () => open(following.id), { class: 'primary' }, words.lesson.next(next || following.title), icon('M5 12h13M12.5 6l5.5 6-5.5 6')) : button(words.lesson.gallery, () => store.go('gallery'), { class: 'primary' })];
   }
 
   function show(): void {
@@ -116,10 +117,10 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     shown = store.state.place;
     ticks = sketch = null;
     if (at.part === 'predict') chosen = null;
-    const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(part.charAt(0).toUpperCase() + part.slice(1), () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
+    const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(words.lesson.parts[part], () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
     const body = at.part === 'predict' ? predict(at) : at.part === 'try' ? attempt(at)
-      : at.part === 'see' ? [...answer(at), el('p', {}, at.lesson.see.join(' ')), button('Why?', () => to(at, 'why'), { class: 'primary' })] : why(at);
-    element.replaceChildren(el('div', { class: 'lesson-head' }, el('h1', {}, `Lesson ${at.number} of ${data.lessons.length}`), button('Leave', () => store.go(''), { class: 'text-button' })), bar, ...body);
+      : at.part === 'see' ? [...answer(at), el('p', {}, at.lesson.see.join(' ')), button(words.lesson.why, () => to(at, 'why'), { class: 'primary' })] : why(at);
+    element.replaceChildren(el('div', { class: 'lesson-head' }, el('h1', {}, words.lesson.head(String(at.number), String(data.lessons.length))), button(words.lesson.leave, () => store.go(''), { class: 'text-button' })), bar, ...body);
     const { rail } = at.lesson.predict;
     // The guess stays where it was, dashed.
     if (rail) stage.guess({ ...rail, place: at.answer === null ? null : at.lesson.predict.choices[at.answer]?.place ?? null, open: at.part === 'predict' });

@@ -7,6 +7,7 @@ import { looksOf } from '../figure/ink';
 import type { Method } from '../protocol';
 import { admittedMethods, type LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { words } from '../words';
 import { sample } from './sample';
 
 const common = ['explicit-euler', 'symplectic-euler', 'midpoint', 'verlet', 'rk4'];
@@ -16,14 +17,14 @@ interface Toggle { readonly element: HTMLElement; readonly name: string; refresh
 
 export function methods(store: LiveStore): { readonly element: HTMLElement; readonly main: HTMLElement; repaint(): void } {
   const list = el('div', { class: 'chips' }), more = el('div', { class: 'toggles' });
-  const search = el('input', { type: 'search', id: 'method-search', placeholder: 'order 4, symplectic, Yoshida …', autocomplete: 'off', spellcheck: 'false' });
+  const search = el('input', { type: 'search', id: 'method-search', placeholder: words.methods.search, autocomplete: 'off', spellcheck: 'false' });
   const found = el('p', { class: 'quiet', role: 'status' });
   const main = el('select', { id: 'main-method' });
-  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, 'Formula and steps of'), main);
+  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, words.methods.main), main);
   const message = el('p', { class: 'message mild', role: 'status' });
-  const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': 'All methods' }, el('label', { for: 'method-search' }, 'All methods'), search, found, more);
-  const opener = button('28 more', () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
-  const element = el('div', { class: 'methods', role: 'group', 'aria-label': 'Methods' }, el('div', { class: 'chips-row' }, list, opener), sheet, message);
+  const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.methods.all }, el('label', { for: 'method-search' }, words.methods.all), search, found, more);
+  const opener = button(words.methods.more('28'), () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
+  const element = el('div', { class: 'methods', role: 'group', 'aria-label': words.methods.group }, el('div', { class: 'chips-row' }, list, opener), sheet, message);
 
   let toggles: Toggle[] = [], shown = '', opened = '', front: readonly string[] = [], limitReached = false, last: readonly unknown[] = [];
   /** What is drawn: the state's, or the model's own where the state names none. */
@@ -41,8 +42,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
       refresh();
     } else store.change({ methods: [...now, name] });
   }
-  const words = (method: Method): string => [method.order ? `order ${method.order}` : '', method.symplectic ? 'symplectic' : '', method.reversible ? 'reversible' : '', method.family,
-    method.evaluations > 0 ? `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step` : 'implicit'].filter(Boolean).join(', ');
+  const told = ({ order, symplectic, reversible, family, evaluations }: Method): string => words.methods.told(order, symplectic, reversible, family, evaluations);
 
   function toggle(name: string): Toggle {
     const reason = el('span', { class: 'reason' });
@@ -50,7 +50,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     const picture = el('span', { class: 'picture' });
     const method = store.catalogue.find(m => m.name === name);
     const control = button('', () => { if (control.getAttribute('aria-disabled') !== 'true') press(name); }, { class: 'chip', 'aria-pressed': 'false' }, picture, el('span', { class: 'words' }, label, reason));
-    const usual = method ? words(method) : '';
+    const usual = method ? told(method) : '';
     const repaint = (): void => {
       const look = looksOf([name], store.catalogue)[0];
       if (!look) return;
@@ -67,7 +67,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
         control.setAttribute('aria-pressed', String(now.includes(name) && !refused));
         control.setAttribute('aria-disabled', String(refused));
         say(reason, refused ? entry.reason : '');
-        control.title = refused ? [entry.reason, entry.hint].filter(Boolean).join('; ') : usual;
+        control.title = refused ? words.methods.refused(entry.reason, entry.hint) : usual;
       },
     };
   }
@@ -86,7 +86,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     toggles = [...names, ...others].map(toggle);
     for (const t of toggles) t.element.dataset.method = t.name;
     list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element));
-    say(opener, `${others.length} more`);
+    say(opener, words.methods.more(String(others.length)));
     more.replaceChildren(...toggles.slice(names.length).map(t => t.element));
     if (held !== undefined) toggles.find(t => t.name === held)?.element.focus({ preventScroll: true });
     filter();
@@ -104,16 +104,16 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
   }
   function filter(): void {
     // "order 4" is one thing; every other word stands for itself, and for the beginnings of words.
-    const wanted = search.value.toLowerCase().match(/order\s+\d+|\S+/g)?.map(word => ' ' + word.replace(/\s+/, ' ')) ?? [];
+    const wanted = search.value.toLowerCase().match(new RegExp(`${words.methods.order}\\s+\\d+|\\S+`, 'g'))?.map(word => ' ' + word.replace(/\s+/, ' ')) ?? [];
     let count = 0;
     for (const { element: control, name } of toggles) {
       if (control.parentElement !== more) continue;
       const method = store.catalogue.find(m => m.name === name);
-      const text = [' ', name, name.replace(/-/g, ' '), control.textContent, method && words(method), method?.aliases.join(' '), method?.cite].join(' ').toLowerCase();
+      const text = [' ', name, name.replace(/-/g, ' '), control.textContent, method && told(method), method?.aliases.join(' '), method?.cite].join(' ').toLowerCase();
       control.hidden = !wanted.every(word => text.includes(word));
       if (!control.hidden) count++;
     }
-    say(found, wanted.length ? (count === 1 ? '1 method' : `${count} methods`) : '');
+    say(found, wanted.length ? words.methods.found(count) : '');
     reasons();
   }
   /** While a slider is dragged nothing here changes, and dozens of toggles need not be asked. */
@@ -135,7 +135,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
       main.replaceChildren(...looksOf(drawn, store.catalogue).map(look => el('option', { value: look.method }, look.label)));
     }
     main.value = drawn[0] ?? '';
-    say(message, limitReached ? `${most} methods at once are as many as a picture can hold.` : store.trouble.methods);
+    say(message, limitReached ? words.methods.most(String(most)) : store.trouble.methods);
   }
   main.addEventListener('change', () => {
     const now = chosen();

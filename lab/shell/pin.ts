@@ -6,6 +6,7 @@ import type { Scene } from '../scene';
 import type { LiveStore } from '../state';
 import type { Stage } from '../stage/stage';
 import { button, el, say } from '../dom';
+import { words } from '../words';
 import { short } from './number';
 
 /** What distinguishes two states, in words. */
@@ -14,17 +15,17 @@ function differences(a: Scene, b: Scene): string {
   const before = values(a), told: string[] = [];
   if (step(a) !== step(b)) told.push(`h ${step(a)}`);
   for (const [name, text] of values(b)) { const old = before.get(name); if (old !== undefined && old !== text) told.push(`${name} ${old}`); }
-  return told.slice(0, 3).join(', ') || 'as now';
+  return told.length ? words.dock.pin.differs(told.slice(0, 3)) : words.dock.pin.same;
 }
 
 export function pin(store: LiveStore, stage: Stage): HTMLElement {
   let kept: Scene | null = null;
-  const words = el('span', {}, 'Pin');
-  const control = button('', () => { kept = kept ? null : store.scene; stage.pin(kept); show(); }, { class: 'quiet-button', 'aria-pressed': 'false', title: 'Keep this run in the picture while you change things' }, words);
+  const label = el('span', {}, words.dock.pin.pin);
+  const control = button('', () => { kept = kept ? null : store.scene; stage.pin(kept); show(); }, { class: 'quiet-button', 'aria-pressed': 'false', title: words.dock.pin.title }, label);
   function show(): void {
     control.setAttribute('aria-pressed', String(kept !== null));
-    say(words, kept && store.scene ? `A: ${differences(kept, store.scene)} ×` : 'Pin');
-    control.setAttribute('aria-label', kept && store.scene ? `Pinned run A: ${differences(kept, store.scene)}. Let it go` : 'Pin this run to compare with it');
+    say(label, kept && store.scene ? words.dock.pin.pinned(differences(kept, store.scene)) : words.dock.pin.pin);
+    control.setAttribute('aria-label', kept && store.scene ? words.dock.pin.pinnedLabel(differences(kept, store.scene)) : words.dock.pin.label);
   }
   store.subscribe((what) => {
     if (what !== 'scene') return;

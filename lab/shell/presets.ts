@@ -1,11 +1,12 @@
-/* The examples: every model of models/, as scenes.ts names and sorts them.
+/* The examples: every model of models/, as scenes.ts sorts them.
  *
  * Invariant: the list is that of the build. A model without a scene goes by its own name. Descriptions are the models' own: the sentence that their first
  * comment begins with.
  */
 import { data } from '../data';
-import { sceneOf } from '../scenes';
+import { saidOf, sceneOf } from '../scenes';
 import type { Presets } from '../share';
+import { words } from '../words';
 import { ownTitle } from './title';
 
 export const presets: Presets = {
@@ -19,14 +20,14 @@ export const presets: Presets = {
 export function described(text: string): string {
   const comment: string[] = [];
   for (const line of text.split('\n')) {
-    const words = /^#\s?(.*)$/.exec(line)?.[1];
-    if (words === undefined || (words.trim() === '' && comment.length)) break;
-    comment.push(words.trim());
+    const said = /^#\s?(.*)$/.exec(line)?.[1];
+    if (said === undefined || (said.trim() === '' && comment.length)) break;
+    comment.push(said.trim());
   }
   return /^.*?\.(?=\s|$)/s.exec(comment.join(' '))?.[0] ?? comment.join(' ');
 }
 
 /** What a text on show is called: the example's title while it is the example's. */
-export const titleIn = ({ preset, text }: { readonly preset: string; readonly text: string }): string => (preset !== '' && presets.text(preset) === text ? titleOf(preset) : ownTitle(text) || 'Your own equation');
+export const titleIn = ({ preset, text }: { readonly preset: string; readonly text: string }): string => (preset !== '' && presets.text(preset) === text ? titleOf(preset) : ownTitle(text) || words.headline.own);
 
-export const titleOf = (name: string): string => sceneOf(name)?.title ?? name;
+export const titleOf = (name: string): string => saidOf(name)?.title ?? name;

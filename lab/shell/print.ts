@@ -4,6 +4,7 @@ import { brief } from '../figure/number';
 import type { Scene } from '../scene';
 import { exampleOf } from '../data';
 import { stagingOf } from '../stage/staging';
+import { words } from '../words';
 
 export function printed(): { show(scene: Scene): void } {
   const head = el('tr'), body = el('tbody'), caption = el('caption');
@@ -12,12 +13,12 @@ export function printed(): { show(scene: Scene): void } {
   return {
     show({ solution: { tracks, errors }, looks, description, state }) {
       const { units } = stagingOf(exampleOf(state)), last = errors.map(({ x }) => x[x.length - 1] ?? NaN), end = tracks[0]?.times.at(-1) ?? 0;
-      const unit = (of: 'x' | 't'): string => (units ? ` (${units[of]})` : '');
+      const time = `${brief(end)}${units ? `\u2009${units.t}` : ''}`;
       element.hidden = !last.some(Number.isFinite);
-      say(caption, `Distance from the ${description.has_exact ? 'exact motion' : 'reference'} at t = ${brief(end)}${units ? `\u2009${units.t}` : ''}`);
-      head.replaceChildren(...['Method', `Step${unit('t')}`, 'Steps', `Distance${unit('x')}`].map((text) => el('th', { scope: 'col' }, text)));
+      say(caption, description.has_exact ? words.top.print.exact(time) : words.top.print.reference(time));
+      head.replaceChildren(...[words.top.print.method, words.top.print.step(units?.t ?? ''), words.top.print.steps, words.top.print.distance(units?.x ?? '')].map((text) => el('th', { scope: 'col' }, text)));
       body.replaceChildren(...tracks.map(({ method, step, total, problem }, k) => el('tr', {}, el('th', { scope: 'row' }, looks[k]?.label ?? method),
-        ...[brief(Math.abs(step)), total.toLocaleString('en').replace(/,/g, '\u2009'), problem ? 'ends before' : brief(last[errors.findIndex((e) => e.method === method)] ?? NaN, 6)].map((text) => el('td', {}, text)))));
+        ...[brief(Math.abs(step)), total.toLocaleString('en').replace(/,/g, '\u2009'), problem ? words.top.print.before : brief(last[errors.findIndex((e) => e.method === method)] ?? NaN, 6)].map((text) => el('td', {}, text)))));
     },
   };
 }

@@ -3,6 +3,7 @@
  * Invariant: a repair changes nothing but its range, and there is none where the text no longer has the word that is wrong.
  */
 import type { Problem } from '../protocol';
+import { words } from '../words';
 
 export interface Repair { readonly label: string; readonly from: number; readonly to: number; readonly text: string }
 
@@ -38,13 +39,13 @@ export function appended(text: string, lines: readonly string[]): Repair {
 
 export function repairs(text: string, problem: Problem): Repair[] {
   const place = placeOf(text, problem), { word, instead } = problem;
-  if (word === '') return instead === '' ? [] : [{ ...appended(text, [instead]), label: `Add ${instead}` }];
+  if (word === '') return instead === '' ? [] : [{ ...appended(text, [instead]), label: words.editor.repair.add(instead) }];
   if (!place || !text.startsWith(word, place[0])) return [];
   const [from] = place, to = from + word.length, found: Repair[] = [];
-  if (instead !== '') found.push({ label: `Replace by ${instead}`, from, to, text: instead });
+  if (instead !== '') found.push({ label: words.editor.repair.replace(instead), from, to, text: instead });
   if (problem.kind === 'name' && !/^['′’([]/.test(text.slice(to))) {
     const line = beginning(text, from);
-    found.push({ label: 'Make it a slider', from: line, to: line, text: `${word} = 1\n` });
+    found.push({ label: words.editor.repair.slider, from: line, to: line, text: `${word} = 1\n` });
   }
   return found;
 }

@@ -5,6 +5,7 @@
 import { exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
+import { words } from '../words';
 import { tuple } from './number';
 import { written } from './write';
 
@@ -33,8 +34,8 @@ function settledText(store: LiveStore): { readonly text: string; readonly set: R
 
 /** The note under the editor: what is set beside the text. */
 export function settle(store: LiveStore): HTMLElement {
-  const words = el('span', {}), take = button('Write it into the text', () => write(), { class: 'text-button' });
-  const note = el('p', { class: 'overrides quiet', hidden: true }, words, ' ', take);
+  const told = el('span', {}), take = button(words.editor.take, () => write(), { class: 'text-button' });
+  const note = el('p', { class: 'overrides quiet', hidden: true }, told, ' ', take);
   let timer = 0, pressed = false;
   const own = (): boolean => exampleOf(store.state) === '';
   function write(): void {
@@ -57,7 +58,7 @@ export function settle(store: LiveStore): HTMLElement {
     const { set, step, until } = store.state;
     const set_ = [...Object.entries(set).map(([name, value]) => `${name} = ${value}`), ...(step ? [`step ${step}`] : []), ...(until ? [`until ${until}`] : [])];
     note.hidden = set_.length === 0 || own();
-    say(words, note.hidden ? '' : `Sliders and fields replace what the text says: ${set_.join(', ')}.`);
+    say(told, note.hidden ? '' : words.editor.replaced(set_));
     if (set_.length && own() && what === 'scene') rest();
   });
   return note;

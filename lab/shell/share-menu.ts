@@ -11,20 +11,21 @@ import { addressOf } from './address';
 import { dialsOf } from './dials';
 import { snippet } from './embed';
 import { titleIn } from './presets';
+import { words } from '../words';
 import { button, el, fresh, icon, say } from '../dom';
 import { appended } from './repair';
 import type { Toasts } from './toasts';
 import { runSeconds } from './transport';
 
 /** The clipboard where the page may use it; else the field is selected, for the reader to copy. */
-async function copy(field: HTMLInputElement | HTMLTextAreaElement, what: string, toasts: Toasts): Promise<void> {
+async function copy(field: HTMLInputElement | HTMLTextAreaElement, { copied, selected }: { readonly copied: string; readonly selected: string }, toasts: Toasts): Promise<void> {
   try {
     await navigator.clipboard.writeText(field.value);
-    toasts.say(`${what} copied.`);
+    toasts.say(copied);
   } catch {
     field.focus();
     field.select();
-    toasts.say(`${what} selected: press Ctrl+C or ⌘C to copy it.`);
+    toasts.say(selected);
   }
 }
 
@@ -35,22 +36,22 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
   const source = el('textarea', { id: programId, readonly: true, rows: 8, spellcheck: 'false', wrap: 'off' });
   const commandLabel = el('label', { for: commandId });
   const remark = el('p', { class: 'quiet' }), older = el('p', { class: 'quiet' }), refusal = el('p', { class: 'message' });
-  const copyLink = button('Copy link', () => { void copy(link, 'Link', toasts); }, { class: 'primary' });
-  const copyCommand = button('Copy as command', () => { void copy(line, 'Command', toasts); });
-  const frame = el('textarea', { id: frameId, readonly: true, rows: 4, spellcheck: 'false' }), choices = el('fieldset', {}, el('legend', {}, 'With sliders for'));
-  const copyFrame = button('Copy frame', () => { void copy(frame, 'Frame', toasts); }), away = el('p', { class: 'quiet' });
-  const copyProgram = button('Copy as C program', () => { void copy(source, 'C program', toasts); });
+  const copyLink = button(words.share.link.copy, () => { void copy(link, words.share.link, toasts); }, { class: 'primary' });
+  const copyCommand = button(words.share.command.copy, () => { void copy(line, words.share.command, toasts); });
+  const frame = el('textarea', { id: frameId, readonly: true, rows: 4, spellcheck: 'false' }), choices = el('fieldset', {}, el('legend', {}, words.share.frame.sliders));
+  const copyFrame = button(words.share.frame.copy, () => { void copy(frame, words.share.frame, toasts); }), away = el('p', { class: 'quiet' });
+  const copyProgram = button(words.share.program.copy, () => { void copy(source, words.share.program, toasts); });
   const programLabel = el('label', { for: programId });
-  const film = button('WebM', () => { void shoot(); }, { class: 'figure-button', 'aria-label': 'Save “Motion” as WebM' }), bar = el('progress', { hidden: true, max: 1, 'aria-label': 'Film' }), filmed = el('p', { class: 'quiet', role: 'status' });
-  const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': 'Share' },
-    el('label', { for: linkId }, 'The address holds all that you see'), link, copyLink, remark,
+  const film = button('WebM', () => { void shoot(); }, { class: 'figure-button', 'aria-label': words.share.saveAs('WebM') }), bar = el('progress', { hidden: true, max: 1, 'aria-label': words.share.film.film }), filmed = el('p', { class: 'quiet', role: 'status' });
+  const panel = el('div', { id, class: 'popup', hidden: true, role: 'group', 'aria-label': words.share.share },
+    el('label', { for: linkId }, words.share.link.label), link, copyLink, remark,
     commandLabel, line, older, copyCommand, refusal,
-    el('details', { class: 'embed-fold' }, el('summary', {}, 'Embed'), choices, el('label', { for: frameId }, 'For the HTML of another page'), frame, away, copyFrame),
-    el('details', {}, el('summary', {}, 'As a C program'), programLabel, source, copyProgram),
-    el('div', { class: 'figure-save', role: 'group', 'aria-label': 'Save “Motion”' }, el('span', {}, 'The picture, and its numbers'),
-      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': `Save “Motion” as ${kind}` })), film), bar, filmed);
-  const opener = button('Share', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
-    icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, 'Share'));
+    el('details', { class: 'embed-fold' }, el('summary', {}, words.share.frame.embed), choices, el('label', { for: frameId }, words.share.frame.label), frame, away, copyFrame),
+    el('details', {}, el('summary', {}, words.share.program.fold), programLabel, source, copyProgram),
+    el('div', { class: 'figure-save', role: 'group', 'aria-label': words.share.save }, el('span', {}, words.share.picture),
+      ...(['PNG', 'SVG', 'CSV'] as const).map((kind) => button(kind, () => stage.save(kind), { class: 'figure-button', 'aria-label': words.share.saveAs(kind) })), film), bar, filmed);
+  const opener = button('', () => toggle(Boolean(panel.hidden)), { 'aria-expanded': 'false', 'aria-controls': id, class: 'with-icon' },
+    icon('M12 15V3.5M8 7l4-4 4 4M5 11v9h14v-9'), el('span', {}, words.share.share));
   const root = el('div', { class: 'share' }, opener, panel);
 
   /** One run as a film, in the motion's own time; a second press gives it up. */
@@ -58,22 +59,22 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
   async function shoot(): Promise<void> {
     if (filming) { filming.abort(); return; }
     const { scene, numbers } = store, track = scene?.solution.tracks[0], end = numbers.until ?? track?.times.at(-1);
-    if (!films()) { say(filmed, 'This browser records no WebM. Firefox, and Chrome or Edge, do.'); return; }
-    if (!scene || end === undefined) { say(filmed, 'There is no motion to film.'); return; }
+    if (!films()) { say(filmed, words.share.film.unknown); return; }
+    if (!scene || end === undefined) { say(filmed, words.share.film.nothing); return; }
     filming = new AbortController();
     const seconds = runSeconds(Math.abs(end - numbers.start));
     const name = (text: string, label: string): void => { film.textContent = text; film.setAttribute('aria-label', label); };
-    name('Cancel', 'Cancel the film');
-    say(filmed, `Recording ${Math.ceil(seconds)} s …`);
+    name(words.share.film.cancel, words.share.film.cancelLabel);
+    say(filmed, words.share.film.recording(String(Math.ceil(seconds))));
     bar.value = 0;
     bar.hidden = false;
-    let told = 'The film could not be made.';
+    let told: string = words.share.film.failed;
     try {
-      told = await stage.film(numbers.start, end, seconds, (part) => { bar.value = part; }, filming.signal) ? 'The film is saved.' : 'No film was made.';
+      told = await stage.film(numbers.start, end, seconds, (part) => { bar.value = part; }, filming.signal) ? words.share.film.saved : words.share.film.none;
     } catch { /* The browser's recorder gave up. */ }
     filming = null;
     bar.hidden = true;
-    name('WebM', 'Save “Motion” as WebM');
+    name('WebM', words.share.saveAs('WebM'));
     say(filmed, told);
     if (panel.hidden) toasts.say(told);
   }
@@ -87,36 +88,36 @@ export function shareMenu(store: LiveStore, presets: Presets, stage: Stage, toas
   /** The frame, with the sliders that are chosen. */
   let offered = '';
   function fillFrame(): void {
-    const dials = [{ name: 'step', label: 'step' }, ...dialsOf(store)], key = JSON.stringify(dials);
+    const dials = [{ name: 'step', label: words.share.frame.step }, ...dialsOf(store)], key = JSON.stringify(dials);
     if (key !== offered) {
       offered = key;
-      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step', 'aria-label': `Slider for ${label}` }), ` ${label}`)));
+      choices.replaceChildren(choices.firstElementChild!, ...dials.map(({ name, label }) => el('label', {}, el('input', { type: 'checkbox', value: name, checked: name === 'step', 'aria-label': words.share.frame.slider(label) }), ` ${label}`)));
     }
     const embed = [...choices.querySelectorAll('input')].filter((box) => box.checked).map((box) => box.value), address = addressOf({ ...store.state, place: '', embed }, presets);
     frame.value = address && snippet(address, titleIn(store.state));
     copyFrame.disabled = !address;
-    say(away, location.protocol === 'file:' ? 'This page lies on a disk, where other pages cannot reach it: let src begin with the address of a copy on a server.' : '');
+    say(away, location.protocol === 'file:' ? words.share.frame.disk : '');
   }
   choices.addEventListener('change', fillFrame);
   function fill(): void {
     fillFrame();
     const address = addressOf(store.state, presets);
-    link.value = address || 'The model is too long for an address.';
+    link.value = address || words.share.long;
     copyLink.disabled = !address;
-    say(remark, location.protocol === 'file:' ? 'This page lies on a disk: the link opens where the same file is. What follows the # works with any copy of the page.' : '');
+    say(remark, location.protocol === 'file:' ? words.share.disk : '');
     remark.hidden = remark.textContent === '';
     // The command computes what is seen: the last state that could be computed.
     const seen = store.scene?.state ?? store.state, { model, step, until, run } = store.trouble;
     const { text, problem } = command({ ...seen, text: whole(seen) }, seen.methods);
     line.value = text;
-    say(commandLabel, seen.methods.length > 1 ? 'The same runs, compared by the program' : 'The same bits from the program');
-    say(older, model || step || until || run ? 'This is the last state that could be computed; what is typed now has an error.' : '');
+    say(commandLabel, seen.methods.length > 1 ? words.share.command.several : words.share.command.one);
+    say(older, model || step || until || run ? words.share.older : '');
     older.hidden = older.textContent === '';
     copyCommand.disabled = problem !== '';
     const { numbers } = store, main = seen.methods[0] ?? '', made = cProgram({ text: whole(seen), set: seen.set, method: main, step: seen.step ? numbers.step : null, until: seen.until ? numbers.until : null });
     source.value = made.text || made.problem;
     copyProgram.disabled = !made.text;
-    say(programLabel, `Runs ${store.scene?.looks[0]?.label ?? main} and prints its last row`);
+    say(programLabel, words.share.program.label(store.scene?.looks[0]?.label ?? main));
     say(refusal, problem);
     refusal.hidden = problem === '';
   }

@@ -3,6 +3,7 @@ import type { LiveStore } from '../state';
 import { sceneOf } from '../scenes';
 import { presetState } from '../share';
 import type { Stage } from '../stage/stage';
+import { words } from '../words';
 import { followAddress } from './address';
 import { place } from '../dom';
 import { dials } from './dials';
@@ -23,17 +24,17 @@ import { status } from './status';
 import { stepSlider } from './step';
 import { themeButton } from './theme';
 import { createToasts, type Toasts } from './toasts';
-import { words } from './headline';
+import { headline } from './headline';
 
 /** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
 export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, panels: readonly PanelName[], themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
-  const said = words(store, toasts, () => stage.relayout());
+  const said = headline(store, toasts, () => stage.relayout());
   const lesson = lessonPlace(store, stage, clock);
   const galleryPlace = place('gallery');
   let gallery: HTMLElement | null = null;
   const go = (where: string): void => { if (store.state.place !== where) store.go(where); };
-  const places = nav([{ label: 'Gallery', id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: 'Lessons', id: 'lessons', open: () => lesson.list.togglePopover() }, { label: 'Equation', id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  const places = nav([{ label: words.top.places.gallery, id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: words.top.places.lessons, id: 'lessons', open: () => lesson.list.togglePopover() }, { label: words.top.places.equation, id: 'equation', open: () => said.openEditor(!said.editing()) }]);
   function arrive(): void {
     const { place: where } = store.state, there = where === 'gallery';
     places.current(there ? 'gallery' : lesson.here() ? 'lessons' : '');

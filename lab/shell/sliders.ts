@@ -7,13 +7,14 @@ import type { Parameter } from '../protocol';
 import type { LiveStore } from '../state';
 import { button, el, fresh, icon, say } from '../dom';
 import { nameText } from '../figure/name';
+import { words } from '../words';
 import { compact, normal, numberOf, short, tuple } from './number';
 import { reach, widen, type Reach } from './range';
 
 const mostRows = 40;
 export interface Row { readonly element: HTMLElement; readonly part: number; refresh(): void }
 
-const axes = ['x', 'y', 'z'];
+export const axes = ['x', 'y', 'z'] as const;
 /** How a number is called: by its parameter, and by its component where there are several. */
 export function partName(parameter: Parameter, k: number, count: number): string {
   if (count === 1 && parameter.components === 0 && !parameter.list) return parameter.name;
@@ -62,13 +63,13 @@ export function rowsOf(store: LiveStore, parameter: Parameter, model: string, ma
     if (low !== undefined && high !== undefined && value >= low && value <= high) limits = { low, high, step: limits.step };
     const digits = (text: string): string => (text.length <= 9 ? text : compact(Number(text)));
     const slider = el('input', { type: 'range', id, 'data-name': `${parameter.name} ${k}`, 'aria-describedby': id + '-message' });
-    const field = el('input', { type: 'text', 'data-name': `${parameter.name} ${k} field`, inputmode: 'decimal', 'aria-label': `${name}, as a number`, autocomplete: 'off', class: dial ? 'value' : 'number' });
+    const field = el('input', { type: 'text', 'data-name': `${parameter.name} ${k} field`, inputmode: 'decimal', 'aria-label': words.dock.sliders.field(name), autocomplete: 'off', class: dial ? 'value' : 'number' });
     const message = el('p', { id: id + '-message', class: 'message', role: 'status' });
-    const reset = button('Reset', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': `${name}: back to the model’s value`, title: 'Back to the model’s value' },
+    const reset = button('', () => { restore(k); refresh(); slider.focus(); }, { class: 'icon-button reset', 'aria-label': words.dock.sliders.reset(name), title: words.dock.sliders.resetTitle },
       icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
-    const words = el('label', { for: id, title: name }, dial && !label ? nameText(name) : name);
-    const element = dial ? el('div', { class: 'dial' }, el('div', { class: 'dial-head' }, words, el('span', { class: 'dial-value' }, reset, field, el('span', { class: 'unit' }, unit ? `\u2009${unit}` : ''))),
-      el('div', { class: 'dial-track' }, slider), message) : el('div', { class: 'row' }, words, slider, field, reset, message);
+    const caption = el('label', { for: id, title: name }, dial && !label ? nameText(name) : name);
+    const element = dial ? el('div', { class: 'dial' }, el('div', { class: 'dial-head' }, caption, el('span', { class: 'dial-value' }, reset, field, el('span', { class: 'unit' }, unit ? `\u2009${unit}` : ''))),
+      el('div', { class: 'dial-track' }, slider), message) : el('div', { class: 'row' }, caption, slider, field, reset, message);
 
     const limit = (): void => { slider.min = String(limits.low); slider.max = String(limits.high); slider.step = String(limits.step); };
     limit();
@@ -92,8 +93,8 @@ export function rowsOf(store: LiveStore, parameter: Parameter, model: string, ma
     });
     const commit = (): void => {
       const number = numberOf(field.value);
-      const complaint = field.value.trim() === '' ? `A number, please; the model has ${own()[k] ?? ''}.`
-        : number === null ? 'A number, please, like 0.5 or 0,5. Expressions belong in the text of the model.' : '';
+      const complaint = field.value.trim() === '' ? words.dock.sliders.needed(own()[k] ?? '')
+        : number === null ? words.dock.sliders.number : '';
       say(message, complaint);
       if (complaint) { field.setAttribute('aria-invalid', 'true'); return; }
       field.removeAttribute('aria-invalid');
@@ -117,7 +118,7 @@ export function held(within: HTMLElement): () => void {
 
 export function sliders(store: LiveStore): HTMLElement {
   const parameters = el('div', { class: 'rows' }), initial = el('div', { class: 'rows' });
-  const first = el('fieldset', {}, el('legend', {}, 'Parameters'), parameters), second = el('fieldset', {}, el('legend', {}, 'Start'), initial);
+  const first = el('fieldset', {}, el('legend', {}, words.dock.sliders.parameters), parameters), second = el('fieldset', {}, el('legend', {}, words.dock.sliders.start), initial);
   const problem = el('p', { class: 'message', role: 'status' });
   const element = el('div', { class: 'sliders' }, first, second, problem);
   let rows: Row[] = [], shown = '';
@@ -137,7 +138,7 @@ export function sliders(store: LiveStore): HTMLElement {
       rows.push(...own);
       const target = parameter.initial ? initial : parameters, elements = own.map(row => row.element);
       // A long list would push everything else out of sight.
-      target.append(...(own.length > 3 ? [el('details', {}, el('summary', {}, `${parameter.name}: ${own.length} numbers`), el('div', { class: 'rows' }, ...elements))] : elements));
+      target.append(...(own.length > 3 ? [el('details', {}, el('summary', {}, words.dock.sliders.many(parameter.name, String(own.length))), el('div', { class: 'rows' }, ...elements))] : elements));
     }
     first.hidden = parameters.childElementCount === 0;
     second.hidden = initial.childElementCount === 0;
@@ -146,7 +147,7 @@ export function sliders(store: LiveStore): HTMLElement {
   store.subscribe(what => {
     if (what === 'description') build();
     if (what === 'state' || what === 'description' || what === 'scene') for (const row of rows) row.refresh();
-    if (what === 'description' || what === 'scene') say(problem, store.trouble.run ? [store.trouble.run.message, store.trouble.run.hint].filter(Boolean).join(': ') : '');
+    if (what === 'description' || what === 'scene') say(problem, store.trouble.run ? words.trouble.hinted(store.trouble.run.message, store.trouble.run.hint) : '');
   });
   return element;
 }

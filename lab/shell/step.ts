@@ -8,20 +8,21 @@ import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
+import { words } from '../words';
 import { compact, normal, short } from './number';
 
 const positions = 1000, catching = 6;               // pixels within which a stop catches
 
 export function stepSlider(store: LiveStore): HTMLElement {
-  const slider = el('input', { type: 'range', min: 0, max: positions, step: 1, id: 'step-slider', 'aria-label': 'Step h' });
-  const field = el('input', { id: 'step', type: 'text', inputmode: 'text', autocomplete: 'off', spellcheck: 'false', class: 'value', 'aria-label': 'Step h, as a number', 'aria-describedby': 'step-message' });
+  const slider = el('input', { type: 'range', min: 0, max: positions, step: 1, id: 'step-slider', 'aria-label': words.dock.step.slider });
+  const field = el('input', { id: 'step', type: 'text', inputmode: 'text', autocomplete: 'off', spellcheck: 'false', class: 'value', 'aria-label': words.dock.step.field, 'aria-describedby': 'step-message' });
   const unit = el('span', { class: 'unit' }), steps = el('span', { class: 'steps' }), suggested = el('i', { class: 'suggested' });
   const message = el('p', { id: 'step-message', class: 'message', role: 'status' });
   const stops = el('div', { class: 'stops', 'aria-hidden': 'true' });
-  const reset = button('Reset', () => { store.change({ step: '' }); slider.focus(); refresh(); }, { class: 'icon-button reset', 'aria-label': 'Step: back to the model’s', title: 'Back to the model’s step' },
+  const reset = button('', () => { store.change({ step: '' }); slider.focus(); refresh(); }, { class: 'icon-button reset', 'aria-label': words.dock.step.reset, title: words.dock.step.resetTitle },
     icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
   const element = el('div', { class: 'dial step' },
-    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, 'Step ', el('i', {}, 'h'), ' ', suggested), el('span', { class: 'dial-value' }, reset, field, unit, steps)),
+    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), el('span', { class: 'dial-value' }, reset, field, unit, steps)),
     el('div', { class: 'dial-track' }, slider, stops), message);
   let halves: number[] = [], last = '', empty = '';
 
@@ -59,14 +60,14 @@ export function stepSlider(store: LiveStore): HTMLElement {
     field.setAttribute('aria-invalid', String(wrong !== ''));
     field.style.width = `${Math.max(3, field.value.length + 0.5)}ch`;
     reset.hidden = state.step === '';
-    say(suggested, description?.settings.suggested && state.step === '' ? 'suggested' : '');
+    say(suggested, description?.settings.suggested && state.step === '' ? words.dock.step.suggested : '');
     const { units } = stagingOf(exampleOf(state));
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
-    say(steps, track && !wrong ? `\u2009·\u2009${grouped(track.total)} ${track.total === 1 ? 'step' : 'steps'}` : '');
+    say(steps, track && !wrong ? `\u2009·\u2009${words.dock.step.steps(track.total, grouped(track.total))}` : '');
     if (h === null || !halves.length) return;
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
-    slider.setAttribute('aria-valuetext', `${short(h, 4)}${units ? ` ${units.t}` : ''}${track ? `, ${track.total} steps` : ''}`);
+    slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? String(track.total) : ''));
     [...stops.children].forEach((stop, k) => stop.classList.toggle('on', Math.abs(halves[k]! - h) < 1e-6 * h));
   }
   const set = (h: number): void => {
@@ -91,7 +92,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   });
   field.addEventListener('input', () => {
     const text = normal(field.value);
-    empty = text ? (text.length > 200 ? 'This is too long.' : '') : `A step is needed${own() ? `; the model has ${own()}` : ''}.`;
+    empty = text ? (text.length > 200 ? words.dock.long : '') : words.dock.step.needed(own());
     if (empty) refresh(); else store.change({ step: text === own() ? '' : text });
   });
   field.addEventListener('focus', () => { if (!store.state.step) { field.value = own(); field.select(); } });

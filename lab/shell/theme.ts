@@ -1,9 +1,9 @@
 /* Light, dark, or as the system has it. Invariant: data-theme of the root says which was chosen; without it the system's choice holds. */
 import type { Theme } from '../scene';
 import { button, icon, svg } from '../dom';
+import { words } from '../words';
 import { forget, recall, remember } from './memory';
 
-const names: Readonly<Record<Theme, string>> = { auto: 'automatic', light: 'light', dark: 'dark' };
 const next: Readonly<Record<Theme, Theme>> = { auto: 'light', light: 'dark', dark: 'auto' };
 
 function picture(theme: Theme): SVGSVGElement {
@@ -22,8 +22,8 @@ export function themeButton(changed: () => void): HTMLButtonElement {
   function apply(): void {
     if (theme === 'auto') { delete document.documentElement.dataset.theme; forget('theme'); } else { document.documentElement.dataset.theme = theme; remember('theme', theme); }
     toggle.replaceChildren(picture(theme));
-    toggle.setAttribute('aria-label', `Colours: ${names[theme]}. Change to ${names[next[theme]]}`);
-    toggle.title = `Colours: ${names[theme]}`;
+    toggle.setAttribute('aria-label', words.top.theme[theme].change);
+    toggle.title = words.top.theme[theme].now;
   }
   apply();
   window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { if (theme === 'auto') changed(); });

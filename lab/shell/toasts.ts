@@ -2,6 +2,7 @@
  * while the reader points at it or is inside it.
  */
 import { button, el } from '../dom';
+import { words } from '../words';
 
 export interface Toasts { say(message: string, action?: { readonly label: string; act(): void }): void }
 
@@ -13,7 +14,7 @@ export function createToasts(region: HTMLElement): Toasts {
       const toast = el('div', { class: 'toast' }, el('span', {}, message));
       const close = (): void => { toast.remove(); };
       if (action) toast.append(button(action.label, () => { close(); action.act(); }, { class: 'text-button' }));
-      toast.append(button('Dismiss', close, { class: 'icon-button', 'aria-label': 'Dismiss' }, '×'));
+      toast.append(button('', close, { class: 'icon-button', 'aria-label': words.top.dismiss }, '×'));
       let timer = 0;
       const start = (): void => { window.clearTimeout(timer); timer = window.setTimeout(close, action ? 12000 : 6000); };
       const stay = (): void => { window.clearTimeout(timer); };

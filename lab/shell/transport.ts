@@ -4,6 +4,7 @@
  * stops at the end exactly. Nothing moves unless asked for; nothing moves while the page is hidden.
  */
 import { brief } from '../figure/number';
+import { words } from '../words';
 
 export interface TransportOptions {
   onTime(t: number): void;
@@ -43,13 +44,13 @@ export function transport(options: TransportOptions): Transport {
 
   const element = make('div', 'transport');
   element.setAttribute('role', 'group');
-  element.setAttribute('aria-label', 'Time');
-  const play = iconButton(PLAY, 'Play (space)', () => toggle());
+  element.setAttribute('aria-label', words.dock.clock.group);
+  const play = iconButton(PLAY, words.dock.clock.play, () => toggle());
   play.classList.add('transport-play');
 
   const scrub = make('input', 'transport-scrub');
   scrub.type = 'range'; scrub.min = '0'; scrub.max = String(PARTS); scrub.step = '1'; scrub.value = '0';
-  scrub.setAttribute('aria-label', 'Present time');
+  scrub.setAttribute('aria-label', words.dock.clock.time);
   scrub.addEventListener('input', () => { const part = Number(scrub.value) / PARTS; seek(part === 1 ? end : start + (end - start) * part); });
   const line = make('div', 'transport-line'), ticks = make('div', 'transport-ticks');
   line.append(scrub, ticks);
@@ -58,10 +59,10 @@ export function transport(options: TransportOptions): Transport {
   clock.append(present, unit);
 
   const select = make('select', 'transport-select');
-  select.setAttribute('aria-label', 'Speed of the animation');
+  select.setAttribute('aria-label', words.dock.clock.speed);
   for (const [value, text] of SPEEDS) select.append(new Option(text, String(value)));
   select.addEventListener('change', () => { speed = Number(select.value); options.onSpeed?.(speed); });
-  element.append(play, iconButton(BACK, 'One step back (left arrow)', () => step(-1)), iconButton(FORWARD, 'One step forward (right arrow)', () => step(1)), line, clock, select);
+  element.append(play, iconButton(BACK, words.dock.clock.back, () => step(-1)), iconButton(FORWARD, words.dock.clock.forward, () => step(1)), line, clock, select);
 
   const forwards = (): boolean => end >= start;
   const clamped = (t: number): number => forwards() ? Math.min(end, Math.max(start, t)) : Math.max(end, Math.min(start, t));
@@ -78,7 +79,7 @@ export function transport(options: TransportOptions): Transport {
     present.textContent = text;
     if (scrub.value !== part) scrub.value = part;
     scrub.style.setProperty('--part', `${Number(part) / PARTS * 100}%`);
-    scrub.setAttribute('aria-valuetext', `t = ${text}${unit.textContent} of ${written(end)}`);
+    scrub.setAttribute('aria-valuetext', words.dock.clock.value(`${text}${unit.textContent}`, written(end)));
     options.onTime(now);
   }
   function set(t: number): void { now = clamped(t); tell(); }
@@ -87,7 +88,8 @@ export function transport(options: TransportOptions): Transport {
     if (on === running) return;
     running = on;
     play.replaceChildren(icon(on ? PAUSE : PLAY));
-    name(play, on ? 'Pause (space)' : 'Play (space)');
+    name(play, on ? words.dock.clock.pause : words.dock.clock.play);
+    play.toggleAttribute('data-playing', on);
     stamp = NaN; owed = 0;
     cancelAnimationFrame(frame);
     if (on) frame = requestAnimationFrame(tick);

@@ -5,6 +5,7 @@
 import type { Statement } from '../protocol';
 import type { LiveStore } from '../state';
 import { el } from '../dom';
+import { words } from '../words';
 
 const mathml = 'http://www.w3.org/1998/Math/MathML';
 
@@ -24,9 +25,9 @@ const leading = new Set(['motion', 'first-order', 'exact', 'function']);
 
 export function typesetView(store: LiveStore): HTMLElement {
   const equations = el('div', { class: 'equations' }), others = el('div', { class: 'equations' });
-  const summary = el('summary', {}, 'Everything, typeset');
+  const summary = el('summary', {}, words.editor.typeset.all);
   const fold = el('details', {}, summary, others);
-  const element = el('section', { class: 'typeset', 'aria-label': 'The model, typeset' }, equations, fold);
+  const element = el('section', { class: 'typeset', 'aria-label': words.editor.typeset.model }, equations, fold);
 
   const row = (statement: Statement): HTMLElement | null => {
     const formula = math(statement.mathml);
@@ -38,7 +39,7 @@ export function typesetView(store: LiveStore): HTMLElement {
       if (!(target instanceof HTMLElement)) continue;
       const wide = target.scrollWidth > target.clientWidth + 1;
       if (wide) target.tabIndex = 0; else target.removeAttribute('tabindex');
-      if (wide) { target.setAttribute('role', 'group'); target.setAttribute('aria-label', 'Formula, wider than its place'); } else { target.removeAttribute('role'); target.removeAttribute('aria-label'); }
+      if (wide) { target.setAttribute('role', 'group'); target.setAttribute('aria-label', words.editor.typeset.wide); } else { target.removeAttribute('role'); target.removeAttribute('aria-label'); }
     }
   });
   let shown = '';

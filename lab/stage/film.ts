@@ -1,4 +1,6 @@
 /* One run of the motion as a WebM film, recorded in the page. Invariant: frames follow the clock, not their number; what was cancelled leaves nothing. */
+import { words } from '../words';
+
 const RATE = 30, BITS = 6e6;
 
 /** The first of its kinds that this browser records; '': none. */
@@ -26,7 +28,7 @@ export function film(canvas: HTMLCanvasElement, seconds: number, draw: (part: nu
     signal.addEventListener('abort', finish);
     recorder.ondataavailable = ({ data }) => { chunks.push(data); };
     recorder.onstop = () => { recorder.stream.getTracks().forEach((track) => track.stop()); done(signal.aborted ? null : new Blob(chunks, { type: 'video/webm' })); };
-    recorder.onerror = () => { clearInterval(timer); fail(new Error('The browser could not record the motion.')); };
+    recorder.onerror = () => { clearInterval(timer); fail(new Error(words.stage.noFilm)); };
     recorder.start();
   });
 }

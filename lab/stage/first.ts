@@ -5,9 +5,12 @@
 import { Answers } from '../answers';
 import { Core } from '../core';
 import { looksOf, named, inkStyle } from '../figure/ink';
+import { grouped } from '../figure/number';
 import { svgPen } from '../figure/svg';
 import type { Scene } from '../scene';
+import { saidOf } from '../scenes';
 import { defaultView } from '../share';
+import { html, words } from '../words';
 import { LENGTH, LENGTHS } from './fit';
 import { boundsFor, pictureOf } from './picture';
 import { placeOf } from './place';
@@ -17,8 +20,8 @@ import { stagings } from './stagings';
 import { subjects } from './subject';
 
 export { notes } from '../theory/presets';
-export { inkStyle, stagings };
-const stagingOf = (name: string): Staging => stagings[name] ?? { words: '' };
+export { html, inkStyle, stagings, words };
+const stagingOf = (name: string): Staging => stagings[name] ?? {};
 
 /** The stage and the page that each picture is drawn for; the style shows the one of this kind of screen (.first-…), and fit.ts makes it this screen's. */
 const SIZES = [
@@ -78,4 +81,8 @@ export function firstPictures(scene: Scene): string {
 
 /** The equation under the title, typeset by the core. */
 export const equation = (scene: Scene): string => scene.description.statements.find((s) => s.kind === 'motion')?.mathml ?? '';
-export const question = (scene: Scene): string => stagingOf(scene.state.preset).ask?.text ?? '';
+/** What is said of the scene: its title, its sentence, the question that leads to a lesson. */
+export function said({ state: { preset }, solution }: Scene): { readonly title: string; readonly sentence: string; readonly ask: string } {
+  const { title = '', sentence = '', ask = '' } = saidOf(preset) ?? {}, total = solution.tracks[0]?.total ?? 0;
+  return { title, ask, sentence: typeof sentence === 'string' ? sentence : sentence(words.headline.counted(total, grouped(total))) };
+}

@@ -5,6 +5,7 @@
 import { minus } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen, Span } from '../figure/types';
+import { words } from '../words';
 import { spread } from './labels';
 import type { Place } from './place';
 
@@ -14,7 +15,7 @@ export interface Named {
   readonly colour: string; readonly line: string;
   readonly x: number; readonly y: number;
   /** How far from the exact motion, in words; '' where that is not known, or is nothing. */
-  readonly miss: { readonly size: number; readonly text: string; readonly words: string } | null;
+  readonly miss: { readonly size: number; readonly text: string; readonly how: string } | null;
   readonly exact: boolean;
 }
 
@@ -29,15 +30,15 @@ export function missText(value: number, frame: number): string {
 
 /** The last word of a name where no other name has it ("Verlet"), else the first ("symplectic"). */
 function briefly(name: string, all: readonly string[]): string {
-  const words = name.split(/,? /), last = words[words.length - 1] ?? '';
-  return words.length > 1 && all.some((other) => other !== name && other.split(/,? /).includes(last)) ? words[0]! : last;
+  const parts = name.split(/,? /), last = parts[parts.length - 1] ?? '';
+  return parts.length > 1 && all.some((other) => other !== name && other.split(/,? /).includes(last)) ? parts[0]! : last;
 }
 
 /** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. all: every name in the picture. */
 function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean, all: readonly string[]): Span[][] {
   const full = namesOf(label, ink), { miss } = label, first = label.names[0];
-  const words = label.exact ? first?.text.split(',')[0] ?? '' : briefly(first?.text ?? '', all), brief: Span[] = [{ text: words, colour: first?.colour, bold: true }], rest = full.slice(1);
-  const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.words ? ` ${miss.words}` : ''}`, size: size - 2 }] : [];
+  const start = label.exact ? words.stage.short : briefly(first?.text ?? '', all), brief: Span[] = [{ text: start, colour: first?.colour, bold: true }], rest = full.slice(1);
+  const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.how ? ` ${miss.how}` : ''}`, size: size - 2 }] : [];
   return [...(number.length ? [[...full, ...number]] : []), full, ...(rest.length ? [[...brief, ...rest]] : []), brief];
 }
 function namesOf(label: Named, ink: Ink): Span[] {
@@ -45,8 +46,8 @@ function namesOf(label: Named, ink: Ink): Span[] {
   if (!first) return [];
   const head: Span = { text: first.text, colour: first.colour, bold: true };
   if (more === 1) return [head];
-  const equals: Span = { text: ' = ', colour: ink.quiet };
-  return more === 2 && second ? [head, equals, { text: second.text, colour: second.colour, bold: true }] : [head, equals, { text: `${more - 1} methods`, colour: ink.text, bold: true }];
+  const equals: Span = { text: words.stage.equals, colour: ink.quiet };
+  return more === 2 && second ? [head, equals, { text: second.text, colour: second.colour, bold: true }] : [head, equals, { text: words.stage.several(String(more - 1)), colour: ink.text, bold: true }];
 }
 
 const BRACKET = 58, GAP = 14, LEAST = 20, OUTSIDE = 18;
@@ -112,14 +113,14 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     const x = bracketX - (sameSide ? way * 14 * scale : 0), down = label.y > exact!.y ? 1 : -1, tip = label.y - down * 2;
     pen.line([x, exact!.y + down * 5, x, tip], { colour: label.line, width: 1.75 });
     pen.line([x - 4.5, tip - down * 7, x, tip, x + 4.5, tip - down * 7], { colour: label.line, width: 1.75 });
-    const middle = numbered.get(label), { text, words } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
+    const middle = numbered.get(label), { text, how } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
     if (middle === undefined) return;
-    if (place.names) pen.text(textX, middle, [{ text, bold: true }, { text: ` ${words}` }], { ...letters, size: 16 * scale, baseline: 'middle' });
+    if (place.names) pen.text(textX, middle, [{ text, bold: true }, { text: ` ${how}` }], { ...letters, size: 16 * scale, baseline: 'middle' });
     else if (Math.abs(label.y - exact!.y) > 32) {
       // In two lines beside the end of the curve, clear of the exact motion's name.
       const first = down > 0 ? label.y - 10 : label.y + 9;
       pen.text(textX, first, [{ text, bold: true }], { ...letters, size: 13 });
-      pen.text(textX, first + 13, words, { ...letters, size: 12 });
+      pen.text(textX, first + 13, how, { ...letters, size: 12 });
     } else pen.text(textX, label.y, [{ text, bold: true }], { ...letters, size: 13, baseline: down > 0 ? 'top' : 'bottom' });
   });
   sorted.forEach((label, k) => {
@@ -128,7 +129,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
       pen.line([start, label.y, end, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
     }
     if (!place.names) {
-      if (label.exact && upright) pen.text(textX, y, [{ text: 'exact', bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
+      if (label.exact && upright) pen.text(textX, y, [{ text: words.stage.short, bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
       return;
     }
     if (!named) return;

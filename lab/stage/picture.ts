@@ -7,6 +7,7 @@ import { extent, rangeOf } from '../figure/axes';
 import { brief } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
+import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
@@ -127,7 +128,7 @@ export function pictureOf(setting: Setting): Picture {
   const springX = Math.max(place.frame.left, place.text + 9) + 39;
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
-  const exactName = scene.description.has_exact ? 'exact' : 'exact, computed';
+  const exactName = scene.description.has_exact ? words.stage.exact : words.stage.computed;
   const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
   const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
 
@@ -268,8 +269,8 @@ export function pictureOf(setting: Setting): Picture {
     const at = placeAt(line.track.times, time), row = at.part === 1 ? at.row + 1 : at.row, value = errors[row];
     if (value === undefined || !Number.isFinite(value)) return null;
     const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
-    if (value <= 1e-12 * size) return { size: 0, text: 'on it', words: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, words: upright ? (y < exactY ? 'too high' : 'too low') : 'off' };
+    if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (y < exactY ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
   }
 
   function moving(pen: Pen, ink: Ink, time: number): void {
@@ -420,7 +421,7 @@ export function pictureOf(setting: Setting): Picture {
     for (const l of leaving) {
       if (time < l.time) continue;
       const size = (place.names ? 14 : 12) * place.scale, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
-      pen.text(l.x, l.y, [{ text: `${l.name} leaves`, bold: true }], letters);
+      pen.text(l.x, l.y, [{ text: words.stage.leaves(l.name), bold: true }], letters);
       if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
     }
   }
@@ -456,9 +457,12 @@ export function pictureOf(setting: Setting): Picture {
     end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
     remarks: () => lines.map((line) => {
       const { problem, times } = line.track;
-      if (problem) return `${line.look.label} stops at t = ${brief(problem.time ?? times[times.length - 1] ?? 0)}${problem.variable ? `: ${problem.variable} is no finite number` : ''}`;
+      if (problem) {
+        const at = brief(problem.time ?? times[times.length - 1] ?? 0);
+        return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
+      }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
-      return c?.exit ? `${line.look.label} leaves the picture at t = ${brief(c.exit.time)}` : '';
+      return c?.exit ? words.stage.summary.leaves(line.look.label, brief(c.exit.time)) : '';
     }).filter(Boolean),
   };
 }
@@ -473,7 +477,7 @@ export function short(label: string): string {
 function told(motion: Motion, curve: Curve, staging: Staging): string {
   const { track } = curve.line, { truth } = motion, unit = staging.units ? `\u2009${staging.units.t}` : '';
   const end = track.times[track.times.length - 1] ?? 0;
-  if (track.problem) return `and ends at ${brief(track.problem.time ?? end, 3)}${unit}, no longer a number`;
+  if (track.problem) return words.stage.ends(`${brief(track.problem.time ?? end, 3)}${unit}`);
   if (motion.subject.kind === 'time' && truth) {
     // How large the ellipse of place and velocity is that it ends on, beside that of the exact motion.
     const column = motion.subject.bodies[curve.body]!.columns[0]!, speed = velocityColumn(motion.scene.solution, column);
@@ -484,7 +488,7 @@ function told(motion: Motion, curve: Curve, staging: Staging): string {
       return ((own[own.length - 1]! - (low + high) / 2) / ((high - low) / 2)) ** 2;
     };
     const times = Math.sqrt(part(column) + part(speed));
-    if (Number.isFinite(times) && times >= 1.5) return `${brief(times, 2)} times too wide at ${brief(end, 3)}${unit}`;
+    if (Number.isFinite(times) && times >= 1.5) return words.stage.wide(brief(times, 2), `${brief(end, 3)}${unit}`);
   }
-  return `at ${brief(curve.exit!.time, 3)}${unit}`;
+  return words.stage.at(`${brief(curve.exit!.time, 3)}${unit}`);
 }

@@ -6,6 +6,7 @@ import { scaleAlong, scaleOf } from '../figure/axes';
 import { nameSpans } from '../figure/name';
 import { readable } from '../figure/number';
 import type { Ink, Pen, Scale, Span } from '../figure/types';
+import { words } from '../words';
 import type { Bounds, Range } from './bounds';
 import type { Rows } from './motion';
 import type { Box } from './place';
@@ -88,7 +89,7 @@ export function flatPlot({ bounds, box, equal, style, axes: [across, upward], so
       pen.text(along(v), frame.bottom + 19, along.label(v), { ...quiet(ink), anchor: 'middle' });
     }
     const name = (axis: Axis): Span[] => [...nameSpans(axis.name, 15 * letters), ...(axis.unit ? [{ text: ` (${axis.unit})`, size }] : [])];
-    pen.text(frame.right, frame.bottom + 36, bare ? [{ text: 'velocity ', size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across),
+    pen.text(frame.right, frame.bottom + 36, bare ? [{ text: words.stage.velocity, size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across),
       { colour: ink.text, size: 15 * letters, anchor: 'end' });
     if (!bare) pen.text(frame.left - 8, frame.top - 2, name(upward), { colour: ink.text, size: 15 * letters, anchor: 'end', baseline: 'bottom' });
   }

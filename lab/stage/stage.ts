@@ -13,6 +13,7 @@ import type { Ink, Pen, Table } from '../figure/types';
 import type { Panel, Scene, Store } from '../scene';
 import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
+import { words } from '../words';
 import { boundsFor, pictureOf, type Picture } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
@@ -54,15 +55,15 @@ function without(scene: Scene, methods: readonly string[]): Scene {
 export function stage(store: Store, room: { column(): number }): Stage {
   const still = el('canvas', { class: 'stage-still', role: 'img' }), moving = el('canvas', { class: 'stage-moving', 'aria-hidden': 'true' });
   const aim = button('', () => {}, { class: 'stage-aim', role: 'slider', hidden: true });
-  const all = button('show all', () => { showAll = !showAll; bounds = null; refresh(true); }, { class: 'stage-all', hidden: true });
+  const all = button(words.stage.all, () => { showAll = !showAll; bounds = null; refresh(true); }, { class: 'stage-all', hidden: true });
   const message = el('p', { class: 'stage-message', hidden: true });
   const caption = el('figcaption', { class: 'unseen' });
   const holder = document.getElementById('stage-picture') ?? el('div', { id: 'stage-picture' });
-  const ring = button('', () => {}, { class: 'stage-aim stage-ring', role: 'slider', hidden: true, 'aria-label': 'Your guess: up and down' });
+  const ring = button('', () => {}, { class: 'stage-aim stage-ring', role: 'slider', hidden: true, 'aria-label': words.stage.guess.ring });
   holder.append(still, moving, aim, ring, all, message);
   // The build's picture is of the first scene; another one is not to begin with it.
   if (store.state.preset !== holder.dataset.scene || store.state.place) holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
-  const element = el('figure', { class: 'stage-figure', 'aria-labelledby': 'motion-title' }, el('h2', { id: 'motion-title', class: 'unseen' }, 'Motion'), holder, caption);
+  const element = el('figure', { class: 'stage-figure', 'aria-labelledby': 'motion-title' }, el('h2', { id: 'motion-title', class: 'unseen' }, words.stage.motion), holder, caption);
 
   let scene: Scene | null = null, subject: Subject | null = null, choices: readonly Subject[] = [], chosen = '', showAll = false;
   let picture: Picture | null = null, ghost: Picture | null = null, bounds: Bounds | null = null, place: Place | null = null, frameKey = '';
@@ -72,8 +73,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   // --- the views ---------------------------------------------------------------------------------------------------------------------
-  const select = el('select', { id: 'stage-view', 'aria-label': 'View' });
-  const choice = el('label', { class: 'view-choice' }, el('span', {}, 'View'), select);
+  const select = el('select', { id: 'stage-view', 'aria-label': words.stage.view });
+  const choice = el('label', { class: 'view-choice' }, el('span', {}, words.stage.view), select);
   select.addEventListener('change', () => {
     chosen = select.value;
     const kind = choices.find((s) => s.id === chosen)?.kind;
@@ -163,7 +164,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (guess.open) for (const way of [-1, 1]) pen.line([at.x - 4, at.y + way * (r + 5), at.x, at.y + way * (r + 9), at.x + 4, at.y + way * (r + 5)], { colour: i.quiet, width: 1.5 });
     // Numbers stand at the right; on a small stage the guess gives way to them.
     const left = !place.names, size = (left ? 12 : 14) * place.scale;
-    pen.text(at.x + (left ? -1 : 1) * (r + 8), at.y, guess.open ? 'your guess' : 'you', { colour, size, bold: guess.open, baseline: 'middle', anchor: left ? 'end' : 'start', halo: i.surface });
+    pen.text(at.x + (left ? -1 : 1) * (r + 8), at.y, guess.open ? words.stage.guess.open : words.stage.guess.closed, { colour, size, bold: guess.open, baseline: 'middle', anchor: left ? 'end' : 'start', halo: i.surface });
   }
   /** At once where this frame has not had it yet: a moving thing must not lag a frame behind its clock. */
   function redrawMoving(): void {
@@ -230,10 +231,10 @@ export function stage(store: Store, room: { column(): number }): Stage {
         if (!suits(bounds, ranges, subject.kind === 'time', subject.kind === 'plane')) bounds = showAll ? null : boundsFor(next, subject, staging(), false, null);
       }
     }
-    const words = !subject ? 'This model has no positions to show.' : next.solution.tracks.length === 0 && !next.solution.truth ? 'Choose a method to see its motion.' : '';
-    message.textContent = words;
-    message.hidden = !words;
-    still.hidden = moving.hidden = !!words;
+    const told = !subject ? words.stage.noPositions : next.solution.tracks.length === 0 && !next.solution.truth ? words.stage.noMethod : '';
+    message.textContent = told;
+    message.hidden = !told;
+    still.hidden = moving.hidden = !!told;
     refresh(true);
   }
 
@@ -247,7 +248,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     aim.hidden = !settable;
     if (handle && settable) {
       aim.style.transform = `translate(${handle.x - 22}px, ${handle.y - 22}px)`;
-      aim.setAttribute('aria-label', 'Initial velocity: arrow keys turn it up, down, left and right');
+      aim.setAttribute('aria-label', words.stage.aim);
       aim.setAttribute('aria-valuetext', `${settable.values.map((v) => shortNumber(v, 4)).join(', ')}`);
       aim.setAttribute('aria-valuenow', String(Math.hypot(...settable.values)));
     }
@@ -257,7 +258,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (at_ && place) ring.setAttribute('aria-valuenow', String(Math.round(at_.exact - at_.y)));
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
-    say(all, showAll ? 'show the exact motion' : 'show all');
+    say(all, showAll ? words.stage.exactOnly : words.stage.all);
     const at = leaving ?? { x: (place?.width ?? 0) - 160, y: 24, anchor: 'start' as const, more: '' };
     all.style.left = leaving ? `${at.anchor === 'end' ? at.x - 62 : at.x}px` : 'auto';
     all.style.right = leaving ? 'auto' : '24px';
@@ -311,7 +312,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     guessAt = Math.min(place.frame.bottom - 4, Math.max(20, y));
     const off = guessAt - end.y, where: GuessPlace = Math.abs(off) <= 9 ? 'on' : off < 0 ? 'above' : 'below';
     guess = { ...guess, place: where };
-    ring.setAttribute('aria-valuetext', where === 'on' ? 'on the exact motion' : `${where} the exact motion`);
+    ring.setAttribute('aria-valuetext', words.stage.guess[where]);
     guessed(where);
     redrawMoving();
     attach();
@@ -328,41 +329,43 @@ export function stage(store: Store, room: { column(): number }): Stage {
   // --- words, numbers, files -----------------------------------------------------------------------------------------------------------
   function describe(): void {
     sentence = 0;
-    const words = summary();
-    say(caption, words);
-    still.setAttribute('aria-label', words);
+    const told = summary();
+    say(caption, told);
+    still.setAttribute('aria-label', told);
     element.setAttribute('aria-busy', String(dirty));
   }
   function summary(): string {
-    if (!scene || !subject || !picture) return 'Nothing to show yet.';
+    if (!scene || !subject || !picture) return words.stage.summary.nothing;
     const { solution, looks } = scene, times = solution.truth?.times ?? solution.tracks[0]?.times ?? new Float64Array([0]);
-    const seen = subject.kind === 'shape' ? `Shape of the family ${subject.bodies[0]?.label ?? ''}, number by number`
-      : subject.kind === 'time' ? `${subject.axes[1] ?? ''} over time` : subject.kind === 'space' ? 'Path in space' : `Path in the plane of ${subject.axes[0]} and ${subject.axes[1]}`;
+    const [across = '', up = ''] = subject.axes, from = brief(times[0] ?? 0), to = brief(times[times.length - 1] ?? 0);
+    const seen = subject.kind === 'shape' ? words.stage.summary.shape(subject.bodies[0]?.label ?? '', from, to) : subject.kind === 'time' ? words.stage.summary.time(up, from, to)
+      : subject.kind === 'space' ? words.stage.summary.space(from, to) : words.stage.summary.plane(across, up, from, to);
     const errors = solution.errors.map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
-    const told = errors.length === 0 ? '' : ` At the end the distance from the ${scene.description.has_exact ? 'exact motion' : 'reference'} is ${errors.map((e) => `${brief(e.last, 3)} for ${e.name}`).join(', ')}.`;
-    return `${seen}, from t = ${brief(times[0] ?? 0)} to ${brief(times[times.length - 1] ?? 0)}.${told}${picture.remarks().map((r) => ` ${r.charAt(0).toUpperCase()}${r.slice(1)}.`).join('')}`;
+    const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name));
+    const told = distances.length === 0 ? [] : [scene.description.has_exact ? words.stage.summary.exact(distances) : words.stage.summary.reference(distances)];
+    return words.stage.summary.whole([seen, ...told, ...picture.remarks()]);
   }
   function table(): Table {
     if (!scene || !subject) return { head: [], rows: [] };
-    const { solution, looks } = scene, columns = subject.bodies.flatMap((b) => b.columns), head = ['motion', 't', ...columns.map((c) => solution.columns[c] ?? '')];
+    const { solution, looks } = scene, columns = subject.bodies.flatMap((b) => b.columns), head = [words.stage.table.motion, 't', ...columns.map((c) => solution.columns[c] ?? '')];
     const rows: (string | number)[][] = [];
     const add = (name: string, of: { readonly times: Float64Array; readonly columns: readonly Float64Array[] }): void => of.times.forEach((t, i) => rows.push([name, t, ...columns.map((c) => of.columns[c]?.[i] ?? NaN)]));
     solution.tracks.forEach((track, k) => add(looks[k]?.label ?? track.method, track));
-    if (solution.truth && !solution.truth.coarse && columns.every((c) => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? 'exact' : 'reference', solution.truth);
+    if (solution.truth && !solution.truth.coarse && columns.every((c) => (solution.truth?.columns[c]?.length ?? 0) > 0)) add(scene.description.has_exact ? words.stage.table.exact : words.stage.table.reference, solution.truth);
     return { head, rows };
   }
   function save(kind: 'PNG' | 'SVG' | 'CSV'): void {
     if (kind === 'CSV') { downloadText(csv(table()), 'text/csv', fileName('motion', 'csv')); return; }
     if (!picture || !place) return;
     const { width, height } = place, of = picture;
-    savePicture(kind, 'motion', summary(), { title: 'Motion', width, height, draw(pen, now) { of.still(pen, now); of.moving(pen, now, time); } });
+    savePicture(kind, 'motion', summary(), { title: words.stage.motion, width, height, draw(pen, now) { of.still(pen, now); of.moving(pen, now, time); } });
   }
 
   async function record(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean> {
     if (!picture || !place) return false;
     const { width, height } = place, of = picture, now = ink(), name = fileName('motion', 'webm'), s = Math.min(2, 1920 / width);
     // What keeps still is drawn once, with the words below; sizes are even, as encoders want them.
-    const still = sheetOf(captioned({ title: 'Motion', width, height, draw: (pen) => of.still(pen, now) }), s);
+    const still = sheetOf(captioned({ title: words.stage.motion, width, height, draw: (pen) => of.still(pen, now) }), s);
     const sheet = el('canvas', { width: still.width & ~1, height: still.height & ~1 }), context = sheet.getContext('2d');
     if (!context) return false;
     const pen = canvasPen(context, width, height);
@@ -384,7 +387,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }).observe(holder);
 
   return {
-    id: 'motion', title: 'Motion', element, choice, show, save, film: record,
+    id: 'motion', title: words.stage.motion, element, choice, show, save, film: record,
     at(now) {
       if (now === time) return;
       time = now;

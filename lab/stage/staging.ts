@@ -1,17 +1,15 @@
-/* How an example stands on the stage: its sentence, its question, what is drawn beside the motion, the sliders in the dock, units.
+/* How an example stands on the stage: the lesson it leads to, what is drawn beside the motion, the sliders in the dock, units.
  *
  * Invariant: a model without an entry of stagings.ts is staged by what the core says of it; nothing here is needed to see a motion.
  */
 import { data } from '../data';
 
 /** A slider of the dock: a parameter or an initial value, `part` its component from 0; low, high: where the slider ends. */
-export interface Dial { readonly name: string; readonly part?: number; readonly label: string; readonly unit?: string; readonly low?: number; readonly high?: number }
+export interface Dial { readonly name: string; readonly part?: number; readonly unit?: string; readonly low?: number; readonly high?: number }
 export type Decor = 'throw' | 'spring' | 'pendulum';
 export interface Staging {
-  /** One or two sentences under the title; {steps} becomes the number of steps. */
-  readonly words: string;
-  /** The question, and the lesson that answers it. */
-  readonly ask?: { readonly text: string; readonly lesson: string };
+  /** The lesson that answers its question. */
+  readonly ask?: string;
   readonly decor?: Decor;
   /** What the frame shows, in the model's numbers; else the exact motion and some room. */
   readonly frame?: { readonly x?: readonly [number, number]; readonly y: readonly [number, number] };
@@ -22,7 +20,7 @@ export interface Staging {
   readonly arrow?: number;
   readonly dials?: readonly Dial[];
   /** A switch that goes to another example and keeps what both have. */
-  readonly switch?: { readonly label: string; readonly to: string; readonly on: boolean };
+  readonly switch?: { readonly to: string; readonly on: boolean };
   /** The largest stop of the step slider, as a multiple of the model's step, and how many there are. */
   readonly stops?: readonly [largest: number, count: number];
   /** How high a number lies is told as "too high", "too low". */
@@ -33,5 +31,5 @@ export interface Staging {
   readonly rods?: readonly (readonly [x: string, y: string])[];
 }
 
-const plain: Staging = { words: '' };
+const plain: Staging = {};
 export const stagingOf = (name: string): Staging => (Object.hasOwn(data.stagings, name) ? data.stagings[name] ?? plain : plain);

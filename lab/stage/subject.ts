@@ -4,6 +4,8 @@
  * where nothing else can be said, each number is a curve in time.
  */
 import type { Column, Description, Solution, Variable } from '../protocol';
+import { nameText } from '../figure/name';
+import { words } from '../words';
 
 /** One point that moves: its coordinates, as places in solution.columns. */
 export interface Body { readonly label: string; readonly columns: readonly number[] }
@@ -60,7 +62,7 @@ function lettered(given: readonly Place[]): Body[] {
   for (const { column, at } of given) {
     if (!/^x[\p{L}\p{N}_]*$/u.test(column.name)) continue;
     const rest = column.name.slice(1), y = byName.get(`y${rest}`), z = byName.get(`z${rest}`);
-    if (y !== undefined) bodies.push({ label: rest ? `mass ${rest}` : '', columns: z === undefined ? [at, y] : [at, y, z] });
+    if (y !== undefined) bodies.push({ label: rest ? words.stage.views.mass(rest) : '', columns: z === undefined ? [at, y] : [at, y, z] });
   }
   return bodies;
 }
@@ -71,14 +73,17 @@ function planes(bodies: readonly Body[], names: readonly string[]): Subject[] {
   const of = (id: string, kind: Subject['kind'], axes: readonly number[], label: string): Subject => ({
     id, kind, label, axes: axes.map(k => names[k]!), bodies: bodies.map((b, i) => ({ label: b.label, columns: axes.map(k => same[i]![k]!) })),
   });
-  if (dimensions < 3) return [of('plane', 'plane', [0, 1], `${names[0]} – ${names[1]}`)];
+  const plane = (id: string, across: number, up: number): Subject => of(id, 'plane', [across, up], words.stage.views.plane(partOf(names[across]!), partOf(names[up]!)));
+  // Places have the letters x and y; other numbers are told by name.
+  if (dimensions < 3) return [names.some((name) => /^[xy]\b|\.[xy]$/.test(name)) ? of('plane', 'plane', [0, 1], words.stage.views.path) : plane('plane', 0, 1)];
   return [
-    of('space', 'space', [0, 1, 2], 'space'),
-    of('plane', 'plane', [0, 1], `${names[0]} – ${names[1]}`),
-    of('plane-xz', 'plane', [0, 2], `${names[0]} – ${names[2]}`),
-    of('plane-yz', 'plane', [1, 2], `${names[1]} – ${names[2]}`),
+    of('space', 'space', [0, 1, 2], words.stage.views.space),
+    plane('plane', 0, 1), plane('plane-xz', 0, 2), plane('plane-yz', 1, 2),
   ];
 }
+
+/** r.x -> x, as a choice between views names it. */
+const partOf = (name: string): string => (name.includes('[') ? name : nameText(name.replace(/^.*\./, '')));
 
 /* One body's axes are called as the model calls them; several share the letters. */
 const axisNames = (bodies: readonly Body[], solution: Solution): readonly string[] =>
@@ -95,7 +100,7 @@ export function subjects(description: Description, solution: Solution): Subject[
     if (of.length === 0) return;
     if (variable.components === 2 || variable.components === 3) bodies.push(...vectorBodies(of, variable));
     else if (of.length > 2 && (variable.ranges.length > 0 || variable.components > 3))
-      families.push({ id: `shape-${variable.name}`, kind: 'shape', label: `shape of ${variable.name}`, axes: ['i', variable.name],
+      families.push({ id: `shape-${variable.name}`, kind: 'shape', label: words.stage.views.shape(nameText(variable.name)), axes: ['i', variable.name],
         bodies: [{ label: variable.name, columns: of.map(p => p.at) }] });
     else scalars.push(...of);
   });
@@ -114,10 +119,10 @@ export function subjects(description: Description, solution: Solution): Subject[
     }
   }
   for (const { column, at } of positions.slice(0, CHOICES))
-    out.push({ id: `time-${column.name}`, kind: 'time', label: `${column.name} over t`, axes: ['t', column.name], bodies: [{ label: column.name, columns: [at] }] });
+    out.push({ id: `time-${column.name}`, kind: 'time', label: words.stage.views.time(partOf(column.name)), axes: ['t', column.name], bodies: [{ label: column.name, columns: [at] }] });
   if (out.length === 0)
     solution.columns.slice(0, CHOICES).forEach((name, at) => {
-      if (name !== 't') out.push({ id: `time-${name}`, kind: 'time', label: `${name} over t`, axes: ['t', name], bodies: [{ label: name, columns: [at] }] });
+      if (name !== 't') out.push({ id: `time-${name}`, kind: 'time', label: words.stage.views.time(nameText(name)), axes: ['t', name], bodies: [{ label: name, columns: [at] }] });
     });
   return out;
 }

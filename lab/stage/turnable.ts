@@ -3,6 +3,8 @@
  * Invariant: the wheel is never taken, and a finger that moves up or down scrolls the page (touch-action: pan-y); sideways it turns the picture.
  * While not enabled, the canvas behaves as any picture.
  */
+import { words } from '../words';
+
 export interface Turnable { enable(on: boolean): void }
 
 const PER_PIXEL = 0.008, PER_KEY = Math.PI / 24;
@@ -46,7 +48,7 @@ export function turnable(canvas: HTMLCanvasElement, move: (turn: number | null, 
       canvas.style.cursor = on ? 'grab' : '';
       if (on) {
         canvas.tabIndex = 0;
-        canvas.setAttribute('aria-roledescription', 'picture that can be turned: arrow keys, Home');
+        canvas.setAttribute('aria-roledescription', words.stage.turn);
       } else {
         canvas.removeAttribute('tabindex');
         canvas.removeAttribute('aria-roledescription');

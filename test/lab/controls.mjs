@@ -222,9 +222,9 @@ await attempt('a slider is dragged', async () => {
 await attempt('the pictures’ own controls', async () => {
   await example(page, 'projectile');
   const view = page.locator('#stage-view');
-  await view.selectOption({ label: 'r.y over t' });
+  await view.selectOption({ label: 'y against time' });
   await settled(page);
-  judge('Motion: view', (await summaryOf(page, 'Motion')).startsWith('r.y over time') && (await fields(page)).w === 'time', await summaryOf(page, 'Motion'));
+  judge('Motion: view', (await summaryOf(page, 'Motion')).startsWith('r.y against time') && (await fields(page)).w === 'time', await summaryOf(page, 'Motion'));
   await view.selectOption({ index: 0 });
   await settled(page);
   const time = figureOf(page, 'Against time');

@@ -70,7 +70,7 @@ async function way(browser) {
     await page.screenshot(join(shots, 'firefox-gallery.png'));
     await page.click('#gallery a.motion', 'Mass on a spring');
     judge('a card leads to its scene', await page.until(() => /[#&]p=spring(&|$)/.test(location.hash) && document.querySelector('#scene-title').textContent === 'Mass on a spring'));
-    judge('… which is drawn', await says(page, '#stage-figure figcaption', '^x over time'));
+    judge('… which is drawn', await says(page, '#stage-figure figcaption', '^x against time'));
     await page.screenshot(join(shots, 'firefox-spring.png'));
   });
   await attempt('a lesson', async () => {
@@ -91,7 +91,7 @@ async function way(browser) {
     await page.until(() => document.activeElement?.id === 'model-text');
     await page.press('Control+a');
     await page.type("theta'' = -sin(theta)\ntheta(0) = 2");
-    judge('its motion is shown', /from t = 0 to 25\b/.test(await says(page, '#stage-figure figcaption', '^theta over time, from t = 0 to 25')), await page.evaluate(caption));
+    judge('its motion is shown', /from t = 0 to 25\b/.test(await says(page, '#stage-figure figcaption', '^theta against time, from t = 0 to 25')), await page.evaluate(caption));
     same('nothing is complained about', await page.evaluate(() => document.querySelector('#model-problem').textContent), '');
     judge('it is typeset', await page.until(() => document.querySelector('.typeset .equation math mi')?.textContent === 'θ'));
     await page.screenshot(join(shots, 'firefox-own.png'));

@@ -20,7 +20,7 @@ const catalogue = answers.answer('catalogue', {});
 const folder = new URL('../../models/', import.meta.url);
 const textOf = name => readFileSync(new URL(`${name}.motus`, folder), 'utf8');
 const known = { models: readdirSync(folder).filter(name => name.endsWith('.motus')).map(name => name.slice(0, -6)), methods: catalogue.map(({ name }) => name) };
-const files = readdirSync(new URL('lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => ({ name, text: readFileSync(new URL(`lessons/${name}`, lab), 'utf8') }));
+const files = readdirSync(new URL('words/en/lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => ({ name, text: readFileSync(new URL(`words/en/lessons/${name}`, lab), 'utf8') }));
 const lessons = readLessons(files, known);
 
 /* The reader -------------------------------------------------------------------------------------------------------- */
@@ -73,7 +73,7 @@ const refused = (text, file = '1-a.txt') => {
 };
 
 test('a lesson is read as it stands', () => {
-  assert.deepEqual(readLesson('lab/lessons/12-my-own.txt', good, known), {
+  assert.deepEqual(readLesson('lab/words/en/lessons/12-my-own.txt', good, known), {
     id: 'my-own', title: 'Too high, too low',
     scene: { model: 'spring', set: { k: '4' }, methods: ['verlet', 'explicit-euler'], step: '0.1', until: '', view: ['time', 'phase'] },
     predict: {

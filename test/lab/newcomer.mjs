@@ -73,10 +73,10 @@ await attempt('an equation of one’s own', async () => {
   await page.locator('#model-text').focus();
   await page.keyboard.press('Control+a');
   await page.keyboard.type("theta'' = -sin(theta)\ntheta(0) = 2");
-  await shows(page, '#stage-figure figcaption', 'theta over time');
+  await shows(page, '#stage-figure figcaption', 'theta against time');
   await settled(page);
   told = await page.locator('#stage-figure figcaption').textContent();
-  judge('it swings', /theta over time, from t = 0 to 25\b/.test(told), told);
+  judge('it swings', /theta against time, from t = 0 to 25\b/.test(told), told);
   same('the step that was dragged for the ball is not the swing’s', await page.locator('#step').inputValue(), '0.14');
   same('nothing is complained about', await page.locator('#model-problem').textContent(), '');
   judge('what was not given is said', await page.locator('.supposed li').first().textContent().then((line) => line.includes("theta'(0) = 0")));
@@ -101,7 +101,7 @@ await attempt('a link', async () => {
   await settled(page);
   same('reload: the same numbers', await tableOf(page, 'Motion'), numbers);
   const other = await open(address);
-  await shows(other, '#stage-figure figcaption', 'theta over time');
+  await shows(other, '#stage-figure figcaption', 'theta against time');
   same('somebody else: the same picture in words', await other.locator('#stage-figure figcaption').textContent(), told);
   same('… and the same numbers', await tableOf(other, 'Motion'), numbers);
   await clean('somebody else', other);

@@ -8,14 +8,14 @@ import { fileURLToPath } from 'node:url';
 const lab = new URL('../../lab/', import.meta.url), need = createRequire(new URL('package.json', lab));
 const { buildSync } = need('esbuild');
 const built = buildSync({
-  stdin: { contents: `export * from './thumbs'; export * from './scenes'; export { Core } from './core'; export { Answers } from './answers'; export { stagings } from './stage/stagings';`, resolveDir: fileURLToPath(lab), loader: 'ts' },
+  stdin: { contents: `export * from './thumbs'; export * from './scenes'; export { Core } from './core'; export { Answers } from './answers'; export { stagings } from './stage/stagings'; export { words } from './words';`, resolveDir: fileURLToPath(lab), loader: 'ts' },
   bundle: true, format: 'esm', write: false, target: 'es2022', alias: { 'ml-matrix': fileURLToPath(new URL('node_modules/ml-matrix/src/index.js', lab)) },
 });
-const { scenes, themes, thumbnails, Core, Answers, stagings } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const { scenes, themes, thumbnails, Core, Answers, stagings, words } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 const module = new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)));
 const folder = new URL('../../models/', import.meta.url);
 const models = readdirSync(folder).filter(name => name.endsWith('.motus')).map(name => ({ name: name.slice(0, -6), text: readFileSync(new URL(name, folder), 'utf8') }));
-const lessonIds = readdirSync(new URL('lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => name.replace(/^\d+-|\.txt$/g, ''));
+const lessonIds = readdirSync(new URL('words/en/lessons/', lab)).filter(name => name.endsWith('.txt')).map(name => name.replace(/^\d+-|\.txt$/g, ''));
 const answers = new Answers(new Core(module));
 const textOf = name => models.find(model => model.name === name).text;
 const set = scene => Object.entries(scene.set ?? {}).map(([name, value]) => `${name}=${value}`);
@@ -24,8 +24,10 @@ test('every model has one scene, and every theme has some', () => {
   assert.deepEqual(scenes.map(scene => scene.model).sort(), models.map(model => model.name).sort());
   for (const theme of themes) assert.ok(scenes.some(scene => scene.theme === theme), theme);
   for (const scene of scenes) assert.ok(scene.theme === '' || themes.includes(scene.theme), scene.theme);
-  for (const key of ['title', 'question']) assert.equal(new Set(scenes.map(scene => scene[key])).size, scenes.length);
-  for (const scene of scenes) assert.match(scene.question, /^[A-Z].*\?$/);
+  assert.deepEqual(Object.keys(words.gallery.themes), themes);
+  assert.deepEqual(Object.keys(words.scenes).sort(), scenes.map(scene => scene.model).sort());
+  for (const key of ['title', 'question']) assert.equal(new Set(Object.values(words.scenes).map(said => said[key])).size, scenes.length);
+  for (const { question } of Object.values(words.scenes)) assert.match(question, /^[A-Z].*\?$/);
 });
 
 test('a scene’s numbers, methods and columns are its model’s', () => {
@@ -91,8 +93,12 @@ test('the stage’s sliders, frames and lessons are there', () => {
     }
     for (const column of (staging.rods ?? []).flat()) assert.ok(columns.some(c => c.name === column), `${name}: ${column}`);
     if (staging.switch) assert.ok(models.some(m => m.name === staging.switch.to), name);
-    if (staging.ask) assert.ok(lessonIds.includes(staging.ask.lesson), `${name}: ${staging.ask.lesson}`);
-    assert.ok(staging.words.length < 170 && settings.step !== null, name);
+    if (staging.ask) assert.ok(lessonIds.includes(staging.ask), `${name}: ${staging.ask}`);
+    // What is said of it is of what it has, and of all of it.
+    const { sentence, ask, dials = {}, switch: turn } = words.scenes[name];
+    assert.deepEqual(Object.keys(dials).sort(), (staging.dials ?? []).map(dial => (dial.part === undefined ? dial.name : `${dial.name}.${'xyz'[dial.part]}`)).sort(), name);
+    assert.deepEqual([ask !== undefined, turn !== undefined], [staging.ask !== undefined, staging.switch !== undefined], name);
+    assert.ok((typeof sentence === 'string' ? sentence : sentence('twelve')).length < 170 && settings.step !== null, name);
   }
-  for (const { model } of scenes) assert.ok(stagings[model], `${model} has no words`);
+  for (const { model } of scenes) assert.ok(stagings[model], `${model} has no place on the stage`);
 });

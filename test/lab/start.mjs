@@ -117,7 +117,7 @@ await attempt('motus lab', async () => {
   same('motus lab --no-open', [run.status, run.stderr], [0, '']);
   const page = await open(pathToFileURL(out).href);
   same('motus lab: the model is in the page', await page.locator('#model-text').inputValue(), readFileSync(join(root, 'models/pendulum.motus'), 'utf8'));
-  judge('motus lab: its motion is shown', /^Path|over time/.test(await summaryOf(page, 'Motion')));
+  judge('motus lab: its motion is shown', /^Path|against time/.test(await summaryOf(page, 'Motion')));
   await (await editorOf(page)).fill(`${await page.locator('#model-text').inputValue()}# mine\n`);
   await settled(page);
   await fields(page);

@@ -13,7 +13,7 @@ const load = async name => {
 };
 const { another, written } = await load('shell/write.ts');
 const { repairs, appended } = await load('shell/repair.ts');
-const { pieces, shifted } = await load('shell/words.ts');
+const { pieces, shifted } = await load('shell/kinds.ts');
 const { completion } = await load('shell/complete.ts');
 const { ownTitle } = await load('shell/title.ts');
 

@@ -1,8 +1,34 @@
-/* English. Each part of the page has its file. */
+/* English. Each part of the page has its file; page, computed, faults and html stand alone (../index.ts). */
+import { address } from './address';
+import { dock } from './dock';
+import { editor } from './editor';
+import { figure } from './figure';
 import { frame } from './frame';
-import { page } from './page';
+import { gallery } from './gallery';
+import { headline } from './headline';
+import { lecture } from './lecture';
+import { lesson } from './lesson';
+import { methods } from './methods';
+import { scenes } from './scenes';
+import { share } from './share';
+import { stage } from './stage';
+import { top } from './top';
+import { trouble } from './trouble';
 
 export const words = {
+  address,
+  dock,
+  editor,
+  figure,
   frame,
-  page,
+  gallery,
+  headline,
+  lecture,
+  lesson,
+  methods,
+  scenes,
+  share,
+  stage,
+  top,
+  trouble,
 } as const;

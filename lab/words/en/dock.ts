@@ -1,0 +1,36 @@
+/* The controls under the motion: shell/transport.ts, step.ts, dials.ts, sliders.ts, end.ts, pin.ts, dock.ts. */
+const steps = (count: number, text: string): string => `${text} ${count === 1 ? 'step' : 'steps'}`;
+
+export const dock = {
+  all: 'All values', oneStep: 'One step', closer: 'Look closer',
+  /** The clock; its keys are in brackets. */
+  clock: {
+    group: 'Time', play: 'Play (space)', pause: 'Pause (space)', time: 'Present time', speed: 'Speed of the animation',
+    back: 'One step back (left arrow)', forward: 'One step forward (right arrow)',
+    value: (time: string, end: string) => `t = ${time} of ${end}`,
+  },
+  step: {
+    /** Before the letter h. */
+    label: 'Step ', slider: 'Step h', field: 'Step h, as a number', reset: 'Step: back to the model’s', resetTitle: 'Back to the model’s step', suggested: 'suggested', steps,
+    /** What the slider says; unit, count: '' where they are not known. */
+    value: (step: string, unit: string, count: string) => `${step}${unit ? ` ${unit}` : ''}${count ? `, ${count} steps` : ''}`,
+    needed: (own: string) => (own ? `A step is needed; the model has ${own}.` : 'A step is needed.'),
+  },
+  end: {
+    label: 'End t', reset: 'End: back to the model’s',
+    needed: (own: string) => (own ? `An end is needed; the model has ${own}.` : 'An end is needed.'),
+  },
+  long: 'This is too long.',
+  sliders: {
+    parameters: 'Parameters', start: 'Start',
+    field: (name: string) => `${name}, as a number`, reset: (name: string) => `${name}: back to the model’s value`, resetTitle: 'Back to the model’s value',
+    many: (name: string, count: string) => `${name}: ${count} numbers`,
+    needed: (own: string) => `A number, please; the model has ${own}.`, number: 'A number, please, like 0.5 or 0,5. Expressions belong in the text of the model.',
+  },
+  pin: {
+    pin: 'Pin', title: 'Keep this run in the picture while you change things', label: 'Pin this run to compare with it',
+    pinned: (what: string) => `A: ${what} ×`, pinnedLabel: (what: string) => `Pinned run A: ${what}. Let it go`,
+    /** What the pinned run has that this one has not. */
+    same: 'as now', differs: (what: readonly string[]) => what.join(', '),
+  },
+} as const;

@@ -1,0 +1,32 @@
+/* What is wrong with the text of a lesson, for whoever writes one: lab/lessons/read.ts. Stands alone, as the page needs nothing of it. */
+export const faults = {
+  /** line: '' where it is the whole file. */
+  at: (file: string, line: string, what: string, hint: string) => `${file}${line ? `:${line}` : ''}: ${what}${hint ? ` (${hint})` : ''}`,
+  alike: (word: string) => `did you mean “${word}”?`, oneOf: (list: readonly string[]) => `one of ${list.join(', ')}`,
+  indented: 'an indented line belongs to the key above it, and there is none', exampleKey: 'lesson: Too high, too low',
+  noKey: (text: string) => `“${text}” is no “key: text”`, lines: 'lines that go on with a text are indented, comments start with #',
+  key: (key: string) => `there is no key “${key}”`, missing: (key: string) => `“${key}:” is missing`, empty: (key: string) => `“${key}:” is empty`,
+  again: (key: string, line: string) => `“${key}:” stands here a second time; it is in line ${line} already`,
+  no: {
+    method: (word: string) => `there is no method “${word}”`, methodHere: (word: string) => `there is no method in this lesson “${word}”`, view: (word: string) => `there is no view “${word}”`,
+    scene: (word: string) => `there is no scene “${word}”`, opened: (word: string) => `there is no place to open “${word}”`, place: (word: string) => `there is no place on a rail “${word}”`,
+    picture: (word: string) => `there is no close-up picture “${word}”`,
+  },
+  number: (key: string, text: string) => `${key} is a number above 0, not “${text}”`, exampleNumber: (key: string) => `${key} 0.1`,
+  surplus: (word: string) => `“${word}” is too much`, one: 'one condition a line',
+  onOff: 'a method is switched on or off', exampleOn: 'do: method symplectic-euler on',
+  whichSet: 'which number is to be changed is not said', exampleSet: 'do: set gamma',
+  condition: (text: string) => `“${text}” is no condition`, conditions: 'method NAME on, method NAME off, step H, until T, set NAME, opened step, scene NAME',
+  choices: 'a prediction has two choices or more', exampleChoice: 'right: Too high, and below it, indented, what is answered',
+  noneRight: 'none of the choices is right', exampleRight: 'right: in place of wrong:',
+  rail: (places: string, choices: string) => `the rail has ${places} places for ${choices} choices`, exampleRail: 'rail: explicit-euler r.y, above on below',
+  railSays: 'a rail says whose column is guessed, and where each choice is',
+  choiceWord: 'a choice needs the word of its button', exampleWord: 'right: Too high',
+  answer: (choice: string) => `what is answered to “${choice}” is missing`, below: 'it stands below, indented',
+  sets: (text: string) => `“${text}” sets nothing`, exampleSets: 'set: gamma = 0',
+  caption: 'a caption needs a picture', examplePicture: 'picture: old-new-speed',
+  why: 'the explanation is missing', belowTitle: 'it stands below its title, indented',
+  says: (text: string) => `“${text}” says nothing about a number`, exampleSays: 'number: 1.96 = miss(explicit-euler, r.y)',
+  file: 'a lesson’s file is named by its number and its address', exampleFile: '2-too-high.txt',
+  address: (id: string) => `another lesson has the address “${id}”`,
+} as const;

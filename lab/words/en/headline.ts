@@ -1,0 +1,10 @@
+/* The words on the stage: shell/headline.ts, presets.ts. */
+const numbers = ['no', 'one', 'two', 'three', 'four', 'five', 'six', 'seven', 'eight', 'nine', 'ten', 'eleven', 'twelve'];
+
+export const headline = {
+  own: 'Your own equation', type: 'Type your own', close: 'Close',
+  began: (title: string) => `It began as “${title}”. `, back: 'Back to the example',
+  aside: 'Your own text was put aside.', bring: 'Bring it back',
+  /** Up to twelve in words. */
+  counted: (count: number, text: string) => numbers[count] ?? text,
+} as const;

@@ -1,0 +1,124 @@
+/* What is said of each example, by the name of its model: of the numbers that belong to it see lab/scenes.ts and stage/stagings.ts. */
+import type { SceneWords } from '../scene';
+
+export const scenes: Readonly<Record<string, SceneWords>> = {
+  'thrown-ball': {
+    title: 'A thrown ball', question: 'Why do the two Eulers miss?',
+    sentence: (steps) => `Green is how it really flies. The others are a computer’s answers, ${steps} straight steps each.`,
+    ask: 'Why do the two Eulers miss?', dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways' }, switch: 'Air',
+  },
+  'projectile': {
+    title: 'Notebook, first example', question: 'Are sixty small steps enough?',
+    sentence: 'The first example of the notebook, with its numbers: after three seconds the Eulers are 0.7357 m above and below.',
+    ask: 'Are sixty small steps enough?', dials: { 'g.y': 'Gravity', m: 'Mass', "r'(0).y": 'Upwards' },
+  },
+  'projectile-drag': {
+    title: 'Ball in air', question: 'Where did the symmetry go?',
+    sentence: 'Thrown hard, a light ball goes up in a curve and comes down in a steeper one.',
+    ask: 'Where did the symmetry go?', dials: { m: 'Mass', c: 'Drag', "r'(0).y": 'Upwards' },
+  },
+  'spring': {
+    title: 'Mass on a spring', question: 'Why does the blue one stay?',
+    sentence: 'On the left against time, on the right how fast against how far. Both share one height.',
+    ask: 'Who gains energy, and why?', dials: { k: 'Stiffness', m: 'Mass', 'x(0)': 'Start' },
+  },
+  'damped-spring': {
+    title: 'Spring with friction', question: 'What does each swing lose?',
+    sentence: 'Each swing loses the same share of what is left. Give it a periodic push: it answers at the frequency of the push.',
+    ask: 'Can Verlet feel friction?', dials: { gamma: 'Friction', F: 'Push', omega: 'Its frequency' },
+  },
+  'pendulum': {
+    title: 'Pendulum', question: 'Why is a wide swing slower?',
+    sentence: 'Let go far from the vertical, it takes a third longer for a swing than a small one does.',
+    dials: { 'theta(0)': 'Start angle', "theta'(0)": 'Start speed' },
+  },
+  'resonance': {
+    title: 'Resonance', question: 'How far do small pushes go?',
+    sentence: 'A push of a fiftieth of a newton, always at the right moment.',
+    dials: { F: 'Push', k: 'Stiffness' },
+  },
+  'driven-oscillator': {
+    title: 'Driven, not quite linear', question: 'Why does it swell and fade?',
+    sentence: 'The second example of the notebook: a spring that softens, driven at the frequency of its small swings.',
+    dials: { F: 'Drive', 'x(0)': 'Start', "x'(0)": 'Start speed' },
+  },
+  'damped-cubic': {
+    title: 'Cubic spring, braked', question: 'Does friction spoil Verlet?',
+    sentence: 'The third example of the notebook: a spring that hardens, with friction, which Verlet solves for in closed form.',
+    ask: 'Can Verlet feel friction?', dials: { 'x(0)': 'Start', "x'(0)": 'Start speed' },
+  },
+  'van-der-pol': {
+    title: 'Van der Pol', question: 'Why do all starts end alike?',
+    sentence: 'It feeds itself while it is small and brakes while it is large, so every start ends on one curve.',
+    dials: { mu: 'Feeding', 'x(0)': 'Start', "x'(0)": 'Start speed' },
+  },
+  'kepler': {
+    title: 'Planet', question: 'Does the ellipse close?',
+    sentence: 'A planet and its sun. The ellipse should close, turn after turn.',
+    ask: 'Who keeps the energy?', dials: { e: 'Eccentricity', mu: 'Mass of the sun' },
+  },
+  'comet': {
+    title: 'Comet', question: 'What breaks close to the Sun?',
+    sentence: 'Halley’s comet: seventy-five years, and close to the Sun a few days that decide.',
+    dials: { e: 'Eccentricity' },
+  },
+  'arenstorf': {
+    title: 'Between Earth and Moon', question: 'How small an error loses it?',
+    sentence: 'A satellite between Earth and Moon, seen from a frame that turns with them. Its orbit closes, if it is computed well.',
+    dials: { 'x(0)': 'Start', "y'(0)": 'Start speed' },
+  },
+  'outer-solar-system': {
+    title: 'Outer planets', question: 'Where are they in 500 years?',
+    sentence: 'Jupiter, Saturn, Uranus, Neptune and Pluto, for five hundred years.',
+    dials: { G: 'Gravity' },
+  },
+  'three-body-figure-eight': {
+    title: 'Figure of eight', question: 'Can three bodies take turns?',
+    sentence: 'Three equal masses chase each other along one curve.',
+  },
+  'chain': {
+    title: 'Chain of springs', question: 'Where does the energy go?',
+    sentence: 'A chain of springs that stiffen, started in its longest wave. Green is its shape now.',
+    dials: { beta: 'Stiffening', A: 'Amplitude', N: 'Masses' },
+  },
+  'charged-particle': {
+    title: 'Charge in a magnet', question: 'Who keeps the circle round?',
+    sentence: 'A charge in a magnetic field: it can only turn. Boris’ method turns the velocity by a rotation.',
+    dials: { 'B.z': 'Field', 'E.x': 'Electric field', q: 'Charge' },
+  },
+  'crossed-fields': {
+    title: 'Crossed fields', question: 'Why does it drift sideways?',
+    sentence: 'An electron in an electric and a magnetic field at right angles: it drifts across both.',
+    dials: { B: 'Magnetic field', 'E.y': 'Electric field' },
+  },
+  'penning-trap': {
+    title: 'Penning trap', question: 'What holds it in?',
+    sentence: 'A fast circle, an oscillation along the axis, and a slow circle between them.',
+    dials: { wc: 'Magnetic field', wz: 'Electric field' },
+  },
+  'double-pendulum': {
+    title: 'Double pendulum', question: 'When do two starts part?',
+    sentence: 'Green is the lower of two masses. Two starts that differ by a hair part within seconds.',
+    dials: { 'θ1(0)': 'Upper angle', 'θ2(0)': 'Lower angle' },
+  },
+  'duffing': {
+    title: 'Duffing', question: 'Left or right next?',
+    sentence: 'Two valleys and a push. It hops between them, and nobody can say when.',
+    dials: { F: 'Push', d: 'Friction', 'x(0)': 'Start' },
+  },
+  'henon-heiles': {
+    title: 'Star in a galaxy', question: 'Where does order end?',
+    sentence: 'A star in the field of its galaxy. Below an energy of 1/12 its orbit is orderly, above 1/6 it may leave.',
+    dials: { "x'(0)": 'Sideways', 'y(0)': 'Start' },
+  },
+  'ueda': {
+    title: 'Ueda', question: 'Is there a pattern in it?',
+    sentence: 'A hard spring, driven. Its motion never repeats, and yet it keeps to a shape.',
+    dials: { B: 'Drive', k: 'Friction', 'x(0)': 'Start' },
+  },
+  'thrown-ball-air': {
+    title: 'A thrown ball, in air', question: 'Does the air shorten the throw?',
+    sentence: 'Air slows a light ball more than a heavy one. No formula is known for this flight: green is computed with steps so small that the line would not change.',
+    ask: 'Does midpoint still hit?', dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways', m: 'Mass' }, switch: 'Air',
+  },
+};

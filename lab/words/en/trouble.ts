@@ -1,0 +1,21 @@
+/* What is wrong with the state of the page: lab/state.ts, shell/status.ts. */
+export const trouble = {
+  tooLarge: (number: string) => `${number} is too large for a number.`,
+  noNumber: (text: string) => `“${text}” is no number.`,
+  untilStart: (time: string) => `The motion starts at ${time}: an end at the same time leaves nothing to compute.`,
+  untilNothing: (time: string) => `The motion starts and ends at ${time}: there is nothing to compute.`,
+  stepZero: 'With a step of zero, time would stand still: a number above 0.',
+  stepBackward: 'A step is a length of time, above 0. To run backward, set an end before the start.',
+  stepMany: (count: string) => `That makes ${count} steps; the page stops at 10 million. The program has no such limit.`,
+  stepLong: (span: string) => `The step is longer than the whole motion: one step of ${span} is taken.`,
+  noStep: 'The model names no step: type one, for example 0.01.', noUntil: 'The model names no end: type one, for example 10.',
+  methods: (names: readonly string[]) => `Not for this force: ${names.join(', ')}.`,
+  cancelled: 'The computation was stopped. The picture is the last one that was finished.',
+  computing: 'Computing …', cancel: 'Cancel',
+  last: 'The last motion that could be read.', model: 'The model has an error; see under its text.',
+  numbers: 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.',
+  /** One method that did not reach the end; all of them. */
+  method: (name: string, message: string) => `${name}: ${message}`, all: (sentences: readonly string[]) => sentences.join('. '),
+  /** What the core says, and what would be right, where it says that. */
+  hinted: (message: string, hint: string) => (hint ? `${message}: ${hint}` : message),
+} as const;

@@ -1,0 +1,12 @@
+/* What is said of one example; which they are, see en/scenes.ts. */
+export interface SceneWords {
+  readonly title: string; readonly question: string;
+  /** One or two sentences under the title; steps: how many the first method takes. */
+  readonly sentence: string | ((steps: string) => string);
+  /** The question that leads to a lesson. */
+  readonly ask?: string;
+  /** The sliders of the dock, by the name of their number: "k", "x(0)"; of a component "r'(0).y". */
+  readonly dials?: Readonly<Record<string, string>>;
+  /** The switch that goes to another example. */
+  readonly switch?: string;
+}
