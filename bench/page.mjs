@@ -56,8 +56,8 @@ function observe() {
   on('largest-contentful-paint', (e) => { seen.largest = e.startTime; });
   on('event', (e) => { if (e.interactionId) seen.event.push(e.duration); }, { durationThreshold: 16 });
 }
-const mark = (page, name) => page.evaluate((n) => performance.getEntriesByName(`motus: ${n}`)[0]?.startTime ?? NaN, name);
-const marked = (page, name, limit = 30000) => page.waitForFunction((n) => performance.getEntriesByName(`motus: ${n}`).length > 0, name, { polling: 20, timeout: limit }).then(() => mark(page, name), () => NaN);
+const mark = (page, name) => page.evaluate((n) => performance.getEntriesByName(`motus-${n}`)[0]?.startTime ?? NaN, name);
+const marked = (page, name, limit = 30000) => page.waitForFunction((n) => performance.getEntriesByName(`motus-${n}`).length > 0, name, { polling: 20, timeout: limit }).then(() => mark(page, name), () => NaN);
 
 /** What each picture shows: the event whose question was answered last before it was drawn. */
 function follow() {
@@ -140,7 +140,7 @@ async function start() {
     await page.addInitScript(observe);
     const run = async () => {
       await page.goto(singleFile);
-      found.drawn.push(await marked(page, 'first motion drawn'));
+      found.drawn.push(await marked(page, 'first-motion'));
       // It plays once by itself.
       await page.waitForTimeout(3000);
     };
@@ -153,7 +153,7 @@ async function start() {
       const seen = await page.evaluate(() => window.seen);
       found.first.push(seen.paint['first-contentful-paint'] ?? NaN);
       found.largest.push(seen.largest);
-      found.running.push(await mark(page, 'module running'));
+      found.running.push(await mark(page, 'module-running'));
       found.shift.push(seen.shift);
       found.long.push(seen.longtask.length);
       found.longest.push(Math.max(0, ...seen.longtask));
@@ -179,7 +179,7 @@ async function green() {
     const times = [];
     for (let i = 0; i < 3; i++) {
       const page = await open(`${singleFile}#v=1&p=${preset}`, { ...SIZE, settle: false });
-      times.push(await marked(page, 'exact motion drawn'));
+      times.push(await marked(page, 'exact-motion'));
       await page.context().close();
     }
     line(preset, times, 'ms', { most: 1000 });

@@ -97,7 +97,7 @@ class Line {
     if (!task || task.question.id !== message.id) return;
     window.clearTimeout(this.timer);
     this.running = null;
-    milestone('module running');
+    milestone('module-running');
     if ('problem' in message) task.reject(new Refused(message.problem));
     else task.resolve(message.answer);
     this.next();

@@ -45,7 +45,7 @@ const passed = new Set<string>();
 export function milestone(name: string): void {
   if (passed.has(name)) return;
   passed.add(name);
-  performance.mark(`motus: ${name}`);
+  performance.mark(`motus-${name}`);
 }
 
 let last = 0;

@@ -138,8 +138,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     // The build's picture has done its work.
     holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
     attach();
-    milestone('first motion drawn');
-    if (scene.solution.truth) milestone('exact motion drawn');
+    milestone('first-motion');
+    if (scene.solution.truth) milestone('exact-motion');
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
   let busy = false, again = false, finished = false;
