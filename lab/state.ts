@@ -50,6 +50,8 @@ const patience = { picture: 800, reference: 40, busy: 250, truth: 14, rest: 60, 
 type Wanted = 'none' | 'coarse' | 'reference';
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
 
+/** It took too long. */
+const late = (error: unknown): error is Refused => error instanceof Refused && error.problem.kind === 'limit';
 const failure = (message: string): Problem => problem('page', message);
 
 /** "newmark(1/4, 1/2)" is of the family newmark. */
@@ -219,7 +221,8 @@ export function createStore(client: Client, initial: State): LiveStore {
       if (moving && !atOnce && !first.truth) await settled(patience.rest);
       if (!atOnce && !first.truth && !waiting) {
         refining = true;
-        const { truth } = await solve(of, [], asked, moving ? rows.moving : rows.settled, 'coarse');
+        // Where even a draft takes too long, the reference may still be there in time.
+        const truth = await solve(of, [], asked, moving ? rows.moving : rows.settled, 'coarse').then((found) => found.truth, (error: unknown) => { if (late(error)) return null; throw error; });
         if (truth && !waiting) finish({ ...first, truth });
       }
       if (again) await settled(patience.settled);
@@ -229,7 +232,7 @@ export function createStore(client: Client, initial: State): LiveStore {
         finish(await solve(of, methods, asked, rows.settled, 'reference'));
       } catch (error) {
         // The picture stands; only what its errors are is not known, and why is told where they would be.
-        if (!(error instanceof Refused) || error.problem.kind !== 'limit' || !scene) throw error;
+        if (!late(error) || !scene) throw error;
         const { tracks, examined } = await solve(of, methods, asked, rows.settled, 'none');
         finish({ ...scene.solution, tracks, examined, problem: error.problem });
       }
