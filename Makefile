@@ -3,7 +3,7 @@
 # make lab          the page: build/lab/ for a server, build/lab/motus-lab.html for a double click
 # make test         every test; ends with "N passed, N failed"
 # make test-aarch64 every test program, compiled for aarch64 and run by qemu (make test does a part of it)
-# make bench        ratios to hand-written code and to other libraries; RESULTS=bench/results keeps them
+# make bench        ratios to hand-written code and to other libraries, and the page's times; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
 # make fuzz         the fuzzers for FUZZ_SECONDS (60)      make tidy   clang-tidy      make manual   doc/manual.md from the rows
 # make format       the layout of the C, by .clang-format
@@ -56,6 +56,7 @@ bench:
 	@$(CMAKE) --build build --target motus_program motus_bench
 	@mkdir -p $(RESULTS)
 	@build/bench/bench --save $(RESULTS)
+	@if command -v node >/dev/null 2>&1; then node bench/page.mjs --save $(RESULTS); else echo "The page is not measured: that needs node."; fi
 
 install: all
 	@$(CMAKE) --preset release -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) >build/configure.log

@@ -129,11 +129,13 @@ const spoken = (html) => html.replace(/\{\{(\w+)\}\}/g, (mark, name) => {
   return escaped(drawn.html[name]);
 });
 const template = put(put(spoken(await readFile(join(here, 'index.html'), 'utf8')), '<!-- picture -->', drawn.firstPictures(scene)), '<!-- words -->', words);
+const early = closed(await bundle('early.ts', 'iife', {}));
 const page = ({ script, element, connect, worker }) => {
-  const policy = ["default-src 'none'", `script-src ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
+  const policy = ["default-src 'none'", `script-src ${hash(early)} ${script} 'wasm-unsafe-eval'`, `style-src ${hash(style)}`, 'img-src data: blob:', 'font-src data:', `connect-src ${connect}`,
     `worker-src ${worker}`, "base-uri 'none'", "form-action 'none'"].join('; ');
   let html = put(template, '<!-- csp -->', `<meta http-equiv="Content-Security-Policy" content="${policy}">`);
   html = put(html, '<!-- style -->', `<style>${style}</style>`);
+  html = put(html, '<!-- early -->', `<script>${early}</script>`);
   return put(html, '<!-- script -->', element);
 };
 

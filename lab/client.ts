@@ -3,6 +3,7 @@
  * Invariant: each question is settled once: by an answer, by a problem, or by an AbortError. A worker that is busy with what nobody wants any more is
  * ended and replaced: the module imports nothing, so there is no other way to stop it.
  */
+import { milestone } from './dom';
 import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
 import { computed } from './words';
@@ -18,17 +19,25 @@ interface Task { readonly question: Question; readonly key: string; resolve(answ
 const LATE = 250;
 /** Longer than this no quick answer may take: a model of somebody else's must not hang the page. */
 const QUICK_LIMIT = 20_000;
+/** Milliseconds without a question, after which a worker is made ready for when the present one has to be ended. */
+const SPARE_AFTER = 1500;
 
 const tooLong = problem('limit', computed.slow(String(QUICK_LIMIT / 1000)), computed.nearer);
 
 class Line {
   private worker: Worker | null = null;
+  /** One that has the module already, as a start would be noticed while something is dragged. */
+  private spare: Worker | null = null;
+  private restocking = 0;
   private waiting: Task[] = [];
   private running: Task | null = null;
   private since = 0;
   private timer = 0;
 
   constructor(private readonly module: WebAssembly.Module, private readonly limit: number) {}
+
+  /** Before the first question, so that the worker starts while the page is put together. */
+  warm(): void { this.worker ??= this.open(); }
 
   add(task: Task): void {
     // A newer question of the same key makes older ones pointless.
@@ -62,15 +71,20 @@ class Line {
     window.clearTimeout(this.timer);
     this.running = null;
     this.worker?.terminate();
-    this.worker = null;
+    this.worker = this.spare;
+    this.spare = null;
     task?.reject(why);
     this.next();
   }
 
   private next(): void {
     if (this.running) return;
+    window.clearTimeout(this.restocking);
     const task = this.waiting.shift();
-    if (!task) return;
+    if (!task) {
+      if (this.limit !== Infinity) this.restocking = window.setTimeout(() => { this.spare ??= this.open(); }, SPARE_AFTER);
+      return;
+    }
     this.running = task;
     this.since = performance.now();
     if (this.limit !== Infinity) this.timer = window.setTimeout(() => this.stop(new Refused(tooLong)), this.limit);
@@ -83,6 +97,7 @@ class Line {
     if (!task || task.question.id !== message.id) return;
     window.clearTimeout(this.timer);
     this.running = null;
+    milestone('module-running');
     if ('problem' in message) task.reject(new Refused(message.problem));
     else task.resolve(message.answer);
     this.next();
@@ -92,7 +107,10 @@ class Line {
     const worker = createWorker();
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.settle(data);
     // A worker that cannot be started, or that broke down, leaves its question unanswered.
-    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', computed.worker(message), computed.model)));
+    worker.onerror = ({ message }) => {
+      if (worker === this.spare) this.spare = null;
+      else this.stop(new Refused(problem('memory', computed.worker(message), computed.model)));
+    };
     worker.postMessage(this.module);
     return worker;
   }
@@ -101,6 +119,7 @@ class Line {
 export async function createClient(): Promise<Client> {
   const module = await coreModule();
   const lanes: Record<Lane, Line> = { quick: new Line(module, QUICK_LIMIT), study: new Line(module, Infinity) };
+  lanes.quick.warm();
   let count = 0;
   return {
     ask<K extends Ask>(kind: K, ask: Requests[K]['ask'], options: { readonly lane?: Lane; readonly key?: string; readonly signal?: AbortSignal } = {}) {

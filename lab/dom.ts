@@ -40,6 +40,14 @@ export function say(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
+const passed = new Set<string>();
+/** A mark in the browser's own timeline, where bench/page.mjs reads it; the first of a name counts. */
+export function milestone(name: string): void {
+  if (passed.has(name)) return;
+  passed.add(name);
+  performance.mark(`motus-${name}`);
+}
+
 let last = 0;
 export const fresh = (stem: string): string => `${stem}-${++last}`;
 

@@ -11,6 +11,7 @@ import type { Track } from './protocol';
 import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
 import { closer } from './shell/closer';
+import { early } from './shell/early';
 import { stage as makeStage } from './stage/stage';
 import { stagingOf } from './stage/staging';
 import { forgetful, recall, remember } from './shell/memory';
@@ -45,12 +46,13 @@ function textEdge(): number {
 async function start(): Promise<void> {
   // Before the first picture, if the page stands in another.
   document.body.classList.toggle('embedded', /[#&]embed=1(&|$)/.test(location.hash));
-  const [client] = await Promise.all([createClient(), loadData()]);
+  const [client] = await Promise.all([createClient(), loadData()]), catchUp = early();
   const { state, problem } = startState(presets);
   if (state.embed) forgetful();
   const store = createStore(client, state);
   const motion = makeStage(store, { column: textEdge });
-  let late = 0, told = false;
+  // Whether one looks closer: kept, as the browser lays the page out to answer it.
+  let late = 0, told = false, away = scrollY > 40;
 
   const small = mini(() => clock), closely = closer(store, () => motion.sees(), (links) => small.links(links));
   const clock: Transport = transport({
@@ -62,6 +64,7 @@ async function start(): Promise<void> {
   const opened = openedPlace(store, clock, motion.shows);
   const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, () => { motion.redraw(); closely.redraw(); small.redraw(); opened.redraw(); });
   if (problem) toasts.say(problem);
+  const touched = catchUp();
   captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
   place('transport').append(clock.element);
@@ -80,12 +83,12 @@ async function start(): Promise<void> {
 
   /** On the first visit of this device the motion runs once by itself, unless somebody was quicker, or asked for less motion. */
   function gentle(): void {
-    if (store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
-    const touched = new AbortController(), { signal } = touched;
-    for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => touched.abort(), { capture: true, passive: true, signal });
+    if (touched || store.state.embed || recall('seen') !== null || matchMedia('(prefers-reduced-motion: reduce)').matches) return;
+    const hand = new AbortController(), { signal } = hand;
+    for (const kind of ['pointerdown', 'keydown', 'wheel', 'touchstart']) document.addEventListener(kind, () => hand.abort(), { capture: true, passive: true, signal });
     window.setTimeout(() => {
       if (signal.aborted || document.hidden) return;
-      touched.abort();
+      hand.abort();
       remember('seen', '1');
       if (!clock.playing()) clock.toggle();
     }, GENTLE);
@@ -104,11 +107,11 @@ async function start(): Promise<void> {
       late = 0;
       theory();
       const { scene } = store;
-      if (scene) closely.show(scene);
+      if (scene) { paper.show(scene); closely.show(scene); }
     };
-    if (scrollY > 40) act(); else late = window.setTimeout(act, LATER);
+    if (away) act(); else late = window.setTimeout(act, LATER);
   }
-  addEventListener('scroll', () => { if (late && scrollY > 40) below(); }, { passive: true });
+  addEventListener('scroll', () => { away = scrollY > 40; if (late && away) below(); }, { passive: true });
 
   function show(): void {
     const scene = store.scene;
@@ -119,7 +122,6 @@ async function start(): Promise<void> {
     nameExports(scene.state.preset || 'model');
     motion.show(scene);
     small.show(scene);
-    paper.show(scene);
     opened.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.

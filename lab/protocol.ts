@@ -105,12 +105,15 @@ export interface Solve {
   readonly rows: number;                                            // at most so many rows a track
   readonly truth: boolean;                                          // truth and errors as well: dearer where there is no exact motion
   readonly coarse?: boolean;                                        // the truth may be a coarse one, which is soon there; then without errors
+  readonly unexamined?: boolean;                                    // Track.singular may stay unknown, which costs as much as the methods do
 }
 export interface Solution {
   readonly description: Description; readonly columns: readonly string[];
   readonly tracks: readonly Track[]; readonly truth: Truth | null; readonly errors: readonly ErrorTrack[];
   /** Of the truth, if that failed. */
   readonly problem: Problem | null;
+  /** Whether Track.singular is known. */
+  readonly examined: boolean;
   readonly milliseconds: number;
 }
 

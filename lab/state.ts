@@ -45,11 +45,13 @@ export interface LiveStore extends Store {
 /* Of one motion, at most: while a slider moves, as many as a picture has pixels; then all that a picture can use. */
 const rows = { moving: 1000, settled: 6000 };
 /* Milliseconds. A picture that is late is finished nevertheless, or a drag would never show one; a reference that is late is not. */
-const patience = { picture: 800, reference: 40, busy: 250, truth: 14, settled: 160 };
+const patience = { picture: 800, reference: 40, busy: 250, truth: 14, rest: 60, settled: 160 };
 /* What is asked of the truth: nothing, a coarse one, or the reference with the errors of all methods. */
 type Wanted = 'none' | 'coarse' | 'reference';
 const well: Trouble = { model: null, run: null, step: '', until: '', methods: '', remark: '' };
 
+/** It took too long. */
+const late = (error: unknown): error is Refused => error instanceof Refused && error.problem.kind === 'limit';
 const failure = (message: string): Problem => problem('page', message);
 
 /** "newmark(1/4, 1/2)" is of the family newmark. */
@@ -139,11 +141,11 @@ export function createStore(client: Client, initial: State): LiveStore {
 
   const makeScene = (of: State, solution: Solution): Scene => ({ state: of, description: solution.description, solution, looks: looksOf(solution.tracks.map(t => t.method), catalogue), catalogue });
 
-  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, wanted: Wanted): Promise<Solution> {
+  async function solve(of: State, methods: readonly string[], how: { step: number | null; until: number | null }, count: number, wanted: Wanted, unexamined = false): Promise<Solution> {
     running ??= new AbortController();
     const set = Object.entries(of.set).map(([name, expression]) => `${name}=${expression}`);
     const solution = await client.ask('solve',
-      { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth: wanted !== 'none', coarse: wanted === 'coarse' }, { lane: 'quick', signal: running.signal });
+      { model: { text: of.text, set }, methods, ...how, columns: [], rows: count, truth: wanted !== 'none', coarse: wanted === 'coarse', unexamined }, { lane: 'quick', signal: running.signal });
     if (solution.truth) cost = { ...cost, [wanted === 'coarse' && solution.truth.coarse ? 'coarse' : 'reference']: solution.truth.milliseconds };
     return solution;
   }
@@ -210,25 +212,29 @@ export function createStore(client: Client, initial: State): LiveStore {
       const cheap = (milliseconds: number): boolean => milliseconds > 0 && milliseconds < patience.truth;
       const atOnce = model.has_exact || cheap(cost.reference);
       const moving = scene?.state.text === of.text;
-      const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce ? 'reference' : moving && cheap(cost.coarse) ? 'coarse' : 'none');
+      const first = await solve(of, methods, asked, moving ? rows.moving : rows.settled, atOnce ? 'reference' : moving && cheap(cost.coarse) ? 'coarse' : 'none', moving || !atOnce);
       finish(first);
       const thinned = moving && (first.tracks.some(t => t.every > 1) || (first.truth?.times.length ?? 0) > rows.moving);
-      if (atOnce && !thinned) return;
-      const again = moving && (cost.reference > 0 || thinned);
+      if (first.examined) return;
+      const again = moving && (atOnce || cost.reference > 0 || thinned);
+      // A draft takes longer than the hand needs to its next place.
+      if (moving && !atOnce && !first.truth) await settled(patience.rest);
       if (!atOnce && !first.truth && !waiting) {
         refining = true;
-        const { truth } = await solve(of, [], asked, moving ? rows.moving : rows.settled, 'coarse');
+        // Where even a draft takes too long, the reference may still be there in time.
+        const truth = await solve(of, [], asked, moving ? rows.moving : rows.settled, 'coarse').then((found) => found.truth, (error: unknown) => { if (late(error)) return null; throw error; });
         if (truth && !waiting) finish({ ...first, truth });
       }
-      if (again) await settled();
+      if (again) await settled(patience.settled);
       if (waiting) return;
       refining = true;
       try {
         finish(await solve(of, methods, asked, rows.settled, 'reference'));
       } catch (error) {
         // The picture stands; only what its errors are is not known, and why is told where they would be.
-        if (!(error instanceof Refused) || error.problem.kind !== 'limit' || !scene) throw error;
-        finish({ ...scene.solution, problem: error.problem });
+        if (!late(error) || !scene) throw error;
+        const { tracks, examined } = await solve(of, methods, asked, rows.settled, 'none');
+        finish({ ...scene.solution, tracks, examined, problem: error.problem });
       }
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
@@ -264,7 +270,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     setBusy(false);
   }
   /** A little while in which nothing changes, or the next change. */
-  const settled = (): Promise<void> => new Promise(done => { hurry = done; setTimeout(done, patience.settled); });
+  const settled = (milliseconds: number): Promise<void> => new Promise(done => { hurry = done; setTimeout(done, milliseconds); });
   const frame = (): Promise<void> => new Promise(done => { if (document.hidden) setTimeout(done, 0); else requestAnimationFrame(() => done()); });
 
   function ask(): void {

@@ -17,6 +17,7 @@ function buffers(value: unknown, found: Set<ArrayBuffer>): Set<ArrayBuffer> {
 self.onmessage = ({ data }: MessageEvent<WebAssembly.Module | Question>): void => {
   if (data instanceof WebAssembly.Module) {
     module = data;
+    answers = new Answers(new Core(module));
     return;
   }
   if (!module) return;

@@ -34,7 +34,7 @@ parts() {
 }
 page() { start "$1" 240 node "test/lab/$1.mjs"; }
 
-# Two at a time, since they mostly wait. Measurements of speed come last, alone.
+# Two at a time, since they mostly wait.
 together() {
     local name
     for name; do
@@ -46,10 +46,10 @@ together() {
 names=("$@")
 [ $# -gt 0 ] || names=(people sizes newcomer share away presets gallery panels studies opened controls stage own bits green start firefox parts clock speed)
 rm -f $logs/*.status
-# Films are encoded while they run, and speed is measured: these come last, one at a time.
+# Films are encoded while they run: these come last, alone.
 others=() alone=()
 for name in "${names[@]}"; do
-    case $name in away | speed) alone+=("$name") ;; *) others+=("$name") ;; esac
+    case $name in away) alone+=("$name") ;; *) others+=("$name") ;; esac
 done
 together "${others[@]}"
 for name in "${alone[@]}"; do together "$name"; done

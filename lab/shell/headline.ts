@@ -11,6 +11,7 @@ import { presetState } from '../share';
 import { words } from '../words';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
+import { fitPill } from './pill';
 import { described, presets, titleIn, titleOf } from './presets';
 import { settle } from './settle';
 import type { Toasts } from './toasts';
@@ -64,8 +65,7 @@ export function headline(store: LiveStore, toasts: Toasts, changed: () => void):
     typeset = source;
     const formula = source ? math(source) : null;
     pillMath.replaceChildren(...(formula ? [formula] : []));
-    // A long equation is read in the editor.
-    if (pillMath.scrollWidth > pillMath.clientWidth + 1 || pill.scrollWidth > pill.clientWidth + 1) pillMath.replaceChildren();
+    fitPill(pill);
   }
   store.subscribe((what) => {
     if (what === 'state' || what === 'scene') show();

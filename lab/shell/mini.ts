@@ -31,7 +31,8 @@ export function mini(clock: () => Transport): Mini {
   const bar = el('div', { class: 'mini', hidden: true }, play, canvas, el('p', {}, title, ' ', told), nav, back);
   place('mini').append(bar);
   back.addEventListener('click', (event) => { event.preventDefault(); scrollTo({ top: 0 }); clock().play.focus({ preventScroll: true }); });
-  let scene: Scene | null = null, time = 0, xy: Float64Array = new Float64Array(0), times: ArrayLike<number> = [];
+  // prepared: the scene whose curve is in xy.
+  let scene: Scene | null = null, prepared: Scene | null = null, time = 0, xy: Float64Array = new Float64Array(0), times: ArrayLike<number> = [];
 
   new IntersectionObserver((entries) => {
     const away = !(entries[entries.length - 1]?.isIntersecting ?? true);
@@ -42,6 +43,7 @@ export function mini(clock: () => Transport): Mini {
 
   /** The exact motion, or the first method's: its first two positions, or the first number against time. */
   function prepare(): void {
+    prepared = scene;
     if (!scene) return;
     const { solution, description } = scene, of = solution.truth ?? solution.tracks[0];
     const places = description.columns.filter((c) => c.kind === 'position' || c.kind === 'first-order').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
@@ -61,6 +63,7 @@ export function mini(clock: () => Transport): Mini {
   function draw(): void {
     const context = canvas.getContext('2d');
     if (!context || bar.hidden) return;
+    if (prepared !== scene) prepare();
     const { exact } = ink();
     context.setTransform(2, 0, 0, 2, 0, 0);
     context.clearRect(0, 0, WIDTH, HEIGHT);
@@ -78,7 +81,6 @@ export function mini(clock: () => Transport): Mini {
   return {
     show(next) {
       scene = next;
-      prepare();
       say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || words.headline.own);
       const track = next.solution.tracks[0];
       say(told, track ? texts.steps(`${short(track.step, 4)}${timeUnit(next) && `\u2009${timeUnit(next)}`}`, grouped(track.total)) : '');

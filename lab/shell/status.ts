@@ -16,14 +16,19 @@ function stopped(store: LiveStore): string {
 }
 
 export function status(store: LiveStore): HTMLElement {
-  const told = el('span', {}, ''), cancel = button(words.trouble.cancel, () => store.cancel(), { class: 'text-button', hidden: true });
-  const element = el('div', { class: 'status' }, el('p', { class: 'message', role: 'status' }, told), cancel);
+  const line = el('span', {}, ''), cancel = button(words.trouble.cancel, () => store.cancel(), { class: 'text-button', hidden: true });
+  const element = el('div', { class: 'status' }, el('p', { class: 'message', role: 'status' }, line), cancel);
+  let of = '', told = '';
   const show = (): void => {
     // What is drawn already, and only made finer, is not waited for.
     const busy = store.busy && (!store.scene?.solution.truth || store.scene.state.text !== store.state.text);
     element.classList.toggle('busy', busy);
     cancel.hidden = !busy;
-    say(told, busy ? words.trouble.computing : stopped(store));
+    // What was said of this model stays until its runs have been examined again.
+    const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.until;
+    if (!waits) told = stopped(store);
+    if (!busy) of = scene?.state.text ?? '';
+    say(line, busy ? words.trouble.computing : told);
   };
   store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
   return element;

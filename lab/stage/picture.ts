@@ -17,7 +17,7 @@ import { drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import type { Box, Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
-import { isOver, placeAt } from './rows';
+import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
 import { subjects, velocityColumn, type Subject } from './subject';
@@ -33,10 +33,12 @@ export interface Setting {
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
 export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
-  /** finished: nothing is to come, so what is to come need not be drawn. */
+  /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
   moving(pen: Pen, ink: Ink, time: number): void;
   ghost(pen: Pen, ink: Ink): void;
+  /** Whether all motions have come to their ends by then. */
+  over(time: number): boolean;
   readonly handle: Handle | null;
   /** Where the exact motion ends, in pixels. */
   readonly end: Point | null;
@@ -86,7 +88,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   // The ground of a throw runs on below the words; nothing else does.
   const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
-  const common = { solution, letters };
+  const common = { solution, letters, fine: place.fine };
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };
@@ -452,6 +454,7 @@ export function pictureOf(setting: Setting): Picture {
 
   return {
     still, moving, ghost, handle, leaving,
+    over: (time) => [...lines.map(({ track }) => track), ...(truth ? [truth] : [])].every(({ times }) => isDone(times, time)),
     end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
     remarks: () => lines.map((line) => {
       const { problem, times } = line.track;

@@ -15,6 +15,8 @@ export interface Place {
   /** Names stand in a column at the right; else at the curves, and only numbers at the right. */
   readonly names: boolean;
   readonly marker: number; readonly ball: number;
+  /** Axes lie where their numbers are, not in the middle of a pixel. */
+  readonly fine?: boolean;
 }
 
 /** width, height: of the stage; column: the right edge of the text that stands on it, 0 where the text stands above. page: the window; bare: nothing else stands

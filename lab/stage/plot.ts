@@ -28,7 +28,6 @@ export interface Plot {
 export type Style = 'ground' | 'plane' | 'time' | 'phase';
 export interface Axis { readonly name: string; readonly unit: string }
 const EMPTY = new Float64Array(0);
-const crisp = (p: number): number => Math.round(p) + 0.5;
 export const inside = (box: Box, x: number, y: number, more = 0): boolean => x >= box.left - more && x <= box.right + more && y >= box.top - more && y <= box.bottom + more;
 
 /** The largest frame of these proportions in a box; at its foot and its left on the ground, in its middle else. */
@@ -39,9 +38,10 @@ function fitted(box: Box, x: Range, y: Range, ground: boolean): Box {
   return { left, top, right: left + w, bottom: top + h };
 }
 
-export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly letters: number }
+export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly letters: number; readonly fine?: boolean }
 
-export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, letters }: Flat): Plot {
+export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, letters, fine }: Flat): Plot {
+  const crisp = (p: number): number => (fine ? p : Math.round(p) + 0.5);
   const x = bounds[0]!, y = bounds[1]!, frame = equal ? fitted(box, x, y, style === 'ground') : box;
   const size = 12 * letters, small = frame.right - frame.left < 480, count = Math.max(2, Math.round((frame.bottom - frame.top) / ((small ? 56 : style === 'ground' ? 118 : 64) * letters)));
   const up = scaleOf({ min: y[0], max: y[1], label: '' }, frame.bottom, frame.top, count);

@@ -30,6 +30,12 @@ export function valueAt(column: ArrayLike<number>, place: Place): number {
   return place.part === 1 ? b : a + (b - a) * place.part;
 }
 
+/** Whether nothing of it is to come. */
+export function isDone(times: ArrayLike<number>, t: number): boolean {
+  const n = times.length;
+  return n < 1 || (times[0]! <= times[n - 1]! ? t >= times[n - 1]! : t <= times[n - 1]!);
+}
+
 /** Whether a track that stopped early has nothing to show at t. */
 export function isOver(times: ArrayLike<number>, t: number): boolean {
   const n = times.length;

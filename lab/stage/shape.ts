@@ -34,7 +34,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
   const main = truth ?? lines[0]?.track, { box } = plot;
   const within = (pen: Pen, draw: () => void): void => pen.clip(box.left - 1, box.top - 6, box.right - box.left + 8, box.bottom - box.top + 12, draw);
   return {
-    handle: null, end: null, leaving: [], remarks: () => [],
+    handle: null, end: null, leaving: [], remarks: () => [], over: () => false,
     still(pen, ink) {
       plot.draw(pen, ink);
       before?.ghost(pen, ink);

@@ -4,7 +4,7 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { exampleOf } from '../data';
-import { button, el, say } from '../dom';
+import { button, el, milestone, say } from '../dom';
 import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
 import { brief } from '../figure/number';
@@ -137,14 +137,17 @@ export function stage(store: Store, room: { column(): number }): Stage {
     bounds ??= boundsFor(scene, subject, staging(), showAll, null);
     if (!picture) make(bounds);
     if (!picture) return;
-    onto(still, (pen, i) => picture!.still(pen, i));
+    finished = picture.over(time);
+    onto(still, (pen, i) => picture!.still(pen, i, finished));
     drawMoving();
     // The build's picture has done its work.
     holder.querySelectorAll(':scope > svg').forEach((svg) => svg.remove());
     attach();
+    milestone('first-motion');
+    if (scene.solution.truth) milestone('exact-motion');
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
-  let busy = false, again = false;
+  let busy = false, again = false, finished = false;
   function drawMoving(): void {
     if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
   }
@@ -390,7 +393,12 @@ export function stage(store: Store, room: { column(): number }): Stage {
 
   return {
     id: 'motion', title: words.stage.motion, element, choice, show, save, film: record,
-    at(now) { if (now !== time) { time = now; redrawMoving(); } },
+    at(now) {
+      if (now === time) return;
+      time = now;
+      // What is to come is drawn with what keeps still, unless nothing is.
+      if (picture && picture.over(now) !== finished) { dirty = true; draw(); } else redrawMoving();
+    },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
     shows: () => (subject?.bodies[0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? ''),

@@ -15,7 +15,7 @@ export const root = fileURLToPath(new URL('../../', import.meta.url));
 export const built = join(root, 'build/lab');
 export const program = resolve(process.env.MOTUS ?? join(root, 'build/motus'));
 const need = createRequire(join(root, 'lab/package.json'));
-const { chromium } = need('playwright-core');
+export const { chromium } = need('playwright-core');
 
 export const singleFile = pathToFileURL(join(built, 'motus-lab.html')).href;
 export const place = mkdtempSync(join(tmpdir(), 'motus-page-'));
@@ -39,7 +39,7 @@ export async function attempt(name, work) {
   }
 }
 
-function browserPath() {
+export function browserPath() {
   const names = [process.env.CHROMIUM, 'chromium', 'chromium-browser', 'google-chrome'].filter(Boolean);
   for (const name of names) {
     const found = name.includes('/') ? (existsSync(name) ? name : '') : spawnSync('sh', ['-c', `command -v ${name}`], { encoding: 'utf8' }).stdout.trim();
@@ -114,6 +114,21 @@ export async function open(address = singleFile, options = {}) {
   await page.goto(address);
   if (settle) await settled(page);
   return page;
+}
+
+/** A page as it is before its script has come; that comes with `start`. */
+export async function held(address, options = {}) {
+  let release;
+  const gate = new Promise((done) => { release = done; });
+  const page = await open('about:blank', { ...options, settle: false, before: () => {
+    const text = Response.prototype.text;
+    Response.prototype.text = async function () { await window.held; return text.call(this); };
+    window.held = new Promise((done) => { window.letGo = done; });
+  } });
+  await page.route('**/main.js', async (route) => { await gate; await route.continue(); });
+  await page.goto(address, { waitUntil: 'commit' });
+  await page.locator('#words .pill').waitFor();
+  return { page, start: async () => { release(); await page.evaluate(() => window.letGo()); await settled(page); } };
 }
 
 /** Waits until the workers have owed nothing for a while, and what they answered is drawn. */

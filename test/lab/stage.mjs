@@ -1,7 +1,7 @@
 /* The stage: the first picture before any script, what fills the screen at each size, that nothing moves when it should not, frames that hold still, names and
  * brackets with the program's numbers, runaways, ghosts, undo, pinned runs.
  */
-import { attempt, clean, example, fields, finish, judge, launch, motus, open, same, saved, settled, singleFile } from './help.mjs';
+import { attempt, clean, example, fields, finish, held, judge, launch, motus, open, same, saved, settled, singleFile } from './help.mjs';
 
 /** All texts of the picture, and its paths, as its SVG has them. */
 async function drawn(page) {
@@ -17,7 +17,7 @@ const time = async (page) => (await page.locator('.transport-now').textContent()
 
 // --- before any script --------------------------------------------------------------------------------------------------------------------
 await attempt('without scripts', async () => {
-  for (const [name, width, height] of [['desk', 1280, 800], ['wide', 1920, 1080], ['desk', 820, 1180], ['phone', 390, 844], ['landscape', 844, 390]]) {
+  for (const [name, width, height] of [['desk', 1280, 800], ['wide', 1920, 1080], ['tablet', 820, 1180], ['phone', 390, 844], ['landscape', 844, 390]]) {
     const context = await (await launch()).newContext({ viewport: { width, height }, javaScriptEnabled: false }), page = await context.newPage();
     await page.goto(singleFile);
     const seen = await page.locator('#stage-picture > svg').evaluateAll((all) => all.filter((s) => getComputedStyle(s).display !== 'none').map((s) => s.getAttribute('class'))).catch(() => null);
@@ -27,6 +27,22 @@ await attempt('without scripts', async () => {
     judge(`${name}: with the misses`, /1\.96/.test(await svg.textContent()) && /too high/.test(await svg.textContent()));
     judge(`${name}: the words are there`, await page.locator('#scene-title').textContent() === 'A thrown ball');
     await context.close();
+  }
+});
+
+// --- the build's picture and the module's ------------------------------------------------------------------------------------------------
+await attempt('the first picture', async () => {
+  for (const [width, height] of [[320, 640], [412, 915], [932, 430], [768, 1024], [1024, 768], [1366, 650], [1440, 900], [1800, 900], [2560, 1440]]) {
+    const { page, start } = await held(singleFile, { width, height, calm: true });
+    await page.locator('#stage-picture > .first:visible').waitFor();
+    const places = () => page.evaluate(() => ['#stage-picture', '#words', '#words .pill'].map((s) => document.querySelector(s).getBoundingClientRect()).map((b) => [b.x, b.y, b.width, b.height].map(Math.round)));
+    const before = await places(), circles = await page.locator('#stage-picture > .first:visible circle').evaluateAll((all) => all.map((c) => { const b = c.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }));
+    await start();
+    same(`${width} × ${height}: nothing moves when the module takes over`, await places(), before);
+    const ring = await page.locator('.stage-aim:not(.stage-ring)').boundingBox(), zoom = ring.width / 44, x = ring.x + 22 * zoom, y = ring.y + 22 * zoom;
+    const off = Math.min(...circles.map(([cx, cy]) => Math.hypot(cx - x, cy - y)));
+    judge(`${width} × ${height}: the ring of the throw was drawn where it is`, off < 1, off);
+    await clean(`the first picture at ${width} × ${height}`, page);
   }
 });
 

@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, editorOf, fields, finish, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, numbersOf, tableOf } from './help.mjs';
+import { attempt, built, clean, editorOf, fields, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, numbersOf, tableOf } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -84,6 +84,29 @@ for (const [name, missing] of [['packed', 'DecompressionStream'], ['compiled', '
     judge(`without ${missing} the page says that it cannot start, and what it needs`, said.includes('could not start') && said.includes(missing), said);
     judge(`without ${missing} the first picture is there`, await page.locator('#stage-picture svg').first().isVisible());
     await page.close();
+  });
+}
+
+// --- before it has started ------------------------------------------------------------------------------------------------------------
+for (const [name, url] of [['from disk', singleFile], ['from a server', address]]) {
+  for (const [what, selector, done] of [['the question', '.ask-button', '.lesson'], ['the equation', '.pill', '#model-text']]) {
+    await attempt(`a click on ${what} before the start, ${name}`, async () => {
+      const { page, start } = await held(url);
+      await page.locator(`#words ${selector}`).click();
+      const before = await page.locator(done).count();
+      await start();
+      judge(`a click on ${what} before the start is done afterwards, ${name}`, before === 0 && await page.locator(done).first().isVisible(), before);
+      await clean(`a click on ${what}, ${name}`, page);
+    });
+  }
+  await attempt(`nothing clicked, ${name}`, async () => {
+    const { page, start } = await held(`${url}#v=1&p=spring`);
+    await page.locator('#words .ask-button').click();
+    await page.locator('#words .pill').focus();
+    await start();
+    judge(`what had the focus has it still, ${name}`, await page.locator('#words .pill').evaluate((pill) => pill === document.activeElement));
+    same(`a question that the page no longer asks is not answered, ${name}`, [await page.locator('#scene-title').textContent(), await page.locator('.lesson').first().isVisible()], ['Mass on a spring', false]);
+    await clean(`another scene, ${name}`, page);
   });
 }
 
