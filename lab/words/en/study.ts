@@ -103,7 +103,6 @@ export const study = {
     rateless: 'Nothing here swings, fades or grows at a rate of its own: no step is too large.',
     grows: (time: string) => `Nothing swings here, the motion itself grows, by the factor e in ${time}: no step runs away from it.`,
     noRates: (why: string) => `The motion could not be linearised: ${why}.`,
-    onlyExact: 'The exact motion takes no steps.',
     /** What goes before the list of limits. */
     fastest: (at: string) => `where it is fastest, near ${at}, `,
     swing: 'for its fastest swing, ',
@@ -125,6 +124,8 @@ export const study = {
     unknownLabel: (name: string) => `${name}: not judged by a rate`,
     axis: 'step × frequency',
     stepAxis: 'step h',
+    across: 'Re hλ',
+    up: 'Im hλ',
     whole: 'The whole plane',
     bars: 'The bars',
     /** For those who do not see the bars, and above the numbers. */
@@ -134,7 +135,6 @@ export const study = {
     linear: (count: string) => `The frequencies are those of the motion linearised at ${count} moments of the run: where they change, the bar is what they allow at those moments, no promise for all between.`,
     own: 'Where the motion itself grows, that is no fault of a method, and is left out here.',
     friction: 'Each rate is taken as that of a single spring with friction.',
-    planeOf: (name: string) => `The plane of hλ for ${name}.`,
     shaded: 'shaded: a step makes the motion grow',
     noGrowth: 'no growth',
     growth: 'growth',
@@ -145,7 +145,6 @@ export const study = {
     border: (where: string) => `No growth: ${where} lies on the boundary, as it should for swinging without friction.`,
     damps: (name: string, growth: string, where: string) => `All points are inside. ${name} itself damps: it multiplies by ${growth} a step at ${where}, where nothing is lost in truth.`,
     within: (growth: string, where: string, exact: string) => `All points are inside; largest growth per step ${growth}, at ${where}, where the exact motion has ${exact}.`,
-    right: 'Points to the right of the axis: there the motion itself grows, whatever the method.',
     columns: ['time', 'Re λ', 'Im λ', 'Re hλ', 'Im hλ', 'growth per step'],
     note: (name: string, step: string) => `Growth by ${name}, h = ${step}. Of each pair of conjugate rates the upper one is listed.`,
   },
