@@ -92,7 +92,7 @@ export interface Compared { readonly element: HTMLElement; want(scene: Scene): v
 /** The table behind a line that opens it. */
 export function comparedDetails(store: Store): Compared {
   const compared = new Study(store, 'compare', words.study.compare, true), side = comparison();
-  const details = element('details', { class: 'figure-data figure-more' }, element('summary', {}, say.open), studyBar(compared), side.element);
+  const details = element('details', { class: 'figure-more' }, element('summary', {}, say.open), studyBar(compared), side.element);
   let scene: Scene | null = null;
   function update(): void {
     const found = compared.answer;

@@ -38,7 +38,7 @@ export class PlanePicture {
   /** limit: of step times frequency, as the catalogue has it. */
   draw(pen: Pen, ink: Ink, plane: Plane, rates: readonly Rate[], h: number, colour: string, limit: number): void {
     const { half, full } = plane;
-    const f = this.frame = axes(pen, ink, { min: -1.3 * half, max: 0.7 * half, label: say.real }, { min: -1.08 * half, max: 1.08 * half, label: say.imaginary }, { equal: true });
+    const f = this.frame = axes(pen, ink, { min: -1.3 * half, max: 0.7 * half, label: say.across }, { min: -1.08 * half, max: 1.08 * half, label: say.up }, { equal: true });
     const px = (re: number): number => f.x(re), py = (im: number): number => f.y(im);
     pen.clip(f.left, f.top, f.width, f.height, () => {
       if (full) {

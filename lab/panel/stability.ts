@@ -220,6 +220,7 @@ export const stability: PanelMaker = (store): Panel => {
     if (!motion.steady) parts.push(say.linear(String(motion.moments)));
     if (!swinging() && motion.springs) parts.push(say.friction);
     if (motion.growing) parts.push(say.own);
+    if (whole && plane && !plane.full) parts.push(say.axisOnly(methods()[0]!.label));
     if (boris()) parts.push(say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3)));
     else parts.push(grown());
     return minus(parts.filter(Boolean).join(' '));

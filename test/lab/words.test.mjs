@@ -101,8 +101,8 @@ const EXCEPTIONS = [
   [/./, /^(?:PNG|SVG|CSV|WebM)$/],
   // The lines of a C program.
   [/^program\.ts$/, /^\/\* cc |^static const |^    definition\./],
-  // Colours of a style.
-  [/./, /^color-mix\(/],
+  // A colour.
+  [/^panel\/planepicture\.ts$/, /^color-mix\(/],
   // Names of fonts.
   [/^figure\/shapes\.ts$/, /"Segoe UI"/],
   // What the build says when it fails.
