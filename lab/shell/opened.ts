@@ -14,6 +14,7 @@ import type { Scene } from '../scene';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
 import { words } from '../words';
+import { lecturing } from './lecture';
 import { short } from './number';
 import { foot as makeFoot } from './opened-foot';
 import { titleIn } from './presets';
@@ -89,7 +90,7 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
     const begin = track?.times[0] ?? 0, h = track ? track.step * Math.sign((track.times[track.times.length - 1] ?? begin) - begin || 1) : 1, decimals = timeDecimals(h), t = (k: number): string => timeText(begin + k * h, decimals) + unit;
     say(about, scene && track ? told.scene(titleIn(scene.state), short(track.step, 4) + unit) : '');
     say(counter, told.step(grouped(index + 1), grouped(total)));
-    counter.style.minWidth = `${told.step(grouped(total), grouped(total)).length}ch`;
+    counter.style.minWidth = `${0.56 * told.step(grouped(total), grouped(total)).length}em`;
     earlier.disabled = index === 0;
     later.disabled = index >= total - 1;
     foot.at(index, total, told.stepSpoken(grouped(index + 1), grouped(total), t(index), t(index + 1)));
@@ -194,6 +195,11 @@ export function openedPlace(store: LiveStore, clock: Clock, shows: () => readonl
         break;
       case 'ArrowLeft': case 'ArrowRight': go(index + (key === 'ArrowRight' ? 1 : -1)); break;
       case 'ArrowUp': case 'ArrowDown': run(false); on(key === 'ArrowDown' ? 1 : -1); break;
+      case 'PageUp': case 'PageDown':
+        if (!lecturing()) return;
+        run(false);
+        on(key === 'PageDown' ? 1 : -1);
+        break;
       case 'Home': case 'End': go(key === 'Home' ? 0 : total - 1); break;
       default: return;
     }

@@ -280,7 +280,7 @@ await attempt('out of the ordinary', async () => {
   await clean('blown', blown);
 
   const wrong = await open(own("x'' = -foo x\nx(0) = 1\n"), { height: 800, calm: true, settle: false });
-  await wrong.waitForFunction(() => /cannot be computed/.test(document.querySelector('#opened .message').textContent));
+  await wrong.waitForFunction(() => /cannot be computed/.test(document.querySelector('#opened .message')?.textContent ?? ''));
   judge('an equation with an error: a sentence, and no column', await wrong.locator('.opened-column').count() === 0);
   await wrong.keyboard.press('Escape');
   await wrong.waitForFunction(() => document.querySelector('#stage').checkVisibility());
