@@ -270,7 +270,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     setBusy(false);
   }
   /** A little while in which nothing changes, or the next change. */
-  const settled = (milliseconds: number): Promise<void> => new Promise(done => { hurry = done; setTimeout(done, milliseconds); });
+  const settled = (milliseconds: number): Promise<void> => new Promise(done => { hurry = done; if (waiting) done(); else setTimeout(done, milliseconds); });
   const frame = (): Promise<void> => new Promise(done => { if (document.hidden) setTimeout(done, 0); else requestAnimationFrame(() => done()); });
 
   function ask(): void {
