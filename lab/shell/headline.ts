@@ -14,13 +14,14 @@ import { editor } from './editor';
 import { fitPill } from './pill';
 import { described, presets, titleIn, titleOf } from './presets';
 import { settle } from './settle';
+import type { Sees } from '../stage/stage';
 import type { Toasts } from './toasts';
 import { math, typesetView } from './typeset';
 
 export interface Headline { readonly element: HTMLElement; openEditor(open: boolean): void; readonly editing: () => boolean }
 
-/** lesson: opens a lesson by its number, where there is one. */
-export function headline(store: LiveStore, toasts: Toasts, changed: () => void): Headline {
+/** sees: what the stage shows; changed: its room is another one. */
+export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, changed: () => void): Headline {
   const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
   const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' }, ...document.querySelectorAll('#words .pill-math > *'));
   const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, words.headline.type));
@@ -43,16 +44,18 @@ export function headline(store: LiveStore, toasts: Toasts, changed: () => void):
     if (now) own.querySelector('textarea')?.focus({ preventScroll: innerWidth >= 768 }); else pill.focus({ preventScroll: true });
   }
 
-  let shown = '', typeset = '';
+  let shown = '', typeset = '', opened = false;
   function show(): void {
     const { preset, text } = store.state, name = exampleOf(store.state), altered = name === '';
-    const steps = store.scene?.solution.tracks[0]?.total ?? 0, key = `${preset} ${name === '' ? text : ''} ${steps}`;
+    const steps = store.scene?.solution.tracks[0]?.total ?? 0, { set, step, until } = store.state, moved = Boolean(Object.keys(set).length || step || until);
+    const alone = store.scene !== null && sees().side !== 'phase', key = `${preset} ${name === '' ? text : ''} ${steps} ${moved} ${alone}`;
     if (key === shown) return;
     shown = key;
-    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.ask ?? '', about = said?.sentence ?? '';
+    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.ask ?? '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
     say(title, titleIn(store.state));
     document.title = words.top.title(title.textContent ?? '');
-    say(sentence, name === '' ? '' : (typeof about === 'string' ? about : about(words.headline.counted(steps, grouped(steps)))) || described(text));
+    // Nothing is told of steps before they are made.
+    say(sentence, name === '' ? '' : (typeof about === 'string' ? about : steps ? about(words.headline.counted(steps, grouped(steps))) : sentence.textContent) || described(text));
     sentence.hidden = sentence.textContent === '';
     ask.replaceChildren(...(lesson ? [button(question, () => element.dispatchEvent(new CustomEvent('lesson', { detail: lesson, bubbles: true })), { class: 'ask-button' },
       el('span', {}, question), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
@@ -67,8 +70,11 @@ export function headline(store: LiveStore, toasts: Toasts, changed: () => void):
     pillMath.replaceChildren(...(formula ? [formula] : []));
     fitPill(pill);
   }
+  addEventListener('resize', show);
   store.subscribe((what) => {
     if (what === 'state' || what === 'scene') show();
+    // A text that could not be read from the beginning is what one has to see.
+    if (store.trouble.model && !store.scene && !opened) { opened = true; pillMath.replaceChildren(); openEditor(true); }
     if (what === 'description' || what === 'scene') equation();
   });
   show();

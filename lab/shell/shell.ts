@@ -28,7 +28,7 @@ import { headline } from './headline';
 /** themeChanged: colours differ now; the scene's looks are new already. */
 export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
-  const said = headline(store, toasts, () => stage.relayout());
+  const said = headline(store, toasts, () => stage.sees(), () => stage.relayout());
   const lesson = lessonPlace(store, stage, clock);
   const galleryPlace = place('gallery');
   let gallery: HTMLElement | null = null;

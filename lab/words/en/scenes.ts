@@ -10,31 +10,36 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'projectile': {
     title: 'Notebook, first example', question: 'Are sixty small steps enough?',
     sentence: 'The first example of the notebook, with its numbers: after three seconds the Eulers are 0.7357 m above and below.',
+    moved: 'The first example of the notebook, with other numbers.',
     ask: 'Are sixty small steps enough?', dials: { 'g.y': 'Gravity', m: 'Mass', "r'(0).y": 'Upwards' },
   },
   'projectile-drag': {
     title: 'Ball in air', question: 'Where did the symmetry go?',
-    sentence: 'Thrown hard, a light ball goes up in a curve and comes down in a steeper one.',
+    sentence: 'Thrown hard, a light ball loses its speed to the air: the way up is long and flat, the way down is short and steep.',
     ask: 'Where did the symmetry go?', dials: { m: 'Mass', c: 'Drag', "r'(0).y": 'Upwards' },
   },
   'spring': {
     title: 'Mass on a spring', question: 'Why does the blue one stay?',
     sentence: 'On the left against time, on the right how fast against how far. Both share one height.',
+    alone: 'How far it is, against time.',
     ask: 'Who gains energy, and why?', dials: { k: 'Stiffness', m: 'Mass', 'x(0)': 'Start' },
   },
   'damped-spring': {
     title: 'Spring with friction', question: 'What does each swing lose?',
     sentence: 'Each swing loses the same share of what is left. Give it a periodic push: it answers at the frequency of the push.',
+    moved: 'With friction each free swing loses the same share of what is left; pushed, it comes to answer at the frequency of the push.',
     ask: 'Can Verlet feel friction?', dials: { gamma: 'Friction', F: 'Push', omega: 'Its frequency' },
   },
   'pendulum': {
     title: 'Pendulum', question: 'Why is a wide swing slower?',
     sentence: 'Let go far from the vertical, it takes a third longer for a swing than a small one does.',
+    moved: 'The wider it swings, the longer a swing takes.',
     dials: { 'theta(0)': 'Start angle', "theta'(0)": 'Start speed' },
   },
   'resonance': {
     title: 'Resonance', question: 'How far do small pushes go?',
     sentence: 'A push of a fiftieth of a newton, always at the right moment.',
+    moved: 'A small push, again and again. At the right moments the swing grows with each one.',
     dials: { F: 'Push', k: 'Stiffness' },
   },
   'driven-oscillator': {
@@ -60,11 +65,13 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'comet': {
     title: 'Comet', question: 'What breaks close to the Sun?',
     sentence: 'Halley’s comet: seventy-five years, and close to the Sun a few days that decide.',
+    moved: 'An orbit around the Sun. The longer it is, the more its days close to the Sun decide.',
     dials: { e: 'Eccentricity' },
   },
   'arenstorf': {
     title: 'Between Earth and Moon', question: 'How small an error loses it?',
     sentence: 'A satellite between Earth and Moon, seen from a frame that turns with them. Its orbit closes, if it is computed well.',
+    moved: 'A satellite between Earth and Moon, seen from a frame that turns with them. From another start its orbit need not close.',
     dials: { 'x(0)': 'Start', "y'(0)": 'Start speed' },
   },
   'outer-solar-system': {
@@ -94,6 +101,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'penning-trap': {
     title: 'Penning trap', question: 'What holds it in?',
     sentence: 'A fast circle, an oscillation along the axis, and a slow circle between them.',
+    moved: 'In a strong enough magnetic field: a fast circle, an oscillation along the axis, and a slow circle between them.',
     dials: { wc: 'Magnetic field', wz: 'Electric field' },
   },
   'double-pendulum': {
@@ -104,6 +112,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'duffing': {
     title: 'Duffing', question: 'Left or right next?',
     sentence: 'Two valleys and a push. It hops between them, and nobody can say when.',
+    moved: 'Two valleys and a push. With enough of it the mass hops between them.',
     dials: { F: 'Push', d: 'Friction', 'x(0)': 'Start' },
   },
   'henon-heiles': {
@@ -114,6 +123,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'ueda': {
     title: 'Ueda', question: 'Is there a pattern in it?',
     sentence: 'A hard spring, driven. Its motion never repeats, and yet it keeps to a shape.',
+    moved: 'A hard spring, driven. Its motion may never repeat, and yet keep to a shape.',
     dials: { B: 'Drive', k: 'Friction', 'x(0)': 'Start' },
   },
   'thrown-ball-air': {
