@@ -24,6 +24,9 @@ export interface Closer {
 /** A question that is there: its short name, and the way to it. */
 export interface Link { readonly title: string; go(): void }
 
+/** Milliseconds after the last change of the window's size. */
+const RESIZED = 200;
+
 /** One panel that fails is told of, and does not stop the others. */
 function guarded(act: () => void): void {
   try { act(); } catch (error) { reportError(error); }
@@ -83,6 +86,9 @@ export function closer(store: Store, stage: () => Sees, links: (links: readonly 
     // Where the first screen ends is not yet in sight.
   }, { rootMargin: '0px 0px -1px' });
   first.observe(section);
+  // What the stage shows beside the motion depends on its width; it is drawn anew first.
+  let resized = 0;
+  addEventListener('resize', () => { window.clearTimeout(resized); resized = window.setTimeout(arrange, RESIZED); });
 
   return {
     show(next) { scene = next; count++; arrange(); },

@@ -165,6 +165,11 @@ await attempt('what has nothing to say is not there, and what is not seen costs 
   await example(page, 'spring');
   await closer(page);
   judge('the spring’s stage shows both: neither is there again', !(await there()).some((t) => t === 'Time' || t === 'Phase') && (await there()).includes('Energy'), (await there()).join());
+  const phaseIs = (hidden) => page.waitForFunction((wanted) => document.querySelector('figure[data-figure="phase"]').hidden === wanted, hidden, { timeout: 5000 }).then(() => true, () => false);
+  await page.setViewportSize({ width: 390, height: 844 });
+  judge('a narrow stage has no room for the phase plane: it is a question below', await phaseIs(false));
+  await page.setViewportSize({ width: 1280, height: 900 });
+  judge('… and no more on a wide one', await phaseIs(true));
   await example(page, 'arenstorf');
   await closer(page);
   judge('what is kept is asked for by its name', await figureOf(page, 'Invariant').locator('h3').textContent() === 'Who keeps jacobi?' && await figureOf(page, 'Invariant').locator('h3 i').count() === 1);
