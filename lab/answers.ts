@@ -11,7 +11,7 @@ import type {
 } from './protocol';
 import { SEEN, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
-import { refused } from './words';
+import { computed } from './words';
 
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
@@ -103,7 +103,7 @@ export class Answers {
     this.core.start(this.lab, method, step, until);
     const { total, step: h } = this.core.progress(this.lab);
     if (total > STEPS_MAX) {
-      throw limit(refused.steps(String(total), String(h), String(STEPS_MAX)), refused.nearer);
+      throw limit(computed.steps(String(total), String(h), String(STEPS_MAX)), computed.nearer);
     }
   }
 
@@ -114,7 +114,7 @@ export class Answers {
     const wanted = ask.columns.length > 0 ? ask.columns : names.slice(0, COLUMNS_MAX);
     const indices = wanted.map((name) => {
       const k = names.indexOf(name);
-      if (k < 0) throw limit(refused.column(name), refused.columns(names.slice(0, 12)));
+      if (k < 0) throw limit(computed.column(name), computed.columns(names.slice(0, 12)));
       return k;
     });
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab);
@@ -256,7 +256,7 @@ export class Answers {
   /** When the motion starts, and when it ends. */
   private span(ask: Solve): { start: number; until: number } {
     const settings = (this.description as Description).settings, until = ask.until ?? settings.until;
-    if (until === null) throw limit(refused.noEnd, refused.end);
+    if (until === null) throw limit(computed.noEnd, computed.end);
     return { start: settings.start, until };
   }
 
@@ -299,12 +299,12 @@ export class Answers {
   }
 
   private growth(method: string, re: Float64Array, im: Float64Array): Float64Array {
-    if (re.length !== im.length || re.length > REGION_MAX) throw limit(refused.points(String(re.length)), refused.mostPoints(String(REGION_MAX)));
+    if (re.length !== im.length || re.length > REGION_MAX) throw limit(computed.points(String(re.length)), computed.mostPoints(String(REGION_MAX)));
     return this.core.stability(this.lab, method, re, im);
   }
 
   private region({ method, re, im, width, height }: Requests['region']['ask']): Region {
-    if (!(width > 0 && height > 0 && width * height <= REGION_MAX)) throw limit(refused.region(String(width), String(height)), refused.mostPoints(String(REGION_MAX)));
+    if (!(width > 0 && height > 0 && width * height <= REGION_MAX)) throw limit(computed.region(String(width), String(height)), computed.mostPoints(String(REGION_MAX)));
     const across = Float64Array.from({ length: width }, (_, i) => re[0] + ((re[1] - re[0]) * i) / Math.max(1, width - 1));
     const up = Float64Array.from({ length: height }, (_, j) => im[0] + ((im[1] - im[0]) * j) / Math.max(1, height - 1));
     const x = new Float64Array(width * height), y = new Float64Array(width * height);
@@ -319,7 +319,7 @@ export class Answers {
   private spectrum(ask: Requests['spectrum']['ask']): Spectrum[] {
     this.open(ask.model);
     const nx = this.core.positions(this.lab), nv = this.core.velocities(this.lab), n = nx + nv;
-    if (n > EIGENVALUES_MAX) throw limit(refused.eigenvalues(String(n)), refused.most(String(EIGENVALUES_MAX)));
+    if (n > EIGENVALUES_MAX) throw limit(computed.eigenvalues(String(n)), computed.most(String(EIGENVALUES_MAX)));
     this.start(ask.method, ask.step, ask.until);
     const out: Spectrum[] = [];
     for (const time of [...ask.times].sort((a, b) => a - b)) {
@@ -364,6 +364,6 @@ export function reply(answers: Answers, id: number, kind: Ask, ask: unknown): { 
   } catch (e) {
     if (e instanceof Refused) return { id, problem: e.problem };
     // A trap: the stack or the memory of the module, or of the browser, was not enough.
-    return { id, problem: problem('memory', refused.room(e instanceof Error ? e.message : String(e)), refused.smaller) };
+    return { id, problem: problem('memory', computed.room(e instanceof Error ? e.message : String(e)), computed.smaller) };
   }
 }

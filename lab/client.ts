@@ -5,7 +5,7 @@
  */
 import { problem, type Ask, type Question, type Reply, type Requests } from './protocol';
 import { Refused, type Client } from './scene';
-import { refused } from './words';
+import { computed } from './words';
 import { coreModule, createWorker } from 'virtual:host';
 
 /** Nobody waits for this answer any more. */
@@ -19,7 +19,7 @@ const LATE = 250;
 /** Longer than this no quick answer may take: a model of somebody else's must not hang the page. */
 const QUICK_LIMIT = 20_000;
 
-const tooLong = problem('limit', refused.slow(String(QUICK_LIMIT / 1000)), refused.nearer);
+const tooLong = problem('limit', computed.slow(String(QUICK_LIMIT / 1000)), computed.nearer);
 
 class Line {
   private worker: Worker | null = null;
@@ -92,7 +92,7 @@ class Line {
     const worker = createWorker();
     worker.onmessage = ({ data }: MessageEvent<Reply>) => this.settle(data);
     // A worker that cannot be started, or that broke down, leaves its question unanswered.
-    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', refused.worker(message), refused.model)));
+    worker.onerror = ({ message }) => this.stop(new Refused(problem('memory', computed.worker(message), computed.model)));
     worker.postMessage(this.module);
     return worker;
   }

@@ -7,7 +7,7 @@ import {
   WORD_KINDS, problem, type CompareRow, type Comparison, type Convergence, type Description, type Drift, type Method, type Model, type Problem, type TraceEntry, type Vocabulary, type Word,
 } from './protocol';
 import { Refused } from './scene';
-import { refused } from './words';
+import { computed } from './words';
 
 /** The exports of core/*.c, as a module of 32-bit addresses shows them. */
 interface Exports {
@@ -51,7 +51,7 @@ export interface Rows { readonly values: Float64Array; readonly rows: number; re
 
 const WORDS_MAX = 5000;
 const NaNs = (value: number | null): number => value ?? NaN;
-const noMemory = problem('memory', refused.memory, refused.fewer);
+const noMemory = problem('memory', computed.memory, computed.fewer);
 
 export class Core {
   private readonly exports: Exports;

@@ -9,6 +9,7 @@ import type { Core } from './core';
 import type { Description, Method } from './protocol';
 import { Refused } from './scene';
 import { even, type Curve } from './sample';
+import { computed } from './words';
 
 export interface Draft {
   readonly name: string;
@@ -82,7 +83,7 @@ function byRuns(core: Core, lab: number, method: string, last: number, count: nu
       seen = most(found.slice(0, count).map((f) => f.seen));
       if (seen <= 1) {
         if (core.singular(lab, method, step, to)) return null;
-        return { name: `${method} at step ${Number(step.toPrecision(6))}`, error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, ask: (at) => ask(step, at) };
+        return { name: computed.draft(method, String(Number(step.toPrecision(6)))), error: most(found.slice(0, count).map((f) => f.error)), off: offOf(found.slice(count)), begun: { times, columns: now }, ask: (at) => ask(step, at) };
       }
     }
     before = now;

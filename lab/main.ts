@@ -7,9 +7,7 @@ import { mini } from './shell/mini';
 import { STEP_EVENT, transport, type Transport } from './shell/transport';
 import { SEEK } from './figure/cursor';
 import { captionExports, nameExports } from './figure/export';
-import { stepsPanel } from './panel/steps';
 import type { Track } from './protocol';
-import type { Panel } from './scene';
 import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
 import { closer } from './shell/closer';
@@ -23,21 +21,14 @@ import { presetState } from './share';
 import { presets } from './shell/presets';
 import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
-import { createStore, family } from './state';
-import { methodCard } from './theory/cards';
+import { openedPlace } from './shell/opened';
+import { createStore } from './state';
 
 /** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
 function stepTimes({ times, step, steps, every }: Track): Float64Array {
   if (every === 1 || steps > 200_000) return times;
   const first = times[0] ?? 0, last = times[times.length - 1] ?? first, h = Math.sign(last - first) * Math.abs(step);
   return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
-}
-
-/** One panel that fails is told of, and does not stop the others. */
-function each(panels: Iterable<Panel>, act: (panel: Panel) => void): void {
-  for (const panel of panels) {
-    try { act(panel); } catch (error) { reportError(error); }
-  }
 }
 
 /** Milliseconds after the first picture that nobody touched; then the motion runs once, in its own time. */
@@ -59,18 +50,17 @@ async function start(): Promise<void> {
   if (state.embed) forgetful();
   const store = createStore(client, state);
   const motion = makeStage(store, { column: textEdge });
-  // What stands below the stage is made when that is drawn.
-  const open = new Set<Panel>();
-  let steps: Panel | null = null, late = 0;
+  let late = 0, told = false;
 
   const small = mini(() => clock), closely = closer(store, () => motion.sees(), (links) => small.links(links));
   const clock: Transport = transport({
-    onTime: (t) => { motion.at(t); each(open, (panel) => panel.at(t)); closely.at(t); small.at(t); },
+    onTime: (t) => { motion.at(t); closely.at(t); small.at(t); },
     onPlay: (playing) => small.playing(playing),
     speed: state.view.speed,
     onSpeed: (speed) => store.look({ speed }),
   });
-  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, () => { each([motion, ...open], (panel) => panel.redraw()); closely.redraw(); small.redraw(); });
+  const opened = openedPlace(store, clock, motion.shows);
+  const toasts = mountShell(store, motion, { replay: () => { clock.seek(store.numbers.start); if (!clock.playing()) clock.toggle(); } }, () => { motion.redraw(); closely.redraw(); small.redraw(); opened.redraw(); });
   if (problem) toasts.say(problem);
   captionExports(() => (store.scene ? captionOf(store.scene, presets) : []));
   place('stage-figure').replaceChildren(motion.element);
@@ -78,8 +68,8 @@ async function start(): Promise<void> {
   document.addEventListener(SEEK, (event) => clock.seek((event as CustomEvent<number>).detail));
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
-  const card = place('method-card'), paper = printed();
-  let carded = '', preset = state.preset, shown = false;
+  const paper = printed();
+  let preset = state.preset, shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
@@ -101,34 +91,20 @@ async function start(): Promise<void> {
     }, GENTLE);
   }
 
-  function showCard(): void {
-    const name = family(store.scene?.solution.tracks[0]?.method ?? '');
-    const method = store.catalogue.find((m) => m.name === name);
-    if (name === carded || !method) return;
-    carded = name;
-    card.replaceChildren(methodCard(method));
-  }
-
-  /** What is there from the first picture on. */
-  function arrange(): void {
-    if (!steps) {
-      steps = stepsPanel(store);
-      place('step-view').append(steps.element);
-      open.add(steps);
-      // Of the build's own making.
-      place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
-    }
+  function theory(): void {
+    if (told) return;
+    told = true;
+    // Of the build's own making.
+    place('theory-text').replaceChildren(...new DOMParser().parseFromString(data.theory, 'text/html').body.childNodes);
   }
   /** The motion first, everything below it when the page has time; at once where one looks closer. */
   function below(): void {
     window.clearTimeout(late);
     const act = (): void => {
       late = 0;
-      arrange();
+      theory();
       const { scene } = store;
-      if (scene) { each(open, (panel) => panel.show(scene)); closely.show(scene); }
-      each(open, (panel) => panel.at(clock.time()));
-      showCard();
+      if (scene) closely.show(scene);
     };
     if (scrollY > 40) act(); else late = window.setTimeout(act, LATER);
   }
@@ -144,6 +120,7 @@ async function start(): Promise<void> {
     motion.show(scene);
     small.show(scene);
     paper.show(scene);
+    opened.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
     // A scene begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');

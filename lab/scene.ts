@@ -14,7 +14,7 @@ export interface State {
   readonly step: string;                        // '' : the model's
   readonly until: string;
   readonly view: View;
-  /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
+  /** Where in the page one is: '' at the stage, 'gallery', 'step', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
   /** Absent: the whole page. Else the page as a picture inside another, with these sliders: 'step', and numbers as sliders.ts names them. */
   readonly embed?: readonly string[];

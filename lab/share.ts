@@ -6,7 +6,7 @@
  * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&T=UNTIL  and of the view
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
  *   f=COLUMN f=COLUMN    axes of the phase panel              e=0  green line hidden    z=SPEED
- *   l=gallery | LESSON.PART.ANSWER   where in the page one is
+ *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
  *   o=ID,ID              of older addresses, read and ignored: all panels that have an answer are there
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
@@ -171,7 +171,7 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (methods.length > most.methods) throw new Wrong(words.address.methods);
   for (const method of methods) word(method, words.address.texts.method);
   const place = found.get('l')?.[0] ?? '';
-  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
+  if (!/^(gallery|step|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
   if (inside !== '1' && found.has('embed')) throw new Wrong(words.address.embed);
   if (!inside && sliders.length) throw new Wrong(words.address.noEmbed);

@@ -2,10 +2,10 @@
  *
  * Invariant: a panel does not set the page's time. It asks, by the event SEEK on its figure, and shows what it is told by `set`.
  */
-import { words } from '../words';
 import type { Figure, Frame, Ink, Pen } from './types';
 import { brief } from './number';
 import { textWidth } from './shapes';
+import { words } from '../words';
 import { rowAt } from './track';
 
 /** A CustomEvent<number> that bubbles: the time somebody would like to see. */

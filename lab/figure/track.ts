@@ -5,7 +5,6 @@
  */
 import type { Look } from '../scene';
 import { extent, padded } from './axes';
-import { words } from '../words';
 import { thin, thinPath } from './thin';
 import type { Frame, Pen } from './types';
 
@@ -85,9 +84,4 @@ function drawMarkers(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<
 /** With a capital: a method's name at the head of a sentence. */
 export function begin(sentence: string): string {
   return sentence.slice(0, 1).toUpperCase() + sentence.slice(1);
-}
-
-/** "a", "a and b", "a, b and c". */
-export function listed(names: readonly string[], most = 6): string {
-  return names.length > most ? words.figure.listMore(names.slice(0, most - 1), String(names.length - most + 1)) : words.figure.list(names);
 }

@@ -15,12 +15,12 @@ import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable } from '../figure/number';
-import { EXACT_WIDTH, begin, drawTrack, valueAt, listed } from '../figure/track';
+import { EXACT_WIDTH, begin, drawTrack, valueAt } from '../figure/track';
 import type { AxisDefinition, Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
 import { words } from '../words';
 import { columnOf, headName, invariants, timeTable } from './columns';
 import { keepingOf, type Keeping } from './keeping';
-import { endTime, exactName, moment, nameAt, several, timeUnit } from './told';
+import { endTime, exactName, listed, moment, nameAt, several, timeUnit } from './told';
 
 const say = words.panel.drift;
 /** A relative change that is round-off. */

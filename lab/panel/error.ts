@@ -13,11 +13,11 @@ import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { brief, readable } from '../figure/number';
-import { drawTrack, begin, rowAt, listed } from '../figure/track';
+import { drawTrack, begin, rowAt } from '../figure/track';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
 import { words } from '../words';
 import { columnOf, timeTable } from './columns';
-import { amount, endTime, moment, nameAt, several, timeUnit, unitOf } from './told';
+import { amount, endTime, listed, moment, nameAt, several, timeUnit, unitOf } from './told';
 
 const say = words.panel.error;
 /* What an error is of: the kind of the columns, and its sign in tables. */

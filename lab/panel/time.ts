@@ -12,13 +12,13 @@ import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { nameSpans, nameText } from '../figure/name';
 import { brief, readable, shortened } from '../figure/number';
-import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View, listed } from '../figure/track';
+import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thin } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
-import { endTime, exactName, moment, nameAt, timeUnit, unitOf } from './told';
+import { endTime, exactName, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.time;
 const STRIP = 130, MOST = 6, ANSWERED = 3;

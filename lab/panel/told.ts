@@ -39,3 +39,5 @@ export const exactName = (scene: Scene): string => (scene.description.has_exact 
 /** "a, b, c"; from `most` on counted. */
 export const several = (parts: readonly string[], most = 6): string =>
   (parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(String(parts.length - most + 1))] : parts).join(', ');
+/** "a", "a and b", "a, b and 3 more". */
+export const listed = (parts: readonly string[], most = 6): string => words.panel.and(parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(String(parts.length - most + 1))] : parts);

@@ -16,7 +16,7 @@ export function note(store: LiveStore): HTMLElement {
     const name = exampleOf(store.state);
     if (name === shown) return;
     shown = name;
-    const written = Object.hasOwn(data.notes, name) ? data.notes[name]?.text ?? [] : [];
+    const written = Object.hasOwn(data.notes, name) ? data.notes[name] ?? [] : [];
     const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? of
       : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
     // One paragraph, however it is written down.

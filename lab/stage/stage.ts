@@ -33,6 +33,8 @@ export interface Stage extends Panel {
   save(kind: 'PNG' | 'SVG' | 'CSV'): void;
   /** Saves the motion from its start to its end as a film of so many seconds; false: cancelled, or there is nothing to see. */
   film(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean>;
+  /** The names of the columns that are drawn, of the first body. */
+  readonly shows: () => readonly string[];
   /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
   relayout(): void;
   /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
@@ -391,6 +393,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     at(now) { if (now !== time) { time = now; redrawMoving(); } },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
+    shows: () => (subject?.bodies[0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? ''),
     pin(of) { pinned = of; refresh(true); },
     hide(methods) { if (methods.join() !== hidden.join()) { hidden = methods; refresh(true); } },
     guess(next) {

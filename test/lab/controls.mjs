@@ -84,10 +84,6 @@ await attempt('methods', async () => {
   await toggle('explicit-euler').click();
   await settled(page);
   judge('a method is taken away', (await fields(page)).a === 'symplectic-euler,midpoint,rk4' && !(await numbersOf(page)).head.includes('r.y (explicit-euler)'));
-    await page.locator('#main-method').selectOption('rk4');
-  await settled(page);
-  same('Step by step: the main method comes first', (await fields(page)).a, 'rk4,symplectic-euler,midpoint');
-  judge('… and its card is shown', /Runge|RK4/.test(await page.locator('#method-card').textContent()));
   await page.locator('.chip-more').click();
   await page.locator('#method-search').fill('order 4 symplectic');
   const found = await page.locator('.toggles .chip:visible[data-method]').evaluateAll((all) => all.map((t) => t.dataset.method));

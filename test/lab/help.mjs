@@ -150,7 +150,7 @@ export async function fields(page) {
   return found;
 }
 /** A figure by its short name; its heading is a question. */
-export const figureOf = (page, title) => page.locator(`#panels figure[data-title="${title}"], #step-view figure[data-title="${title}"]`);
+export const figureOf = (page, title) => page.locator(`#panels figure[data-title="${title}"]`);
 /** What looks closer is made when somebody comes to it, and shown what is near: this goes there, and to a figure of it. */
 export async function closer(page, title = '') {
   await page.locator('#looking > h2').evaluate((heading) => heading.scrollIntoView());

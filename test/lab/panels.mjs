@@ -4,7 +4,7 @@
  */
 import { attempt, clean, closer, example, figureOf, finish, judge, motus, open, readCsv, same, saved, settled, singleFile, summaryOf } from './help.mjs';
 
-const titles = ['Step by step', 'Time', 'Error', 'Energy', 'Phase', 'Order', 'Cost', 'Stability'];
+const titles = ['Time', 'Error', 'Energy', 'Phase', 'Order', 'Cost', 'Stability'];
 const answered = ['Time', 'Error', 'Energy', 'Phase', 'Order', 'Cost', 'Stability'];
 /** On a constant force any step is stable, which is a sentence without a picture. */
 const without = (preset, title) => preset === 'projectile' && title === 'Stability';
@@ -42,17 +42,17 @@ const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {
 for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 'dark', 375], ['three-body-figure-eight', 'light', 800]]) {
   const page = await open(`${singleFile}#v=1&p=${preset}${preset === 'spring' ? "&q=x&f=x&f=x'" : ''}`, { theme, width });
   // Studies begin when they come into view.
-  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(5).filter((t) => !without(preset, t))) {
+  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(4).filter((t) => !without(preset, t))) {
     await closer(page, title);
     await settled(page, 600, 60000);
     await compute(page, title);
   }
-  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 5) : titles.filter((t) => !without(preset, t))) {
+  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 4) : titles.filter((t) => !without(preset, t))) {
     const name = `${preset}, ${theme}, “${title}”`;
     await attempt(name, async () => {
       const figure = figureOf(page, title);
-      same(`${name}: is there once`, await figure.count(), 1);
       await closer(page, title);
+      same(`${name}: is there once`, await figure.count(), 1);
       const question = await figure.locator('h3').textContent(), answer = await figure.locator('.figure-answer').textContent();
       judge(`${name}: its question is its name`, await page.getByRole('figure', { name: question, exact: true }).count() === 1, question);
       if (answered.includes(title)) judge(`${name}: a question and an answer, which is a sentence`, /^[^ ].+\?$/.test(question) && /^\S.{8,}\.$/.test(answer) && await figure.locator('.figure-answer').isVisible(), `${question} ${answer}`);

@@ -56,6 +56,11 @@ test('every state comes back', () => {
   assert.equal({}.polluted, undefined);
 });
 
+test('a place comes back, and no other', () => {
+  for (const place of ['', 'gallery', 'step', 'too-high-too-low.try.0']) assert.deepEqual(share.decode(share.encode({ ...start, place }, presets), presets), { state: { ...start, place }, problem: '' });
+  for (const place of ['steps', 'step.1', 'stage']) assert.match(share.decode(`v=1&p=projectile&l=${place}`, presets).problem, /a place that does not exist/);
+});
+
 test('an embed and its sliders come back', () => {
   for (const embed of [[], ['step'], ['step', 'k', "r'(0).y", 'x[1,2](0)', 'm[2]']]) {
     const state = { ...start, embed }, fragment = share.encode(state, presets);
@@ -65,7 +70,7 @@ test('an embed and its sliders come back', () => {
   assert.deepEqual(share.decode('v=1&p=projectile&embed=1&c=k&c=k', presets).state.embed, ['k']);
   assert.equal('embed' in share.decode('v=1&p=projectile', presets).state, false);
   for (const [fragment, why] of [['embed=0', /“embed” is 1/], ['embed=', /“embed” is 1/], ['embed', /“embed” is 1/], ['embed=1&embed=1', /twice/], ['c=step', /without “embed=1”/], ['embed=1&c=', /no name/],
-    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no lesson/]]) {
+    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no other place/], ['embed=1&l=step', /no other place/]]) {
     const { state, problem } = share.decode('v=1&p=spring&' + fragment, presets);
     assert.match(problem, why, fragment);
     assert.deepEqual(state, start);

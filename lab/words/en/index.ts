@@ -1,5 +1,6 @@
-/* English. Each part of the page has its file; page, refused, faults and html stand alone (../index.ts). */
+/* English. Each part of the page has its file; page, computed, faults and html stand alone (../index.ts). */
 import { address } from './address';
+import { cards } from './cards';
 import { dock } from './dock';
 import { editor } from './editor';
 import { figure } from './figure';
@@ -9,6 +10,7 @@ import { headline } from './headline';
 import { lecture } from './lecture';
 import { lesson } from './lesson';
 import { methods } from './methods';
+import { opened } from './opened';
 import { panel } from './panel';
 import { scenes } from './scenes';
 import { share } from './share';
@@ -19,6 +21,7 @@ import { trouble } from './trouble';
 
 export const words = {
   address,
+  cards,
   dock,
   editor,
   figure,
@@ -28,6 +31,7 @@ export const words = {
   lecture,
   lesson,
   methods,
+  opened,
   panel,
   scenes,
   share,

@@ -1,12 +1,12 @@
 /* The pictures that look closer: lab/panel/. Numbers come formatted, with their units; names as the page sets them. */
-import { figure } from './figure';
-
 /** A number may follow the name of a method that ends in one, Kahan–Li 8. */
 const by = (name: string, number: string): string => `${name} ${/\d$/.test(name) ? 'by ' : ''}${number}`;
+const and = (parts: readonly string[]): string => (parts.length < 2 ? parts.join('') : `${parts.slice(0, -1).join(', ')} and ${parts[parts.length - 1]}`);
 export const panel = {
+  and,
   more: (count: string) => `${count} more`,
-  step: (every: string) => `Every ${every}th step was kept, and the last one.`,
-  leave: (names: readonly string[]) => `${figure.list(names)} ${names.length > 1 ? 'leave' : 'leaves'} the picture.`,
+  step: (every: string) => `One step in ${every} was kept, and the last one.`,
+  leave: (names: readonly string[]) => `${and(names)} ${names.length > 1 ? 'leave' : 'leaves'} the picture.`,
   time: {
     title: 'Time',
     question: 'Where is it, and when?',

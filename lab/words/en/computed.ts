@@ -1,6 +1,6 @@
-/* What the page itself says against a question to the core, in a sentence and what would be right: lab/answers.ts, core.ts, client.ts. What the core says
- * stays the core's. Stands alone, as the workers need no more. */
-export const refused = {
+/* What the page itself says of a computation: against a question to the core, in a sentence and what would be right, and what a draft is called:
+ * lab/answers.ts, core.ts, client.ts, draft.ts. What the core says stays the core's. Stands alone, as the workers need no more. */
+export const computed = {
   steps: (count: string, step: string, most: string) => `${count} steps of ${step} are more than a page should take (${most})`,
   nearer: 'a larger step, a nearer end, or the program motus',
   slow: (seconds: string) => `this takes longer than ${seconds} seconds`,
@@ -11,6 +11,7 @@ export const refused = {
   eigenvalues: (count: string) => `${count} eigenvalues are too many to look at`, most: (most: string) => `at most ${most}`,
   room: (why: string) => `the page has not enough room for this (${why})`,
   smaller: 'fewer brackets and definitions within one another, a smaller model, or the program motus',
+  draft: (method: string, step: string) => `${method} at step ${step}`,
   memory: 'out of memory', fewer: 'a smaller model, fewer steps',
   worker: (why: string) => (why ? `the worker failed: ${why}` : 'the worker failed'), model: 'a smaller model',
 } as const;
