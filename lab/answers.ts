@@ -337,10 +337,27 @@ export class Answers {
         for (let k = 0; k < nv; k++) matrix.set(nx + i, nx + k, byV[i * nv + k] as number);
       }
       const { realEigenvalues, imaginaryEigenvalues } = new EigenvalueDecomposition(matrix);
-      out.push({ re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues) });
+      out.push({
+        re: Float64Array.from(realEigenvalues), im: Float64Array.from(imaginaryEigenvalues), free: byX.every((d) => d === 0) && byV.every((d) => d === 0), springs: springs(byV, nx, nv),
+      });
     }
     return out;
   }
+}
+
+/** The part of ∂a/∂v that belongs to the positions is symmetric up to rounding, and first-order variables neither act on them nor on each other. */
+function springs(byV: Float64Array, nx: number, nv: number): boolean {
+  let most = 0, off = 0;
+  for (let i = 0; i < nv; i++) {
+    for (let k = 0; k < nv; k++) {
+      const d = byV[i * nv + k]!;
+      if (k >= nx && d !== 0) return false;
+      if (i >= nx || k >= nx) continue;
+      most = Math.max(most, Math.abs(d));
+      off = Math.max(off, Math.abs(d - byV[k * nv + i]!));
+    }
+  }
+  return off <= 1e-12 * most;
 }
 
 /** An answer or a problem, whatever happens: nothing is thrown past here. */

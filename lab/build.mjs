@@ -119,7 +119,7 @@ const put = (html, mark, value) => {
   return html.replace(mark, () => value);
 };
 
-const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'shell/editor.css', 'shell/gallery.css'];
+const sheets = ['style.css', 'figure/figure.css', 'panel/steps.css', 'panel/study.css', 'shell/editor.css', 'shell/gallery.css'];
 const style = await minify([made.fontCss, drawn.inkStyle(), ...await Promise.all(sheets.map((name) => readFile(join(here, name), 'utf8')))].join('\n'));
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`), said = drawn.said(scene);
 const words = `<div class="words-inner"><div class="words-head"><h1 id="scene-title">${escaped(said.title)}</h1></div><p id="scene-words">${escaped(said.sentence)}</p><p class="ask"><button type="button" class="ask-button"><span>${escaped(said.ask)}</span><svg viewBox="0 0 24 24" width="20" height="20" aria-hidden="true" focusable="false" class="icon"><path d="M5 12h13M12.5 6l5.5 6-5.5 6"/></svg></button></p><button type="button" class="pill"><span class="pill-math">${drawn.equation(scene)}</span><small>${escaped(drawn.words.headline.type)}</small></button></div>`;

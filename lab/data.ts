@@ -2,7 +2,11 @@
 import unpacked from 'virtual:data';
 import type { Lesson } from './lessons/read';
 import type { Staging } from './stage/staging';
-import type { Note } from './theory/presets';
+
+/** Parts of a sentence; a button goes to another example. */
+export type Linked = readonly (string | { readonly to: string; readonly label: string })[];
+/** Paragraphs. */
+export type Note = readonly (string | Linked)[];
 
 export interface Data {
   readonly presets: readonly { readonly name: string; readonly text: string }[];

@@ -146,7 +146,13 @@ export interface Comparison { readonly rows: readonly CompareRow[]; readonly ref
 /** Where hλ must lie: growth[i + width j] is the growth of one step at z = re[i] + i im[j]; NaN where the method has no answer. */
 export interface Region { readonly method: string; readonly re: Float64Array; readonly im: Float64Array; readonly growth: Float64Array }
 /** Eigenvalues λ of the model linearised at its start (and along the run, if asked). */
-export interface Spectrum { readonly re: Float64Array; readonly im: Float64Array }
+export interface Spectrum {
+  readonly re: Float64Array; readonly im: Float64Array;
+  /** The force depends on neither position nor velocity there. */
+  readonly free: boolean;
+  /** Velocities enter by friction alone (∂a/∂v is symmetric), and first-order variables do not act back. */
+  readonly springs: boolean;
+}
 
 export interface Requests {
   catalogue: { ask: Record<string, never>; answer: readonly Method[] };

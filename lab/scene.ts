@@ -14,7 +14,7 @@ export interface State {
   readonly step: string;                        // '' : the model's
   readonly until: string;
   readonly view: View;
-  /** Where in the page one is: '' at the stage, 'gallery', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
+  /** Where in the page one is: '' at the stage, 'gallery', 'step', or a lesson as lesson.ts writes it, 'too-high-too-low.try.0'. */
   readonly place: string;
   /** Absent: the whole page. Else the page as a picture inside another, with these sliders: 'step', and numbers as sliders.ts names them. */
   readonly embed?: readonly string[];
@@ -23,7 +23,6 @@ export interface View {
   readonly plane: 'time' | 'plane' | 'space' | 'auto';      // what the motion panel shows: x-t, x-y, x-y-z
   readonly quantities: readonly string[];       // of the time panel; [] : the positions
   readonly phase: readonly [string, string] | null;        // of the phase panel; null: x, x'
-  readonly panels: readonly string[];           // open ones, by id, in order
   readonly exact: boolean;                      // green line shown
   readonly speed: number;                       // of the animation, times the natural one
 }
@@ -61,7 +60,9 @@ export interface Store {
 /** One figure of the page. `element` is a <figure>; see figure/figure.ts. */
 export interface Panel {
   readonly id: string; readonly title: string; readonly element: HTMLElement;
-  /** A new scene; called only while the panel is open. */
+  /** Whether it has something to say of this scene; absent: always. Cheap, as it is asked of each scene. */
+  there?(scene: Scene): boolean;
+  /** A new scene; called only while the panel is near what is seen. */
   show(scene: Scene): void;
   /** The time of the animation: a cursor, a dot. Must cost less than a millisecond or two. */
   at(time: number): void;

@@ -5,8 +5,9 @@
  *
  * Format, version 1:  #v=1&p=PRESET&m=TEXT&s=NAME=EXPRESSION&s=…&a=METHOD,METHOD&h=STEP&T=UNTIL  and of the view
  *   w=time|plane|space   what the motion panel shows         q=COLUMN (repeated)  quantities of the time panel
- *   f=COLUMN f=COLUMN    axes of the phase panel              o=ID,ID              open panels         e=0  green line hidden    z=SPEED
- *   l=gallery | LESSON.PART.ANSWER   where in the page one is
+ *   f=COLUMN f=COLUMN    axes of the phase panel              e=0  green line hidden    z=SPEED
+ *   l=gallery | step | LESSON.PART.ANSWER   where in the page one is
+ *   o=ID,ID              of older addresses, read and ignored: all panels that have an answer are there
  *   embed=1              a picture inside another page        c=step c=NUMBER     with these sliders (repeated)
  * p stands where the text is the preset's, else m; a without p or m's default is left out, and so is all that has its default.
  */
@@ -27,9 +28,8 @@ export interface Decoded { readonly state: State; readonly problem: string }
 
 export const longest = 128 * 1024;                     // of a fragment, in characters
 const most = { sets: 256, methods: 40, words: 200, columns: 32 };
-const defaultPanels: readonly string[] = ['time', 'error', 'drift', 'phase'];
 
-export const defaultView: View = { plane: 'auto', quantities: [], phase: null, panels: defaultPanels, exact: true, speed: 1 };
+export const defaultView: View = { plane: 'auto', quantities: [], phase: null, exact: true, speed: 1 };
 
 export function presetState(presets: Presets, name: string): State {
   return { preset: name, text: presets.text(name) ?? '', set: presets.set?.(name) ?? {}, methods: presets.methods(name), step: '', until: '', view: defaultView, place: '' };
@@ -92,7 +92,6 @@ export function encode(state: State, presets: Presets): string {
   if (view.plane !== defaultView.plane) put('w', view.plane);
   for (const name of view.quantities) put('q', name);
   for (const name of view.phase ?? []) put('f', name);
-  if (!same(view.panels, defaultView.panels)) put('o', view.panels.join(','));
   if (!view.exact) put('e', '0');
   if (view.speed !== defaultView.speed) put('z', String(view.speed));
   if (state.place) put('l', state.place);
@@ -141,15 +140,12 @@ function viewOf(found: Map<string, string[]>): View {
   if (quantities.length > most.columns) throw new Wrong(words.address.quantities);
   for (const name of [...quantities, ...(phase ?? [])]) word(name, words.address.texts.quantity);
   if (phase && phase.length !== 2) throw new Wrong(words.address.axes);
-  const open = found.get('o')?.[0];
-  const panels = open === undefined ? defaultPanels : splitList(open);
-  if (panels.length > most.columns || !panels.every(id => /^[a-z-]{1,40}$/.test(id))) throw new Wrong(words.address.panel);
   const hidden = found.get('e')?.[0] ?? '1';
   if (hidden !== '0' && hidden !== '1') throw new Wrong(words.address.exact);
   const speed = found.get('z')?.[0] ?? '1';
   if (!/^\d{1,6}(\.\d{1,9})?$/.test(speed) || !(Number(speed) > 0)) throw new Wrong(words.address.speed);
   return {
-    plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, panels: [...new Set(panels)], exact: hidden === '1', speed: Number(speed),
+    plane, quantities, phase: phase ? [phase[0] as string, phase[1] as string] : null, exact: hidden === '1', speed: Number(speed),
   };
 }
 
@@ -175,7 +171,7 @@ function stateOf(fragment: string, presets: Presets, limit: number): State {
   if (methods.length > most.methods) throw new Wrong(words.address.methods);
   for (const method of methods) word(method, words.address.texts.method);
   const place = found.get('l')?.[0] ?? '';
-  if (!/^(gallery|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
+  if (!/^(gallery|step|[a-z0-9-]{1,40}\.(predict|try|see|why)(\.\d{1,2})?)?$/.test(place)) throw new Wrong(words.address.place);
   const inside = found.get('embed')?.[0] ?? '', sliders = found.get('c') ?? [];
   if (inside !== '1' && found.has('embed')) throw new Wrong(words.address.embed);
   if (!inside && sliders.length) throw new Wrong(words.address.noEmbed);

@@ -5,8 +5,8 @@
  */
 import { ticks as roundNumbers } from 'd3-array';
 import { minus, raised, tenTo } from './number';
-import { SIZE, textWidth } from './shapes';
-import type { AxisDefinition, Frame, Ink, Pen, Scale } from './types';
+import { SIZE, spansOf, textWidth } from './shapes';
+import type { AxisDefinition, Frame, Ink, Pen, Scale, Span } from './types';
 
 export { thin, thinPath } from './thin';
 
@@ -14,6 +14,8 @@ export { thin, thinPath } from './thin';
 export interface Region { readonly left: number; readonly top: number; readonly width: number; readonly height: number }
 export interface AxesOptions {
   readonly equal?: boolean; readonly region?: Region;
+  /** Lines at the numbers that go up only, and one to stand on: for curves that go along. */
+  readonly plain?: boolean;
   /** Letters along x left out: a panel above another one with the same x. */
   readonly bare?: boolean;
   /** Room kept on the left, so that panels one above the other line up; at least this. */
@@ -40,7 +42,7 @@ export function extent(columns: Iterable<ArrayLike<number>>): [number, number] {
 }
 
 /** How far above the frame the name of what goes up stands; another text may stand there on the right. */
-export const LABEL = 22;
+const LABEL = 22;
 
 /** Some room beyond both ends. */
 export function padded([low, high]: readonly [number, number], share = 0.06): [number, number] {
@@ -119,36 +121,13 @@ export function scaleOf(definition: AxisDefinition, from: number, to: number, co
     }
     const label = (v: number): string => {
       const power = Math.floor(Math.log10(v) + 1e-9), lead = v / 10 ** power;
-      if (power >= -2 && power <= 3) return String(Number(v.toPrecision(6)));
+      if (power >= -3 && power <= 4) return String(Number(v.toPrecision(6)));
       return Math.abs(lead - 1) < 1e-9 ? tenTo(power) : `${Number(lead.toPrecision(3))}×${tenTo(power)}`;
     };
     // All ticks in one manner: powers, unless every one of them is a short number.
-    const short = ticks.every((v) => v > 0.9e-2 && v < 1.1e3);
+    const short = ticks.every((v) => v > 0.9e-3 && v < 1.1e4);
     const powers = (v: number): string => { const k = Math.log10(v); return Math.abs(k - Math.round(k)) < 1e-9 ? tenTo(Math.round(k)) : label(v); };
     return Object.assign(map, { invert: (p: number) => 10 ** (low + (p - from) / per), ticks, minor, label: short ? label : powers, base: 0, min, max });
-  }
-  if (definition.linear && definition.linear > 0 && max - min > definition.linear) {
-    // sign(v) log10(1 + |v|/L): it runs straight through zero, and by decades far out.
-    const unit = definition.linear, bend = (v: number): number => Math.sign(v) * Math.log10(1 + Math.abs(v) / unit);
-    const low = bend(min), per = (to - from) / (bend(max) - low);
-    const map = (v: number): number => from + (bend(v) - low) * per;
-    const invert = (p: number): number => { const s = low + (p - from) / per; return Math.sign(s) * unit * (10 ** Math.abs(s) - 1); };
-    // Powers below the linear part's end would stand on top of the zero.
-    const first = Math.ceil(Math.log10(unit) - 1e-9), last = Math.floor(Math.log10(Math.max(-min, max)) + 1e-9);
-    const stride = Math.max(1, Math.ceil(26 / Math.abs(per)));
-    const ticks = [0];
-    const minor: number[] = [];
-    for (let k = last; k >= first; k--) {
-      for (const v of [10 ** k, -(10 ** k)]) if (v >= min && v <= max) ((last - k) % stride || Math.abs(map(v) - map(0)) < 13 ? minor : ticks).push(v);
-    }
-    ticks.sort((a, b) => a - b);
-    const short = first >= -3 && last <= 3;
-    const label = (v: number): string => {
-      if (v === 0) return '0';
-      const power = Math.round(Math.log10(Math.abs(v)));
-      return `${v < 0 ? '−' : ''}${short ? (power < 0 ? (10 ** power).toFixed(-power) : String(10 ** power)) : tenTo(power)}`;
-    };
-    return Object.assign(map, { invert, ticks, minor, label, base: 0, min, max });
   }
   const per = (to - from) / (max - min);
   const map = (v: number): number => from + (v - min) * per;
@@ -185,12 +164,14 @@ export function scaleAlong(definition: AxisDefinition, left: number, right: numb
   return scale;
 }
 
-const named = (definition: AxisDefinition, scale: Built): string =>
-  (scale.base === 0 ? definition.label : `${definition.label} ${scale.base < 0 ? '+' : '−'} ${String(Math.abs(Number(scale.base.toPrecision(15))))}`);
+function named({ label, unit }: AxisDefinition, scale: Built, up: boolean): Span[] {
+  const base = scale.base === 0 ? '' : ` ${scale.base < 0 ? '+' : '−'} ${String(Math.abs(Number(scale.base.toPrecision(15))))}`;
+  return [...spansOf(label), ...(base ? [{ text: base }] : []), ...(up && unit ? [{ text: `, ${unit}` }] : [])];
+}
 
 export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, options: AxesOptions = {}): Frame {
   const region = options.region ?? { left: 0, top: 0, width: pen.width, height: pen.height };
-  const top = region.top + (y.label ? 27 : 10), bottom = region.top + region.height - (options.bare ? 8 : x.label ? 38 : 24);
+  const top = region.top + (y.label.length ? 27 : 10), bottom = region.top + region.height - (options.bare ? 8 : x.label.length ? 38 : 24);
   const height = Math.max(20, bottom - top);
   const rows = Math.max(2, Math.round(height / 46));
   let bounds = { x: sound(x), y: sound(y) };
@@ -224,24 +205,25 @@ export function axes(pen: Pen, ink: Ink, x: AxisDefinition, y: AxisDefinition, o
   const base = top + height, end = left + width;
   const crisp = (p: number): number => Math.round(p) + 0.5;
 
-  for (const v of up.minor) pen.line([left, crisp(up(v)), end, crisp(up(v))], { colour: ink.grid, width: 1, alpha: 0.5 });
-  for (const v of along.minor) pen.line([crisp(along(v)), top, crisp(along(v)), base], { colour: ink.grid, width: 1, alpha: 0.5 });
+  if (!options.plain) for (const v of up.minor) pen.line([left, crisp(up(v)), end, crisp(up(v))], { colour: ink.grid, width: 1, alpha: 0.5 });
+  if (!options.plain) for (const v of along.minor) pen.line([crisp(along(v)), top, crisp(along(v)), base], { colour: ink.grid, width: 1, alpha: 0.5 });
   for (const v of up.ticks) pen.line([left, crisp(up(v)), end, crisp(up(v))], { colour: ink.grid, width: 1 });
-  for (const v of along.ticks) pen.line([crisp(along(v)), top, crisp(along(v)), base], { colour: ink.grid, width: 1 });
-  pen.line([crisp(left), top, crisp(left), crisp(base), end, crisp(base)], { colour: ink.axis, width: 1 });
+  if (!options.plain) for (const v of along.ticks) pen.line([crisp(along(v)), top, crisp(along(v)), base], { colour: ink.grid, width: 1 });
+  pen.line([...(options.plain ? [] : [crisp(left), top]), crisp(left), crisp(base), end, crisp(base)], { colour: ink.axis, width: options.plain ? 1.5 : 1 });
   for (const v of up.ticks) {
     pen.text(left - 7, up(v), up.label(v), { colour: ink.quiet, anchor: 'end', baseline: 'middle' });
   }
   if (!options.bare) {
+    const last = along.ticks[along.ticks.length - 1];
     for (const v of along.ticks) {
-      const at = along(v), half = textWidth(along.label(v)) / 2;
-      // The last label may not leave the picture.
-      const inside = Math.min(at, region.left + region.width - half - 1);
-      pen.line([crisp(at), base, crisp(at), base + 4], { colour: ink.axis, width: 1 });
-      pen.text(inside, base + 7, along.label(v), { colour: ink.quiet, anchor: 'middle', baseline: 'top' });
+      const at = along(v), label = along.label(v), half = textWidth(label) / 2, unit = v === last && x.unit ? `\u2009${x.unit}` : '';
+      // The last number may not leave the picture; its unit stands behind it.
+      const inside = Math.min(at, region.left + region.width - half - textWidth(unit) - 1) + textWidth(unit) / 2;
+      if (!options.plain) pen.line([crisp(at), base, crisp(at), base + 4], { colour: ink.axis, width: 1 });
+      pen.text(inside, base + 7, label + unit, { colour: ink.quiet, anchor: 'middle', baseline: 'top' });
     }
-    if (x.label) pen.text(end, base + 24, named(x, along), { colour: ink.text, anchor: 'end', baseline: 'top' });
+    if (x.label.length) pen.text(end, base + 24, named(x, along, false), { colour: ink.text, anchor: 'end', baseline: 'top' });
   }
-  if (y.label) pen.text(region.left + 1, top - LABEL, named(y, up), { colour: ink.text, baseline: 'top' });
+  if (y.label.length) pen.text(region.left + 1, top - LABEL, named(y, up, true), { colour: options.plain ? ink.quiet : ink.text, baseline: 'top' });
   return { x: along, y: up, left, top, width, height };
 }

@@ -2,10 +2,10 @@
  *
  * Invariant: a panel does not set the page's time. It asks, by the event SEEK on its figure, and shows what it is told by `set`.
  */
-import { words } from '../words';
 import type { Figure, Frame, Ink, Pen } from './types';
-import { LABEL } from './axes';
-import { readable } from './number';
+import { brief } from './number';
+import { textWidth } from './shapes';
+import { words } from '../words';
 import { rowAt } from './track';
 
 /** A CustomEvent<number> that bubbles: the time somebody would like to see. */
@@ -24,6 +24,8 @@ export interface Cursor {
   set(time: number): void;
   /** The time of the clock, or where the pointer is. */
   shown(): number;
+  /** The time that the pointer is at; null where it is elsewhere. */
+  hovered(): number | null;
   /** Where the pointer is, in pixels; null where it is elsewhere. */
   pointer(): { readonly x: number; readonly y: number } | null;
   draw(pen: Pen, ink: Ink, frame: Frame): void;
@@ -38,6 +40,7 @@ export function cursor(definition: CursorDefinition): Cursor {
 
   slider.removeAttribute('aria-hidden');
   slider.setAttribute('role', 'slider');
+  for (const name of ['aria-valuemin', 'aria-valuemax', 'aria-valuenow']) slider.setAttribute(name, '0');
   slider.setAttribute('tabindex', '0');
   slider.setAttribute('aria-label', words.figure.cursor(definition.title));
 
@@ -112,25 +115,30 @@ export function cursor(definition: CursorDefinition): Cursor {
       figure.redrawOverlay();
     },
     shown: () => hovered() ?? time,
+    hovered,
     pointer: () => pointer,
     draw(pen, ink, frame) {
       const line = (t: number, colour: string, width: number, dash: number[]): void => {
         const x = frame.x(t);
-        if (!(x >= frame.left - 1 && x <= frame.left + frame.width + 1)) return;
+        // At the edge it would look like one.
+        if (!(x >= frame.left - 1 && x <= frame.left + frame.width - 2)) return;
         pen.line([x, frame.top, x, frame.top + frame.height], { colour, width, dash });
       };
-      line(time, ink.accent, 1.25, []);
+      line(time, ink.axis, 1.25, []);
       const hover = hovered();
       if (hover !== null && hover !== time) line(hover, ink.quiet, 1, [3, 3]);
     },
   };
 }
 
-export function heading(time: number): string {
-  return `t = ${readable(time, 5)}`;
-}
+/** "t = 2.5 s". */
+export const heading = (time: number, unit = ''): string => `t = ${brief(time, 5)}${unit && `\u2009${unit}`}`;
 
-/** The time that values are read out for, above the frame on the right. */
-export function drawHeading(pen: Pen, ink: Ink, frame: Frame, text: string): void {
-  pen.text(frame.left + frame.width, frame.top - LABEL, text, { colour: ink.quiet, anchor: 'end', baseline: 'top' });
+/** What is under the pointer, in lines beside it: the time, then each value in its curve's colour. */
+export function drawReadout(pen: Pen, ink: Ink, frame: Frame, time: number, title: string, values: readonly { readonly text: string; readonly colour: string }[]): void {
+  const x = frame.x(time), size = 12, line = 17, wide = Math.max(textWidth(title, size), ...values.map((v) => 1.06 * textWidth(v.text, size)));
+  const left = x + 12 + wide > frame.left + frame.width, at = left ? x - 10 : x + 10, anchor = left ? 'end' as const : 'start' as const;
+  pen.box(left ? at - wide - 4 : at - 4, frame.top - 2, wide + 8, line * (values.length + 1) + 4, ink.surface, 0.88);
+  pen.text(at, frame.top + 2, title, { colour: ink.quiet, size, anchor, baseline: 'top' });
+  values.forEach((value, k) => pen.text(at, frame.top + 2 + line * (k + 1), [{ text: value.text, bold: true }], { colour: value.colour, size, anchor, baseline: 'top' }));
 }

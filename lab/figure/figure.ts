@@ -1,4 +1,5 @@
-/* The frame of a picture: its name, its controls, two canvases (what keeps still, and above it what moves), a summary, a table, and export.
+/* The frame of a picture: its question, the answer of this run, its controls, two canvases (what keeps still, and above it what moves), and a foot with
+ * the numbers and the files.
  *
  * Invariant: nothing is drawn while it cannot be seen, and no layer more than once a frame; PNG and SVG are made by the functions that draw the screen.
  */
@@ -6,39 +7,42 @@ import { button, el as element } from '../dom';
 import { words } from '../words';
 import { csv, downloadText, fileName, savePicture } from './export';
 import { ink } from './ink';
+import { saidNodes, saidText } from './name';
 import { canvasPen } from './pen';
 import { tableElement } from './table';
-import type { Figure, FigureDefinition, Ink, Pen } from './types';
+import type { Figure, FigureDefinition, Ink, Pen, Said } from './types';
 
 /** A picture is not higher than this share of the window, so that it can be seen whole. */
 const TALLEST = 0.8;
 /** Nor lower than this, however narrow: ticks and curves need some height. */
 const LEAST = 230;
+/** A CustomEvent that bubbles: the figure has come or gone, or is called otherwise. */
+export const THERE = 'motus-there';
 let serial = 0;
 
 export function figure(definition: FigureDefinition): Figure {
-  const name = `figure-${definition.id}-${++serial}`;
-  const canvas = element('canvas', { class: 'figure-still', role: 'img', 'aria-label': definition.title });
+  const name = `figure-${definition.id}-${++serial}`, titleNow = (): string => (typeof definition.title === 'string' ? definition.title : definition.title());
+  const questionNow = (): Said => (typeof definition.question === 'function' ? definition.question() : definition.question ?? titleNow());
+  const heading = element('h3', { id: name, class: 'figure-title', tabindex: '-1' }), answer = element('p', { class: 'figure-answer', hidden: true });
+  const canvas = element('canvas', { class: 'figure-still', role: 'img', 'aria-label': titleNow() });
   const overlay = element('canvas', { class: 'figure-moving', 'aria-hidden': 'true' });
   const message = element('p', { class: 'figure-message', hidden: true });
   const picture = element('div', { class: 'figure-picture' }, canvas, overlay, message);
-  const caption = element('figcaption', { class: 'figure-caption' });
-  const data = element('details', { class: 'figure-data' }, element('summary', {}, words.frame.data));
-  const save = element('div', { class: 'figure-save', role: 'group', 'aria-label': words.frame.save(definition.title) },
-    ...(['PNG', 'SVG', 'CSV'] as const).map((kind) =>
-      button(kind, () => write(kind), { class: 'figure-button', 'aria-label': words.frame.saveTitleAs(definition.title, kind), title: words.frame.saveAs(kind) })));
-  const root = element('figure', { class: 'figure', 'aria-labelledby': name },
-    element('div', { class: 'figure-head' }, element('h3', { id: name, class: 'figure-title' }, definition.title), save),
-    ...(definition.controls?.length ? [element('div', { class: 'figure-controls' }, ...definition.controls)] : []),
-    picture, caption, data);
+  const summary = element('p', { class: 'figure-summary' });
+  const data = element('details', { class: 'figure-data' }, element('summary', {}, words.frame.numbers), summary);
+  const saves = (['PNG', 'SVG', 'CSV'] as const).map((kind) => ({ kind, control: button(kind, () => write(kind), { class: 'figure-button', title: words.frame.saveAs(kind) }) }));
+  const save = element('div', { class: 'figure-save', role: 'group' }, ...saves.map(({ control }) => control));
+  const foot = element('div', { class: 'figure-foot' }, data, save);
+  const root = element('figure', { class: 'figure', 'aria-labelledby': name, 'data-figure': definition.id },
+    heading, answer, ...(definition.controls?.length ? [element('div', { class: 'figure-controls' }, ...definition.controls)] : []), picture, foot);
 
   let width = 0, height = 0, scale = 1, room = 0, colours: Ink | null = null;
-  let visible = false, dirty = true, asked = 0, busy = false, again = false, told = '';
+  let visible = false, dirty = true, asked = 0, busy = false, again = false, told = '', called = '', asks = '', answers = '';
   let tableTimer = 0, sentenceTimer = 0;
 
   const tall = (w: number): number => {
-    const extra = definition.extra?.(w) ?? 0;
-    return Math.round(Math.min(Math.max(LEAST, w * (definition.aspect ?? 0.62)), Math.max(LEAST, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
+    const extra = definition.extra?.(w) ?? 0, least = definition.least ?? LEAST;
+    return Math.round(Math.min(Math.max(least, w * (definition.aspect ?? 0.62)), Math.max(least, (definition.tallest ?? TALLEST) * window.innerHeight - extra)) + extra);
   };
   /** The canvases get the size of the page's picture, in the pixels of the screen. Its width is what was last observed: to ask for it would have the
    * browser lay out the page twice a frame while a slider is dragged. */
@@ -81,13 +85,32 @@ export function figure(definition: FigureDefinition): Figure {
       tableTimer = window.setTimeout(fill, 250);
     }
   }
+  function put(target: Element, said: Said): void {
+    target.replaceChildren(...saidNodes(said));
+  }
+  /** The title's places: what it names may change with the scene. */
+  function call(): void {
+    const title = titleNow();
+    if (title === called) return;
+    called = title;
+    root.dataset.title = title;
+    save.setAttribute('aria-label', words.frame.save(title));
+    for (const { kind, control } of saves) control.setAttribute('aria-label', words.frame.saveTitleAs(title, kind));
+    root.dispatchEvent(new CustomEvent(THERE, { bubbles: true }));
+  }
   function describe(): void {
     clearTimeout(sentenceTimer);
     sentenceTimer = 0;
-    const sentence = told ? '' : definition.summary();
-    if (caption.textContent === sentence) return;
-    caption.textContent = sentence;
-    canvas.setAttribute('aria-label', `${definition.title}. ${sentence}`);
+    call();
+    const question = questionNow(), said = told ? '' : definition.answer?.() ?? '', sentence = told ? '' : definition.summary();
+    const key = JSON.stringify(question), reply = JSON.stringify(said);
+    if (key !== asks) put(heading, question);
+    if (reply !== answers) put(answer, said);
+    [asks, answers] = [key, reply];
+    answer.hidden = saidText(said) === '';
+    if (summary.textContent !== sentence) summary.textContent = sentence;
+    const label = [`${saidText(question)}${/\?$/.test(saidText(question)) ? '' : '.'}`, saidText(said), sentence].filter(Boolean).join(' ');
+    if (canvas.getAttribute('aria-label') !== label) canvas.setAttribute('aria-label', label);
   }
   function redraw(): void {
     dirty = true;
@@ -112,25 +135,25 @@ export function figure(definition: FigureDefinition): Figure {
     message.textContent = text;
     message.hidden = !text;
     canvas.hidden = overlay.hidden = !!text;
-    caption.hidden = data.hidden = save.hidden = !!text;
+    foot.hidden = !!text;
     // The size is found anew when the picture is back.
     if (text) { picture.style.height = ''; width = 0; }
     redraw();
   }
   function fill(): void {
     if (!data.open) return;
-    while (data.lastChild && data.childNodes.length > 1) data.lastChild.remove();
-    data.append(tableElement(definition.table(), definition.title));
+    empty();
+    data.append(tableElement(definition.table(), titleNow()));
   }
-  data.addEventListener('toggle', () => {
-    if (data.open) fill();
-    else while (data.childNodes.length > 1) data.lastChild?.remove();
-  });
+  function empty(): void {
+    while (data.lastChild && data.lastChild !== summary) data.lastChild.remove();
+  }
+  data.addEventListener('toggle', () => { if (data.open) fill(); else empty(); });
 
   function write(kind: 'PNG' | 'SVG' | 'CSV'): void {
     if (kind === 'CSV') { downloadText(csv(definition.table()), 'text/csv', fileName(definition.id, 'csv')); return; }
     fit();
-    savePicture(kind, definition.id, definition.summary(), { title: definition.title, width, height, draw(pen, now) { definition.draw(pen, now); definition.overlay?.(pen, now); } });
+    savePicture(kind, definition.id, [saidText(definition.answer?.() ?? ''), definition.summary()].filter(Boolean).join(' '), { title: titleNow(), width, height, draw(pen, now) { definition.draw(pen, now); definition.overlay?.(pen, now); } });
     // Layouts that the drawing remembers are the screen's again.
     redraw();
   }
@@ -145,5 +168,15 @@ export function figure(definition: FigureDefinition): Figure {
     else if (visible) redrawOverlay();
   }, { rootMargin: '25% 0%' }).observe(picture);
 
-  return { element: root, canvas, overlay, picture, redraw, redrawOverlay, say };
+  put(heading, questionNow());
+  asks = JSON.stringify(questionNow());
+  call();
+  return {
+    element: root, canvas, overlay, picture, redraw, redrawOverlay, say,
+    there(on) {
+      if (root.hidden === !on) return;
+      root.hidden = !on;
+      root.dispatchEvent(new CustomEvent(THERE, { bubbles: true }));
+    },
+  };
 }

@@ -2,7 +2,7 @@
  *
  * Invariant: the letters are those that the core's MathML has for the same name (lang/typeset).
  */
-import type { Span } from './types';
+import type { Said, Span } from './types';
 
 const GREEK: Readonly<Record<string, string>> = {
   alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', epsilon: 'ε', zeta: 'ζ', eta: 'η', theta: 'θ', iota: 'ι', kappa: 'κ', lambda: 'λ', mu: 'μ', nu: 'ν', xi: 'ξ', pi: 'π',
@@ -26,3 +26,17 @@ export function nameSpans(name: string, size: number): Span[] {
 }
 /** The same as plain text. */
 export const nameText = (name: string): string => nameSpans(name, 1).map((span) => span.text).join('');
+
+/** A text with such names in it, as nodes of the page. */
+export function saidNodes(said: Said): Node[] {
+  if (typeof said === 'string') return [document.createTextNode(said)];
+  return said.map((span) => {
+    const text = document.createTextNode(span.text);
+    if (!span.italic && !span.sunk) return text;
+    const node = document.createElement(span.sunk ? 'sub' : 'i');
+    if (span.sunk && !span.italic) node.className = 'upright';
+    node.append(text);
+    return node;
+  });
+}
+export const saidText = (said: Said): string => (typeof said === 'string' ? said : said.map((span) => span.text).join(''));

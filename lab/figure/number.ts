@@ -30,11 +30,6 @@ export function readable(value: number, digits = 5): string {
 /** A count, thousands apart: 20 000. */
 export const grouped = (n: number): string => n.toLocaleString('en').replace(/,/g, '\u2009');
 
-/** A name of a model with true primes, for the eye: r'.x as r′.x. */
-export function primed(name: string): string {
-  return name.replace(/''/g, '″').replace(/'/g, '′');
-}
-
 /** readable() without zeros at the end: for sentences. */
 export function brief(value: number, digits = 4): string {
   return shortened(readable(value, digits));

@@ -6,9 +6,10 @@
 import { el as element } from '../dom';
 import { words } from '../words';
 import { minus } from './number';
+import { saidNodes } from './name';
 import type { Table } from './types';
 
-const ROWS = 200, DIGITS = 10;
+const ROWS = 200, DIGITS = 6;
 
 /** Which rows of so many are shown. */
 export function evenly(count: number, most = ROWS): number[] {
@@ -22,7 +23,7 @@ function shown(value: string | number): string {
 
 export function tableElement(table: Table, caption: string): HTMLElement {
   const rows = evenly(table.rows.length);
-  const head = element('tr', {}, ...table.head.map((name) => element('th', { scope: 'col' }, name)));
+  const head = element('tr', {}, ...(table.shown ?? table.head).map((name) => element('th', { scope: 'col' }, ...saidNodes(name))));
   const body = element('tbody');
   for (const i of rows) {
     body.append(element('tr', {}, ...table.rows[i]!.map((value) => element('td', typeof value === 'number' ? {} : { class: 'words' }, shown(value)))));

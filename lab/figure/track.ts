@@ -5,7 +5,6 @@
  */
 import type { Look } from '../scene';
 import { extent, padded } from './axes';
-import { words } from '../words';
 import { thin, thinPath } from './thin';
 import type { Frame, Pen } from './types';
 
@@ -57,38 +56,32 @@ export function viewOf(truth: ArrayLike<number> | null, tracks: readonly ArrayLi
   return { bounds: padded(bounds), leaving };
 }
 
-export const WIDTH = 1.75, EXACT_WIDTH = 5;
-const RADIUS = 3.2;
+export const WIDTH = 2, EXACT_WIDTH = 4;
+const RADIUS = 2.6;
 
-/** A method's line against time. index of `of`: markers of different methods stand at different places, so that lines on top of each other show. */
-export function drawTrack(pen: Pen, frame: Frame, times: ArrayLike<number>, column: ArrayLike<number>, look: Look, index: number, of: number): void {
-  pen.line(thin(times, column, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
-  drawMarkers(pen, frame, times, column, look, index, of);
+/** A method's line against time; rows: how many of its rows. */
+export function drawTrack(pen: Pen, frame: Frame, times: ArrayLike<number>, column: ArrayLike<number>, look: Look, rows: number): void {
+  pen.line(thin(first(times, rows), column, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
+  drawMarkers(pen, frame, times, column, look, rows);
 }
 
-export function drawPath(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, index: number, of: number): void {
-  pen.line(thinPath(x, y, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
-  drawMarkers(pen, frame, x, y, look, index, of);
+export function drawPath(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, rows: number): void {
+  pen.line(thinPath(first(x, rows), y, frame.x, frame.y), { colour: look.colour, width: WIDTH, dash: look.dash });
+  drawMarkers(pen, frame, x, y, look, rows);
 }
+const first = (column: ArrayLike<number>, rows: number): ArrayLike<number> => (rows >= column.length ? column : Array.prototype.slice.call(column, 0, rows));
 
-function drawMarkers(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, index: number, of: number): void {
-  const rows = Math.min(x.length, y.length), few = rows <= frame.width / 12;
-  // Every row where rows are few: then each marker is a step. Else about one every 90 pixels.
-  const stride = few ? 1 : rows / Math.max(3, Math.min(12, Math.round(frame.width / 90)));
-  for (let k = few ? 0 : stride * (index + 0.5) / Math.max(1, of); k < rows; k += stride) {
-    const i = Math.floor(k), px = frame.x(x[i]!), py = frame.y(y[i]!);
-    if (px >= frame.left - 1 && px <= frame.left + frame.width + 1 && py >= frame.top - 1 && py <= frame.top + frame.height + 1) {
-      pen.mark(look.marker, px, py, few ? RADIUS - 0.6 : RADIUS, look.colour);
-    }
+/** Where steps are few each has its marker; where they are many there is none, as the name at the end says whose line it is. */
+function drawMarkers(pen: Pen, frame: Frame, x: ArrayLike<number>, y: ArrayLike<number>, look: Look, upTo: number): void {
+  if (Math.min(x.length, y.length) > frame.width / 12) return;
+  const rows = Math.min(x.length, y.length, upTo);
+  for (let i = 0; i < rows; i++) {
+    const px = frame.x(x[i]!), py = frame.y(y[i]!);
+    if (px >= frame.left - 1 && px <= frame.left + frame.width + 1 && py >= frame.top - 1 && py <= frame.top + frame.height + 1) pen.mark(look.marker, px, py, RADIUS, look.colour);
   }
 }
 
 /** With a capital: a method's name at the head of a sentence. */
 export function begin(sentence: string): string {
   return sentence.slice(0, 1).toUpperCase() + sentence.slice(1);
-}
-
-/** "a", "a and b", "a, b and c". */
-export function listed(names: readonly string[], most = 6): string {
-  return names.length > most ? words.figure.listMore(names.slice(0, most - 1), String(names.length - most + 1)) : words.figure.list(names);
 }

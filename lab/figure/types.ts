@@ -33,12 +33,22 @@ export interface Pen {
 export type InkName = 'text' | 'quiet' | 'grid' | 'axis' | 'surface' | 'exact' | 'accent' | 'danger' | 'ghost' | 'figure';
 export type Ink = Readonly<Record<InkName, string>>;
 
-export interface Table { readonly head: readonly string[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
+/** A sentence; with names of a model in it as spans, which stand as an equation sets them. */
+export type Said = string | readonly Span[];
+/** head: as a file has it; shown: as a reader sees it, where that differs. */
+export interface Table { readonly head: readonly string[]; readonly shown?: readonly Said[]; readonly rows: readonly (readonly (string | number)[])[]; readonly note?: string }
 
 export interface FigureDefinition {
-  readonly id: string; readonly title: string;
+  /** title: the short name, for saved files, the data table, links to the figure. */
+  readonly id: string; readonly title: string | (() => string);
+  /** What the picture answers: its heading. Absent: the title. */
+  readonly question?: Said | (() => Said);
+  /** The answer of this run in one sentence; '': none. Asked for once a scene, not once a frame. */
+  answer?(): Said;
   /** Height over width where the page leaves the choice; height is bounded by the page. */
   readonly aspect?: number;
+  /** Nor lower than this, in pixels; absent: what curves need. */
+  readonly least?: number;
   draw(pen: Pen, ink: Ink): void;
   /** What moves with the time: on a layer of its own, above. */
   overlay?(pen: Pen, ink: Ink): void;
@@ -46,7 +56,7 @@ export interface FigureDefinition {
   readonly tallest?: number;
   /** Height beyond the aspect's, in pixels: a legend, more than one panel. */
   extra?(width: number): number;
-  /** A sentence that says what is seen, for those who do not see it. */
+  /** All that is seen, in sentences: for those who do not see it, and above the numbers. */
   summary(): string;
   table(): Table;
   /** Controls of the figure's own, above the picture. */
@@ -57,14 +67,16 @@ export interface Figure {
   /** The layer that moves, above the canvas; it takes no pointer. */
   readonly overlay: HTMLCanvasElement; readonly picture: HTMLElement;
   redraw(): void; redrawOverlay(): void;
-  /** Why there is nothing to see, in the picture's place; '' brings the picture back. */
+  /** Why there is nothing to see yet, in the picture's place; '' brings the picture back. */
   say(message: string): void;
+  /** Whether the figure is on the page: one that has no answer is not. Tells it by the event THERE. */
+  there(on: boolean): void;
 }
 
 export interface AxisDefinition {
-  readonly min: number; readonly max: number; readonly log?: boolean; readonly label: string;
-  /** Linear within this distance of zero, logarithmic beyond it on both sides. */
-  readonly linear?: number;
+  readonly min: number; readonly max: number; readonly log?: boolean; readonly label: Said;
+  /** Set behind the last number along, and behind the name of what goes up. */
+  readonly unit?: string;
 }
 /** A mapping from numbers to pixels. */
 export interface Scale { (value: number): number; invert(pixel: number): number; readonly ticks: readonly number[]; label(value: number): string }

@@ -5,10 +5,12 @@
 import type { Scene } from '../scene';
 import type { Column } from '../protocol';
 import { extent } from '../figure/axes';
-import { readable } from '../figure/number';
+import { nameSpans } from '../figure/name';
+import { grouped, readable } from '../figure/number';
 import { rowAt, valueAt } from '../figure/track';
-import type { Table } from '../figure/types';
+import type { Said, Span, Table } from '../figure/types';
 import { SEEN } from '../sample';
+import { words } from '../words';
 
 export function columnOf(scene: Scene, name: string): Column | null {
   return scene.description.columns.find((c) => c.name === name) ?? null;
@@ -19,6 +21,8 @@ function named(scene: Scene, keep: (column: Column) => boolean): string[] {
   return scene.description.columns.filter((c) => there.has(c.name) && keep(c)).map((c) => c.name);
 }
 
+/** The numbers that the motion is made of. */
+export const states = (scene: Scene): string[] => named(scene, (c) => c.kind === 'position' || c.kind === 'first-order');
 /** All that can be looked at against time. */
 export const movable = (scene: Scene): string[] => named(scene, (c) => c.kind !== 'time' && c.kind !== 'exact');
 export const positions = (scene: Scene): string[] => named(scene, (c) => c.kind === 'position');
@@ -39,10 +43,10 @@ export function exactAt(scene: Scene, name: string, t: number): number {
 }
 
 /** The same for reading: no digit is told that the line, or a draft of it, does not have. */
-export function exactText(scene: Scene, name: string, t: number): string {
+export function exactText(scene: Scene, name: string, t: number, digits = DIGITS): string {
   const { value, off } = readExact(scene, name, t);
-  if (!(off > 0) || !Number.isFinite(value)) return readable(value, DIGITS);
-  return Math.abs(value) <= off ? '≈ 0' : readable(value, Math.max(1, Math.min(DIGITS, Math.floor(Math.log10(Math.abs(value) / off)))));
+  if (!(off > 0) || !Number.isFinite(value)) return readable(value, digits);
+  return Math.abs(value) <= off ? '≈ 0' : readable(value, Math.max(1, Math.min(digits, Math.floor(Math.log10(Math.abs(value) / off)))));
 }
 
 const DIGITS = 6;
@@ -86,9 +90,13 @@ function allTimes(scene: Scene): number[] {
   return [...new Set(lists.flatMap((l) => [...l]))].sort((a, b) => way * (a - b));
 }
 
-/** One row for each time; for each of `names` the exact value where it is known there, and each method's. series: other numbers than the tracks' columns. */
-export function timeTable(scene: Scene, names: readonly string[], series?: (track: number, name: string) => ArrayLike<number>): Table {
-  const { solution } = scene, times = allTimes(scene), head = ['t'];
+/** A name as the head of a column sets it. */
+export const headName = (name: string): Span[] => nameSpans(name, 13);
+
+/** One row for each time; for each of `names` the exact value where it is known there, and each method's. series: other numbers than the tracks' columns;
+ * heads: how a reader sees the names, where they are no columns'. */
+export function timeTable(scene: Scene, names: readonly string[], series?: (track: number, name: string) => ArrayLike<number>, heads: Readonly<Record<string, Said>> = {}): Table {
+  const { solution } = scene, times = allTimes(scene), head = ['t'], shown: Said[] = [headName('t')];
   const readers: ((t: number) => number)[] = [];
   const atRow = (of: ArrayLike<number>, column: ArrayLike<number>) => (t: number): number => {
     const i = rowAt(of, t);
@@ -96,26 +104,26 @@ export function timeTable(scene: Scene, names: readonly string[], series?: (trac
   };
   for (const name of names) {
     const at = solution.columns.indexOf(name), exact = solution.columns.indexOf(`exact ${name}`);
-    const fine = solution.truth?.columns[at];
+    const fine = solution.truth?.columns[at], said = heads[name] ?? headName(name), set: readonly Span[] = typeof said === 'string' ? [{ text: said }] : said;
     if (!series && exact >= 0) {
       head.push(`exact ${name}`);
+      shown.push([...set, { text: `, ${words.stage.exact}` }]);
       readers.push((t) => exactAt(scene, name, t));
     } else if (!series && solution.truth && !solution.truth.coarse && fine?.length) {
       const read = atRow(solution.truth.times, fine);
       // A reference has its own times: a column of it, where it has a number for every row.
       if (times.every((t) => !Number.isNaN(read(t)))) {
         head.push(`${solution.truth.name} ${name}`);
+        shown.push([...set, { text: `, ${words.stage.computed}` }]);
         readers.push(read);
       }
     }
     solution.tracks.forEach((track, k) => {
       head.push(`${name} (${track.method})`);
+      shown.push([...set, { text: `, ${scene.looks[k]?.label ?? track.method}` }]);
       readers.push(atRow(track.times, series ? series(k, name) : track.columns[at] ?? []));
     });
   }
   const kept = solution.tracks.find((t) => t.every > 1);
-  return {
-    head, rows: times.map((t) => [t, ...readers.map((read) => read(t))]),
-    note: kept ? `Every ${kept.every}th step was kept, and the last one.` : '',
-  };
+  return { head, shown, rows: times.map((t) => [t, ...readers.map((read) => read(t))]), note: kept ? words.panel.step(grouped(kept.every)) : '' };
 }

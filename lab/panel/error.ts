@@ -6,32 +6,35 @@
 import type { Panel, PanelMaker, Scene } from '../scene';
 import type { ColumnKind } from '../protocol';
 import { axes } from '../figure/axes';
-import { cursor, drawHeading, heading } from '../figure/cursor';
+import { cursor, drawReadout, heading } from '../figure/cursor';
 import { el as element } from '../dom';
+import { drawEnds, endIn, endOf, endsLayout, heightsIn, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
-import { drawLegend, drawValues, legendLayout, lookEntry, type LegendLayout } from '../figure/legend';
 import { brief, readable } from '../figure/number';
-import { drawTrack, begin, listed, rowAt } from '../figure/track';
+import { drawTrack, begin, rowAt } from '../figure/track';
 import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
+import { words } from '../words';
 import { columnOf, timeTable } from './columns';
+import { amount, endTime, listed, moment, nameAt, several, timeUnit, unitOf } from './told';
 
-/* What an error is of: the name in the list, the kind of the columns, and its sign on the axis. */
+const say = words.panel.error;
+/* What an error is of: the kind of the columns, and its sign in tables. */
 type Of = 'x' | 'v' | 's';
-const KINDS: Readonly<Record<Of, { readonly name: string; readonly kind: ColumnKind; readonly sign: string }>> = {
-  x: { name: 'position', kind: 'position', sign: 'x' }, v: { name: 'velocity', kind: 'velocity', sign: 'x′' }, s: { name: 'first-order variable', kind: 'first-order', sign: 's' },
-};
+const KINDS: Readonly<Record<Of, { readonly kind: ColumnKind; readonly sign: string }>> = { x: { kind: 'position', sign: 'x' }, v: { kind: 'velocity', sign: "x'" }, s: { kind: 'first-order', sign: 's' } };
 const ALL: readonly Of[] = ['x', 'v', 's'];
+/** So many units of round-off are none. */
+const NONE = 64;
 
-export const errorPanel: PanelMaker = (store): Panel => {
+export const errorPanel: PanelMaker = (): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, of: Of = 'x';
   let floor = 0, low = 1e-16, high = 1, zeros = false, drawn: Float64Array[] = [], leaving: number[] = [];
 
   const select = element('select', {});
   /* The kinds in the list, which is written anew only when they change. */
   let offered = '';
-  const control = element('label', {}, 'Error of the', select);
+  const control = element('label', {}, say.of, select);
   select.addEventListener('change', () => {
     of = ALL.find((value) => value === select.value) ?? 'x';
     if (scene) prepare(scene);
@@ -42,7 +45,8 @@ export const errorPanel: PanelMaker = (store): Panel => {
     const row = scene?.solution.errors.find((e) => e.method === track?.method);
     return row?.[of] ?? new Float64Array(0);
   };
-  const layout = (width: number): LegendLayout => legendLayout(width, scene?.looks.map((l) => l.label) ?? [], 10);
+  const layout = (width: number): EndsLayout => endsLayout(width, scene?.looks.map((l) => l.label) ?? []);
+  const unit = (): string => (scene ? unitOf(scene, scene.description.columns.find((c) => c.kind === KINDS[of].kind)?.name ?? '') : '');
 
   /** Bounds: from a little below what methods do to their largest error; down to the floor only if somebody comes near it. */
   function measure(next: Scene): void {
@@ -85,14 +89,9 @@ export const errorPanel: PanelMaker = (store): Panel => {
 
   function draw(pen: Pen, ink: Ink): void {
     if (!scene) return;
-    const legend = layout(pen.width), { tracks, truth } = scene.solution;
-    drawLegend(pen, ink, scene.looks.map(lookEntry), legend);
-    const times = truth?.times ?? new Float64Array(0);
-    const to = Math.max(...tracks.map((t) => t.times[t.times.length - 1] ?? 0), times[times.length - 1] ?? -Infinity);
-    const from = tracks[0]?.times[0] ?? 0, back = tracks[0] && (tracks[0].times[1] ?? from) < from;
-    const end = back ? Math.min(...tracks.map((t) => t.times[t.times.length - 1] ?? 0)) : to;
-    const region = { left: 0, top: legend.height, width: pen.width, height: pen.height - legend.height };
-    frame = axes(pen, ink, { min: from, max: end, label: 't' }, { min: low, max: high, log: true, label: `|${KINDS[of].sign} − truth|` }, { region });
+    const names = layout(pen.width), { tracks, truth } = scene.solution;
+    const region = { left: 0, top: names.above, width: pen.width - names.right, height: pen.height - names.above }, t = timeUnit(scene);
+    frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : [{ text: 't', italic: true }], unit: t }, { min: low, max: high, log: true, label: say.axis[of], unit: unit() }, { region, plain: true });
     const f = frame, foot = f.top + f.height;
     const shade = (upTo: number, words: string): void => {
       if (!(upTo > low)) return;
@@ -102,11 +101,13 @@ export const errorPanel: PanelMaker = (store): Panel => {
       if (foot - y > 18) pen.text(f.left + f.width - 6, y + 5, words, { colour: ink.quiet, size: 11, anchor: 'end', baseline: 'top' });
     };
     const own = truth?.error ?? 0;
-    if (own > 3 * floor) shade(own, `below the reference’s own error`);
-    shade(floor, 'round-off');
+    if (own > 3 * floor) shade(own, say.ownError);
+    shade(floor, say.roundOff);
+    const ends = tracks.map((track, k) => endIn(f, track.times, drawn[k]!));
     pen.clip(f.left, f.top - 2, f.width + 2, f.height + 4, () => {
-      tracks.forEach((track, k) => drawTrack(pen, f, track.times, drawn[k]!, scene!.looks[k]!, k, tracks.length));
+      tracks.forEach((track, k) => drawTrack(pen, f, track.times, drawn[k]!, scene!.looks[k]!, ends[k]!.rows));
     });
+    drawEnds(pen, ink, f, names, tracks.map((track, k) => endOf(scene!.looks[k]!, ends[k]!, heightsIn(f, track.times, drawn[k]!))));
   }
 
   /** The error at the last row not after t: errors between rows are not known, and are not made up. */
@@ -126,17 +127,32 @@ export const errorPanel: PanelMaker = (store): Panel => {
         if (look && i >= 0) pen.mark(look.marker, f.x(times[i]!), f.y(Math.max(e, low)), 4, look.colour);
       });
     });
-    drawValues(pen, ink, all.map((e) => readable(e, 3)), layout(pen.width));
-    drawHeading(pen, ink, f, heading(t));
+    const hovered = line.hovered();
+    if (hovered !== null) drawReadout(pen, ink, f, hovered, heading(hovered, timeUnit(scene)), all.map((e, k) => ({ text: `${scene!.looks[k]?.label} ${amount(e, unit())}`, colour: scene!.looks[k]?.tone ?? ink.text })));
   }
 
+  /** What each is off at the end of the run. */
+  function answer(): string {
+    if (!scene) return '';
+    const { tracks, truth } = scene.solution, end = endTime(scene), at = moment(scene, end);
+    const parts = tracks.map((track, k) => {
+      const name = nameAt(scene!, k), all = errors(k), last = track.times.length - 1, e = all[last] ?? NaN;
+      if (track.problem || !Number.isFinite(e)) {
+        const lost = track.problem?.time ?? track.times[Math.max(0, all.findIndex((v) => !Number.isFinite(v)))] ?? end;
+        return say.leaves(name, moment(scene!, lost));
+      }
+      if (e <= NONE * floor) return say.onIt(name);
+      return e <= (truth?.error ?? 0) ? say.under(name, amount(truth!.error, unit(), 2)) : say.one(name, amount(e, unit()));
+    });
+    const list = several(parts), sentence = { x: say.answer, v: say.inVelocity, s: say.inFirst }[of];
+    return parts.length ? sentence(at, list) : '';
+  }
   const against = (): string => {
     const truth = scene?.solution.truth;
     if (!truth) return '';
-    if (truth.name === 'exact') return 'Measured against the exact motion, which is known up to round-off.';
+    if (truth.name === 'exact') return say.againstExact;
     // The reference's step is long to read to its last digit.
-    const name = truth.name.replace(/\d+\.\d{5,}(e[+-]?\d+)?/g, (n) => brief(Number(n), 4));
-    return `Measured against a reference, ${name}${truth.error > 0 ? `, whose own error is about ${brief(truth.error, 2)}` : ''}.`;
+    return say.against(truth.name.replace(/\d+\.\d{5,}(e[+-]?\d+)?/g, (n) => brief(Number(n), 4)), truth.error > 0 ? brief(truth.error, 2) : '');
   };
   function summary(): string {
     if (!scene) return '';
@@ -144,54 +160,49 @@ export const errorPanel: PanelMaker = (store): Panel => {
     const worst = tracks.map((_, k) => {
       let top = 0;
       for (const e of errors(k)) if (e > top) top = e;
-      return { name: scene!.looks[k]?.label ?? '', top };
+      return { name: nameAt(scene!, k), top };
     }).sort((a, b) => a.top - b.top);
-    const said = worst.map((w) => `${w.name} ${w.top <= 16 * floor ? (w.top === 0 ? '0' : `${brief(w.top, 2)} (round-off)`) : brief(w.top, 3)}`);
+    const said = worst.map((w) => (w.top <= 16 * floor && w.top > 0 ? say.small(w.name, brief(w.top, 2)) : say.one(w.name, brief(w.top, 3))));
     return [
-      said.length ? `Largest error in the ${KINDS[of].name}: ${listed(said, 5)}.` : '',
-      against(),
-      zeros ? 'Where an error is zero to the last digit, the line runs at the foot of the picture.' : '',
-      leaving.length ? `${begin(listed(leaving.map((k) => scene!.looks[k]?.label ?? '')))} ${leaving.length > 1 ? 'leave' : 'leaves'} the picture.` : '',
+      said.length ? say.largest(say.kinds[of], listed(said, 5)) : '', against(), zeros ? say.zeros : '',
+      leaving.length ? begin(words.panel.leave(leaving.map((k) => nameAt(scene!, k)))) : '',
     ].filter(Boolean).join(' ');
   }
   function table(): Table {
     if (!scene) return { head: [], rows: [] };
-    const made = timeTable(scene, [`|${KINDS[of].sign.replace('′', "'")} − truth|`], (k) => errors(k));
+    const name = `|${KINDS[of].sign} − truth|`, made = timeTable(scene, [name], (k) => errors(k), { [name]: begin(say.axis[of]) });
     return { ...made, note: `${against()} ${made.note ?? ''}`.trim() };
   }
 
   const fig: Figure = figure({
-    id: 'error', title: 'Error', aspect: 0.5, draw, overlay, summary, extra: (w) => layout(w).height, table, controls: [control],
+    id: 'error', title: say.title, question: say.question, answer, aspect: 0.42, draw, overlay, summary, extra: (w) => layout(w).above, table, controls: [control],
   });
   const line = cursor({
-    figure: fig, title: 'Error', frame: () => frame, times: () => scene?.solution.tracks[0]?.times ?? [],
-    text: (t) => `${heading(t)}. ${values(t).map((e, k) => `${scene?.looks[k]?.label}: ${readable(e, 3)}`).join(', ')}.`,
+    figure: fig, title: say.title, frame: () => frame, times: () => scene?.solution.tracks[0]?.times ?? [],
+    text: (t) => `${heading(t, scene ? timeUnit(scene) : '')}. ${values(t).map((e, k) => `${scene?.looks[k]?.label}: ${readable(e, 3)}`).join(', ')}.`,
   });
 
   function prepare(next: Scene): void {
     scene = next;
     nameExports(next.state.preset);
     frame = null;
-    const { truth, problem, tracks } = next.solution;
-    const why = !tracks.length ? 'No method is chosen. Choose one, and its error appears here.'
-      : problem ? `The error cannot be told: there is nothing exact to compare with.\n${problem.message}${problem.hint ? ` ${problem.hint}` : ''}`
-      : !truth || !next.solution.errors.length ? 'This model has no exact line. A reference is computed to compare with; the error appears here when it is known.'
-      : '';
-    const there = ALL.filter((value) => next.solution.errors.some((e) => e[value].length));
+    const { truth, errors: known } = next.solution, waits = !truth || !known.length;
+    const there = ALL.filter((value) => known.some((e) => e[value].length));
     if (there.length && !there.includes(of)) of = there[0]!;
     if (offered !== there.join()) {
       offered = there.join();
-      select.replaceChildren(...there.map((value) => element('option', { value }, KINDS[value].name)));
+      select.replaceChildren(...there.map((value) => element('option', { value }, say.kinds[value])));
     }
     select.value = of;
-    if (!why) measure(next);
+    if (!waits) measure(next);
     control.hidden = there.length < 2;
-    fig.say(why);
+    fig.say(waits ? say.waiting : '');
     fig.redraw();
   }
-  void store;
   return {
-    id: 'error', title: 'Error', element: fig.element, show: prepare,
+    id: 'error', title: say.title, element: fig.element, show: prepare,
+    // Where nothing is known to measure against, nothing is shown.
+    there: ({ solution }) => solution.tracks.length > 0 && !solution.problem,
     at: (t) => line.set(t),
     redraw() { if (scene) scene = recoloured(scene); fig.redraw(); },
   };

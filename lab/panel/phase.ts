@@ -2,26 +2,34 @@
  *
  * Invariant: two positions have one scale, so that a circle is a circle; what is not of one kind has its own scale on each axis.
  */
-import type { Panel, PanelMaker, Scene } from '../scene';
+import type { Panel, Scene, Store } from '../scene';
 import { axes, extent } from '../figure/axes';
 import { el as element } from '../dom';
+import { drawEnds, endIn, endOf, endsLayout, type End, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
-import { drawLegend, exactEntry, legendLayout, lookEntry, type LegendLayout } from '../figure/legend';
-import { brief, primed, readable } from '../figure/number';
-import { drawHeading, heading } from '../figure/cursor';
-import { EXACT_WIDTH, drawPath, begin, listed, valueAt, viewOf, type View } from '../figure/track';
+import { nameSpans, nameText } from '../figure/name';
+import { brief, readable } from '../figure/number';
+import { EXACT_WIDTH, drawPath, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thinPath } from '../figure/thin';
-import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
-import { columnOf, exactAt, movable, positions, timeTable, velocityOf } from './columns';
+import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
+import type { Sees } from '../stage/stage';
+import { words } from '../words';
+import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
+import { swingsOf } from './swings';
+import { amount, exactName, nameAt, timeUnit, unitOf } from './told';
 
-export const phasePanel: PanelMaker = (store): Panel => {
+const say = words.panel.phase;
+/** Curves are compared at so many times: those that agree share a name. */
+const TIMES = 256;
+
+export const phasePanel = (store: Store, stage: () => Sees): Panel => {
   let scene: Scene | null = null, frame: Frame | null = null, pair: [string, string] = ['', ''], offered = '', time = 0;
   let views: [View, View] | null = null;
 
   const across = element('select', {}), up = element('select', {});
-  const controls = [element('label', {}, 'Across', across), element('label', {}, 'Up', up)];
+  const controls = [element('label', {}, say.across, across), element('label', {}, say.up, up)];
   for (const select of [across, up]) {
     select.addEventListener('change', () => {
       const next: [string, string] = [across.value, up.value];
@@ -37,24 +45,34 @@ export const phasePanel: PanelMaker = (store): Panel => {
     return column?.length ? column : null;
   };
   const truthShown = (): boolean => !!(truthOf(pair[0]) && truthOf(pair[1]));
-  const truthLabel = (): string => (scene?.solution.truth?.name === 'exact' ? 'exact' : 'reference');
-  const layout = (width: number): LegendLayout => legendLayout(width, [...(truthShown() ? [truthLabel()] : []), ...(scene?.looks.map((l) => l.label) ?? [])]);
+  const layout = (width: number): EndsLayout => endsLayout(width, [...(truthShown() && scene ? [exactName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])]);
   const space = (): boolean => pair.every((name) => scene && columnOf(scene, name)?.kind === 'position');
 
   function draw(pen: Pen, ink: Ink): void {
     if (!scene || !views) return;
-    const legend = layout(pen.width), { tracks, truth } = scene.solution;
-    drawLegend(pen, ink, [...(truthShown() ? [exactEntry(ink, truthLabel())] : []), ...scene.looks.map(lookEntry)], legend);
-    const [x, y] = views;
-    const f = frame = axes(pen, ink, { min: x.bounds[0], max: x.bounds[1], label: primed(pair[0]) }, { min: y.bounds[0], max: y.bounds[1], label: primed(pair[1]) },
-      { equal: space(), region: { left: 0, top: legend.height, width: pen.width, height: pen.height - legend.height } });
+    const names = layout(pen.width), { tracks, truth } = scene.solution, [x, y] = views;
+    const label = (name: string): Span[] => nameSpans(name, 13);
+    const f = frame = axes(pen, ink, { min: x.bounds[0], max: x.bounds[1], label: label(pair[0]), unit: unitOf(scene, pair[0]) }, { min: y.bounds[0], max: y.bounds[1], label: label(pair[1]), unit: unitOf(scene, pair[1]) },
+      { equal: space(), region: { left: 0, top: names.above, width: pen.width - names.right, height: pen.height - names.above } });
+    const ends: End[] = [], ex = truthOf(pair[0]), ey = truthOf(pair[1]);
+    const heights = (times: ArrayLike<number>, px: ArrayLike<number>, py: ArrayLike<number>): Float64Array => {
+      const from = tracks[0]?.times[0] ?? 0, to = truth?.times[truth.times.length - 1] ?? tracks[0]?.times[tracks[0].times.length - 1] ?? 0;
+      return Float64Array.from({ length: 2 * TIMES }, (_, k) => { const t = from + (to - from) * ((k >> 1) + 0.5) / TIMES; return k % 2 ? f.y(valueAt(times, py, t)) : f.x(valueAt(times, px, t)); });
+    };
     pen.clip(f.left, f.top - 2, f.width + 2, f.height + 3, () => {
-      const ex = truthOf(pair[0]), ey = truthOf(pair[1]);
-      if (truth && ex && ey) pen.line(thinPath(ex, ey, f.x, f.y), { colour: ink.exact, width: EXACT_WIDTH });
-      tracks.forEach((_, k) => drawPath(pen, f, track(k, pair[0]), track(k, pair[1]), scene!.looks[k]!, k, tracks.length));
-      const x0 = track(0, pair[0])[0] ?? NaN, y0 = track(0, pair[1])[0] ?? NaN;
-      pen.mark('ring', f.x(x0), f.y(y0), 6, ink.text);
+      if (truth && ex && ey) {
+        pen.line(thinPath(ex, ey, f.x, f.y), { colour: ink.exact, width: EXACT_WIDTH });
+        const end = endIn(f, ex, ey);
+        ends.push({ label: exactName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heights(truth.times, ex, ey) });
+      }
+      tracks.forEach(({ times }, k) => {
+        const px = track(k, pair[0]), py = track(k, pair[1]), end = endIn(f, px, py), look = scene!.looks[k]!;
+        drawPath(pen, f, px, py, look, end.rows);
+        ends.push(endOf(look, end, heights(times, px, py)));
+      });
+      pen.mark('ring', f.x(track(0, pair[0])[0] ?? NaN), f.y(track(0, pair[1])[0] ?? NaN), 6, ink.text);
     });
+    drawEnds(pen, ink, f, names, ends);
   }
   /** Where each one is now. */
   function points(t: number): [number, number][] {
@@ -74,22 +92,36 @@ export const phasePanel: PanelMaker = (store): Panel => {
         pen.mark(look?.marker ?? 'circle', px, py, look ? 5 : 6, look?.colour ?? ink.exact);
       });
     });
-    drawHeading(pen, ink, f, heading(time));
   }
 
+  const speedOf = (): boolean => !!scene && velocityOf(scene, pair[0]) === pair[1];
+  const question = (): Said => (!pair[0] || speedOf() ? say.question : [{ text: say.pair[0] }, ...nameSpans(pair[1], 18), { text: say.pair[1] }, ...nameSpans(pair[0], 18), { text: say.pair[2] }]);
+  /** Of the exact motion, or of the first method's. */
+  function answer(): Said {
+    if (!scene || !scene.solution.tracks.length) return '';
+    const { truth, tracks } = scene.solution, exact = truthShown() && truth, times = exact ? exact.times : tracks[0]!.times;
+    const [x, y] = pair.map((name) => (exact ? truthOf(name) : null) ?? track(0, name)) as [Float64Array, Float64Array];
+    const value = (name: string, v: number): string => amount(v, unitOf(scene!, name)), name = (of: string): Span[] => nameSpans(of, 15);
+    const head: Span[] = exact ? [] : [{ text: say.by(nameAt(scene, 0)) }], put = (...rest: Span[]): Said => [...head, ...name(pair[0]), ...rest];
+    const { turns, repeats } = speedOf() ? swingsOf(times, x, y) : { turns: [], repeats: null }, first = turns[0], last = turns[turns.length - 1];
+    if (repeats) return put({ text: say.swings(value(pair[0], repeats.low), value(pair[0], repeats.high), amount(repeats.period, timeUnit(scene))) });
+    if (first && last) return put({ text: say.turns(turns.length, value(pair[0], first.at), value(pair[0], last.at)) });
+    const [a, b] = extent([x]), [c, d] = extent([y]);
+    return put({ text: say.between(value(pair[0], a), value(pair[0], b)) }, ...name(pair[1]), { text: say.andBetween(value(pair[1], c), value(pair[1], d)) });
+  }
   function summary(): string {
     if (!scene || !views) return '';
     const leaving = [...new Set([...views[0].leaving, ...views[1].leaving])].map((k) => scene!.looks[k]?.label ?? '');
     const first = scene.solution.tracks[0], last = first ? first.times.length - 1 : -1;
-    const end = last >= 0 ? `${begin(scene.looks[0]?.label ?? '')} ends at (${brief(track(0, pair[0])[last] ?? NaN, 5)}, ${brief(track(0, pair[1])[last] ?? NaN, 5)}).` : '';
     return [
-      `${primed(pair[1])} against ${primed(pair[0])}, from the ring (${readable(track(0, pair[0])[0] ?? NaN, 4)}, ${readable(track(0, pair[1])[0] ?? NaN, 4)}) on.`, end,
-      leaving.length ? `${begin(listed(leaving))} ${leaving.length > 1 ? 'leave' : 'leaves'} the picture.` : '',
+      say.from(nameText(pair[1]), nameText(pair[0]), readable(track(0, pair[0])[0] ?? NaN, 4), readable(track(0, pair[1])[0] ?? NaN, 4)),
+      last >= 0 ? say.ends(begin(scene.looks[0]?.label ?? ''), brief(track(0, pair[0])[last] ?? NaN, 5), brief(track(0, pair[1])[last] ?? NaN, 5)) : '',
+      leaving.length ? begin(words.panel.leave(leaving)) : '',
     ].filter(Boolean).join(' ');
   }
   const table = (): Table => (scene ? timeTable(scene, [...new Set(pair)]) : { head: [], rows: [] });
 
-  const fig: Figure = figure({ id: 'phase', title: 'Phase plane', aspect: 0.7, draw, overlay, summary, extra: (w) => layout(w).height, table, controls });
+  const fig: Figure = figure({ id: 'phase', title: say.title, question, answer, aspect: 0.62, draw, overlay, summary, extra: (w) => layout(w).above, table, controls });
 
   function prepare(next: Scene, wanted: readonly [string, string] | null): void {
     scene = next;
@@ -102,11 +134,12 @@ export const phasePanel: PanelMaker = (store): Panel => {
       const [low, high] = extent(column ? [column] : []);
       return !!column && high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     };
-    const all = positions(next).slice(0, 16), x = all.find(moves) ?? all[0] ?? names[0] ?? '', v = velocityOf(next, x) ?? names.find((n) => n !== x && n !== 't') ?? x;
+    const all = positions(next).slice(0, 16), [one, two] = states(next), x = all.find(moves) ?? all[0] ?? one ?? names[0] ?? '';
+    const v = velocityOf(next, x) ?? (two && two !== x ? two : names.find((n) => n !== x && n !== 't') ?? x);
     pair = wanted && wanted.every((n) => names.includes(n)) ? [wanted[0], wanted[1]] : [x, v];
     if (key !== offered) {
       offered = key;
-      for (const select of [across, up]) select.replaceChildren(...names.slice(0, 400).map((name) => element('option', { value: name }, primed(name))));
+      for (const select of [across, up]) select.replaceChildren(...names.slice(0, 400).map((name) => element('option', { value: name }, nameText(name))));
     }
     across.value = pair[0];
     up.value = pair[1];
@@ -114,11 +147,12 @@ export const phasePanel: PanelMaker = (store): Panel => {
     const { tracks } = next.solution;
     const view = (name: string): View => viewOf(truthShown() ? truthOf(name) : null, tracks.map((_, k) => track(k, name)));
     views = [view(pair[0]), view(pair[1])];
-    fig.say(!tracks.length ? 'No method is chosen. Choose one, and its path appears here.' : !pair[0] ? 'This model has nothing that moves.' : '');
     fig.redraw();
   }
   return {
-    id: 'phase', title: 'Phase plane', element: fig.element,
+    id: 'phase', title: say.title, element: fig.element,
+    // Where it stands on the stage beside the motion it is not shown twice, unless its axes were chosen.
+    there: (next) => next.solution.tracks.length > 0 && movable(next).length > 1 && (next.state.view.phase !== null || stage().side !== 'phase'),
     show: (next) => prepare(next, next.state.view.phase),
     at(t) { time = t; fig.redrawOverlay(); },
     redraw() { if (scene) scene = recoloured(scene); fig.redraw(); },

@@ -1,183 +1,142 @@
-/* Work and precision: the error against the number of force evaluations, from the same measurements as the convergence; below it the methods side
- * by side at the present step, as a table that can be sorted.
+/* What does accuracy cost? The error against the number of force evaluations, from the same measurements as the order.
  *
- * Invariant: nothing is measured here; a method's line joins the points that the core has computed.
+ * Invariant: nothing is measured here; a method's line joins the points that the core has computed, and counts are read off that line (reading.ts).
  */
-import { button, el as element } from '../dom';
+import type { EndsLayout } from '../figure/ends';
 import { figure } from '../figure/figure';
-import { brief, readable, tenTo } from '../figure/number';
-import type { Ink, Pen } from '../figure/types';
-import type { CompareRow, Comparison, ConvergeRow } from '../protocol';
+import { recoloured } from '../figure/ink';
+import { brief, grouped, readable, shortened, tenTo } from '../figure/number';
+import { textWidth } from '../figure/shapes';
+import type { Frame, Ink, Pen } from '../figure/types';
+import type { ConvergeRow } from '../protocol';
 import type { Look, Panel, PanelMaker, Scene } from '../scene';
-import { errorFrame, errorOf, judge, roomFor } from './convergence';
-import { convergenceStudy, lookFor, rowsFor, sample, Study, studyBar } from './study';
+import { words } from '../words';
+import { comparedDetails } from './compared';
+import { drawErrors, endLabel, endOfStudy, errorEnds, errorFrame, judge, namesLayout } from './errors';
+import { digitsOf, needOf, pointsOf, type Need } from './reading';
+import { convergenceStudy, lookFor, measurable, rowsFor, studyBar } from './study';
+import { several } from './told';
 
-const whole = (n: number): string => (n < 1e6 ? String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f') : readable(n, 2));
+const say = words.study.precision;
+/** So many comparisons in the sentence: the nearest, and the furthest. */
+const COMPARED = 3;
+/** To so many digits, thousands apart. */
+const rounded = (n: number, digits = 2): string => (n < 1e6 ? (n < 10 ? brief(n, digits) : grouped(Number(n.toPrecision(n < 100 ? 2 : digits)))) : shortened(readable(n, digits)));
 
-/** Points that can be drawn, cheapest first. */
-function pointsOf(row: ConvergeRow): { readonly work: number; readonly error: number }[] {
-  return row.points.map((point) => ({ work: point.evaluations, error: errorOf(point) }))
-    .filter((point) => point.work > 0 && point.error > 0).sort((a, b) => a.work - b.work);
+interface Cost { readonly name: string; readonly need: Need }
+interface Costs { readonly digits: number; readonly costs: readonly Cost[]; readonly short: readonly string[]; readonly exact: readonly string[] }
+/** What each needs for the same digits, the least first. null: nobody comes to one. */
+function costsOf(rows: readonly ConvergeRow[], names: readonly string[]): Costs | null {
+  const measured = rows.map((row, i) => ({ row, name: names[i]! })).filter(({ row }) => !row.exact_here && pointsOf(row).length > 0);
+  const digits = digitsOf(measured.map(({ row }) => row)), exact = names.filter((_, i) => rows[i]!.exact_here);
+  if (digits === null) return null;
+  const costs = measured.flatMap(({ row, name }) => { const need = needOf(row, 10 ** -digits); return need ? [{ name, need }] : []; }).sort((a, b) => a.need.work - b.need.work);
+  return { digits, costs, short: measured.map((m) => m.name).filter((name) => !costs.some((cost) => cost.name === name)), exact };
 }
 
-/** Evaluations that a method needs for an error: between the points on either side, along the line drawn; NaN where it has none as small. */
-function workFor(row: ConvergeRow, error: number): number {
-  const points = pointsOf(row);
-  const k = points.findIndex((point) => point.error <= error);
-  if (k <= 0) return k === 0 ? points[0]!.work : NaN;
-  const a = points[k - 1]!, b = points[k]!;
-  const share = Math.log(a.error / error) / Math.log(a.error / b.error);
-  return Math.exp(Math.log(a.work) + share * Math.log(b.work / a.work));
-}
-
-/** The smallest power of ten that all methods reach; those that are exact here do not count. */
-function level(rows: readonly ConvergeRow[]): number {
-  const least = rows.filter((row) => !row.exact_here).map((row) => Math.min(...pointsOf(row).map((point) => point.error)));
-  return least.length ? Math.ceil(Math.log10(Math.max(...least))) : NaN;
-}
-
-interface Column { readonly name: string; readonly about: string; readonly value: (row: CompareRow) => number | string; readonly text?: (row: CompareRow) => string }
-const number = (value: number | null): number => value ?? NaN;
-
-/** A note that all methods share is said once. */
-const common = (found: Comparison): string => { const note = found.rows[0]?.note ?? ''; return found.rows.every((row) => row.note === note) ? note : ''; };
-
-function columnsOf(found: Comparison, labels: ReadonlyMap<string, string>): Column[] {
-  const invariants = found.rows.find((row) => row.invariants.length > 0)?.invariants ?? [];
-  return [
-    { name: 'method', about: '', value: (row) => labels.get(row.method) ?? row.method },
-    { name: 'order', about: 'declared', value: (row) => row.order },
-    { name: 'evaluations', about: 'of the force', value: (row) => row.evaluations, text: (row) => whole(row.evaluations) },
-    ...(found.rows.some((row) => row.error_max !== null) ? [{ name: 'error', about: 'largest, of the positions', value: (row: CompareRow) => number(row.error_max) }] : []),
-    ...(found.rows.some((row) => row.error_max_s !== null) ? [{ name: 'first-order error', about: 'largest, of the first-order variables', value: (row: CompareRow) => number(row.error_max_s) }] : []),
-    ...invariants.map((invariant, k): Column => ({
-      name: `absolute drift of ${invariant.name}`, about: 'largest, in its own units; ↗ where it grows with the time', value: (row) => number(row.invariants[k]?.max_drift ?? null),
-      text: (row) => { const drift = row.invariants[k]; return drift ? `${readable(drift.max_drift, 2)}${drift.trending ? ' ↗' : ''}` : '–'; },
-    })),
-    { name: 'reversal', about: 'error after going back to the start', value: (row) => number(row.reversal) },
-    ...(found.rows.some((row) => row.note) && !common(found) ? [{ name: 'note', about: '', value: (row: CompareRow) => row.note }] : []),
-  ];
-}
-
-const cell = (column: Column, row: CompareRow): string => {
-  const value = column.value(row);
-  return column.text ? column.text(row) : typeof value === 'string' ? value : Number.isInteger(value) && Math.abs(value) < 1e4 ? String(value) : readable(value, 2);
-};
-
-/** A table with a button in each head; numbers first go up, a second press turns the order round. NaN stays at the end. */
-function comparison(): { readonly element: HTMLElement; show(found: Comparison, looks: readonly Look[]): void } {
-  let by = -1, down = false, last: { found: Comparison; looks: readonly Look[] } | null = null;
-  // The sentence stands above the box that scrolls, not in it.
-  const about = element('p', { class: 'figure-caption' });
-  const body = element('div', { class: 'compared', tabindex: '0', role: 'region', 'aria-label': 'The methods side by side' });
-  const remarks = element('ul', { class: 'remarks' });
-
-  function show(found: Comparison, looks: readonly Look[]): void {
-    last = { found, looks };
-    const columns = columnsOf(found, new Map(looks.map((look) => [look.method, look.label])));
-    if (by >= columns.length) by = -1;
-    const chosen = columns[by];
-    const rows = [...found.rows];
-    if (chosen) {
-      rows.sort((a, b) => {
-        const x = chosen.value(a), y = chosen.value(b);
-        if (typeof x === 'string' || typeof y === 'string') return String(x).localeCompare(String(y)) * (down ? -1 : 1);
-        if (Number.isNaN(x) || Number.isNaN(y)) return Number(Number.isNaN(x)) - Number(Number.isNaN(y));
-        return (x - y) * (down ? -1 : 1);
-      });
-    }
-    const focused = body.contains(document.activeElement) ? columns.findIndex((_, k) => body.querySelectorAll('thead button')[k] === document.activeElement) : -1;
-    const head = columns.map((column, k) => {
-      const press = button(k === by ? `${column.name} ${down ? '▾' : '▴'}` : column.name, () => {
-        down = by === k ? !down : false;
-        by = k;
-        if (last) show(last.found, last.looks);
-      }, { 'aria-label': `Sort by ${column.name}`, ...(column.about ? { title: column.about } : {}) });
-      return element('th', { scope: 'col', ...(k === by ? { 'aria-sort': down ? 'descending' : 'ascending' } : {}) }, press);
-    });
-    const lines = rows.map((row) => element('tr', {}, ...columns.map((column, k) => {
-      if (k > 0) return element('td', column.name === 'note' ? { class: 'why' } : {}, cell(column, row));
-      const look = looks.find((l) => l.method === row.method);
-      return element('th', { scope: 'row' }, ...(look ? [sample(look)] : []), cell(column, row));
-    })));
-    const [name = ''] = found.reference.split('; ');
-    const judged = name === 'exact' ? 'errors against the exact motion' : `errors against ${name}, itself good to ${brief(found.reference_error, 2)}`;
-    const step = found.rows[0]?.step;
-    about.textContent = `The methods side by side${step ? ` at the step ${brief(step, 4)}` : ''}: ${judged}.`;
-    body.replaceChildren(element('table', { 'aria-label': 'The methods side by side' },
-      element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...lines)));
-    if (focused >= 0) body.querySelectorAll<HTMLButtonElement>('thead button')[focused]?.focus();
-    remarks.replaceChildren(...[...found.remarks, ...(common(found) ? [`For every method, ${common(found)}.`] : [])].map((remark) => element('li', {}, remark)));
+/** The answer, from the rows and the names of their methods; until: where the motion that was measured ends, ''. '' where no error was measured. */
+export function accuracy(rows: readonly ConvergeRow[], names: readonly string[], until = ''): string {
+  const found = costsOf(rows, names);
+  if (!found) {
+    const measured = names.filter((_, i) => !rows[i]!.exact_here && pointsOf(rows[i]!).length > 0);
+    return measured.length ? say.none(measured) : '';
   }
-  return { element: element('div', {}, about, body, remarks), show };
+  const { digits, costs: [best, ...others], short, exact } = found, rest = [...(short.length ? [say.short(short)] : []), ...(exact.length ? [say.exact(exact)] : [])];
+  if (!best) return '';
+  const count = rounded(best.need.work);
+  if (!others.length) return say.alone(say.digits(digits), best.name, best.need.exact ? count : say.atMost(count), until, rest);
+  const groups: { ratio: string; names: string[] }[] = [];
+  for (const { name, need } of others) {
+    // A bound below a bound bounds nothing.
+    if (!best.need.exact && !need.exact) continue;
+    const times = need.work / best.need.work, plain = rounded(times), ratio = times < 1.05 ? '' : best.need.exact && need.exact ? plain : best.need.exact ? say.upTo(plain) : say.atLeast(plain);
+    const same = groups.find((group) => group.ratio === ratio);
+    if (same) same.names.push(name); else groups.push({ ratio, names: [name] });
+  }
+  if (!groups.length) return say.alone(say.digits(digits), best.name, best.need.exact ? count : say.atMost(count), until, rest);
+  return say.answer(say.digits(digits), best.name, (groups.length > COMPARED ? [...groups.slice(0, COMPARED - 1), groups[groups.length - 1]!] : groups).map(({ ratio, names: than }, k) => say.than(ratio, than, k === 0)), rest);
+}
+
+/** Whether a line of points passes through a box: at a pixel every so often. */
+function crosses(xy: readonly number[], left: number, right: number, top: number, foot: number): boolean {
+  for (let k = 0; k + 3 < xy.length; k += 2) {
+    for (let part = 0; part <= 1; part += 1 / 16) {
+      const x = xy[k]! + part * (xy[k + 2]! - xy[k]!), y = xy[k + 1]! + part * (xy[k + 3]! - xy[k + 1]!);
+      if (x >= left && x <= right && y >= top && y <= foot) return true;
+    }
+  }
+  return false;
 }
 
 export const precision: PanelMaker = (store): Panel => {
-  const study = convergenceStudy(store);
-  const compared = new Study(store, 'compare', 'Comparing the methods', 'Compared', true);
-  let scene: Scene | null = null;
+  const study = convergenceStudy(store), side = comparedDetails(store);
+  let scene: Scene | null = null, nothing = '';
   const rows = (): readonly ConvergeRow[] => rowsFor(study, scene);
   const looks = (): Look[] => (scene ? lookFor(scene, rows().map((row) => row.method)) : []);
+  const labels = (width: number): string[] => looks().map((look) => endLabel(width, look, (name) => name));
+  const layout = (width: number): EndsLayout => namesLayout(width, labels(width));
+  const answer = (): string => accuracy(rows(), looks().map((look) => look.label), study.answer ? shortEnd(endOfStudy(study.answer)) : '');
+  const shortEnd = (text: string): string => (text ? brief(Number(text), 3) : '');
 
   function draw(pen: Pen, ink: Ink): void {
-    const found = rows(), names = looks();
-    if (!scene || found.length === 0) return;
-    const lines = found.map(pointsOf), points = lines.flat();
-    const frame = errorFrame(pen, ink, names, points.map((point) => point.work), 'evaluations of the force', points.map((point) => point.error));
-    pen.clip(frame.left, frame.top, frame.width, frame.height, () => {
-      const at = 10 ** level(found);
-      if (found.length > 1 && at > 0) {
-        pen.line([frame.left, frame.y(at), frame.left + frame.width, frame.y(at)], { colour: ink.quiet, width: 1, dash: [3, 3] });
-      }
-      lines.forEach((line, i) => {
-        const look = names[i]!, xy = line.flatMap((point) => [frame.x(point.work), frame.y(point.error)]);
-        pen.line(xy, { colour: look.colour, width: 1.75, dash: look.dash });
-        for (let k = 0; k < xy.length; k += 2) pen.mark(look.marker, xy[k]!, xy[k + 1]!, 3, look.colour);
-      });
+    const found = rows(), names = looks(), lines = found.map(pointsOf), points = lines.flat();
+    if (!scene || !points.length) return;
+    const ends = labels(pen.width), room = namesLayout(pen.width, ends), work = points.map((point) => point.work), least = Math.min(...work), most = Math.max(...work);
+    const ticks = Array.from({ length: 20 }, (_, k) => 10 ** k).filter((v) => v >= least / 1.3 && v <= 1.3 * most);
+    const frame = errorFrame(pen, ink, room, points.map((point) => point.error), { from: least / 1.3, to: 1.3 * most, ticks, label: (v) => (v < 1e5 ? grouped(v) : tenTo(Math.round(Math.log10(v)))), name: say.axis });
+    const costs = costsOf(found, names.map((look) => look.label)), at = costs ? 10 ** -costs.digits : 0;
+    const paths = lines.map((line) => line.flatMap((point) => [frame.x(point.work), frame.y(point.error)]));
+    pen.clip(frame.left, frame.top - 4, frame.width + 8, frame.height + 8, () => {
+      if (at > 0) pen.line([frame.left, frame.y(at), frame.left + frame.width, frame.y(at)], { colour: ink.text, width: 1, dash: [2, 3] });
+      found.forEach((_, i) => drawErrors(pen, names[i]!, paths[i]!, () => true));
     });
+    if (at > 0 && costs) level(pen, ink, frame, at, say.digits(costs.digits), paths);
+    errorEnds(pen, ink, frame, room, ends, names, paths);
   }
 
-  function sentence(): string {
-    const found = rows(), names = looks();
-    if (found.length === 0) return '';
-    const power = level(found), exact = names.filter((_, i) => found[i]!.exact_here).map((look) => look.label);
-    const parts: string[] = [];
-    const needs = found.map((row, i) => ({ label: names[i]!.label, work: row.exact_here ? NaN : workFor(row, 10 ** power) })).filter((need) => need.work > 0).sort((a, b) => a.work - b.work);
-    if (needs.length) parts.push(`For an error of ${tenTo(power)} of the size of the motion, ${needs.map((need) => `${need.label} needs ${whole(Number(need.work.toPrecision(2)))}`).join(', ')} evaluations of the force.`);
-    if (exact.length) parts.push(`Exact here but for round-off: ${exact.join(', ')}.`);
-    return parts.join(' ');
+  /** The name of the level, at its line, where the fewest curves pass. */
+  function level(pen: Pen, ink: Ink, frame: Frame, at: number, text: string, paths: readonly (readonly number[])[]): void {
+    const y = frame.y(at), wide = textWidth(text) + 12, right = frame.left + frame.width;
+    const places = ([[frame.left, 1], [right - wide, -1], [frame.left, -1], [right - wide, 1]] as const).map(([x, way]) => {
+      const passing = paths.filter((xy) => crosses(xy, x, x + wide, Math.min(y, y + 20 * way), Math.max(y, y + 20 * way))).length;
+      return { x, way, passing };
+    });
+    const best = places.reduce((a, b) => (b.passing < a.passing ? b : a));
+    pen.text(best.x + 6, y + 4 * best.way, text, { colour: ink.text, baseline: best.way > 0 ? 'top' : 'bottom', halo: ink.surface });
   }
 
-  const side = comparison();
-  const shown = figure({
-    id: 'precision', title: 'Work and precision', aspect: 0.62, draw,
-    extra: (width) => roomFor(width, looks()),
-    summary: sentence,
-    table: () => ({
-      head: ['method', 'evaluations', 'error', 'step'],
-      rows: rows().flatMap((row) => row.points.map((point) => [row.method, point.evaluations, point.error ?? NaN, point.step])),
-      note: study.answer ? judge(study.answer) : '',
-    }),
+  const fig = figure({
+    id: 'precision', title: say.title, question: say.question, answer, aspect: 0.42, draw,
+    extra: (width) => layout(width).above + (width < 480 ? 60 : 0),
+    summary: () => {
+      const costs = costsOf(rows(), looks().map((look) => look.label));
+      const list = costs ? several(costs.costs.map(({ name, need }) => say.count(name, need.exact ? rounded(need.work, 3) : say.atMost(rounded(need.work, 3)))), 30) : '';
+      return [costs ? say.counts(say.digits(costs.digits), list) : '', costs ? say.meaning(say.digits(costs.digits), tenTo(-costs.digits)) : '', study.answer ? judge(study.answer) : ''].filter(Boolean).join(' ');
+    },
+    table: () => {
+      const names = looks();
+      return { head: say.columns, rows: rows().flatMap((row, i) => row.points.map((point) => [names[i]!.label, point.evaluations, point.error ?? NaN, point.step])) };
+    },
     controls: [studyBar(study)],
   });
-  shown.element.append(studyBar(compared), side.element);
+  fig.element.append(side.element);
 
   function update(): void {
-    shown.say(study.message());
-    shown.redraw();
-  }
-  function updateTable(): void {
-    const found = compared.answer;
-    side.element.hidden = !found;
-    if (found && scene) side.show(found, lookFor(scene, found.rows.map((row) => row.method)));
+    // Where all are exact there is nothing to pay; whether that changes, the order's panel finds out.
+    const { answer: found } = study, now = found && !study.stale ? accuracy(found.rows, found.rows.map((row) => row.method)) : null;
+    if (now !== null) nothing = now === '' ? study.asked : '';
+    fig.say(study.message());
+    fig.there(!study.silent && nothing === '');
+    side.element.hidden = study.message() !== '';
+    fig.redraw();
   }
   study.listen(update);
-  compared.listen(updateTable);
 
   return {
-    id: 'precision', title: 'Work and precision', element: shown.element,
-    show(next) { scene = next; study.want(next); compared.want(next); update(); },
+    id: 'precision', title: say.title, element: fig.element,
+    there: (next) => measurable(next) && !study.silentFor(next) && (nothing === '' || nothing !== study.about(next)),
+    show(next) { scene = next; study.want(next); side.want(next); update(); },
     at() { /* nothing here moves with the time */ },
-    redraw() { update(); updateTable(); },
+    redraw() { if (scene) scene = recoloured(scene); update(); side.redraw(); },
   };
 };

@@ -1,28 +1,39 @@
-/* Stability: where in the plane of z = hλ one step of the main method does not make a motion grow, and where the model's own hλ are.
+/* How large may the step be? The largest stable step of every method for this motion's own rates, as bars; behind a switch the whole plane of hλ.
  *
- * Invariant: the region belongs to the method alone and is asked once; the rates λ belong to the model; the step only moves the points.
+ * Invariant: limits belong to the methods, rates to the motion; the step only moves the line of the run. Where the force is the same everywhere, or nothing
+ * can be judged by a rate, there is a sentence and no picture.
  */
-import { axes } from '../figure/axes';
+import { button } from '../dom';
+import { shortLabel } from '../figure/ends';
 import { figure } from '../figure/figure';
-import { brief, minus } from '../figure/number';
-import type { Frame, Ink, Pen } from '../figure/types';
-import type { Method, Model, Spectrum } from '../protocol';
-import { Refused, type Panel, type PanelMaker, type Scene } from '../scene';
-import { methodTitle } from '../theory/cards';
-import { heightAt, planeOf, type Plane } from './plane';
+import { recoloured } from '../figure/ink';
+import { brief, grouped, minus } from '../figure/number';
+import type { Ink, Pen } from '../figure/types';
+import type { Method, Model } from '../protocol';
+import { Refused, type Look, type Panel, type PanelMaker, type Scene } from '../scene';
+import { words } from '../words';
+import { drawBars, heightOf, type Bar } from './bars';
+import { Limits, type Limit } from './limits';
+import { planeOf, type Plane } from './plane';
+import { PlanePicture } from './planepicture';
+import { motionOf, type Motion, type Rate } from './rates';
+import { amount, moment, timeUnit } from './told';
 
-/** Times along the run at which the model is linearised; after the last change of the model, so many milliseconds later. */
-const TIMES = 16, PAUSE = 120;
-/** Pixels of the shading on the screen's scale. */
-const MESH = 2;
+const say = words.study.stability;
+/** Moments of the run at which it is linearised: fewer where that is dear, by the numbers of the state; after the last change, so many milliseconds later. */
+const momentsFor = (numbers: number): number => (numbers <= 8 ? 128 : numbers <= 24 ? 32 : 16);
+const PAUSE = 120, PLANE = { aspect: 0.78, tallest: 0.8 };
 
-interface Rate { readonly time: number; readonly re: number; readonly im: number }
+const cardOf = (scene: Scene, name: string): Method | undefined =>
+  scene.catalogue.find((m) => m.name === name || m.aliases.includes(name)) ?? scene.catalogue.find((m) => name.startsWith(`${m.name}(`) || name.startsWith(`${m.name} (`));
+/** It is a map of hλ alone, whatever the force is made of. */
+const byRates = (card: Method, name: string): boolean => card.family === 'runge-kutta' || (card.family === 'implicit' && name === card.name);
 
 const complex = (re: number, im: number): string => {
   const small = 1e-9 * Math.hypot(re, im);
   if (Math.abs(im) <= small) return brief(re, 3);
   const i = `${brief(Math.abs(im), 3)} i`;
-  return Math.abs(re) <= small ? `${im < 0 ? '−' : '±'}${i}` : `${brief(re, 3)} ± ${i}`;
+  return Math.abs(re) <= small ? `±${i}` : `${brief(re, 3)} ± ${i}`;
 };
 /** As many digits as tell it from 1. */
 const growthText = (growth: number): string => {
@@ -30,288 +41,248 @@ const growthText = (growth: number): string => {
   return off > 0 && off < 1e-4 ? `1 ${growth > 1 ? '+' : '−'} ${brief(off, 2)}` : brief(growth, off < 0.01 ? 6 : 4);
 };
 
-export const stability: PanelMaker = (store): Panel => {
-  let scene: Scene | null = null;
-  let plane: Plane | null = null, planeFor = '', trouble = '';
-  let rates: Rate[] = [], times: number[] = [], ratesFor = '', ratesTrouble = '', timer = 0;
-  let growth: Float64Array | null = null, growthFor = '';
-  let now = 0;
-  let frame: Frame | null = null;
-  let shade: { key: string; cells: Uint8Array; columns: number; rows: number } | null = null;
+export interface Judged { readonly name: string; readonly limit: Limit }
+/** The answer: the largest step of each. scale: what a limit is divided by to be a step; written: a step with its unit; here: the run's. */
+export function largestSteps(judged: readonly Judged[], scale: number, here: number, written: (h: number) => string, lead: string): string {
+  const groups = new Map<string, string[]>(), of = (kind: Limit['kind']): string[] => judged.filter((j) => j.limit.kind === kind).map((j) => j.name);
+  const bars = judged.flatMap((j) => (j.limit.kind === 'upTo' ? [{ name: j.name, step: j.limit.value / scale }] : [])).sort((a, b) => a.step - b.step);
+  for (const { name, step } of bars) groups.set(written(step), [...groups.get(written(step)) ?? [], name]);
+  const any = of('any'), never = of('never'), slow = of('slow'), unknown = of('unknown'), over = bars.filter((b) => here > b.step).map((b) => b.name);
+  const limits = [...groups].map(([step, names], k) => say.below(step, names, k === 0));
+  const rest = [
+    ...(any.length ? [say.any(any)] : []), ...(never.length || slow.length ? [[never.length ? say.never(never) : '', slow.length ? say.slow(slow, !never.length) : ''].filter(Boolean).join(', ')] : []),
+    ...(unknown.length ? [say.unknown(unknown)] : []),
+  ];
+  return judged.length ? say.answer(`${over.length ? say.tooLarge(written(here), over) : ''}${lead}`, limits, rest) : '';
+}
 
-  const method = (): Method | undefined => {
-    const name = scene?.looks[0]?.method;
-    return scene?.catalogue.find((m) => m.name === name || m.aliases.includes(name ?? '')) ?? scene?.catalogue.find((m) => name?.startsWith(`${m.name}(`));
-  };
+export const stability: PanelMaker = (store): Panel => {
+  const limits = new Limits(store.client), picture = new PlanePicture();
+  let scene: Scene | null = null, motion: Motion | null = null, motionFor = '', trouble = '', timer = 0, now = 0;
+  let judged: { readonly look: Look; readonly limit: Limit }[] = [], judgedFor = '';
+  let plane: Plane | null = null, planeFor = '', whole = false;
+  let growth: Float64Array | null = null, growthFor = '';
+
+  const methods = (): Look[] => scene?.looks.filter((look) => cardOf(scene!, look.method)?.family !== 'exact' && cardOf(scene!, look.method)) ?? [];
+  const main = (): Method | undefined => { const look = methods()[0]; return scene && look ? cardOf(scene, look.method) : undefined; };
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? scene?.description.settings.step ?? 0);
-  const colour = (ink: Ink): string => scene?.looks[0]?.colour ?? ink.accent;
+  const unit = (): string => (scene ? timeUnit(scene) : '');
+  /** A step, with its unit. */
+  const written = (h: number): string => (h >= 1000 && h < 1e5 ? `${grouped(Number(h.toPrecision(3)))}${unit() && `\u2009${unit()}`}` : amount(h, unit()));
+  const frequency = (): number => motion?.frequencies[0] ?? 0;
+  /** Bars are of step times frequency, or of the step. */
+  const swinging = (): boolean => motion?.kind === 'swings';
+  const boris = (): boolean => main()?.name === 'boris' && motion?.springs === false;
+  /** Where there is one, and something to be judged. */
+  const drawable = (): boolean => (motion?.kind === 'swings' || motion?.kind === 'fades') && judged.some((j) => j.limit.kind !== 'unknown');
+  const waiting = (): boolean => !trouble && (!motion || ((motion.kind === 'swings' || motion.kind === 'fades') && judgedFor === ''));
 
   /* ---- asking ---- */
 
-  async function wantPlane(): Promise<void> {
-    const m = method();
-    if (!m || m.name === planeFor) return;
-    planeFor = m.name;
-    plane = null;
-    trouble = m.family === 'exact' ? 'The exact motion takes no steps: nothing can become unstable. Choose a method to see where its steps may lie.' : '';
-    say();
-    if (trouble) return;
-    try {
-      const made = await planeOf(store.client, m);
-      if (planeFor !== m.name) return;
-      plane = made;
-    } catch (reason) {
-      if (planeFor !== m.name) return;
-      planeFor = '';
-      trouble = reason instanceof Refused ? [reason.problem.message, reason.problem.hint].filter(Boolean).join(': ') : 'The region could not be computed.';
-    }
-    say();
+  /** Of the shown methods, the one whose run is nearest to the motion. */
+  function follower(of: Scene): string {
+    const tracks = of.solution.tracks.filter((track) => track.method !== 'exact' && !track.problem && cardOf(of, track.method));
+    return (tracks.length ? tracks : of.solution.tracks).reduce((best, track) => ((cardOf(of, track.method)?.order ?? 0) > (cardOf(of, best)?.order ?? -1) ? track.method : best), '') || of.description.settings.method;
   }
-
   function wantRates(): void {
     if (!scene) return;
-    const { state, description, solution } = scene;
-    const key = JSON.stringify([state.text, state.set, state.until]);
-    if (key === ratesFor) return;
-    ratesFor = key;
+    const { state, description, solution } = scene, method = follower(scene), key = JSON.stringify([state.text, state.set, state.until, method]);
+    if (key === motionFor) { void wantLimits(); return; }
+    motionFor = key;
     clearTimeout(timer);
     const model: Model = { text: state.text, set: Object.entries(state.set).map(([name, value]) => `${name}=${value}`) };
-    const start = description.settings.start, track = solution.tracks[0], end = track?.times[track.times.length - 1] ?? description.settings.until ?? start;
-    const name = track?.method ?? description.settings.method, first = track?.step ?? description.settings.step;
+    const track = solution.tracks.find((t) => t.method === method), start = description.settings.start, end = track?.times[track.times.length - 1] ?? start;
+    const numbers = description.columns.filter((c) => c.kind === 'position' || c.kind === 'velocity' || c.kind === 'first-order').length, count = momentsFor(numbers);
+    const ask = { model, method, step: track?.step ?? description.settings.step, until: state.until !== '' ? store.numbers.until : null };
     timer = window.setTimeout(() => { void (async () => {
-      const at = Array.from({ length: TIMES }, (_, k) => start + (end - start) * k / TIMES);
-      const ask = { model, method: name, step: first, until: state.until !== '' ? store.numbers.until : null };
-      let found: readonly Spectrum[] = [];
-      ratesTrouble = '';
+      const along = Array.from({ length: count }, (_, k) => start + (end - start) * k / count);
       // Where the motion cannot be followed, its start still tells.
-      for (const some of end > start ? [at, [start]] : [[start]]) {
+      for (const times of end === start ? [[start]] : [along, [start]]) {
         try {
-          found = await store.client.ask('spectrum', { ...ask, times: some }, { lane: 'study', key: 'spectrum' });
+          const found = await store.client.ask('spectrum', { ...ask, times }, { lane: 'study', key: 'spectrum' });
+          if (motionFor !== key) return;
+          const pure = !description.velocity_dependent && !description.variables.some((v) => v.order === 1);
+          // Answers come in the order of the times, earliest first.
+          motion = motionOf(found, [...times].sort((a, b) => a - b), pure, end < start ? -1 : 1);
+          trouble = '';
           break;
         } catch (reason) {
-          if (ratesFor !== key) return;
-          ratesTrouble = reason instanceof Refused ? reason.problem.message : 'The model could not be linearised.';
+          if (motionFor !== key) return;
+          motion = null;
+          trouble = reason instanceof Refused ? reason.problem.message : String(reason);
         }
       }
-      if (ratesFor !== key) return;
-      rates = found.flatMap((spectrum, k) => Array.from(spectrum.re, (re, i): Rate => ({ time: at[k]!, re, im: spectrum.im[i]! })));
-      times = found.map((_, k) => at[k]!);
-      growthFor = '';
-      wantGrowth();
-      say();
+      judgedFor = growthFor = '';
+      void wantLimits();
+      tell();
     })(); }, PAUSE);
   }
 
-  /** Of the pairs λ and its conjugate, the upper one; real ones once. */
-  const upper = (): Rate[] => rates.filter((rate) => rate.im >= 0);
+  async function wantLimits(): Promise<void> {
+    const of = motion, looks = methods(), at = scene;
+    if (!of || !at || !(of.kind === 'swings' || of.kind === 'fades')) { tell(); return; }
+    const key = `${motionFor} ${looks.map((look) => look.method).join()}`;
+    if (key === judgedFor) { wantGrowth(); return; }
+    const found: { look: Look; limit: Limit }[] = [];
+    try {
+      for (const look of looks) {
+        const card = cardOf(at, look.method)!;
+        const told = of.springs || byRates(card, look.method);
+        found.push({ look, limit: !told ? { kind: 'unknown' } : of.kind === 'swings' ? await limits.axis(look.method, card) : await limits.steps(look.method, card, of.judged) });
+        if (motion !== of) return;
+      }
+    } catch (reason) {
+      if (motion !== of) return;
+      trouble = reason instanceof Refused ? reason.problem.message : String(reason);
+      tell();
+      return;
+    }
+    // Meanwhile others may have been chosen, which are asked for in their turn.
+    if (methods().map((look) => look.method).join() !== looks.map((look) => look.method).join()) return;
+    judged = found;
+    judgedFor = key;
+    wantGrowth();
+    tell();
+  }
 
+  /** Growth of the main method's step, at each rate: for the plane and the numbers. */
   function wantGrowth(): void {
-    const m = method(), h = step();
-    if (!m || m.family === 'exact' || rates.length === 0) return;
-    const key = `${m.name} ${h} ${ratesFor}`;
+    const card = main(), look = methods()[0], h = step();
+    if (!card || !look || !motion?.rates.length) return;
+    const key = `${look.method} ${h} ${motionFor}`;
     if (key === growthFor) return;
     growthFor = key;
-    const points = upper(), re = points.map((rate) => (Math.abs(rate.re) <= 1e-12 * Math.hypot(rate.re, rate.im) ? 0 : h * rate.re)), im = points.map((rate) => h * rate.im);
-    growth = null;
-    void (async () => {
-      try {
-        const answer = await store.client.ask('growth', { method: m.name, re, im }, { lane: 'quick', key: 'growth' });
-        if (growthFor === key) growth = answer;
-      } catch {
-        // Called off by a newer one, or not answered: then the grid must do.
-        if (growthFor === key && plane) {
-          const { full, axis } = plane;
-          growth = Float64Array.from(re, (x, k) => Math.exp(x === 0 ? heightAt({ ...axis, re: Float64Array.of(-1, 1) }, 0, im[k]!) : full ? heightAt(full, x, im[k]!) : NaN));
-        }
-      }
-      if (growthFor === key) shown.redraw();
-    })();
+    const { rates } = motion;
+    store.client.ask('growth', { method: look.method, re: rates.map((r) => h * r.re), im: rates.map((r) => h * r.im) }, { lane: 'quick', key: 'growth' })
+      .then((answer) => { if (growthFor === key) { growth = answer; fig.redraw(); } }, () => { if (growthFor === key) growth = null; });
+  }
+  async function wantPlane(): Promise<void> {
+    const card = main();
+    if (!whole || !card || card.name === planeFor) return;
+    planeFor = card.name;
+    plane = null;
+    try {
+      const made = await planeOf(store.client, card);
+      if (planeFor === card.name) plane = made;
+    } catch {
+      // The bars say what there is to say.
+      if (planeFor === card.name) { planeFor = ''; whole = false; }
+    }
+    tell();
   }
 
   /* ---- drawing ---- */
 
-  function shading(of: Plane, f: Frame): { cells: Uint8Array; columns: number; rows: number } {
-    const columns = Math.max(1, Math.round(f.width / MESH)), rows = Math.max(1, Math.round(f.height / MESH));
-    const key = `${planeFor} ${f.left} ${f.top} ${f.width} ${f.height}`;
-    if (shade?.key === key) return shade;
-    const cells = new Uint8Array(columns * rows);
-    if (of.full) {
-      for (let j = 0; j < rows; j++) {
-        const im = f.y.invert(f.top + (j + 0.5) * f.height / rows);
-        for (let i = 0; i < columns; i++) {
-          if (heightAt(of.full, f.x.invert(f.left + (i + 0.5) * f.width / columns), im) > 0) cells[i + columns * j] = 1;
-        }
-      }
-    }
-    shade = { key, cells, columns, rows };
-    return shade;
+  /** Looks have the colours of the theme. */
+  function relook(): void {
+    judged = judged.map((j) => ({ ...j, look: scene?.looks.find((look) => look.method === j.look.method) ?? j.look }));
   }
 
-  function draw(pen: Pen, ink: Ink): void {
-    frame = null;
-    if (!plane) return;
-    const { half } = plane;
-    const f = frame = axes(pen, ink, { min: -1.3 * half, max: 0.7 * half, label: 'Re hλ' }, { min: -1.08 * half, max: 1.08 * half, label: 'Im hλ' }, { equal: true });
-    const px = (re: number): number => f.x(re), py = (im: number): number => f.y(im);
-    pen.clip(f.left, f.top, f.width, f.height, () => {
-      if (plane?.full) {
-        const { cells, columns, rows } = shading(plane, f);
-        pen.cells(f.left, f.top, f.width, f.height, columns, rows, cells, ['', mixed(ink.danger, 0.16)]);
-        const xy = Float64Array.from(plane.border, (v, k) => (k % 2 ? py(v) : px(v)));
-        pen.line(xy, { colour: ink.text, width: 1.5 });
-      }
-      pen.line([px(0), f.top, px(0), f.top + f.height], { colour: ink.axis, width: 1 });
-      pen.line([f.left, py(0), f.left + f.width, py(0)], { colour: ink.axis, width: 1 });
-      if (plane && !plane.full) drawAxis(pen, ink, f, plane);
+  function barsOf(): Bar[] {
+    return judged.map(({ look, limit }) => {
+      const name = shortLabel(look.label);
+      const label = limit.kind === 'upTo' ? say.label(name, swinging() ? brief(limit.value, 3) : written(limit.value))
+        : { any: say.anyLabel, never: say.neverLabel, slow: say.slowLabel, unknown: say.unknownLabel }[limit.kind](name);
+      return { look, limit, label };
     });
-    legend(pen, ink, f);
-    drawPoints(pen, ink, f);
   }
-
-  /** A method without velocities in its force has answers on the imaginary axis only. */
-  function drawAxis(pen: Pen, ink: Ink, f: Frame, of: Plane): void {
-    const { axis } = of, x = f.x(0);
-    const piece = (from: number, to: number, grows: boolean): void => {
-      for (const sign of [1, -1]) pen.line([x, f.y(sign * from), x, f.y(sign * to)], grows ? { colour: ink.danger, width: 5, alpha: 0.6 } : { colour: ink.text, width: 5 });
-    };
-    let from = 0, grows = false;
-    for (let j = 0; j < axis.im.length; j++) {
-      const here = !(axis.growth[2 * j]! <= 1 + 1e-7), im = axis.im[j]!;
-      if (here !== grows) { piece(from, im, grows); from = im; grows = here; }
-    }
-    piece(from, axis.im[axis.im.length - 1]!, grows);
-    if (Number.isFinite(of.limit)) {
-      for (const sign of [1, -1]) {
-        pen.line([x - 7, f.y(sign * of.limit), x + 7, f.y(sign * of.limit)], { colour: ink.text, width: 1.5 });
-        pen.text(x + 12, f.y(sign * of.limit), `${sign < 0 ? '−' : ''}${brief(method()?.stability_limit ?? of.limit, 4)} i`, { colour: ink.text, size: 12, baseline: 'middle' });
-      }
-    }
-  }
-
-  function legend(pen: Pen, ink: Ink, f: Frame): void {
-    const put = (x: number, y: number, text: string, anchor: 'start' | 'end'): void => pen.text(x, y, text, { colour: ink.quiet, size: 11, anchor, baseline: 'top' });
-    if (plane?.full) put(f.left + f.width - 6, f.top + 6, 'shaded: a step makes the motion grow', 'end');
-    else {
-      const x = f.left + 8, y = f.top + 12;
-      pen.line([x, y, x + 18, y], { colour: ink.text, width: 5 });
-      put(x + 24, y - 6, 'no growth', 'start');
-      pen.line([x, y + 16, x + 18, y + 16], { colour: ink.danger, width: 5, alpha: 0.6 });
-      put(x + 24, y + 10, 'growth', 'start');
-    }
-  }
-
-  /** Where a point is drawn; outside of the picture, at its edge. */
-  function placed(f: Frame, re: number, im: number): { readonly x: number; readonly y: number; readonly out: boolean } {
-    const x = f.x(re), y = f.y(im), ox = f.x(0), oy = f.y(0), m = 7;
-    const share = Math.min(1,
-      x > ox ? (f.left + f.width - m - ox) / (x - ox) : x < ox ? (f.left + m - ox) / (x - ox) : 1,
-      y > oy ? (f.top + f.height - m - oy) / (y - oy) : y < oy ? (f.top + m - oy) / (y - oy) : 1);
-    return { x: ox + share * (x - ox), y: oy + share * (y - oy), out: share < 1 };
-  }
-
-  function drawPoints(pen: Pen, ink: Ink, f: Frame): void {
-    const h = step();
-    const seen = new Set<string>();
-    for (const rate of rates) {
-      const at = placed(f, h * rate.re, h * rate.im), key = `${Math.round(at.x)} ${Math.round(at.y)}`;
-      if (seen.has(key)) continue;
-      seen.add(key);
-      pen.mark('ring', at.x, at.y, 3, colour(ink));
-    }
-  }
-
-  /** The rates nearest to the present time. */
-  function overlay(pen: Pen, ink: Ink): void {
-    const f = frame;
-    if (!f || times.length === 0) return;
-    const h = step(), nearest = times.reduce((best, t) => (Math.abs(t - now) < Math.abs(best - now) ? t : best), times[0]!);
-    for (const rate of rates) {
-      if (rate.time !== nearest) continue;
-      const at = placed(f, h * rate.re, h * rate.im), ox = f.x(0), oy = f.y(0);
-      pen.line([ox, oy, at.x, at.y], { colour: colour(ink), width: 1, alpha: 0.6 });
-      if (at.out) pen.arrow(at.x - (at.x - ox) / Math.max(1, Math.hypot(at.x - ox, at.y - oy)) * 18, at.y - (at.y - oy) / Math.max(1, Math.hypot(at.x - ox, at.y - oy)) * 18, at.x, at.y, { colour: colour(ink), width: 2 });
-      else pen.mark('circle', at.x, at.y, 4.5, colour(ink));
-    }
+  const colour = (ink: Ink): string => methods()[0]?.colour ?? ink.text;
+  function draw(pen: Pen, ink: Ink): void {
+    if (!motion) return;
+    if (whole && plane) { picture.draw(pen, ink, plane, motion.rates, step(), colour(ink), main()?.stability_limit ?? plane.limit); return; }
+    picture.frame = null;
+    if (!drawable()) return;
+    const h = step(), f = frequency();
+    drawBars(pen, ink, swinging()
+      ? { bars: barsOf(), here: h * f, hereText: brief(h * f, 3), others: motion.frequencies.slice(1).map((w) => h * w), name: say.axis }
+      : { bars: barsOf(), here: h, hereText: written(h), others: [], name: say.stepAxis });
   }
 
   /* ---- saying ---- */
 
-  /** A method that turns the velocity about a field, on a model that has one: no single rate tells what it does. */
-  const turns = (): boolean => method()?.name === 'boris' && scene?.description.velocity_dependent === true;
-
-  function sentence(): string {
-    const m = method(), h = step();
-    if (!m || !plane) return '';
-    const title = scene?.looks[0]?.label ?? methodTitle(m);
-    const what = plane.full ? '' : ` Only the imaginary axis, oscillation without friction, has a meaning for ${title}: its force may hold no velocity.`;
-    if (turns()) {
-      return `${title} turns the velocity about the field by a rotation, which is stable at any step. The axis shows its other half, oscillation in position alone, stable while hω is below ${brief(m.stability_limit, 3)}; `
-        + 'the points hλ mix the two, and cannot be judged by it.';
-    }
-    const points = upper();
-    if (points.length === 0) return `${ratesTrouble ? `No points: ${ratesTrouble}` : 'The model’s rates λ are being computed.'}${what}`;
-    const largest = Math.max(...points.map((rate) => Math.hypot(rate.re, rate.im)));
-    if (largest === 0) return `The force does not depend on the position: λ = 0, and every step is stable.${what}`;
-    const own = points.filter((rate) => rate.re > 1e-9 * Math.hypot(rate.re, rate.im)).length;
-    const parts: string[] = [];
-    if (growth) {
-      const tolerance = m.symplectic ? 1e-7 : 1e-12;
-      let worst = -1;
-      points.forEach((rate, k) => {
-        const g = growth?.[k] ?? NaN;
-        // λ = 0 moves evenly with every method: it says nothing.
-        if (Math.hypot(rate.re, rate.im) > 1e-9 * largest && rate.re <= 1e-9 * Math.hypot(rate.re, rate.im) && !Number.isNaN(g) && (worst < 0 || g > growth![worst]!)) worst = k;
-      });
-      if (worst >= 0) {
-        const g = growth[worst]!, z = points[worst]!, steps = scene?.solution.tracks[0]?.total ?? 0;
-        const where = `hλ = ${complex(h * z.re, h * z.im)}`;
-        if (g > 1 + tolerance) {
-          const all = g ** steps;
-          parts.push(`Largest growth per step ${growthText(g)}, at ${where}: unstable.${steps > 0 ? ` Over ${steps} steps that is a factor of ${Number.isFinite(all) ? brief(all, 3) : 'more than 10³⁰⁸'}.` : ''}`);
-        } else if (g >= 1 - tolerance) parts.push(`No growth: ${where} lies on the boundary, as it should for an oscillation without friction.`);
-        else if (Math.abs(z.re) <= 1e-9 * Math.hypot(z.re, z.im)) parts.push(`All points are inside. ${title} itself damps: it multiplies by ${growthText(g)} a step at ${where}, where nothing is lost in truth.`);
-        else parts.push(`All points are inside; largest growth per step ${growthText(g)}, at ${where}, where the exact motion has ${growthText(Math.exp(h * z.re))}.`);
-      }
-      if (points.every((rate) => Math.abs(rate.re) <= 1e-9 * largest) && Number.isFinite(m.stability_limit) && m.stability_limit > 0) parts.push(`Steps below ${brief(m.stability_limit / largest, 3)} are stable.`);
-    }
-    if (own) parts.push('Points to the right of the axis: there the motion itself grows, whatever the method.');
-    return `${parts.join(' ')}${what}`.trim();
+  const fastest = (): Rate | null => motion?.fastest ?? null;
+  function answer(): string {
+    if (!scene) return '';
+    if (trouble) return say.noRates(trouble);
+    if (!motion) return '';
+    if (motion.kind === 'still') return scene.description.smooth ? say.still : say.stillThere(String(motion.moments));
+    if (motion.kind === 'rateless') return say.rateless;
+    if (motion.kind === 'grows') return say.grows(amount(1 / Math.max(...motion.rates.map((r) => Math.abs(r.re))), unit(), 2));
+    if (judgedFor === '') return '';
+    if (boris() && judged.length === 1) return say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3));
+    const at = fastest(), lead = !motion.steady && at ? say.fastest(moment(scene, Number(at.time.toPrecision(3)))) : swinging() && motion.frequencies.length > 1 ? say.swing : '';
+    return largestSteps(judged.map(({ look, limit }) => ({ name: look.label, limit })), swinging() ? frequency() : 1, step(), written, lead);
+  }
+  function summary(): string {
+    if (!scene || !motion || !judged.length || !drawable()) return '';
+    const at = fastest(), h = step(), parts: string[] = [swinging() ? say.inside : say.insideStep];
+    if (swinging() && at) parts.push(say.frequency(brief(frequency(), 4), motion.steady ? '' : moment(scene, Number(at.time.toPrecision(3))), brief(h * frequency(), 4), motion.frequencies.length > 1));
+    if (!motion.steady) parts.push(say.linear(String(motion.moments)));
+    if (!swinging() && motion.springs) parts.push(say.friction);
+    if (motion.growing) parts.push(say.own);
+    if (whole && plane && !plane.full) parts.push(say.axisOnly(methods()[0]!.label));
+    if (boris()) parts.push(say.boris(methods()[0]!.label, brief(main()!.stability_limit, 3)));
+    else parts.push(grown());
+    return minus(parts.filter(Boolean).join(' '));
+  }
+  /** What the main method's step does to these rates. */
+  function grown(): string {
+    const card = main(), look = methods()[0], h = step();
+    if (!card || !look || !motion || !growth || growth.length !== motion.rates.length || judged[0]?.limit.kind === 'unknown') return '';
+    const tolerance = card.symplectic ? 1e-7 : 1e-12;
+    let worst = -1;
+    motion.rates.forEach((rate, k) => { if (motion!.judged.includes(rate) && !Number.isNaN(growth![k]!) && (worst < 0 || growth![k]! > growth![worst]!)) worst = k; });
+    if (worst < 0) return '';
+    const g = growth[worst]!, z = motion.rates[worst]!, where = `hλ = ${complex(h * z.re, h * z.im)}`, name = look.label, steps = scene?.solution.tracks[0]?.total ?? 0, all = g ** steps;
+    const said = g > 1 + tolerance ? [say.unstable(growthText(g), where), steps > 0 && motion.steady ? say.over(grouped(steps), Number.isFinite(all) ? brief(all, 3) : say.endless) : ''].filter(Boolean).join(' ')
+      : g >= 1 - tolerance ? say.border(where) : z.re === 0 ? say.damps(name, growthText(g), where) : say.within(growthText(g), where, growthText(Math.exp(h * z.re)));
+    return `${look.label}: ${said.charAt(0).toLowerCase()}${said.slice(1)}`;
   }
 
-  const shown = figure({
-    id: 'stability', title: 'Stability', aspect: 0.78, draw, overlay,
-    summary: () => minus(sentence()),
+  const toggle = button(say.whole, () => { whole = !whole; void wantPlane(); tell(); }, { class: 'figure-button', 'aria-pressed': 'false' });
+  const fig = figure({
+    id: 'stability', title: say.title, question: say.question, aspect: 0, least: 0, draw, answer, summary,
+    overlay(pen, ink) { if (whole && motion) picture.overlay(pen, motion.rates, step(), now, colour(ink)); },
+    extra: (width) => (whole && plane ? Math.min(PLANE.aspect * width, PLANE.tallest * window.innerHeight) : heightOf(judged.length)),
     table: () => {
-      const h = step(), points = upper();
+      const h = step();
       return {
-        head: ['time', 'Re λ', 'Im λ', 'Re hλ', 'Im hλ', 'growth per step'],
-        rows: points.map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, turns() ? NaN : growth?.[k] ?? NaN]),
-        note: `${scene?.looks[0]?.label ?? ''}, h = ${h}. Of each pair of conjugate rates the upper one is listed.`,
+        head: say.columns, rows: (motion?.rates ?? []).map((rate, k) => [rate.time, rate.re, rate.im, h * rate.re, h * rate.im, judged[0]?.limit.kind === 'unknown' ? NaN : growth?.[k] ?? NaN]),
+        note: say.note(methods()[0]?.label ?? '', brief(h, 6)),
       };
     },
+    controls: [toggle],
   });
+  const foot = fig.element.querySelector<HTMLElement>('.figure-foot');
 
-  function say(): void {
-    shown.say(trouble || (plane ? '' : 'Asking where the method is stable …'));
-    shown.redraw();
+  function tell(): void {
+    const seen = waiting() || drawable();
+    fig.say(waiting() || (whole && !plane) ? say.waiting : '');
+    // A sentence alone needs no picture, and no numbers.
+    fig.picture.hidden = !seen;
+    if (foot && !seen) foot.hidden = true; else if (foot && !waiting() && !(whole && !plane)) foot.hidden = false;
+    toggle.hidden = !drawable();
+    toggle.textContent = whole ? say.bars : say.whole;
+    toggle.setAttribute('aria-pressed', String(whole));
+    fig.redraw();
   }
 
   return {
-    id: 'stability', title: 'Stability', element: shown.element,
+    id: 'stability', title: say.title, element: fig.element,
+    there: (next) => next.solution.tracks.some((track) => track.method !== 'exact'),
     show(next) {
       scene = next;
-      void wantPlane();
+      relook();
       wantRates();
+      void wantPlane();
       wantGrowth();
-      shown.redraw();
+      tell();
     },
-    at(time) { now = time; shown.redrawOverlay(); },
-    redraw() { shade = null; shown.redraw(); },
+    at(time) { now = time; if (whole) fig.redrawOverlay(); },
+    redraw() {
+      if (scene) scene = recoloured(scene);
+      relook();
+      fig.redraw();
+    },
   };
 };
-
-/** A colour with that much opacity, for cells, which have none of their own. */
-function mixed(colour: string, alpha: number): string {
-  const hex = /^#([0-9a-f]{6})$/i.exec(colour);
-  return hex ? `${colour}${Math.round(255 * alpha).toString(16).padStart(2, '0')}` : `color-mix(in srgb, ${colour} ${100 * alpha}%, transparent)`;
-}

@@ -8,6 +8,9 @@ import { looksOf } from '../figure/ink';
 import { brief } from '../figure/number';
 import type { ConvergeRow, Model, Requests } from '../protocol';
 import { Refused, type Look, type Scene, type Store } from '../scene';
+import { words } from '../words';
+
+const say = words.study;
 
 type Kind = 'converge' | 'compare';
 export type Phase = 'waiting' | 'asking' | 'done' | 'failed' | 'cancelled';
@@ -16,6 +19,8 @@ export type Phase = 'waiting' | 'asking' | 'done' | 'failed' | 'cancelled';
 const PAUSE = 350;
 /** A study begins by itself, and is called off where it takes longer than so many milliseconds: then it waits for its button. */
 const ALONE = 2000;
+/** What is being asked is told after so many milliseconds. */
+const TELL = 700;
 
 export class Study<K extends Kind> {
   phase: Phase = 'waiting';
@@ -28,12 +33,19 @@ export class Study<K extends Kind> {
   private ask: Requests[K]['ask'] | null = null;
   private control: AbortController | null = null;
   private timer = 0;
+  /** What it took, when it came to an end; and whether it was given up, which is not begun again by itself. */
   private took = 0;
+  private dear = false;
+  /** What the reference took where it was the page's own: most of what a long study takes. */
+  private guess = 0;
+  private pressed = false;
+  /** What the latest question is about, but for numbers that sliders move. */
+  asked = '';
   private text = '';
   private preset = '';
   private readonly listeners: (() => void)[] = [];
 
-  constructor(private readonly store: Store, private readonly kind: K, private readonly doing: string, readonly done: string, private readonly withStep: boolean) {}
+  constructor(private readonly store: Store, private readonly kind: K, private readonly doing: string, private readonly withStep: boolean) {}
 
   listen(listener: () => void): void { this.listeners.push(listener); }
   private tell(): void { for (const listener of this.listeners) listener(); }
@@ -42,7 +54,15 @@ export class Study<K extends Kind> {
   get coming(): boolean { return this.phase === 'waiting' && this.timer !== 0; }
   /** There is nothing to ask about. */
   get idle(): boolean { return this.ask === null || this.ask.methods.length === 0; }
-  get seconds(): number { return this.took / 1000; }
+  /** Nobody asked, and nothing came: then there is nothing to tell. */
+  get silent(): boolean { return this.phase === 'failed' && !this.pressed && !this.answer; }
+  about(scene: Scene): string { return JSON.stringify([scene.state.text, scene.looks.map((look) => look.method)]); }
+  silentFor(scene: Scene): boolean { return this.silent && this.asked === this.about(scene); }
+  /** What it will take, as far as that is known: "17 s", ''. */
+  get price(): string {
+    const seconds = (this.took || this.guess) / 1000;
+    return seconds > ALONE / 1000 ? `${brief(seconds, seconds < 10 ? 1 : 2)}\u2009s` : '';
+  }
 
   /** The state has changed; nothing happens where the question is the same. */
   want(scene: Scene): void {
@@ -52,11 +72,16 @@ export class Study<K extends Kind> {
       model, methods: scene.solution.tracks.map((track) => track.method).filter((method) => method !== 'exact'),
       step: this.withStep && state.step !== '' ? this.store.numbers.step : null, until: state.until !== '' ? this.store.numbers.until : null,
     };
-    const key = JSON.stringify(ask);
-    if (key === this.key) return;
+    const key = JSON.stringify(ask), { truth } = scene.solution;
+    // The reference comes after the scene that is first shown.
+    this.guess = truth && truth.name !== 'exact' && !truth.coarse ? truth.milliseconds : 0;
+    if (key === this.key) { if (this.phase === 'waiting') this.tell(); return; }
+    this.asked = this.about(scene);
+    this.pressed = false;
     // The picture before an edit may stay for the moment until the next is there, but not longer; another example's may not.
     if (state.text !== this.text) {
       this.took = 0;
+      this.dear = false;
       if (state.preset !== this.preset) this.answer = null;
     }
     this.text = state.text;
@@ -72,8 +97,8 @@ export class Study<K extends Kind> {
     if (ask.methods.length === 0) {
       this.phase = 'failed';
       this.answer = null;
-      this.problem = 'The exact motion has no error to be measured. Choose a method beside it.';
-    } else if (this.took < ALONE) {
+      this.problem = '';
+    } else if (!this.dear) {
       this.timer = window.setTimeout(() => { void this.start(true); }, PAUSE);
     }
     this.tell();
@@ -84,6 +109,8 @@ export class Study<K extends Kind> {
     const ask = this.ask, key = this.key;
     if (!ask || this.phase === 'asking' || ask.methods.length === 0) return;
     clearTimeout(this.timer);
+    this.timer = 0;
+    this.pressed = !alone;
     const control = new AbortController();
     this.control = control;
     this.phase = 'asking';
@@ -102,6 +129,7 @@ export class Study<K extends Kind> {
       this.stale = false;
       this.phase = 'done';
       this.took = performance.now() - this.since;
+      this.dear = this.took > ALONE;
     } catch (reason) {
       clearTimeout(limit);
       if (key !== this.key || control.signal.aborted) return;
@@ -117,8 +145,7 @@ export class Study<K extends Kind> {
 
   cancel(): void {
     if (this.phase !== 'asking') return;
-    // What takes long enough to be called off is not begun again by itself.
-    this.took = Math.max(this.took, performance.now() - this.since, ALONE);
+    this.dear = true;
     this.phase = 'cancelled';
     this.control?.abort();
     this.control = null;
@@ -129,11 +156,11 @@ export class Study<K extends Kind> {
   message(): string {
     if (this.answer) return '';
     switch (this.phase) {
-      case 'asking': return `${this.doing} …`;
-      case 'failed': return this.idle ? this.problem : `This could not be computed: ${this.problem}`;
-      case 'cancelled': return 'Cancelled. Press “Compute” to begin again.';
+      case 'asking': return say.going(this.doing);
+      case 'failed': return say.failed(this.problem);
+      case 'cancelled': return say.cancelled;
       // Cheap, and begun in a moment.
-      default: return this.coming ? `${this.doing} …` : 'This takes a while for this model. Press “Compute” to begin.';
+      default: return this.coming ? say.going(this.doing) : say.waiting;
     }
   }
 }
@@ -142,42 +169,40 @@ export class Study<K extends Kind> {
 const converging = new WeakMap<Store, Study<'converge'>>();
 export function convergenceStudy(store: Store): Study<'converge'> {
   let study = converging.get(store);
-  if (!study) converging.set(store, study = new Study(store, 'converge', 'Measuring the error at many steps', 'Measured', false));
+  if (!study) converging.set(store, study = new Study(store, 'converge', say.converge, false));
   return study;
 }
 
+/** A scene with a method, which has errors. */
+export const measurable = (scene: Scene): boolean => scene.solution.tracks.some((track) => track.method !== 'exact');
 /** What a panel shows of it: nothing before it has a scene, as one that was never opened hears of the study too. */
 export function rowsFor(study: Study<'converge'>, scene: Scene | null): readonly ConvergeRow[] {
   return scene ? study.answer?.rows ?? [] : [];
 }
 
-/** What it is doing, and the button that begins it or calls it off. */
+/** The button that begins a dear study, with what it will take; and while one is under way, what it is doing and the button that calls it off. Nothing else:
+ * what comes by itself in a moment needs no word. */
 export function studyBar<K extends Kind>(study: Study<K>): HTMLElement {
-  const said = element('p', { role: 'status' });
-  const clock = element('p', { 'aria-hidden': 'true' });
-  const progress = element('progress', { 'aria-label': study.label, hidden: true });
-  const act = button('Compute', () => { if (study.phase === 'asking') study.cancel(); else void study.start(); });
-  const bar = element('div', { class: 'study' }, act, progress, said, clock);
-  let ticking = 0;
-  const update = (): void => {
-    const asking = study.phase === 'asking', { phase, coming } = study;
-    // There is always something in the bar: it must not come and go under a slider being dragged.
-    const text = asking || coming ? `${study.label} …` : phase === 'cancelled' ? 'Cancelled.' : phase === 'failed' ? 'Not computed.'
-      : phase === 'done' ? `${study.done} in ${brief(Math.max(0.01, study.seconds), 2)} s.` : study.stale ? 'The picture is of an earlier state.' : 'Not yet computed.';
-    if (said.textContent !== text) said.textContent = text;
-    const label = asking ? 'Cancel' : phase === 'failed' ? 'Try again' : 'Compute';
-    if (act.textContent !== label) act.textContent = label;
-    act.hidden = phase === 'done' || coming || study.idle;
-    progress.hidden = !asking;
+  const said = element('p', { role: 'status' }), clock = element('p', { 'aria-hidden': 'true' });
+  const progress = element('progress', { 'aria-label': study.label });
+  const act = button(say.begin(''), () => { if (study.phase === 'asking') study.cancel(); else void study.start(); });
+  const bar = element('div', { class: 'study', hidden: true }, act, progress, said, clock);
+  let ticking = 0, late = 0;
+  function update(): void {
+    const { phase, coming } = study, asking = phase === 'asking', age = asking ? performance.now() - study.since : 0;
+    clearTimeout(late);
     clearInterval(ticking);
+    if (asking && age < TELL) late = window.setTimeout(update, TELL - age + 1);
+    bar.hidden = phase === 'done' || coming || study.idle || (asking && age < TELL);
+    const text = asking ? say.going(study.label) : study.stale && !coming ? say.earlier : '';
+    if (said.textContent !== text) said.textContent = text;
+    const label = asking ? say.cancel : phase === 'failed' ? say.again : say.begin(study.price);
+    if (act.textContent !== label) act.textContent = label;
+    progress.hidden = !asking;
+    const tick = (): void => { clock.textContent = `${Math.floor((performance.now() - study.since) / 1000)}\u2009s`; };
     clock.textContent = '';
-    if (asking) {
-      ticking = window.setInterval(() => {
-        const seconds = (performance.now() - study.since) / 1000;
-        clock.textContent = seconds > 1 ? `${Math.floor(seconds)} s` : '';
-      }, 500);
-    }
-  };
+    if (asking && !bar.hidden) { tick(); ticking = window.setInterval(tick, 500); }
+  }
   study.listen(update);
   update();
   return bar;

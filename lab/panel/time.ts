@@ -2,28 +2,33 @@
  *
  * Invariant: every strip has its own scale, so that a method's line means one thing only; the exact line lies thick and green below the others.
  */
-import type { Panel, PanelMaker, Scene } from '../scene';
+import type { Panel, Scene, Store } from '../scene';
 import { axes, extent } from '../figure/axes';
-import { cursor, drawHeading, heading } from '../figure/cursor';
+import { cursor, drawReadout, heading } from '../figure/cursor';
 import { el as element } from '../dom';
+import { drawEnds, endIn, endOf, endsLayout, heightsIn, type End, type EndsLayout } from '../figure/ends';
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
-import { drawLegend, drawValues, exactEntry, legendLayout, lookEntry, type Entry, type LegendLayout } from '../figure/legend';
-import { brief, primed, readable, shortened } from '../figure/number';
-import { EXACT_WIDTH, drawTrack, begin, listed, valueAt, viewOf, type View } from '../figure/track';
+import { nameSpans, nameText } from '../figure/name';
+import { brief, readable, shortened } from '../figure/number';
+import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thin } from '../figure/thin';
-import type { Figure, Frame, Ink, Pen, Table } from '../figure/types';
-import { exactAt, exactText, movable, positions, timeTable } from './columns';
+import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
+import type { Sees } from '../stage/stage';
+import { words } from '../words';
+import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
+import { endTime, exactName, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
-const STRIP = 140, MOST = 6, LETTERS = 11;
+const say = words.panel.time;
+const STRIP = 130, MOST = 6, ANSWERED = 3;
 
-export const timePanel: PanelMaker = (store): Panel => {
+export const timePanel = (store: Store, stage: () => Sees): Panel => {
   let scene: Scene | null = null, chosen: string[] = [], views: View[] = [], frames: Frame[] = [], dropped = 0;
 
   // The choice of quantities: boxes to tick, in a list that opens.
-  const list = element('fieldset', {}, element('legend', { class: 'visually-hidden' }, 'Quantities shown'));
-  const choiceName = element('summary', {}, 'Quantities');
+  const list = element('fieldset', {}, element('legend', { class: 'unseen' }, say.quantities));
+  const choiceName = element('summary', {}, say.quantities);
   const choice = element('details', { class: 'figure-choice' }, choiceName, list);
   choice.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !choice.open) return;
@@ -46,7 +51,7 @@ export const timePanel: PanelMaker = (store): Panel => {
           store.look({ quantities: next });
           if (scene) prepare(scene, next);
         });
-        list.append(element('label', {}, box, primed(name)));
+        list.append(element('label', {}, box, nameText(name)));
       }
     }
     for (const box of list.querySelectorAll('input')) box.checked = chosen.includes(box.value);
@@ -61,26 +66,22 @@ export const timePanel: PanelMaker = (store): Panel => {
     return scene?.solution.tracks.map((t) => t.columns[at] ?? new Float64Array(0)) ?? [];
   };
   const truthShown = (): boolean => chosen.some((name) => truthOf(name));
-  const truthLabel = (): string => (scene?.solution.truth?.name === 'exact' ? 'exact' : 'reference');
-  const labels = (): string[] => [...(truthShown() ? [truthLabel()] : []), ...(scene?.looks.map((l) => l.label) ?? [])];
-  const layout = (width: number): LegendLayout => legendLayout(width, labels(), LETTERS);
+  const labels = (): string[] => [...(truthShown() && scene ? [exactName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])];
+  const layout = (width: number): EndsLayout => endsLayout(width, labels());
 
   function draw(pen: Pen, ink: Ink): void {
     if (!scene) return;
-    const legend = layout(pen.width);
-    const entries: Entry[] = [...(truthShown() ? [exactEntry(ink, truthLabel())] : []), ...scene.looks.map(lookEntry)];
-    drawLegend(pen, ink, entries, legend);
-    const { tracks, truth } = scene.solution;
-    const span: [number, number] = [tracks[0]?.times[0] ?? 0, endOf(scene)];
-    const all = pen.height - legend.height, last = chosen.length - 1;
+    const names = layout(pen.width), { tracks, truth } = scene.solution, unit = timeUnit(scene);
+    const span: [number, number] = [tracks[0]?.times[0] ?? 0, endTime(scene)];
+    const all = pen.height - names.above, last = chosen.length - 1;
     // The lowest strip has the letters of the time below it.
     const each = (all - 30) / Math.max(1, chosen.length);
     // Strips line up: the widest label of any decides.
     let margin = 0;
     const put = (quiet: boolean): void => {
-      frames = chosen.map((name, i) => axes(quiet ? mute(pen) : pen, ink, { min: span[0], max: span[1], label: 't' },
-        { min: views[i]!.bounds[0], max: views[i]!.bounds[1], label: primed(name) },
-        { region: { left: 0, top: legend.height + i * each, width: pen.width, height: each + (i === last ? 30 : 0) }, bare: i !== last, margin }));
+      frames = chosen.map((name, i) => axes(quiet ? mute(pen) : pen, ink, { min: span[0], max: span[1], label: unit ? '' : [{ text: 't', italic: true }], unit },
+        { min: views[i]!.bounds[0], max: views[i]!.bounds[1], label: nameSpans(name, 13), unit: unitOf(scene!, name) },
+        { region: { left: 0, top: names.above + i * each, width: pen.width - names.right, height: each + (i === last ? 30 : 0) }, bare: i !== last, margin, plain: true }));
     };
     if (chosen.length > 1) {
       put(true);
@@ -88,13 +89,16 @@ export const timePanel: PanelMaker = (store): Panel => {
     }
     put(false);
     chosen.forEach((name, i) => {
-      const frame = frames[i]!;
+      const frame = frames[i]!, ends: End[] = [], columns = trackColumns(name), exact = truthOf(name);
+      const ended = tracks.map((track, k) => endIn(frame, track.times, columns[k]!));
       pen.clip(frame.left, frame.top - 2, frame.width + 2, frame.height + 3, () => {
-        const exact = truthOf(name);
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
-        const columns = trackColumns(name);
-        tracks.forEach((track, k) => drawTrack(pen, frame, track.times, columns[k]!, scene!.looks[k]!, k, tracks.length));
+        tracks.forEach((track, k) => drawTrack(pen, frame, track.times, columns[k]!, scene!.looks[k]!, ended[k]!.rows));
       });
+      if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: exactName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
+      tracks.forEach((track, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, track.times, columns[k]!))));
+      // Above a narrow picture the names stand once.
+      if (i === 0 || !names.narrow) drawEnds(pen, ink, frame, names, ends);
     });
   }
 
@@ -119,7 +123,7 @@ export const timePanel: PanelMaker = (store): Panel => {
   }
   function overlay(pen: Pen, ink: Ink): void {
     if (!scene || !frames.length) return;
-    const t = line.shown(), legend = layout(pen.width), name = chosen[active()] ?? '';
+    const t = line.shown();
     for (const frame of frames) line.draw(pen, ink, frame);
     chosen.forEach((quantity, i) => {
       const frame = frames[i];
@@ -132,71 +136,72 @@ export const timePanel: PanelMaker = (store): Panel => {
         });
       });
     });
-    // Which strip the values are of: the time stands at its head.
-    const read = frames[active()];
-    if (read) drawHeading(pen, ink, read, chosen.length > 1 ? `${primed(name)} at ${heading(t)}` : heading(t));
-    drawValues(pen, ink, texts(name, t), legend);
+    const read = frames[active()], name = chosen[active()] ?? '', hovered = line.hovered();
+    if (!read || hovered === null) return;
+    const colours = [...(truthShown() ? [ink.exact] : []), ...scene.looks.map((l) => l.tone)], unit = unitOf(scene, name);
+    drawReadout(pen, ink, read, hovered, heading(hovered, timeUnit(scene)), texts(name, hovered).map((text, k) => ({ text: `${labels()[k]} ${text}${unit && `\u2009${unit}`}`, colour: colours[k] ?? ink.text })));
   }
 
   function sentence(t: number): string {
-    return `${heading(t)}. ${chosen.map((name) => `${primed(name)}: ${texts(name, t).map((text, i) => `${labels()[i]} ${text}`).join(', ')}`).join('; ')}.`;
+    return `${heading(t, scene ? timeUnit(scene) : '')}. ${chosen.map((name) => `${nameText(name)}: ${texts(name, t).map((text, i) => `${labels()[i]} ${text}`).join(', ')}`).join('; ')}.`;
+  }
+  /** Where it is at the end: by the exact motion, else by the first method. */
+  function answer(): Said {
+    const track = scene?.solution.tracks[0];
+    if (!scene || !track) return '';
+    const first = chosen.slice(0, ANSWERED), exact = first.every((name) => truthOf(name)), end = exact ? endTime(scene) : track.times[track.times.length - 1]!;
+    const value = (name: string): string => (exact ? shortened(exactText(scene!, name, end, 3)).replace('≈ ', '') : brief(valueAt(track.times, trackColumns(name)[0]!, end), 3));
+    const spans = first.flatMap((name, k): Span[] => [...(k ? [{ text: ', ' }] : []), ...nameSpans(name, 15), { text: ` = ${value(name)}${unitOf(scene!, name) && `\u2009${unitOf(scene!, name)}`}` }]);
+    return [{ text: say.at(moment(scene, end), exact ? '' : nameAt(scene, 0)) }, ...spans, { text: '.' }];
   }
   function summary(): string {
     if (!scene) return '';
-    const { tracks } = scene.solution, end = endOf(scene);
+    const { tracks } = scene.solution, end = endTime(scene);
     // Of several quantities, the one in which the methods differ most.
     const spread = chosen.map((name, i) => { const v = extent([values(name, end)]); return (v[1] - v[0]) / (views[i]!.bounds[1] - views[i]!.bounds[0]); });
     const first = chosen[spread.indexOf(Math.max(...spread))] ?? chosen[0] ?? '', read = texts(first, end), final = values(first, end).flatMap((v, i) =>
       // No exact value is known of some quantities; a method without one stopped before.
-      (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? `${labels()[i]} stopped before` : `${labels()[i]} ${shortened(read[i] ?? '')}`]));
-    const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? '');
-    const stopped = tracks.flatMap((track, k) => (track.problem ? [`${begin(scene!.looks[k]?.label ?? '')} stopped: ${track.problem.message}.`] : []));
-    const passing = tracks.flatMap((track, k) => (track.singular ? [`${begin(scene!.looks[k]?.label ?? '')}: ${track.singular.message}.`] : []));
+      (Number.isNaN(v) && truthShown() && i === 0 ? [] : [Number.isNaN(v) ? say.before(labels()[i] ?? '') : `${labels()[i]} ${shortened(read[i] ?? '')}`]));
+    const leaving = [...new Set(views.flatMap((v) => v.leaving))].map((k) => scene!.looks[k]?.label ?? ''), name = (k: number): string => begin(nameAt(scene!, k));
     return [
-      `${listed(chosen.map(primed))} from t = ${brief(tracks[0]?.times[0] ?? 0)} to ${brief(end)}.`,
-      final.length ? `At the end, ${primed(first)}: ${listed(final, 5)}.` : '',
-      leaving.length ? `${begin(listed(leaving))} ${leaving.length > 1 ? 'leave' : 'leaves'} the picture.` : '',
-      ...stopped, ...passing, dropped ? `${MOST} of ${MOST + dropped} chosen quantities are shown.` : '',
+      say.span(listed(chosen.map(nameText)), `t = ${brief(tracks[0]?.times[0] ?? 0)}`, brief(end)), final.length ? say.end(nameText(first), listed(final, 5)) : '',
+      leaving.length ? begin(words.panel.leave(leaving)) : '',
+      ...tracks.flatMap((track, k) => (track.problem ? [say.stopped(name(k), track.problem.message)] : [])), ...tracks.flatMap((track, k) => (track.singular ? [say.passing(name(k), track.singular.message)] : [])),
+      dropped ? say.most(String(MOST), String(MOST + dropped)) : '',
     ].filter(Boolean).join(' ');
   }
 
   const fig: Figure = figure({
-    id: 'time', title: 'Against time', aspect: 0.46, draw, overlay, summary,
-    extra: (width) => layout(width).height + Math.max(0, chosen.length - 1) * STRIP,
+    id: 'time', title: say.title, question: say.question, answer, aspect: 0.42, draw, overlay, summary,
+    extra: (width) => layout(width).above + Math.max(0, chosen.length - 1) * STRIP,
     table: (): Table => (scene ? timeTable(scene, chosen) : { head: [], rows: [] }),
     controls: [choice],
   });
-  const line = cursor({ figure: fig, title: 'Against time', frame: () => frames[0] ?? null, times: () => scene?.solution.tracks[0]?.times ?? [], text: sentence });
+  const line = cursor({ figure: fig, title: say.title, frame: () => frames[0] ?? null, times: () => scene?.solution.tracks[0]?.times ?? [], text: sentence });
 
   function prepare(next: Scene, wanted: readonly string[]): void {
     scene = next;
     nameExports(next.state.preset);
     const names = movable(next), there = wanted.filter((n) => names.includes(n));
-    const all = there.length ? there : positions(next).slice(0, 3);
+    const own = positions(next), all = there.length ? there : (own.length ? own : states(next)).slice(0, 3);
     chosen = (all.length ? all : names.slice(0, 1)).slice(0, MOST);
     dropped = Math.max(0, all.length - MOST);
     offer(names);
-    choiceName.textContent = `Quantities: ${listed(chosen.map(primed), 4)}`;
+    choiceName.textContent = say.shown(listed(chosen.map(nameText), 4));
     choice.hidden = names.length < 2;
     views = chosen.map((name) => viewOf(truthOf(name), trackColumns(name)));
     frames = [];
-    fig.say(!next.solution.tracks.length ? 'No method is chosen. Choose one, and its motion appears here.' : !chosen.length ? 'This model has nothing that moves.' : '');
     fig.redraw();
   }
   return {
-    id: 'time', title: 'Against time', element: fig.element,
+    id: 'time', title: say.title, element: fig.element,
+    // The stage may show all of it already, unless quantities were chosen.
+    there: (next) => next.solution.tracks.length > 0 && movable(next).length > 0 && (next.state.view.quantities.length > 0 || stage().kind !== 'time' || states(next).length > 1),
     show: (next) => prepare(next, next.state.view.quantities),
     at: (t) => line.set(t),
     redraw() { if (scene) scene = recoloured(scene); fig.redraw(); },
   };
 };
-
-/** Where the run would end: the last time of whoever came furthest. */
-function endOf(scene: Scene): number {
-  const ends = [...scene.solution.tracks.map((t) => t.times), scene.solution.truth?.times ?? new Float64Array(0)].filter((t) => t.length);
-  const start = ends[0]?.[0] ?? 0;
-  return ends.map((t) => t[t.length - 1]!).reduce((a, b) => (Math.abs(b - start) > Math.abs(a - start) ? b : a), start);
-}
 
 /** A pen that leaves no trace: to find out how much room axes take. */
 function mute(pen: Pen): Pen {

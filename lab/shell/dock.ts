@@ -16,5 +16,5 @@ export function dockLinks(store: LiveStore, pin: HTMLElement, view: HTMLElement)
   const sheet = el('div', { id: 'all-values', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.dock.all }, endField(store), sliders(store));
   return el('div', { class: 'links' },
     button(words.dock.all, () => {}, { class: 'quiet-button', popovertarget: 'all-values' }), sheet, pin, view,
-    leads(words.dock.oneStep, '#step-view', 'step'), leads(words.dock.closer, '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
+    button(words.dock.oneStep, () => store.go('step'), { class: 'quiet-button', id: 'open-step' }), leads(words.dock.closer, '#looking', 'closer', icon('M6 9.5l6 6 6-6')));
 }

@@ -76,7 +76,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     return [el('h2', {}, title), ...(cut?.[1] ? [el('p', {}, cut[1].trim())] : []), el('fieldset', {}, el('legend', {}, cut?.[2]?.trim() ?? text), ...rows), go, ...(ask.hint && ask.rail ? [el('p', { class: 'quiet hint' }, ask.hint)] : [])];
   }
   function attempt(at: At): Node[] {
-    const { attempt: task } = at.lesson, items = task.tasks.map(({ label }) => el('li', {}, el('span', { class: 'tick', 'aria-hidden': 'true' }), el('span', {}, label), el('span', { class: 'unseen' })));
+    const { attempt: task } = at.lesson, items = task.tasks.map(({ label, condition: c }) => el('li', {}, el('span', { class: 'tick', 'aria-hidden': 'true' }), c.kind === 'opened' && c.place === 'step' ? button(label, () => store.go('step'), { class: 'text-button' }) : el('span', {}, label), el('span', { class: 'unseen' })));
     const doneAlready = new Set<number>();
     ticks = () => {
       const { numbers, state, scene } = store;

@@ -15,12 +15,10 @@ const most = 12;
 
 interface Toggle { readonly element: HTMLElement; readonly name: string; refresh(chosen: readonly string[]): void; repaint(): void }
 
-export function methods(store: LiveStore): { readonly element: HTMLElement; readonly main: HTMLElement; repaint(): void } {
+export function methods(store: LiveStore): { readonly element: HTMLElement; repaint(): void } {
   const list = el('div', { class: 'chips' }), more = el('div', { class: 'toggles' });
   const search = el('input', { type: 'search', id: 'method-search', placeholder: words.methods.search, autocomplete: 'off', spellcheck: 'false' });
   const found = el('p', { class: 'quiet', role: 'status' });
-  const main = el('select', { id: 'main-method' });
-  const mainRow = el('div', { class: 'main-method' }, el('label', { for: 'main-method' }, words.methods.main), main);
   const message = el('p', { class: 'message mild', role: 'status' });
   const sheet = el('div', { id: 'all-methods', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.methods.all }, el('label', { for: 'method-search' }, words.methods.all), search, found, more);
   const opener = button(words.methods.more('28'), () => {}, { class: 'chip-more', popovertarget: 'all-methods' });
@@ -129,21 +127,10 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; read
     build();
     for (const t of toggles) t.refresh(now);
     reasons();
-    const drawn = store.description ? admittedMethods({ ...store.state, methods: now }, store.description).methods : now;
-    mainRow.hidden = drawn.length < 2;
-    if (main.options.length !== drawn.length || drawn.some((name, i) => main.options[i]?.value !== name)) {
-      main.replaceChildren(...looksOf(drawn, store.catalogue).map(look => el('option', { value: look.method }, look.label)));
-    }
-    main.value = drawn[0] ?? '';
     say(message, limitReached ? words.methods.most(String(most)) : store.trouble.methods);
   }
-  main.addEventListener('change', () => {
-    const now = chosen();
-    // The chosen one comes first; the others keep their order.
-    store.change({ methods: [main.value, ...now.filter(m => m !== main.value)] });
-  });
   search.addEventListener('input', filter);
   search.addEventListener('keydown', event => { if (event.key === 'Escape' && search.value) { search.value = ''; filter(); event.stopPropagation(); } });
   store.subscribe(what => { if (what !== 'view' && what !== 'busy') refresh(); });
-  return { element, main: mainRow, repaint: () => { for (const t of toggles) t.repaint(); } };
+  return { element, repaint: () => { for (const t of toggles) t.repaint(); } };
 }

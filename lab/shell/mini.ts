@@ -1,4 +1,4 @@
-/* The bar above the pictures that look closer: the motion in small, its Play, and the way back. Shown while the stage is out of sight.
+/* The bar above the pictures that look closer: the motion in small, its Play, links to the questions that are there, and the way back. Shown while the stage is out of sight.
  *
  * Invariant: it keeps no time of its own; it shows what the clock and the scene say.
  */
@@ -9,21 +9,26 @@ import { extent } from '../figure/axes';
 import { ink } from '../figure/ink';
 import { grouped } from '../figure/number';
 import { rowAt } from '../figure/track';
+import { timeUnit } from '../panel/told';
+import { words } from '../words';
+import type { Link } from './closer';
 import { short } from './number';
 import { titleOf } from './presets';
 import { ownTitle } from './title';
 import type { Transport } from './transport';
 
+const texts = words.panel.bar;
 const WIDTH = 116, HEIGHT = 40, MARGIN = 5;
 
-export interface Mini { show(scene: Scene): void; at(time: number): void; redraw(): void; playing(on: boolean): void }
+export interface Mini { show(scene: Scene): void; at(time: number): void; redraw(): void; playing(on: boolean): void; links(links: readonly Link[]): void }
 
 export function mini(clock: () => Transport): Mini {
-  const play = button('', () => clock().toggle(), { class: 'mini-play', 'aria-label': 'Play' });
+  const play = button('', () => clock().toggle(), { class: 'mini-play', 'aria-label': texts.play });
   const canvas = el('canvas', { class: 'mini-motion', width: 2 * WIDTH, height: 2 * HEIGHT, 'aria-hidden': 'true' });
   const title = el('b', {}), told = el('span', { class: 'quiet' });
-  const back = el('a', { class: 'quiet-button', href: '#page' }, 'Back to the motion ↑');
-  const bar = el('div', { class: 'mini', hidden: true }, play, canvas, el('p', {}, title, ' ', told), back);
+  const back = el('a', { class: 'quiet-button', href: '#page' }, texts.back);
+  const nav = el('nav', { class: 'mini-links', 'aria-label': texts.questions });
+  const bar = el('div', { class: 'mini', hidden: true }, play, canvas, el('p', {}, title, ' ', told), nav, back);
   place('mini').append(bar);
   back.addEventListener('click', (event) => { event.preventDefault(); scrollTo({ top: 0 }); clock().play.focus({ preventScroll: true }); });
   // prepared: the scene whose curve is in xy.
@@ -36,12 +41,12 @@ export function mini(clock: () => Transport): Mini {
     if (away) draw();
   }).observe(place('page'));
 
-  /** The exact motion, or the first method's: its first two positions, or the first against time. */
+  /** The exact motion, or the first method's: its first two positions, or the first number against time. */
   function prepare(): void {
     prepared = scene;
     if (!scene) return;
     const { solution, description } = scene, of = solution.truth ?? solution.tracks[0];
-    const places = description.columns.filter((c) => c.kind === 'position').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
+    const places = description.columns.filter((c) => c.kind === 'position' || c.kind === 'first-order').map((c) => solution.columns.indexOf(c.name)).filter((k) => k >= 0 && (of?.columns[k]?.length ?? 0) > 0);
     if (!of || !places.length) { xy = new Float64Array(0); return; }
     const flat = description.variables.some((v) => v.order === 2 && v.components >= 2);
     const x = flat && places.length > 1 ? of.columns[places[0]!]! : of.times, y = of.columns[places[flat && places.length > 1 ? 1 : 0]!]!;
@@ -76,13 +81,14 @@ export function mini(clock: () => Transport): Mini {
   return {
     show(next) {
       scene = next;
-      say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || 'Your own equation');
+      say(title, titleOf(exampleOf(next.state)) || ownTitle(next.state.text) || words.headline.own);
       const track = next.solution.tracks[0];
-      say(told, track ? `h = ${short(track.step, 4)} · ${grouped(track.total)} steps` : '');
+      say(told, track ? texts.steps(`${short(track.step, 4)}${timeUnit(next) && `\u2009${timeUnit(next)}`}`, grouped(track.total)) : '');
       draw();
     },
     at(now) { if (now !== time) { time = now; draw(); } },
     redraw: draw,
-    playing(on) { play.classList.toggle('on', on); play.setAttribute('aria-label', on ? 'Pause' : 'Play'); },
+    playing(on) { play.classList.toggle('on', on); play.setAttribute('aria-label', on ? texts.pause : texts.play); },
+    links(links) { nav.replaceChildren(...links.map((link) => button(link.title, () => link.go(), { class: 'quiet-button' }))); },
   };
 }

@@ -16,10 +16,11 @@ export function note(store: LiveStore): HTMLElement {
     const name = exampleOf(store.state);
     if (name === shown) return;
     shown = name;
-    const written = Object.hasOwn(data.notes, name) ? data.notes[name]?.text ?? [] : [];
+    const written = Object.hasOwn(data.notes, name) ? data.notes[name] ?? [] : [];
     const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? of
       : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
-    element.replaceChildren(...written.map((paragraph) => el('p', {}, ...(typeof paragraph === 'string' ? [paragraph] : paragraph.map(part)))));
+    // One paragraph, however it is written down.
+    element.replaceChildren(el('p', {}, ...written.flatMap((piece, k) => [...(k ? [' '] : []), ...(typeof piece === 'string' ? [piece] : piece.map(part))])));
     element.hidden = written.length === 0;
   });
   return element;

@@ -16,7 +16,6 @@ import { lessonPlace } from './lesson';
 import { methods } from './methods';
 import { nav } from './nav';
 import { note } from './note';
-import { panelPicker, type PanelName } from './panels';
 import { pin } from './pin';
 import { presets } from './presets';
 import { shareMenu } from './share-menu';
@@ -26,22 +25,24 @@ import { themeButton } from './theme';
 import { createToasts, type Toasts } from './toasts';
 import { headline } from './headline';
 
-/** panels: those that can be opened, in their order. themeChanged: colours differ now; the scene's looks are new already. */
-export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, panels: readonly PanelName[], themeChanged: () => void): Toasts {
+/** themeChanged: colours differ now; the scene's looks are new already. */
+export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): void }, themeChanged: () => void): Toasts {
   const toasts = createToasts(place('toasts')), chosen = methods(store);
   const said = headline(store, toasts, () => stage.relayout());
   const lesson = lessonPlace(store, stage, clock);
   const galleryPlace = place('gallery');
   let gallery: HTMLElement | null = null;
+  /** In a place that covers the stage. */
+  const there = (): boolean => store.state.place === 'gallery' || store.state.place === 'step';
   const go = (where: string): void => { if (store.state.place !== where) store.go(where); };
-  const places = nav([{ label: words.top.places.gallery, id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: words.top.places.lessons, id: 'lessons', open: () => lesson.list.togglePopover() }, { label: words.top.places.equation, id: 'equation', open: () => said.openEditor(!said.editing()) }]);
+  const places = nav([{ label: words.top.places.gallery, id: 'gallery', open: () => go(store.state.place === 'gallery' ? '' : 'gallery') }, { label: words.top.places.lessons, id: 'lessons', open: () => lesson.list.togglePopover() }, { label: words.top.places.equation, id: 'equation', open: () => { const away = there(); if (away) go(''); said.openEditor(away || !said.editing()); } }]);
   function arrive(): void {
-    const { place: where } = store.state, there = where === 'gallery';
-    places.current(there ? 'gallery' : lesson.here() ? 'lessons' : '');
-    if (document.body.classList.contains('in-gallery') === there) return;
-    document.body.classList.toggle('in-gallery', there);
-    galleryPlace.hidden = !there;
-    if (there) {
+    const inGallery = store.state.place === 'gallery';
+    places.current(inGallery ? 'gallery' : lesson.here() ? 'lessons' : '');
+    if (document.body.classList.contains('in-gallery') === inGallery) return;
+    document.body.classList.toggle('in-gallery', inGallery);
+    galleryPlace.hidden = !inGallery;
+    if (inGallery) {
       gallery = makeGallery(store, { open: (name) => { store.load({ ...presetState(presets, name), set: sceneOf(name)?.set ?? {}, view: { ...store.state.view, plane: 'auto', quantities: [], phase: null } }); }, close: () => go('') });
       galleryPlace.replaceChildren(gallery);
       scrollTo(0, 0);
@@ -56,11 +57,9 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
   place('words').addEventListener('lesson', (event) => lesson.open((event as CustomEvent<string>).detail));
   place('methods').append(chosen.element);
   place('scene-note').append(note(store));
-  place('main-choice').append(chosen.main);
   place('dials').append(stepSlider(store), dials(store));
   place('dock-links').append(dockLinks(store, pin(store, stage), stage.choice));
   place('status').append(status(store));
-  place('panel-picker').append(panelPicker(store, panels));
   if (!store.state.embed) {
     const { opener, bar } = lecture(store);
     place('share').after(opener);

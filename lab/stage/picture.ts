@@ -4,6 +4,7 @@
  * scene and that time alone.
  */
 import { extent, rangeOf } from '../figure/axes';
+import { shortLabel } from '../figure/ends';
 import { brief } from '../figure/number';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
@@ -256,7 +257,7 @@ export function pictureOf(setting: Setting): Picture {
     const { left, right } = main.box, [low, high] = rangeOf((truth ? curves.exact : curves.methods.map((of) => of[0]!)).map(({ path }) => path.xy.subarray(0, 2 * path.count).filter((_, i) => i % 2 === 0)));
     return high >= low ? [Math.max(left, low), Math.min(right, high)] : null;
   }
-  const names = { span: spanOf(), all: [exactName, ...lines.map((l) => short(l.look.label))] };
+  const names = { span: spanOf(), all: [exactName, ...lines.map((l) => shortLabel(l.look.label))] };
 
   const present: Point = { x: 0, y: 0 };
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
@@ -361,7 +362,7 @@ export function pictureOf(setting: Setting): Picture {
     if (truth) {
       const joined = groups.get(-1) ?? [];
       labels.push({
-        names: [{ text: exactName, colour: ink.exact }, ...joined.map((l) => ({ text: short(l.look.label), colour: l.look.tone }))], colour: ink.exact, line: ink.exact,
+        names: [{ text: exactName, colour: ink.exact }, ...joined.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone }))], colour: ink.exact, line: ink.exact,
         ...exactPoint, miss: null, exact: true,
       });
     }
@@ -372,7 +373,7 @@ export function pictureOf(setting: Setting): Picture {
       const at = pointAt(curve.way, curve.line.track.times, time);
       if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
       labels.push({
-        names: own.map((l) => ({ text: short(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
+        names: own.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
         miss: miss(own[0]!, time, at.y, exactPoint.y), exact: false,
       });
     }
@@ -397,7 +398,7 @@ export function pictureOf(setting: Setting): Picture {
       }
       if (best < 0) return;
       pointAt(curves.exact[0]!.way, truth.times, times[best]!, at);
-      const above = c.way.y(best) < at.y, x = c.way.x(best), half = 3.9 * short(c.line.look.label).length;
+      const above = c.way.y(best) < at.y, x = c.way.x(best), half = 3.9 * shortLabel(c.line.look.label).length;
       // Clear of its own curve over the whole width of the letters.
       let y = c.way.y(best);
       for (let row = 0; row < n; row++) if (Math.abs(c.way.x(row) - x) < half + 12) y = above ? Math.min(y, c.way.y(row)) : Math.max(y, Math.min(c.way.y(row), c.way.y(best) + 20));
@@ -415,7 +416,7 @@ export function pictureOf(setting: Setting): Picture {
     if (!c?.exit || nowhere.has(i)) return;
     const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
     const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
-    leaving.push({ name: short(c.line.look.label), more: told(motion, c, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+    leaving.push({ name: shortLabel(c.line.look.label), more: told(motion, c, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
@@ -467,11 +468,6 @@ export function pictureOf(setting: Setting): Picture {
   };
 }
 const SPACING_LADDER = 8;
-
-/** "midpoint" of "explicit midpoint rule (RK2)": a name for a label. */
-export function short(label: string): string {
-  return label.replace(/\s*\(.*\)$/, '');
-}
 
 /** How a runaway ends: by how much too wide it swings, or when it left. */
 function told(motion: Motion, curve: Curve, staging: Staging): string {

@@ -14,7 +14,7 @@ import type { Panel, Scene, Store } from '../scene';
 import { lecturing } from '../shell/lecture';
 import { short as shortNumber } from '../shell/number';
 import { words } from '../words';
-import { boundsFor, pictureOf, type Picture } from './picture';
+import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { motionOf } from './motion';
@@ -33,6 +33,8 @@ export interface Stage extends Panel {
   save(kind: 'PNG' | 'SVG' | 'CSV'): void;
   /** Saves the motion from its start to its end as a film of so many seconds; false: cancelled, or there is nothing to see. */
   film(start: number, end: number, seconds: number, progress: (part: number) => void, signal: AbortSignal): Promise<boolean>;
+  /** The names of the columns that are drawn, of the first body. */
+  readonly shows: () => readonly string[];
   /** Lines up with the text that stands on the stage: its right edge, 0 where it stands above. */
   relayout(): void;
   /** Keeps the run that is seen, as A, beside all that follow; null: no longer. */
@@ -42,7 +44,10 @@ export interface Stage extends Panel {
   /** A ring on a rail at the end of the exact motion: somebody's guess of where a method's ball will be; open: it can be dragged. */
   guess(guess: Guess | null): void;
   onGuess(listener: (place: GuessPlace) => void): void;
+  sees(): Sees;
 }
+/** What the stage shows: which kind of view, and which other plot beside it. */
+export interface Sees { readonly kind: Subject['kind'] | null; readonly side: Side }
 export type GuessPlace = 'above' | 'on' | 'below';
 export interface Guess { readonly method: string; readonly place: GuessPlace | null; readonly open: boolean }
 
@@ -396,6 +401,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
+    shows: () => (subject?.bodies[0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? ''),
     pin(of) { pinned = of; refresh(true); },
     hide(methods) { if (methods.join() !== hidden.join()) { hidden = methods; refresh(true); } },
     guess(next) {
@@ -404,5 +410,6 @@ export function stage(store: Store, room: { column(): number }): Stage {
       if (picture) { redrawMoving(); attach(); }
     },
     onGuess(listener) { guessed = listener; },
+    sees: () => ({ kind: subject?.kind ?? null, side: scene && subject && (place ?? (fit() ? place : null)) ? sideOf(scene, subject, staging(), place!) : '' }),
   };
 }

@@ -4,6 +4,7 @@
  */
 import { data } from '../data';
 import type { Method } from '../protocol';
+import { words } from '../words';
 
 function element<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, text = ''): HTMLElementTagNameMap[K] {
   const made = document.createElement(tag);
@@ -22,19 +23,19 @@ function typeset(body: string): readonly Node[] {
 export const methodTitle = (method: Method): string => data.cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
 
 function limit(h: number): string {
-  if (h === 0) return 'never stable on an undamped spring';
-  if (!Number.isFinite(h)) return 'stable at any step on a spring';
-  return `stable for hω < ${Number(h.toPrecision(4))}`;
+  if (h === 0) return words.cards.never;
+  if (!Number.isFinite(h)) return words.cards.always;
+  return words.cards.below(String(Number(h.toPrecision(4))));
 }
 
-/** In words: "order 2", "1 evaluation a step", "symplectic" … */
+/** In a few words each. */
 export function facts(method: Method): string[] {
-  if (method.family === 'exact') return ['no step, no error but rounding'];
+  if (method.family === 'exact') return [words.cards.exact];
   return [
-    `order ${method.order}`,
-    method.family === 'implicit' ? 'solves an equation at each step' : `${method.evaluations} evaluation${method.evaluations === 1 ? '' : 's'} a step`,
-    method.symplectic ? 'symplectic for a force that is a gradient' : 'not symplectic',
-    method.reversible ? 'reversible' : 'not reversible',
+    words.cards.order(String(method.order)),
+    method.family === 'implicit' ? words.cards.implicit : words.cards.evaluations(method.evaluations),
+    method.symplectic ? words.cards.symplectic : words.cards.notSymplectic,
+    method.reversible ? words.cards.reversible : words.cards.notReversible,
     limit(method.stability_limit),
   ];
 }

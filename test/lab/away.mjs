@@ -2,7 +2,7 @@
 import { spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { attempt, clean, example, fields, figureOf, finish, judge, open, place, program, root, same, saved, serve, settled, shareOf, singleFile, tableOf } from './help.mjs';
+import { attempt, clean, example, fields, figureOf, finish, judge, open, place, program, root, same, saved, serve, settled, shareOf, singleFile, numbersOf, tableOf } from './help.mjs';
 
 const words = (svg) => [...svg.matchAll(/<text [^>]*>(.*?)<\/text>/g)].map(([, inside]) => inside.replace(/<[^>]*>/g, '').replaceAll('&#38;', '&').replaceAll('&#39;', "'").replaceAll('&#60;', '<').replaceAll('&#62;', '>').replaceAll('\u2009', ' '));
 
@@ -187,7 +187,7 @@ await attempt('the C program', async () => {
     judge(`${label}: it compiles`, cc.status === 0, cc.stderr);
     const run = spawnSync(join(place, 'motion'), { encoding: 'utf8' });
     judge(`${label}: it runs`, run.status === 0, run.stderr);
-    const told = new Map(run.stdout.trim().split('\n').map((line) => line.split(' = '))), { head, rows } = await tableOf(page, 'Against time'), last = rows.at(-1);
+    const told = new Map(run.stdout.trim().split('\n').map((line) => line.split(' = '))), { head, rows } = await numbersOf(page), last = rows.at(-1);
     const shown = head.map((name, i) => [name, last[i]]).filter(([name]) => name === 't' || name.endsWith(` (${label})`)).map(([name, value]) => [name.replace(` (${label})`, ''), Number(value)]);
     judge(`${label}: its last row is the page's, bit for bit`, shown.length > 1 && shown.every(([name, value]) => Object.is(Number(told.get(name) ?? NaN), value)), JSON.stringify([shown, [...told]]));
   }

@@ -1,5 +1,5 @@
 /* Every control does what it says: seen in the address, in the figures' summaries and in their numbers. */
-import { attempt, clean, editorOf, example, fields, figureOf, finish, judge, open, same, settled, singleFile, summaryOf, tableOf, told, valuesOf } from './help.mjs';
+import { attempt, clean, editorOf, example, fields, figureOf, closer, finish, judge, open, same, settled, singleFile, summaryOf, numbersOf, tableOf, told, valuesOf } from './help.mjs';
 
 const last = ({ head, rows }, column) => Number(rows.at(-1)[head.indexOf(column)]);
 const press = (page, name) => page.getByRole('button', { name, exact: true }).click();
@@ -80,14 +80,10 @@ await attempt('methods', async () => {
   await toggle('rk4').click();
   await settled(page);
   same('a method is added', [(await fields(page)).a, await toggle('rk4').getAttribute('aria-pressed')], ['explicit-euler,symplectic-euler,midpoint,rk4', 'true']);
-  judge('… in the numbers', (await tableOf(page, 'Against time')).head.includes('r.y (rk4)'));
+  judge('… in the numbers', (await numbersOf(page)).head.includes('r.y (rk4)'));
   await toggle('explicit-euler').click();
   await settled(page);
-  judge('a method is taken away', (await fields(page)).a === 'symplectic-euler,midpoint,rk4' && !(await tableOf(page, 'Against time')).head.includes('r.y (explicit-euler)'));
-    await page.locator('#main-method').selectOption('rk4');
-  await settled(page);
-  same('Step by step: the main method comes first', (await fields(page)).a, 'rk4,symplectic-euler,midpoint');
-  judge('… and its card is shown', /Runge|RK4/.test(await page.locator('#method-card').textContent()));
+  judge('a method is taken away', (await fields(page)).a === 'symplectic-euler,midpoint,rk4' && !(await numbersOf(page)).head.includes('r.y (explicit-euler)'));
   await page.locator('.chip-more').click();
   await page.locator('#method-search').fill('order 4 symplectic');
   const found = await page.locator('.toggles .chip:visible[data-method]').evaluateAll((all) => all.map((t) => t.dataset.method));
@@ -115,15 +111,15 @@ await attempt('step and end', async () => {
   const step = page.locator('#step'), until = page.locator('#until'), message = () => page.locator('#step-message').textContent();
   await step.fill('0.1');
   await settled(page);
-  judge('a step', Math.abs(last(await tableOf(page, 'Against time'), 'r.y (explicit-euler)') + 30.645 - 1.4715) < 1e-12);
+  judge('a step', Math.abs(last(await numbersOf(page), 'r.y (explicit-euler)') + 30.645 - 1.4715) < 1e-12);
   same('… in the address', (await fields(page)).h, '0.1');
   await step.fill('0,2');
   await settled(page);
-  judge('a decimal comma', Math.abs(last(await tableOf(page, 'Against time'), 'r.y (explicit-euler)') + 30.645 - 2.943) < 1e-12);
+  judge('a decimal comma', Math.abs(last(await numbersOf(page), 'r.y (explicit-euler)') + 30.645 - 2.943) < 1e-12);
   same('… is a point in the address', (await fields(page)).h, '0.2');
   await step.fill('1/64');
   await settled(page);
-  same('an expression', (await tableOf(page, 'Against time')).rows.length, 193);
+  same('an expression', (await numbersOf(page)).rows.length, 193);
   const before = await summaryOf(page, 'Motion');
   for (const [typed, words] of [['0', /zero/], ['-0.1', /above 0/], ['', /needed/], ['1e-12', /10 million/], ['abc', /no number|unknown/i], ['1e400', /large|no number/], ['NaN', /no number/], ['inf', /no number/], ['0/0', /no number/], ['9'.repeat(300), /long|large/], ['((((((((((', /no number/]]) {
     await step.fill(typed);
@@ -133,7 +129,7 @@ await attempt('step and end', async () => {
   }
   await step.fill('1e9');
   await settled(page);
-  judge('a huge step: one step, and a remark', /one step/.test(await message()) && (await tableOf(page, 'Against time')).rows.length === 2, await message());
+  judge('a huge step: one step, and a remark', /one step/.test(await message()) && (await numbersOf(page)).rows.length === 2, await message());
   await page.getByRole('button', { name: 'Step: back to the model’s' }).click();
   await settled(page);
   same('reset', [await step.inputValue(), (await fields(page)).h], ['0.05', undefined]);
@@ -146,7 +142,7 @@ await attempt('step and end', async () => {
     await valuesOf(page);
     await until.fill(typed);
     await settled(page);
-    same(`an end of ${typed}: the run ends there exactly`, (await tableOf(page, 'Against time')).rows.at(-1)[0], end);
+    same(`an end of ${typed}: the run ends there exactly`, (await numbersOf(page)).rows.at(-1)[0], end);
   }
   for (const typed of ['0', '', 'x', '1e300']) {
     await valuesOf(page);
@@ -167,12 +163,12 @@ await attempt('parameters and initial values', async () => {
   const rows = await page.locator('#all-values .row label').allTextContents();
   judge('a slider for each number', ['m', 'c'].every((name) => rows.includes(name)) && rows.some((name) => name.startsWith("r'(0)")), rows.join());
   const field = (name) => page.locator('#all-values').getByLabel(`${name}, as a number`, { exact: true });
-  const before = await tableOf(page, 'Against time');
+  const before = await numbersOf(page);
   await valuesOf(page);
   await field('m').fill('2,5');
   await settled(page);
   same('a number with a comma', (await fields(page)).s, 'm=2.5');
-  judge('mass matters: another motion', JSON.stringify(before.rows) !== JSON.stringify((await tableOf(page, 'Against time')).rows));
+  judge('mass matters: another motion', JSON.stringify(before.rows) !== JSON.stringify((await numbersOf(page)).rows));
   await valuesOf(page);
   await field('m').fill('2..5');
   await settled(page, 150);
@@ -187,15 +183,15 @@ await attempt('parameters and initial values', async () => {
   await settled(page);
   judge('a slider of an initial value', /^r'\(0\)=\(/.test((await fields(page)).s), (await fields(page)).s);
   await example(page, 'projectile');
-  const first = await tableOf(page, 'Against time');
+  const first = await numbersOf(page);
   await valuesOf(page);
   await field('m').fill('7');
   await settled(page);
-  same('without drag the mass cancels', (await tableOf(page, 'Against time')).rows, first.rows);
+  same('without drag the mass cancels', (await numbersOf(page)).rows, first.rows);
   await valuesOf(page);
   await field('g.y').fill('-1.62');
   await settled(page);
-  judge('gravity', Math.abs(last(await tableOf(page, 'Against time'), 'exact r.y') - (4.5 * 3 - 1.62 * 4.5)) < 1e-12);
+  judge('gravity', Math.abs(last(await numbersOf(page), 'exact r.y') - (4.5 * 3 - 1.62 * 4.5)) < 1e-12);
 });
 
 await attempt('a slider is dragged', async () => {
@@ -211,12 +207,12 @@ await attempt('a slider is dragged', async () => {
     move();
   }));
   await settled(page);
-  const dragged = await tableOf(page, 'Against time');
+  const dragged = await numbersOf(page);
   await page.waitForTimeout(500);          // the address follows
   await page.reload();
   await settled(page);
   judge('in the end every step is kept', dragged.rows.length === 5001, dragged.rows.length);
-  same('and it is the motion of what the slider says', dragged, await tableOf(page, 'Against time'));
+  same('and it is the motion of what the slider says', dragged, await numbersOf(page));
 });
 
 await attempt('the pictures’ own controls', async () => {
@@ -227,27 +223,29 @@ await attempt('the pictures’ own controls', async () => {
   judge('Motion: view', (await summaryOf(page, 'Motion')).startsWith('r.y against time') && (await fields(page)).w === 'time', await summaryOf(page, 'Motion'));
   await view.selectOption({ index: 0 });
   await settled(page);
-  const time = figureOf(page, 'Against time');
+  await closer(page, 'Time');
+  const time = figureOf(page, 'Time');
   await time.locator('.figure-choice summary').click();
   await time.getByLabel('energy', { exact: true }).check();
-  judge('Against time: quantities', /energy/.test(JSON.stringify((await fields(page)).q)) && (await tableOf(page, 'Against time')).head.some((h) => h.startsWith('energy')));
+  judge('Time: quantities', /energy/.test(JSON.stringify((await fields(page)).q)) && (await tableOf(page, 'Time')).head.some((h) => h.startsWith('energy')));
   await page.keyboard.press('Escape');
-  await figureOf(page, 'Error').scrollIntoViewIfNeeded();
+  await closer(page, 'Error');
   const position = (await tableOf(page, 'Error')).rows.at(-1).join();
   await figureOf(page, 'Error').getByLabel('Error of the').selectOption('v');
   judge('Error: of the velocity', position !== (await tableOf(page, 'Error')).rows.at(-1).join());
-  await figureOf(page, 'Phase plane').scrollIntoViewIfNeeded();
-  await figureOf(page, 'Phase plane').getByLabel('Across').selectOption({ label: 'energy' });
+  await closer(page, 'Phase');
+  await figureOf(page, 'Phase').getByLabel('Across').selectOption({ label: 'energy' });
   await settled(page);
-  judge('Phase plane: another pair', (await summaryOf(page, 'Phase plane')).includes('against energy') && JSON.stringify((await fields(page)).f).includes('energy'), await summaryOf(page, 'Phase plane'));
-  for (const title of ['Error', 'Drift of an invariant', 'Convergence', 'Work and precision', 'Stability']) {
-    const chip = page.locator('.panel-picker button', { hasText: title });
-    const open = await chip.getAttribute('aria-pressed');
-    await chip.click();
-    same(`“${title}” opens and closes`, [await chip.getAttribute('aria-pressed'), await figureOf(page, title).count()], open === 'true' ? ['false', 0] : ['true', 1]);
-    if (open === 'true') await chip.click();
+  judge('Phase: another pair', (await summaryOf(page, 'Phase')).includes('against energy') && JSON.stringify((await fields(page)).f).includes('energy'), await summaryOf(page, 'Phase'));
+  // The bar's links lead to the questions that are there.
+  for (const link of await page.locator('.mini-links button').all()) {
+    const title = await link.textContent();
+    await link.click();
+    await page.waitForFunction((name) => { const figure = document.querySelector(`figure[data-title="${name}"]`), { top } = figure.getBoundingClientRect(); return figure.contains(document.activeElement) && top > 60 && top < innerHeight; }, title);
+    judge(`the link “${title}” leads to its question`, true);
   }
-  same('open panels stand in the address', (await fields(page)).o, 'time,error,drift,phase,convergence,precision,stability');
+  same('… and to all of them', await page.locator('.mini-links button').allTextContents(), await page.locator('#panels > figure:not([hidden])').evaluateAll((figures) => figures.map((f) => f.dataset.title)));
+  judge('open panels are none of the address', (await fields(page)).o === undefined);
   await settled(page, 600);
 });
 
@@ -303,18 +301,6 @@ await attempt('the links of the theory and of the notes', async () => {
 });
 await clean('controls', page);
 
-await attempt('a panel by itself', async () => {
-  for (const id of ['convergence', 'precision', 'stability']) {
-    page = await open(`${singleFile}#v=1&p=spring&o=${id}`);
-    await settled(page, 800);
-    await page.locator('#panels figure').scrollIntoViewIfNeeded();
-    await settled(page, 800);
-    const text = await page.locator('#panels').textContent();
-    judge(`${id}: the picture is there`, await page.locator('#panels canvas.figure-still').isVisible() && !/Measuring|Comparing|Asking/.test(text), text.slice(0, 300));
-    await clean(`${id} by itself`, page);
-    await page.context().close();
-  }
-});
 await attempt('back to where one began', async () => {
   page = await open(singleFile);
   const title = await page.locator('#scene-title').textContent();
@@ -328,7 +314,7 @@ await attempt('back to where one began', async () => {
 
 // --- everything that can be pressed, in an order of its own: nothing breaks ----------------------------------------------------------
 await attempt('everything pressed', async () => {
-  page = await open(singleFile + '#v=1&p=kepler&o=time,error,drift,phase,convergence,precision,stability');
+  page = await open(singleFile + '#v=1&p=kepler');
   await settled(page, 800);
   // Those that are there at the start and those that a press brings: twice round, each once.
   for (let round = 0; round < 2; round++) {

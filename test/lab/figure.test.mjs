@@ -11,7 +11,7 @@ const lab = new URL('../../lab/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
 const contents = `
   export * from './figure/svg'; export * from './figure/axes'; export * from './figure/number'; export * from './figure/export';
-  export * from './figure/track'; export * from './figure/table'; export * from './figure/ink'; export * from './figure/legend';`;
+  export * from './figure/track'; export * from './figure/table'; export * from './figure/ink';`;
 const built = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
 const f = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
 

@@ -9,8 +9,8 @@ const lab = join(root, 'lab'), need = createRequire(join(lab, 'package.json')), 
 const models = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.motus')).sort().map((name) => ({ name: name.slice(0, -6), text: readFileSync(join(root, 'models', name), 'utf8') }));
 const alias = { 'ml-matrix': join(lab, 'node_modules/ml-matrix/src/index.js') };
 const text = async (options) => (await build({ bundle: true, write: false, target: 'es2022', alias, ...options })).outputFiles[0].text;
-const { thumbnails, scenes, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
-  stdin: { contents: "export * from './thumbs'; export { scenes } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
+const { thumbnails, scenes, saidOf, inkStyle } = await import('data:text/javascript;base64,' + Buffer.from(await text({
+  stdin: { contents: "export * from './thumbs'; export { scenes, saidOf } from './scenes'; export { inkStyle } from './figure/ink';", resolveDir: lab, loader: 'ts' }, format: 'esm',
 })).toString('base64'));
 const made = { 'virtual:data': { presets: models, lessons: [], cards: {}, stagings: {}, notes: {}, theory: '' }, 'virtual:thumbs': thumbnails(new WebAssembly.Module(readFileSync(join(built, 'motus.wasm'))), models) };
 const script = await text({
@@ -41,8 +41,8 @@ const said = (page) => page.evaluate(() => window.said.splice(0));
 
 await attempt('what is there', async () => {
   const page = await open();
-  same('every motion is there, in order', await page.locator('.motion-title').allTextContents(), cards.map(({ title }) => title));
-  same('… with its question', await page.locator('.question').allTextContents(), cards.map(({ question }) => question));
+  same('every motion is there, in order', await page.locator('.motion-title').allTextContents(), cards.map(({ model }) => saidOf(model).title));
+  same('… with its question', await page.locator('.question').allTextContents(), cards.map(({ model }) => saidOf(model).question));
   same('the present one is marked', await page.locator('[aria-current]').evaluateAll((all) => all.map((a) => a.querySelector('.motion-title').textContent)), ['Planet']);
   const links = await page.locator('a.motion').evaluateAll((all) => all.map((a) => a.getAttribute('href')));
   same('each is a link to its scene', links.map((href) => /&p=([a-z-]+)/.exec(href)?.[1]), cards.map(({ model }) => model));

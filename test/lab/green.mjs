@@ -32,7 +32,7 @@ const green = (page) => page.locator('#stage-figure canvas.stage-moving').evalua
 });
 
 await attempt('order', async () => {
-  const page = await open(`${singleFile}#v=1&p=duffing&o=error`, { before: keep });
+  const page = await open(`${singleFile}#v=1&p=duffing`, { before: keep });
   await settled(page, 500, 40000);
   same('the picture, a draft, the reference', order(await answers(page)), ['none', 'coarse', 'reference with errors']);
   judge('the exact line is drawn', await green(page) > 200, await green(page));
@@ -42,7 +42,7 @@ await attempt('order', async () => {
 
 await attempt('a draft is drawn, and tells no error', async () => {
   // The reference of this one takes seconds.
-  const page = await open(`${singleFile}#v=1&p=double-pendulum&o=error`, { before: keep, settle: false });
+  const page = await open(`${singleFile}#v=1&p=double-pendulum`, { before: keep, settle: false });
   await page.waitForFunction(() => window.answers.some((a) => a.truth === 'coarse'), null, { timeout: 20000, polling: 20 });
   let some = 0;
   for (let i = 0; i < 20 && some < 100 && (await answers(page)).length === 2; i++) {
@@ -51,6 +51,8 @@ await attempt('a draft is drawn, and tells no error', async () => {
   }
   if ((await answers(page)).length === 2) {
     judge('the draft is drawn', some > 100, some);
+    await page.locator('#looking > h2').evaluate((heading) => heading.scrollIntoView());
+    await page.waitForFunction(() => document.querySelector('figure[data-title="Error"] .figure-message')?.textContent);
     const said = await figureOf(page, 'Error').locator('.figure-message').textContent();
     judge('errors wait for the reference', /A reference is computed to compare with/.test(said), said);
   }

@@ -164,7 +164,21 @@ export async function fields(page) {
   }
   return found;
 }
-export const figureOf = (page, title) => page.locator('figure', { has: page.locator('h3', { hasText: new RegExp(`^${title}$`) }) });
+/** A figure by its short name; its heading is a question. */
+export const figureOf = (page, title) => page.locator(`#panels figure[data-title="${title}"]`);
+/** What looks closer is made when somebody comes to it, and shown what is near: this goes there, and to a figure of it. */
+export async function closer(page, title = '') {
+  await page.locator('#looking > h2').evaluate((heading) => heading.scrollIntoView());
+  await page.waitForFunction(() => document.querySelector('#panels figure'));
+  if (title) {
+    await figureOf(page, title).waitFor();
+    await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
+  }
+  // What comes into sight may ask the core.
+  await settled(page, 150);
+  // It is observed in one frame and drawn in the next.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+}
 /** Another example, as its address opens it; the gallery is tested by itself. */
 export async function example(page, name) {
   await page.evaluate((hash) => { if (location.hash === hash) history.replaceState(null, '', '#'); location.hash = hash; }, `#v=1&p=${name}`);
@@ -203,10 +217,8 @@ export async function summaryOf(page, title) {
     await page.waitForFunction(() => document.querySelector('.stage-figure')?.getAttribute('aria-busy') === 'false');
     return page.locator('#stage-figure figcaption').textContent();
   }
-  await figureOf(page, title).locator('.figure-picture').scrollIntoViewIfNeeded();
-  // What comes into sight may ask the core.
-  await settled(page, 150);
-  return figureOf(page, title).locator('figcaption').textContent();
+  await closer(page, title);
+  return figureOf(page, title).locator('.figure-summary').textContent();
 }
 
 /** CSV by RFC 4180, as rows of texts. */
@@ -230,7 +242,7 @@ export function readCsv(text) {
 
 /** A file that a button of a figure saves. */
 export async function saved(page, title, kind) {
-  if (title === 'Motion') await shareOf(page);
+  if (title === 'Motion') await shareOf(page); else await closer(page, title);
   const button = (title === 'Motion' ? page : figureOf(page, title)).getByRole('button', { name: `Save “${title}” as ${kind}` });
   const once = () => Promise.all([page.waitForEvent('download', { timeout: 10000 }), button.click()]);
   // A page that is being laid out anew may move from under a pointer.
@@ -242,7 +254,20 @@ export async function saved(page, title, kind) {
 /** The numbers behind a figure: head and rows of its CSV file. */
 export async function tableOf(page, title) {
   const [head, ...rows] = readCsv((await saved(page, title, 'CSV')).bytes.toString('utf8'));
+  if (title === 'Motion') await page.keyboard.press('Escape');
   return { head, rows };
+}
+/** The motion on the stage as its file has it, a column for each method as in the tables below the stage: "r.x (rk4)", "exact r.x". */
+export async function numbersOf(page) {
+  // While something moves a run has fewer rows than when it rests.
+  await settled(page, 500);
+  const { head: [, , ...columns], rows } = await tableOf(page, 'Motion'), titles = new Map(JSON.parse(motus('methods', '--json')).methods.map((m) => [m.title, m.name]));
+  const motions = [...new Set(rows.map(([motion]) => motion))], known = (motion) => motion === 'exact' || motion === 'reference';
+  const nameOf = (motion) => motion.replace(/^([^(]*[^( ])(\([^)]*\))$|^(.*)$/, (_, stem, rest, whole) => (whole === undefined ? `${titles.get(stem) ?? stem}${rest}` : titles.get(whole) ?? whole));
+  const own = motions.filter((m) => !known(m)), times = [...new Set(rows.filter(([m]) => !known(m)).map(([, t]) => t))];
+  const at = new Map(rows.map(([motion, t, ...values]) => [`${motion}\n${t}`, values]));
+  const way = Number(times.at(-1)) < Number(times[0]) ? -1 : 1, sorted = times.sort((a, b) => way * (a - b)), wanted = columns.flatMap((column, k) => [...(motions.includes('exact') ? [['exact', k, `exact ${column}`]] : []), ...own.map((m) => [m, k, `${column} (${nameOf(m)})`])]);
+  return { head: ['t', ...wanted.map(([, , name]) => name)], rows: sorted.map((t) => [t, ...wanted.map(([motion, k]) => at.get(`${motion}\n${t}`)?.[k] ?? '')]) };
 }
 export const motus = (...words) => execFileSync(program, words, { encoding: 'utf8', cwd: root, stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 28 });
 

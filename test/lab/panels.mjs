@@ -1,15 +1,18 @@
-/* Every picture: it opens, has a name, a summary sentence and a data table, and can be saved: the PNG is decoded, the SVG is read as XML and drawn,
- * the CSV holds what the table shows.
+/* Every picture that looks closer: it has a question, a sentence of answer whose numbers are the program's, and a data table, and can be saved: the PNG
+ * is decoded, the SVG is read as XML and drawn, the CSV holds what the table shows. One that has nothing to say is not there, and one that is not seen is
+ * not computed.
  */
-import { attempt, clean, figureOf, finish, judge, open, readCsv, same, saved, settled, singleFile, summaryOf } from './help.mjs';
+import { attempt, clean, closer, example, figureOf, finish, judge, motus, open, readCsv, same, saved, settled, singleFile, summaryOf } from './help.mjs';
 
-const titles = ['Step by step', 'Against time', 'Error', 'Drift of an invariant', 'Phase plane', 'Convergence', 'Work and precision', 'Stability'];
-const all = '&o=time,error,drift,phase,convergence,precision,stability';
+const titles = ['Time', 'Error', 'Energy', 'Phase', 'Order', 'Cost', 'Stability'];
+const answered = ['Time', 'Error', 'Energy', 'Phase', 'Order', 'Cost', 'Stability'];
+/** On a constant force any step is stable, which is a sentence without a picture. */
+const without = (preset, title) => preset === 'projectile' && title === 'Stability';
 const colours = { light: /#15803D/i, dark: /#4ADE80/i };
 
 /** What would take long on a slow machine waits for its button. */
 async function compute(page, title) {
-  const button = figureOf(page, title).getByRole('button', { name: 'Compute', exact: true });
+  const button = figureOf(page, title).locator('.figure-controls .study button');
   if (!await button.count() || !await button.isVisible()) return;
   await button.click();
   await settled(page, 600, 60000);
@@ -19,7 +22,7 @@ function agree(cell, other) {
   const plain = cell.replaceAll('\u2212', '-').replace(/^–$/, '');
   if (plain === other) return true;
   const number = Number(plain), exact = Number(other);
-  return plain !== '' && other !== '' && Math.abs(number - exact) <= 5e-10 * Math.abs(exact);
+  return plain !== '' && other !== '' && Math.abs(number - exact) <= 5.01e-6 * Math.abs(exact);
 }
 /** Size and number of colours of a picture, as the browser decodes it. */
 const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {
@@ -37,23 +40,26 @@ const decoded = (page, bytes, type) => page.evaluate(async ([data, kind]) => {
 }, [bytes.toString('base64'), type]);
 
 for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 'dark', 375], ['three-body-figure-eight', 'light', 800]]) {
-  const page = await open(`${singleFile}#v=1&p=${preset}${all}`, { theme, width });
+  const page = await open(`${singleFile}#v=1&p=${preset}${preset === 'spring' ? "&q=x&f=x&f=x'" : ''}`, { theme, width });
   // Studies begin when they come into view.
-  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(5)) {
-    await figureOf(page, title).scrollIntoViewIfNeeded();
+  for (const title of preset === 'three-body-figure-eight' ? [] : titles.slice(4).filter((t) => !without(preset, t))) {
+    await closer(page, title);
     await settled(page, 600, 60000);
     await compute(page, title);
   }
-  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 5) : titles) {
+  for (const title of preset === 'three-body-figure-eight' ? titles.slice(0, 4) : titles.filter((t) => !without(preset, t))) {
     const name = `${preset}, ${theme}, “${title}”`;
     await attempt(name, async () => {
       const figure = figureOf(page, title);
+      await closer(page, title);
       same(`${name}: is there once`, await figure.count(), 1);
-      judge(`${name}: its name`, await page.getByRole('figure', { name: title, exact: true }).count() === 1);
+      const question = await figure.locator('h3').textContent(), answer = await figure.locator('.figure-answer').textContent();
+      judge(`${name}: its question is its name`, await page.getByRole('figure', { name: question, exact: true }).count() === 1, question);
+      if (answered.includes(title)) judge(`${name}: a question and an answer, which is a sentence`, /^[^ ].+\?$/.test(question) && /^\S.{8,}\.$/.test(answer) && await figure.locator('.figure-answer').isVisible(), `${question} ${answer}`);
       const summary = await summaryOf(page, title);
       judge(`${name}: a summary sentence`, summary.length > 25 && /\.$/.test(summary.trim()) && !/NaN|undefined|null|Infinity|\d{3,}\.\d{8,}/.test(summary), summary);
       const label = await figure.locator('canvas.figure-still').getAttribute('aria-label');
-      judge(`${name}: the picture's name holds it`, label === `${title}. ${summary}`, label);
+      judge(`${name}: the picture's name holds it`, label === [/\?$/.test(question) ? question : `${question}.`, answer, summary].filter(Boolean).join(' '), label);
       judge(`${name}: something is drawn`, await figure.locator('canvas.figure-still').evaluate((canvas) => canvas.width > 100 && new Set(new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size > 5));
 
       const { name: csvName, bytes } = await saved(page, title, 'CSV');
@@ -64,7 +70,9 @@ for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 
       await figure.locator('table').first().waitFor();
       const table = figure.locator('.figure-data table');
       await table.locator('thead th').first().waitFor();
-      same(`${name}: the table's head is the file's`, await table.locator('thead th').allTextContents(), head);
+      same(`${name}: the table has the file's columns`, await table.locator('thead th').count(), head.length);
+      const heads = await table.locator('thead th').allTextContents();
+      judge(`${name}: each head says another thing, as equations set it`, new Set(heads).size === heads.length && (!answered.includes(title) || !heads.some((h) => /'|\[|\w\.\w/.test(h))), heads.join(' | '));
       const cells = await table.locator('tbody tr').evaluateAll((trs) => trs.map((tr) => [...tr.children].map((td) => td.textContent)));
       const stray = cells.find((row) => !rows.some((other) => row.every((cell, i) => agree(cell, other[i]))));
       judge(`${name}: the table's rows are of the file`, cells.length > 0 && !stray, stray);
@@ -84,39 +92,91 @@ for (const [preset, theme, width] of [['spring', 'light', 1280], ['projectile', 
           unsafe: xml.querySelectorAll('script, foreignObject, [onload], [href^="http"]').length, parts: xml.querySelectorAll('path, polyline, line, circle, text, rect').length,
         };
       }, svg);
-      judge(`${name}: SVG: well-formed, with title and description, nothing that runs`, read.error === '' && read.root === 'svg' && read.title === title && read.desc === summary && read.unsafe === 0 && read.parts > 4 && !/NaN|undefined/.test(svg.replace(/<desc>.*?<\/desc>/s, '')), JSON.stringify(read));
+      judge(`${name}: SVG: well-formed, with title and description, nothing that runs`, read.error === '' && read.root === 'svg' && read.title === title && read.desc === [answer, summary].filter(Boolean).join(' ') && read.unsafe === 0 && read.parts > 4 && !/NaN|undefined/.test(svg.replace(/<desc>.*?<\/desc>/s, '')), JSON.stringify(read));
       const drawn = await decoded(page, Buffer.from(svg), 'image/svg+xml');
       judge(`${name}: SVG: can be drawn`, drawn.width > 100 && drawn.colours > 5, JSON.stringify(drawn));
-      if (title === 'Against time') judge(`${name}: the exact line is green and thick`, colours[theme].test(svg) && new RegExp(`stroke="${colours[theme].source}"[^>]*stroke-width="[3-9]|stroke-width="[3-9][^>]*stroke="${colours[theme].source}"`, 'i').test(svg));
+      if (title === 'Time') judge(`${name}: the exact line is green and thick`, colours[theme].test(svg) && new RegExp(`stroke="${colours[theme].source}"[^>]*stroke-width="[3-9]|stroke-width="[3-9][^>]*stroke="${colours[theme].source}"`, 'i').test(svg));
     });
   }
   await clean(`panels, ${preset}`, page, /readback/);
 }
 
-// --- what the panels say ------------------------------------------------------------------------------------------------------------
-await attempt('convergence', async () => {
-  const page = await open(`${singleFile}#v=1&p=spring&a=explicit-euler,verlet,rk4${all}`);
-  await figureOf(page, 'Convergence').scrollIntoViewIfNeeded();
-  await settled(page, 900);
-  await compute(page, 'Convergence');
-  const said = await figureOf(page, 'Convergence').textContent();
-  for (const [label, order] of [['explicit Euler', 1], ['Verlet', 2], ['RK4', 4]]) judge(`Convergence: ${label} has order ${order}`, new RegExp(`${label}: order ${order} confirmed`).test(said), said.slice(0, 600));
-  await figureOf(page, 'Stability').scrollIntoViewIfNeeded();
-  await settled(page, 600);
-  const before = await summaryOf(page, 'Stability');
-  await page.locator('#step').fill('2.2');
-  await settled(page, 600);
-  const after = await summaryOf(page, 'Stability');
-  judge('Stability: the points move with the step', before !== after, `${before} / ${after}`);
-  await clean('convergence', page);
+// --- what they say is true -------------------------------------------------------------------------------------------------------------
+/** "8.69\u2009%" and "2.26×10⁻¹¹" as numbers. */
+const numberOf = (text) => Number(text.replace('−', '-').replace(/×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_, power) => `e${[...power].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join('')}`));
+const NUMBER = '−?\\d+(?:\\.\\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?';
+/** The number behind these words in a sentence; NaN: they are not in it. */
+const behind = (sentence, words) => numberOf(new RegExp(`${words} (${NUMBER})`).exec(sentence)?.[1] ?? 'none');
+const near = (a, b) => Math.abs(a - b) <= 0.0051 * Math.abs(b);
+const answerOf = async (page, title) => { await closer(page, title); return figureOf(page, title).locator('.figure-answer').textContent(); };
+/** The energy at each row of a run of the program. */
+function energies(...words) {
+  const [head, ...rows] = readCsv(motus('run', ...words, '-o', '-', '--quiet').split('\n').filter((line) => !line.startsWith('#')).join('\n'));
+  return rows.map((row) => Number(row[head.indexOf('energy')]));
+}
+const farthest = (values) => Math.max(...values.map((v) => Math.abs(v - values[0]))) / Math.abs(values[0]);
+
+await attempt('answers are the program’s', async () => {
+  const page = await open(`${singleFile}#v=1&p=spring&h=0.16&T=20`);
+  const compared = (model, ...words) => JSON.parse(motus('compare', `models/${model}.motus`, ...words, '--json')).rows;
+  for (const [fragment, model, labels, options] of [
+    ['#v=1&p=spring&h=0.16&T=20', 'spring', { 'explicit-euler': 'explicit Euler', 'symplectic-euler': 'symplectic Euler', verlet: 'Verlet' }, ['--step', '0.16', '--until', '20']],
+    ['#v=1&p=thrown-ball', 'thrown-ball', { 'explicit-euler': 'explicit Euler', 'symplectic-euler': 'symplectic Euler' }, []],
+    ['#v=1&p=kepler', 'kepler', { 'symplectic-euler': 'symplectic Euler', 'velocity-verlet': 'velocity Verlet' }, []]]) {
+    await page.evaluate((hash) => { location.hash = hash; }, fragment);
+    await settled(page, 400);
+    const said = await answerOf(page, 'Error'), energy = await answerOf(page, 'Energy');
+    for (const row of compared(model, '--methods', Object.keys(labels).join(','), ...options)) {
+      const told = behind(said, labels[row.method]);
+      judge(`${model}: how far off ${row.method} is`, near(told, row.error_final), `${told}, not ${row.error_final}: ${said}`);
+      const values = energies(`models/${model}.motus`, '--method', row.method, ...options);
+      const rate = model === 'spring' ? values[1] / values[0] - 1 : Math.abs(values[1] - values[0]) / Math.abs(values[0]);
+      const [number, wanted] = row.method === 'explicit-euler' || model === 'thrown-ball' ? [behind(energy.toLowerCase(), `${labels[row.method].toLowerCase()} (?:adds|loses)`), 100 * rate]
+        : [behind(energy.toLowerCase(), `${labels[row.method].toLowerCase()}(?: strays by at most)?`), 100 * farthest(values)];
+      judge(`${model}: what ${row.method} does with the energy`, near(number, wanted), `${number}, not ${wanted}: ${energy}`);
+    }
+  }
+  judge('what is round-off is said to be on it', /midpoint \(RK2\) on it/.test(await (await example(page, 'thrown-ball'), answerOf(page, 'Error'))));
+  await example(page, 'kepler');
+  const swing = await answerOf(page, 'Phase');
+  judge('kepler: between the ends of the axis, once in a period', near(behind(swing, 'between'), -1.6) && near(behind(swing, 'and'), 0.4) && near(behind(swing, 'once in'), 2 * Math.PI), swing);
+  const there = await answerOf(page, 'Time');
+  judge('kepler: after ten and a half turns at the far end', near(behind(there, 'rx ='), -1.6), there);
+  await clean('answers', page);
+});
+await attempt('what is said of what leaves, and of what is not steady', async () => {
+  const page = await open(`${singleFile}#v=1&p=spring&h=2.2&T=400&a=verlet`);
+  judge('Verlet beyond its limit is not said to come back', /^Verlet (?:ends with|ends|leaves)/.test(await answerOf(page, 'Energy')), await answerOf(page, 'Energy'));
+  await page.evaluate(() => { location.hash = "#v=1&a=explicit-euler&h=0.1&m=" + encodeURIComponent("x'' = x^3\nx(0) = 1\nx'(0) = 1\ninvariant energy = x'^2/2 - x^4/4\nuntil 10\n"); });
+  await settled(page, 500);
+  const energy = await answerOf(page, 'Energy');
+  judge('one that is no number any more leaves, at a time of the run', /^Explicit Euler leaves at t = [12]\./.test(energy), energy);
+  await clean('leaving', page);
+});
+await attempt('what has nothing to say is not there, and what is not seen costs nothing', async () => {
+  const page = await open(`${singleFile}#v=1&m=${encodeURIComponent("theta'' = -sin(theta)\ntheta(0) = 2\n")}`, { width: 390, height: 844 });
+  same('nothing is made before one looks closer', [await page.locator('#panels figure').count(), await page.locator('.mini-links button').count()], [0, 0]);
+  await closer(page);
+  const there = () => page.locator('#panels > figure:not([hidden])').evaluateAll((figures) => figures.map((f) => f.dataset.title));
+  judge('a model without an invariant has no panel of one, and its stage shows it against time', !(await there()).some((t) => ['Energy', 'Invariant', 'Time'].includes(t)) && (await there()).includes('Phase'), (await there()).join());
+  judge('what is far below is not computed', await page.evaluate(() => document.querySelector('#panels figure:last-child canvas').width === 300));
+  await page.setViewportSize({ width: 1280, height: 900 });
+  await page.evaluate(() => scrollTo(0, 0));
+  await example(page, 'spring');
+  await closer(page);
+  judge('the spring’s stage shows both: neither is there again', !(await there()).some((t) => t === 'Time' || t === 'Phase') && (await there()).includes('Energy'), (await there()).join());
+  await example(page, 'arenstorf');
+  await closer(page);
+  judge('what is kept is asked for by its name', await figureOf(page, 'Invariant').locator('h3').textContent() === 'Who keeps jacobi?' && await figureOf(page, 'Invariant').locator('h3 i').count() === 1);
+  await clean('absent', page);
 });
 // --- a motion that passes a singularity says so, and one that only comes near to it does not -------------------------------------
 await attempt('singularity', async () => {
   const fall = (speed) => `x'' = -1/x^2\nx(0) = 1\nx'(0) = ${speed}\nmethod rk4\nstep 0.001\nuntil 2\n`;
   for (const [speed, passes] of [[0, true], [1.5, false]]) {
-    const page = await open(`${singleFile}#v=1&a=rk4,verlet&o=time&m=${encodeURIComponent(fall(speed))}`);
+    const page = await open(`${singleFile}#v=1&a=rk4,verlet&q=x&m=${encodeURIComponent(fall(speed))}`);
     await settled(page, 600);
-    const status = await page.locator('.status .message').textContent(), summary = await summaryOf(page, 'Against time');
+    const status = await page.locator('.status .message').textContent(), summary = await summaryOf(page, 'Time');
     for (const text of [status, summary]) judge(`x'(0) = ${speed}: ${passes ? 'says' : 'does not say'} that the motion passes a singularity`, /RK4: the run passes a singularity of the force between t = 1\.11/.test(text) === passes && /singularity/.test(text) === passes, text);
     await clean('singularity', page);
   }

@@ -1,9 +1,9 @@
-/* Every example: it starts without an error, something moves, each open panel says what it shows, and pictures of it are kept in build/lab/shots/
- * to be looked at: light and wide, dark and narrow.
+/* Every example: it starts without an error, something moves, each question below the stage that is there has an answer and a picture, a note says what to
+ * try, and pictures of it are kept in build/lab/shots/ to be looked at: light and wide, dark and narrow.
  */
 import { mkdirSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { attempt, built, clean, example, figureOf, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
+import { attempt, built, clean, closer, example, finish, judge, open, root, same, settled, singleFile } from './help.mjs';
 
 const shots = join(built, 'shots');
 mkdirSync(shots, { recursive: true });
@@ -20,6 +20,7 @@ const pixels = (page) => page.locator('#stage-figure canvas.stage-moving').evalu
 const page = await open(singleFile);
 for (const name of names) {
   await attempt(name, async () => {
+    await page.evaluate(() => scrollTo(0, 0));
     await example(page, name);
     await page.waitForTimeout(200);
     const summary = await page.locator('#stage-figure figcaption').textContent();
@@ -32,19 +33,33 @@ for (const name of names) {
     await page.waitForTimeout(80);
     const after = await pixels(page);
     judge(`${name}: something moves`, before.some > 0 && after.some > 0 && before.sum !== after.sum, JSON.stringify([before, after]));
-    for (const title of ['Against time', 'Error', 'Drift of an invariant', 'Phase plane']) {
-      const figure = figureOf(page, title);
-      await figure.scrollIntoViewIfNeeded();
-      await page.waitForTimeout(60);
-      const said = (await figure.locator('figcaption').textContent()) || (await figure.locator('.figure-message').textContent());
-      judge(`${name}: “${title}” has a summary or says why it is empty`, said.length > 20 && !/NaN|undefined|null|Infinity/.test(said), said);
+    await closer(page);
+    const figures = page.locator('#panels > figure:not([hidden]):is([data-figure="error"], [data-figure="drift"], [data-figure="time"], [data-figure="phase"])'), count = await figures.count();
+    judge(`${name}: there are questions`, count >= 1, count);
+    for (let k = 0; k < count; k++) {
+      const figure = figures.nth(k), id = await figure.getAttribute('data-figure');
+      await figure.locator('.figure-picture').scrollIntoViewIfNeeded();
+      // A reference may be computed first.
+      await page.waitForFunction((of) => !document.querySelector(`figure[data-figure="${of}"] .figure-answer`).hidden, id, { timeout: 60000 });
+      const [question, answer, summary] = await Promise.all(['h3', '.figure-answer', '.figure-summary'].map((part) => figure.locator(part).textContent()));
+      judge(`${name}: ${id}: a question with an answer`, /\?$/.test(question) && /^\S.{8,}\.$/.test(answer), `${question} ${answer}`);
+      judge(`${name}: ${id}: numbers are numbers`, !/NaN|undefined|null|Infinity|∞|–\.| – /.test(`${question} ${answer} ${summary}`) && /\d|on it/.test(answer), `${answer} ${summary}`);
+      // Grey are the axes; names stand at the right.
+      const part = await figure.locator('canvas.figure-still').evaluate((canvas) => {
+        const width = Math.round(0.6 * canvas.width), { data } = canvas.getContext('2d').getImageData(0, 0, width, canvas.height), columns = new Set();
+        for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 60 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 40) columns.add(i / 4 % width);
+        return columns.size / width;
+      });
+      judge(`${name}: ${id}: a picture, with a curve across it`, part > 0.3, part);
     }
-    for (const [theme, width, height] of [['dark', 375, 740], ['light', 1280, 900]]) {
+    judge(`${name}: a note says what to try`, (await page.locator('#scene-note').textContent()).length > 60);
+    for (const [theme, width, height] of [['dark', 390, 844], ['light', 1280, 900]]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: theme });
       await page.evaluate(() => scrollTo(0, 0));
       await page.waitForTimeout(150);
-      judge(`${name}, ${width} px: the page does not scroll sideways`, await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), await page.evaluate(() => document.documentElement.scrollWidth));
+      const fits = await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth, null, { timeout: 3000 }).then(() => true, () => false);
+      judge(`${name}, ${width} px: the page does not scroll sideways`, fits, await page.evaluate(() => `${document.documentElement.scrollWidth} of ${innerWidth}`));
       await page.screenshot({ path: join(shots, `${name}-${theme}.png`) });
     }
   });

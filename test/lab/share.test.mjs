@@ -44,7 +44,7 @@ test('every state comes back', () => {
     const one = /[\n\t\u2028]/.test(text) || text.trim() !== text || text === '' ? 'y' : text;
     const state = {
       ...start, preset: '', text, set: { x: one, [one.replace(/=/g, '') || 'k']: '1', __proto__: null, ['__proto__']: '2' }, methods: ['verlet', 'rk4'], step: one, until: one,
-      view: { plane: 'space', quantities: [one, 'x[1,2]'], phase: [one, "x'"], panels: ['error', 'work-precision'], exact: false, speed: 0.25 },
+      view: { plane: 'space', quantities: [one, 'x[1,2]'], phase: [one, "x'"], exact: false, speed: 0.25 },
     };
     const back = share.decode('#' + share.encode(state, presets), presets);
     assert.equal(back.problem, '');
@@ -56,6 +56,11 @@ test('every state comes back', () => {
   assert.equal({}.polluted, undefined);
 });
 
+test('a place comes back, and no other', () => {
+  for (const place of ['', 'gallery', 'step', 'too-high-too-low.try.0']) assert.deepEqual(share.decode(share.encode({ ...start, place }, presets), presets), { state: { ...start, place }, problem: '' });
+  for (const place of ['steps', 'step.1', 'stage']) assert.match(share.decode(`v=1&p=projectile&l=${place}`, presets).problem, /a place that does not exist/);
+});
+
 test('an embed and its sliders come back', () => {
   for (const embed of [[], ['step'], ['step', 'k', "r'(0).y", 'x[1,2](0)', 'm[2]']]) {
     const state = { ...start, embed }, fragment = share.encode(state, presets);
@@ -65,7 +70,7 @@ test('an embed and its sliders come back', () => {
   assert.deepEqual(share.decode('v=1&p=projectile&embed=1&c=k&c=k', presets).state.embed, ['k']);
   assert.equal('embed' in share.decode('v=1&p=projectile', presets).state, false);
   for (const [fragment, why] of [['embed=0', /“embed” is 1/], ['embed=', /“embed” is 1/], ['embed', /“embed” is 1/], ['embed=1&embed=1', /twice/], ['c=step', /without “embed=1”/], ['embed=1&c=', /no name/],
-    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no lesson/]]) {
+    ['embed=1&c=%0A', /control/], ['embed=1&c=' + 'x'.repeat(300), /too long/], ['embed=1' + '&c=k'.repeat(40), /too many/], ['embed=1&l=gallery', /no other place/], ['embed=1&l=step', /no other place/]]) {
     const { state, problem } = share.decode('v=1&p=spring&' + fragment, presets);
     assert.match(problem, why, fragment);
     assert.deepEqual(state, start);
@@ -75,7 +80,7 @@ test('an embed and its sliders come back', () => {
 test('no address is an exception', () => {
   const wrong = ['v=2&p=projectile', 'p=projectile', 'v=1', 'v=1&p=nothing', 'v=1&p=__proto__', 'v=1&p=constructor', 'v=1&m=%', 'v=1&m=%4', 'v=1&m=%GG', 'v=1&m=%FF', 'v=1&m=%C3',
     'v=1&m=%ED%A0%80', 'v=1&m=%00', 'v=1&m=%1B%5B2J', 'v=1&p=spring&zz=1', 'v=1&p=spring&p=spring', 'v=1&p=spring&s=k', 'v=1&p=spring&s==2', 'v=1&p=spring&s=k%3D', 'v=1&p=spring&w=9',
-    'v=1&p=spring&f=x', 'v=1&p=spring&e=2', 'v=1&p=spring&z=-1', 'v=1&p=spring&z=0', 'v=1&p=spring&z=NaN', 'v=1&p=spring&o=%3Cimg%3E', 'v=1&p=spring&h=1%0A2',
+    'v=1&p=spring&f=x', 'v=1&p=spring&e=2', 'v=1&p=spring&z=-1', 'v=1&p=spring&z=0', 'v=1&p=spring&z=NaN', 'v=1&p=spring&h=1%0A2',
     'v=1&m=' + 'x'.repeat(share.longest), 'v=1&p=spring&' + 's=k%3D1&'.repeat(300), 'v=1&p=spring&h=' + '1'.repeat(300), '=', '&', '%', '#'];
   for (const fragment of wrong) {
     const { state, problem } = share.decode('#' + fragment, presets);

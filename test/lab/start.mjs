@@ -6,7 +6,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { attempt, built, clean, editorOf, fields, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, tableOf } from './help.mjs';
+import { attempt, built, clean, editorOf, fields, finish, held, judge, launch, motus, open, place, program, readCsv, root, same, serve, settled, singleFile, summaryOf, numbersOf, tableOf } from './help.mjs';
 
 const founding = '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet,velocity-verlet';
 const { address, asked } = await serve();
@@ -49,7 +49,7 @@ for (const [name, url] of [['from disk', singleFile], ['from a server', address]
     }));
     page.wrong = page.wrong.filter((line) => !/Content Security Policy/.test(line));
 
-    const table = tables[name] = await tableOf(page, 'Against time');
+    const table = tables[name] = await numbersOf(page);
     const last = table.rows.at(-1), value = (label) => Number(last[table.head.indexOf(label)]);
     same(`${name}: it ends at 3`, last[0], '3');
     judge(`${name}: exact y(3) = -30.645`, Math.abs(value('exact r.y') + 30.645) < 1e-13, value('exact r.y'));
@@ -65,7 +65,7 @@ judge('the server was asked for nothing that it does not have', asked.every((pat
 
 await attempt('motus compare', async () => {
   const { rows } = JSON.parse(motus('compare', 'models/projectile.motus', '--methods', 'explicit-euler,symplectic-euler,midpoint,verlet', '--json'));
-  const page = await open(singleFile + '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet&o=error');
+  const page = await open(singleFile + '#v=1&p=projectile&a=explicit-euler,symplectic-euler,midpoint,verlet');
   const { head, rows: ours } = await tableOf(page, 'Error');
   for (const row of rows) {
     const column = head.findIndex((h) => h.includes(`(${row.method})`));

@@ -1,13 +1,15 @@
-/* A step in words and numbers: each event of a trace as the formula it stands for, with the numbers that it took and gave.
+/* A step part by part: each event of a trace as the formula it stands for, with all digits of the numbers that it took and gave.
  *
- * Invariant: every number is one that the core told; nothing is computed anew. What is shortened for reading is whole in `full`.
+ * Invariant: every number is one that the core told; nothing is computed anew.
  */
 import { brief } from '../../figure/number';
 import type { Trace, TraceEntry } from '../../protocol';
+import { words } from '../../words';
 
-export interface Formula { readonly symbols: string; readonly numbers: string; readonly full: string }
+export interface Formula { readonly symbols: string; readonly numbers: string }
 export interface Told { readonly title: string; readonly note: string; readonly formulas: readonly Formula[] }
 
+const told = words.opened.part;
 const DIGITS = 6;
 const SUBSCRIPTS = '₀₁₂₃₄₅₆₇₈₉';
 export const sub = (n: number): string => String(n).replace(/\d/g, d => SUBSCRIPTS[Number(d)]!);
@@ -31,9 +33,8 @@ function coefficient(c: number, write: Write): string {
 /** r'.y -> r''.y */
 const accelerationName = (velocity: string): string => velocity.includes("'") ? velocity.replace("'", "''") : `${velocity}'`;
 
-/* The formula is written twice by one function: for reading, and with every digit. */
 function formula(symbols: string, of: (write: Write) => string): Formula {
-  return { symbols, numbers: of(shortly), full: of(wholly) };
+  return { symbols, numbers: of(wholly) };
 }
 
 /* c1 y1 + c2 y2 + …, without the terms that are zero; in brackets where it is more than one term. */
@@ -53,10 +54,9 @@ function signed(c: number): string {
 
 /* Where a kick takes the acceleration; of an implicit kick also what solving it took. */
 function kickNote(e: TraceEntry, before: TraceEntry, byVelocity: boolean): string {
-  if (!byVelocity) return `The acceleration at t = ${shortly(e.time)} changes the velocity; the position stays.`;
+  if (!byVelocity) return told.kickNote(shortly(e.time));
   const turns = e.iterations - before.iterations;
-  const solved = turns > 0 ? ` Newton's method solved that equation in ${turns} iteration${turns === 1 ? '' : 's'}.` : '';
-  return `The acceleration at t = ${shortly(e.time)}, taken at the mean of the velocities before and after, changes the velocity; the position stays.${solved}`;
+  return told.implicitNote(shortly(e.time), turns);
 }
 
 /** What event `at` of a trace does to the numbers with these indices. byVelocity: the force depends on the velocity. */
@@ -70,25 +70,25 @@ export function tell(trace: Trace, at: number, indices: readonly number[], byVel
 
   switch (e.kind) {
     case 'start':
-      return { title: `Start, t = ${shortly(e.time)}`, note: '', formulas: state(e) };
+      return { title: told.startTitle(shortly(e.time)), note: '', formulas: state(e) };
     case 'kick':
       return {
-        title: byVelocity ? 'Implicit kick' : 'Kick', note: kickNote(e, before, byVelocity),
+        title: byVelocity ? told.implicitKick : told.kick, note: kickNote(e, before, byVelocity),
         formulas: each(k => [formula(`${v(k)} ← ${v(k)} ${signed(e.coefficient)}h ${a(k)}`,
           w => `${v(k)} ← ${w(before.v[k]!)} + ${bracketed(coefficient(e.coefficient, w))} · ${bracketed(w(h))} · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.v[k]!)}`)]),
       };
     case 'drift':
       return {
-        title: 'Drift', note: `Free flight with this velocity, to t = ${shortly(e.time)}.`,
+        title: told.drift, note: told.driftNote(shortly(e.time)),
         formulas: each(k => [formula(`${x(k)} ← ${x(k)} ${signed(e.coefficient)}h ${v(k)}`,
           w => `${x(k)} ← ${w(before.x[k]!)} + ${bracketed(coefficient(e.coefficient, w))} · ${bracketed(w(h))} · ${bracketed(w(e.v[k]!))} = ${w(e.x[k]!)}`)]),
       };
     case 'solve':
-      return { title: 'Solve', note: `The stages lean on one another: Newton's method found them together in ${e.iterations} iteration${e.iterations === 1 ? '' : 's'}.`, formulas: [] };
+      return { title: told.solve, note: told.solveNote(e.iterations), formulas: [] };
     case 'stage': {
       const i = sub(e.stage), row = e.row ?? [], first = row.every(c => c === 0);
       return {
-        title: stages.length === 1 ? 'Slope' : `Stage ${e.stage} of ${stages.length}`, note: `At t = ${shortly(e.time)}${e.coefficient === 0 ? ', the start' : ''}: where to look, and the slopes found there.`,
+        title: told.stage(e.stage, stages.length), note: told.stageNote(shortly(e.time), e.coefficient === 0),
         formulas: each(k => [
           positionAt(e, k, `${x(k)}${i}`),
           formula(first ? '' : `${v(k)}${i} = ${v(k)}₀ + h ${weightedNames(row, a(k))}`,
@@ -99,22 +99,22 @@ export function tell(trace: Trace, at: number, indices: readonly number[], byVel
     }
     case 'taylor':
       return {
-        title: 'First step', note: 'There is no step before: the Taylor series of the start gives the second point.',
+        title: told.taylor, note: told.taylorNote,
         formulas: each(k => [formula(`${x(k)} ← ${x(k)} + h ${v(k)} + ½ h² ${a(k)}`,
           w => `${x(k)} ← ${w(start.x[k]!)} + ${bracketed(w(h))} · ${bracketed(w(start.v[k]!))} + 1/2 · ${bracketed(w(h))}² · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.x[k]!)}`)]),
       };
     case 'step':
       if (e.before_x) return {
-        title: 'Recurrence', note: 'As far again as in the step before, and the acceleration on top.',
+        title: told.recurrence, note: told.recurrenceNote,
         formulas: each(k => [formula(`${x(k)} ← 2 ${x(k)} − ${x(k)}₋ + h² ${a(k)}`,
           w => `${x(k)} ← 2 · ${bracketed(w(start.x[k]!))} − ${bracketed(w(e.before_x?.[k] ?? NaN))} + ${bracketed(w(h))}² · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.x[k]!)}`)]),
       };
       return {
-        title: 'Position', note: 'The acceleration now and the one a step before tell how it changes.',
+        title: told.position, note: told.positionNote,
         formulas: each(k => [formula(`${x(k)} ← ${x(k)} + h ${v(k)} + h²/6 (4 ${a(k)} − ${a(k)}₋)`,
           w => `${x(k)} ← ${w(start.x[k]!)} + ${bracketed(w(h))} · ${bracketed(w(start.v[k]!))} + ${bracketed(w(h))}²/6 · (4 · ${bracketed(w(e.a?.[k] ?? NaN))} − ${bracketed(w(e.before_a?.[k] ?? NaN))}) = ${w(e.x[k]!)}`)]),
       };
-    case 'end': return { title: `End, t = ${shortly(e.time)}`, ...ending() };
+    case 'end': return { title: told.endTitle(shortly(e.time)), ...ending() };
   }
 
   function positionAt(s: TraceEntry, k: number, name: string): Formula {
@@ -141,7 +141,7 @@ export function tell(trace: Trace, at: number, indices: readonly number[], byVel
     if (stages.length > 0) {
       const weights = stages.map(s => s.weight), weightsX = stages.map(s => s.weight_x);
       return {
-        note: stages.length === 1 ? 'The one slope, for the whole step.' : 'The slopes, each with its weight.',
+        note: told.slopes(stages.length),
         formulas: each(k => [
           usable(weights, stages.map(s => s.v[k]!), start.x[k]!, e.x[k]!)
             ? formula(`${x(k)} ← ${x(k)}₀ + h ${weightedNames(weights, v(k))}`,
@@ -153,12 +153,12 @@ export function tell(trace: Trace, at: number, indices: readonly number[], byVel
       };
     }
     if (before.kind === 'step' && !before.before_x) return {
-      note: 'The velocity, with the acceleration at the new place.',
+      note: told.velocityNote,
       formulas: each(k => [formula(`${v(k)} ← ${v(k)} + h/6 (2 ${a(k)}₁ + 5 ${a(k)} − ${a(k)}₋)`,
         w => `${v(k)} ← ${w(start.v[k]!)} + ${bracketed(w(h))}/6 · (2 · ${bracketed(w(e.a?.[k] ?? NaN))} + 5 · ${bracketed(w(before.a?.[k] ?? NaN))} − ${bracketed(w(before.before_a?.[k] ?? NaN))}) = ${w(e.v[k]!)}`)]),
     };
     if (before.kind === 'step' || before.kind === 'taylor') return {
-      note: 'The velocity at the same time as the position: the mean over the step, and half a kick by the acceleration at the new place.',
+      note: told.meanNote,
       formulas: each(k => [formula(`${v(k)} = (${x(k)}₁ − ${x(k)}₀)/h + ½ h ${a(k)}₁`,
         w => `${v(k)} = ${w(before.v[k]!)} + 1/2 · ${bracketed(w(h))} · ${bracketed(w(e.a?.[k] ?? NaN))} = ${w(e.v[k]!)}`)]),
     };

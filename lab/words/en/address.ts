@@ -11,9 +11,9 @@ export const address = {
   sets: 'it sets too many parameters', setForm: 'a parameter is not written name=value',
   methods: 'it asks for too many methods', place: 'it names a place that does not exist',
   view: 'it asks for a view that does not exist', quantities: 'it asks for too many quantities', axes: 'a phase plane needs two axes',
-  panel: 'it names a panel that does not exist', exact: '“e” is 0 or 1', speed: 'the speed of the animation is no number above 0',
+  exact: '“e” is 0 or 1', speed: 'the speed of the animation is no number above 0',
   embed: '“embed” is 1', noEmbed: 'it chooses sliders, “c”, without “embed=1”', sliders: 'it chooses too many sliders', noSlider: 'a slider has no name',
-  embedPlace: 'an embed shows the stage, no lesson and no gallery',
+  embedPlace: 'an embed shows the stage and no other place',
   /** Of a text in the address: that it is too long, that it holds a control character. */
   texts: {
     quantity: { long: 'the name of a quantity is too long', control: 'the name of a quantity holds a control character' },

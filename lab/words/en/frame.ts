@@ -1,6 +1,6 @@
 /* The frame of a picture: lab/figure/figure.ts. */
 export const frame = {
-  data: 'Data table',
+  numbers: 'Numbers',
   save: (title: string) => `Save “${title}”`,
   saveAs: (kind: string) => `Save as ${kind}`,
   saveTitleAs: (title: string, kind: string) => `Save “${title}” as ${kind}`,

@@ -1,5 +1,6 @@
 /* English. Each part of the page has its file; page, computed, faults and html stand alone (../index.ts). */
 import { address } from './address';
+import { cards } from './cards';
 import { dock } from './dock';
 import { editor } from './editor';
 import { figure } from './figure';
@@ -9,14 +10,18 @@ import { headline } from './headline';
 import { lecture } from './lecture';
 import { lesson } from './lesson';
 import { methods } from './methods';
+import { opened } from './opened';
+import { panel } from './panel';
 import { scenes } from './scenes';
 import { share } from './share';
 import { stage } from './stage';
+import { study } from './study';
 import { top } from './top';
 import { trouble } from './trouble';
 
 export const words = {
   address,
+  cards,
   dock,
   editor,
   figure,
@@ -26,9 +31,12 @@ export const words = {
   lecture,
   lesson,
   methods,
+  opened,
+  panel,
   scenes,
   share,
   stage,
+  study,
   top,
   trouble,
 } as const;

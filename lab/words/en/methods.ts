@@ -1,6 +1,6 @@
 /* The choice of methods: shell/methods.ts. Their names are the core's. */
 export const methods = {
-  group: 'Methods', all: 'All methods', main: 'Formula and steps of', search: 'order 4, symplectic, Yoshida …',
+  group: 'Methods', all: 'All methods', search: 'order 4, symplectic, Yoshida …',
   more: (count: string) => `${count} more`,
   found: (count: number) => (count === 1 ? '1 method' : `${count} methods`),
   most: (most: string) => `${most} methods at once are as many as a picture can hold.`,

@@ -1,0 +1,157 @@
+/* One step as a recipe (lab/panel/steps/recipe.ts), by the module of build/lab. Run by `node --test`. Laws, for every model and every method that it admits, at the
+ * first step, the second and a later one: at most four lines; each calculation, evaluated with the figures as they are written, gives its own right-hand
+ * side within what their rounding allows; the last place or velocity is the core's; each line has a mark for its disc.
+ */
+import assert from 'node:assert/strict';
+import { readFileSync, readdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+import test from 'node:test';
+
+const lab = new URL('../../lab/', import.meta.url), root = new URL('../../', import.meta.url);
+const { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
+const contents = `export * from './core'; export * from './answers'; export * from './panel/steps/recipe'; export * from './panel/steps/seen'; export * from './panel/steps/figures'; export * from './panel/steps/local_exact';`;
+const built = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022', platform: 'node' });
+const { Core, Answers, recipeOf, seenIn, plain, figure, factor, localExact } = await import('data:text/javascript;base64,' + Buffer.from(built.outputFiles[0].contents).toString('base64'));
+const module = new WebAssembly.Module(readFileSync(new URL('build/lab/motus.wasm', root)));
+
+/** A figure as it is read: the number, and half a unit of its last digit where it was rounded. */
+function read({ text, rounded }) {
+  const [, mantissa, power] = /^(−?[\d\u2009.]+)(?:×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?$/.exec(text) ?? [];
+  if (text === '½') return { value: 0.5, off: 0 };
+  assert.ok(mantissa !== undefined, `“${text}” is no figure`);
+  const p = power ? Number([...power].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join('')) : 0, digits = mantissa.replace(/\u2009/g, '').replace('−', '-');
+  return { value: Number(digits) * 10 ** p, off: rounded ? 0.5000001 * 10 ** (p - (digits.split('.')[1] ?? '').length) : 0 };
+}
+const each = (a, b, act) => Array.from({ length: Math.max(a.length, b.length) }, (_, k) => act(a[a.length === 1 ? 0 : k], b[b.length === 1 ? 0 : k]));
+/** A calculation between its equals signs: numbers and vectors with what they may be off; names: of lines above. */
+function evaluate(tokens, names) {
+  let at = 0;
+  const sign = (s) => tokens[at]?.kind === 'sign' && tokens[at].sign === s && ++at > 0;
+  function term() {
+    if (sign('(')) { const inner = total(); assert.ok(sign(')'), 'a bracket is closed'); return inner; }
+    const token = tokens[at++];
+    if (token.kind === 'name') { const known = names.get(`${token.name}${token.index ?? ''}`); assert.ok(known, `${token.name}${token.index ?? ''} stands in a line above`); return known; }
+    return token.figures.map(read);
+  }
+  function product() {
+    let left = term();
+    for (;;) {
+      if (sign('·')) left = each(left, term(), (a, b) => ({ value: a.value * b.value, off: Math.abs(a.value) * b.off + Math.abs(b.value) * a.off + a.off * b.off }));
+      else if (sign('/')) left = each(left, term(), (a, b) => ({ value: a.value / b.value, off: a.off / Math.abs(b.value) }));
+      else return left;
+    }
+  }
+  function total() {
+    let left = product();
+    for (;;) {
+      const way = sign('+') ? 1 : sign('−') ? -1 : 0;
+      if (!way) return left;
+      left = each(left, product(), (a, b) => ({ value: a.value + way * b.value, off: a.off + b.off }));
+    }
+  }
+  const found = total();
+  assert.equal(at, tokens.length, 'all of it is read');
+  return found;
+}
+/** The sides of a calculation. */
+function sides(sum) {
+  const out = [[]];
+  for (const token of sum) if (token.kind === 'sign' && token.sign === '=') out.push([]); else out.at(-1).push(token);
+  return out;
+}
+
+const models = readdirSync(new URL('models/', root)).filter((name) => name.endsWith('.motus')).map((name) => [name.slice(0, -6), readFileSync(new URL(`models/${name}`, root), 'utf8')]);
+models.push(['decay', "s' = -s\ns(0) = 1\nstep 0.1\nuntil 2\n"], ['backward', "x'' = -x\nx(0) = 1\nx'(0) = 0\nstep 0.1\nuntil -2\n"],
+  ['lorenz', "x' = 10 (y - x)\ny' = x (28 - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 2\n"], ['at rest', "x'' = 0\nx(0) = 3\nx'(0) = 0\nstep 0.1\nuntil 2\n"], ['small', "x'' = -x\nx(0) = 1e-9\nx'(0) = 2e-9\nstep 0.1\nuntil 2\n"], ['large', "x'' = -x\nx(0) = 123456789\nx'(0) = 0\nstep 0.1\nuntil 2\n"]);
+for (const [name, text] of models) {
+  test(`${name}: recipes of one step`, () => {
+    const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model });
+    let seen_ = 0, calculated = 0;
+    const admitted = description.methods.filter((m) => m.admitted && m.name !== 'exact').map((m) => m.name);
+    for (const method of admitted.flatMap((m) => (m === 'newmark' ? [m, 'newmark(0.3, 0.6)', 'newmark(0, 0.5)'] : [m]))) for (const index of [0, 1, 7]) {
+      let trace;
+      try { trace = answers.answer('trace', { model, method, step: null, until: null, index }); } catch (e) { if (e.problem) continue; throw e; }
+      for (const seen of seenIn(trace.names).filter((_, k) => k < 4)) {
+        const recipe = recipeOf(trace, seen, description.velocity_dependent), what = `${name} by ${method}, step ${index + 1}, ${seen.id}`;
+        assert.ok(recipe && recipe.lines.length >= 1 && recipe.lines.length <= 4, what);
+        const names = new Map(), told = (e, k) => (seen.order === 2 ? e.x[k] : e.v[k]), end = trace.entries.at(-1), ends = seen.indices.map((k) => told(end, k));
+        let arrives = false;
+        seen_++;
+        for (const [k, line] of recipe.lines.entries()) {
+          assert.ok(line.disc && line.marks.length && line.sentence.length > 8 && !/undefined|NaN/.test(line.sentence), `${what}, line ${k + 1}: ${line.sentence}`);
+          assert.ok(line.sums.length >= 1, what);
+          for (const sum of line.sums) {
+            const parts = sides(sum), right = parts.at(-1), written = `${what}, line ${k + 1}: ${plain(sum)}`;
+            assert.ok(!/NaN|undefined|–|∞/.test(plain(sum)), written);
+            assert.equal(right.length, 1, written);
+            const result = right[0].figures.map(read);
+            if (parts[0].length === 1 && parts[0][0].kind === 'name') names.set(`${parts[0][0].name}${parts[0][0].index ?? ''}`, result);
+            if (parts.length === 3 || (parts.length === 2 && parts[0].some((t) => t.kind === 'sign' && t.sign === '·'))) {
+              calculated++;
+              const left = evaluate(parts.at(-2), names);
+              left.forEach(({ value, off }, i) => {
+                const limit = off + result[i].off + 1e-9 * Math.abs(result[i].value) + 1e-300;
+                assert.ok(Math.abs(value - result[i].value) <= limit, `${written}: ${value} is not ${result[i].value} within ${limit}`);
+                // What rounding allows is little beside what is written.
+                assert.ok(off <= 25 * Math.max(result[i].off, 0.5 * 10 ** -9 * Math.abs(value), 1e-300) || off <= 0.02 * Math.max(Math.abs(value), 1e-300) || result[i].off === 0, `${written}: off by ${off}`);
+              });
+            }
+            if (result.length === ends.length && result.every(({ value, off }, i) => Math.abs(value - ends[i]) <= off + 1e-12 * Math.abs(ends[i]) + 1e-300)) arrives = true;
+          }
+        }
+        assert.ok(arrives, `${what}: one of the lines comes to where the step ends`);
+      }
+    }
+    assert.ok(seen_ > 0 && calculated >= seen_, `${calculated} calculations in ${seen_} recipes`);
+  });
+}
+
+test('the two steps of the concept’s picture', () => {
+  const answers = new Answers(new Core(module)), model = { text: readFileSync(new URL('models/spring.motus', root), 'utf8'), set: [] };
+  const said = (method, index) => {
+    const trace = answers.answer('trace', { model, method, step: 0.8, until: 20, index }), recipe = recipeOf(trace, seenIn(trace.names)[0], false);
+    return recipe.lines.map((line) => [line.sentence, ...line.sums.map(plain)].join(' '));
+  };
+  assert.deepEqual(said('midpoint', 0), ['Go half a step with the velocity you have. x = 1 + 0.4 · 0 = 1', 'Read the velocity there. v = 0 + 0.4 · (−1) = −0.4', 'Start again, and go the whole step with it. x = 1 + 0.8 · (−0.4) = 0.680']);
+  assert.deepEqual(said('verlet', 1), ['Keep going: the same stretch once more. 2 · 0.68 − 1 = 0.36', 'Fall: what the force does in a whole step. h²a = 0.64 · (−0.68) = −0.435', 'There you are. No velocity was needed. x = 0.36 − 0.435 = −0.075']);
+  assert.deepEqual(said('kahan-li8', 0).length, 4);
+  assert.match(said('kahan-li8', 0)[3], /^And so on, 35 parts\. The last: x = /);
+});
+test('what does not fit is not said: a start that is written in another way, numbers of a part that are not its formula’s', async () => {
+  const text = "x'' = -x + cos(t)\nx(abs(0)) = 1\nx'(abs(0)) = 0\nstep 0.1\nuntil 2\n", answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
+  const trace = answers.answer('trace', { model, method: 'leapfrog', step: null, until: null, index: 5 });
+  assert.equal(await localExact(client, { description, state: { text, set: {} } }, trace), null);
+  const [start, drift, kick, ...rest] = trace.entries, other = { ...trace, entries: [start, drift, { ...kick, v: [kick.v[0] + 0.001] }, ...rest] };
+  const lines = (of) => recipeOf(of, seenIn(of.names)[0], false).lines.map((l) => l.sums[0].filter((t) => t.kind === 'sign' && t.sign === '=').length);
+  assert.deepEqual([lines(trace), lines(other)], [[2, 2, 2], [2, 1, 2]]);
+});
+test('a method of more stages than lines', () => {
+  const stage = (k) => ({ kind: 'stage', stage: k, stages: 6, iterations: 0, time: 0.1 * k, step: 1, coefficient: 0.1 * k, weight: 1 / 6, weight_x: 0, row: [0, 0, 0, 0, 0, 0].map((_, j) => (j === k - 2 ? 0.1 * k : 0)), row_x: null, x: [k], v: [2], a: [0], before_x: null, before_a: null });
+  const end = (kind, time, x) => ({ ...stage(0), kind, stage: 0, time, row: null, x: [x], v: [2], a: [0] });
+  const trace = { method: 'six', step: 1, index: 0, total: 5, names: { x: ['x'], v: ["x'"] }, entries: [end('start', 0, 0), ...[1, 2, 3, 4, 5, 6].map(stage), end('end', 1, 2)] }, { lines } = recipeOf(trace, seenIn(trace.names)[0], false);
+  assert.deepEqual(lines.map((l) => l.sums.map(plain).join()), ['v1 = 2', 'v2 = 2 + 0.2 · 0 = 2', 'v3 = 2 + 0.3 · 0 = 2', 'x = 2']);
+  assert.match(lines[3].sentence, /^And so on: 6 in all\./);
+});
+test('figures', () => {
+  const kind = { decimals: 3, most: 1 };
+  assert.deepEqual([figure(1, kind), figure(-0.4, kind), figure(0.68, kind, true), figure(0.69671, kind), figure(-0, kind), figure(1e-17, kind)].map((f) => f.text), ['1', '−0.4', '0.680', '0.697', '0', '0']);
+  assert.deepEqual([figure(1e-9, { decimals: 12, most: 1e-9 }).text, figure(123456789, { decimals: 0, most: 2e8 }).text, figure(12345.678, { decimals: 1, most: 2e4 }).text], ['1×10⁻⁹', '1.23456789×10⁸', '12\u2009345.7']);
+  assert.deepEqual([factor(Math.PI / 100, 4), factor(0.4, 4)], [{ text: '0.03142', rounded: true }, { text: '0.4', rounded: false }]);
+});
+
+test('the exact motion from where a step starts: for every model, and no further from a step by Gauss’ method than that errs', async () => {
+  const cells = (start) => `x[i]'' = -x[i] for i = 1..3\n${start}\nx[i]'(0) = 0 for i = 1..3\nstep 0.1\nuntil 2\n`;
+  for (const [name, text] of [...models, ['one cell', cells('x[i](0) = 0 for i = 1..3\nx[2](0) = 1')], ['two ranges', cells('x[i](0) = 0 for i = 1..2 # at rest\nx[3](0) = 1 # pulled')]]) {
+    const answers = new Answers(new Core(module)), model = { text, set: [] }, description = answers.answer('describe', { model }), client = { ask: async (kind, ask) => answers.answer(kind, ask) };
+    for (const index of [0, 5]) for (const way of [1, -1]) {
+      const trace = answers.answer('trace', { model, method: 'gauss8', step: null, until: null, index }), end = trace.entries.at(-1), start = trace.entries[0];
+      const found = await localExact(client, { description, state: { text, set: {} } }, trace, way), what = `${name}, step ${index + 1}, way ${way}`;
+      assert.ok(found, `${what}: it is there`);
+      const all = [...trace.names.x, ...trace.names.v], of = (e) => [...e.x, ...e.v], at = all.map((column) => found.columns.get(column)?.[found.end]), size = Math.max(...[...of(start), ...of(end)].map(Math.abs));
+      assert.ok(Math.abs(found.times[found.end] - (start.time + way * start.step)) <= 1e-9 * Math.abs(start.step), `${what}: its times`);
+      if (way > 0) at.forEach((x, k) => assert.ok(Math.abs(x - of(end)[k]) <= 1e-7 * size, `${what}, ${all[k]}: ${x} is not ${of(end)[k]}`));
+      all.forEach((column, k) => assert.equal(found.columns.get(column)?.[0], of(start)[k], `${what}, ${column}: it starts where the step starts`));
+    }
+  }
+});
