@@ -11,7 +11,6 @@ import { presetState } from '../share';
 import { words } from '../words';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
-import { fitPill } from './pill';
 import { described, presets, titleIn, titleOf } from './presets';
 import { settle } from './settle';
 import type { Sees } from '../stage/stage';
@@ -68,7 +67,8 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
     typeset = source;
     const formula = source ? math(source) : null;
     pillMath.replaceChildren(...(formula ? [formula] : []));
-    fitPill(pill);
+    // A long equation is read in the editor. What is said beside it may be unseen, and does not count.
+    if (formula && (pillMath.scrollWidth > pillMath.clientWidth + 1 || pillMath.getBoundingClientRect().right > pill.getBoundingClientRect().right)) pillMath.replaceChildren();
   }
   addEventListener('resize', show);
   store.subscribe((what) => {
