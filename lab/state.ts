@@ -58,11 +58,11 @@ const failure = (message: string): Problem => problem('page', message);
 export const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
 
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
-export function admittedMethods(state: State, description: Description): { methods: string[]; refused: string[] } {
-  const refused: string[] = [];
+export function admittedMethods(state: State, description: Description): { methods: string[]; refused: { name: string; reason: string | null }[] } {
+  const refused: { name: string; reason: string | null }[] = [];
   const methods = state.methods.filter(name => {
     const entry = description.methods.find(m => m.name === name) ?? description.methods.find(m => m.name === family(name));
-    if (!entry?.admitted) refused.push(name);
+    if (!entry?.admitted) refused.push({ name, reason: entry?.reason ?? null });
     return entry?.admitted ?? false;
   });
   if (!methods.length) {
@@ -186,7 +186,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     of = as;
     const measured = await measure(of, model);
     const { methods, refused } = admittedMethods(of, model);
-    trouble = { ...well, ...measured.trouble, methods: refused.length ? words.trouble.methods(looksOf(refused, catalogue).map(l => l.label)) : '' };
+    trouble = { ...well, ...measured.trouble, methods: words.trouble.methods(refused.map(({ name, reason }) => (reason === null ? words.trouble.unknown(name) : words.trouble.refused(looksOf([name], catalogue)[0]?.label ?? name, reason)))) };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.
     if ((measured.trouble.step || measured.trouble.until) && scene?.state.text === of.text) return;

@@ -72,7 +72,9 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
   }
   addEventListener('resize', show);
   store.subscribe((what) => {
-    if (what === 'state' || what === 'scene') show();
+    if (what === 'state') show();
+    // After the stage, which knows what it shows.
+    if (what === 'scene') queueMicrotask(show);
     // A text that could not be read from the beginning is what one has to see.
     if (store.trouble.model && !store.scene && !opened) { opened = true; pillMath.replaceChildren(); openEditor(true); }
     if (what === 'description' || what === 'scene') equation();

@@ -5,7 +5,7 @@
  */
 import { looksOf } from '../figure/ink';
 import type { Method } from '../protocol';
-import { admittedMethods, type LiveStore } from '../state';
+import { admittedMethods, family, type LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { words } from '../words';
 import { sample } from './sample';
@@ -70,7 +70,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     };
   }
   function build(): void {
-    const now = chosen();
+    const now = chosen().filter(name => store.catalogue.some(m => m.name === family(name)));
     // Those that a scene opens with come first, and stay there.
     if (store.state.preset !== opened || !front.length) { opened = store.state.preset; front = now; }
     const first = [...front, ...common.filter(name => !front.includes(name))].slice(0, Math.max(5, front.length)), names = [...first, ...now.filter(name => !first.includes(name))];
@@ -86,6 +86,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     list.replaceChildren(...toggles.slice(0, names.length).map(t => t.element));
     say(opener, words.methods.more(String(others.length)));
     more.replaceChildren(...toggles.slice(names.length).map(t => t.element));
+    cut();
     if (held !== undefined) toggles.find(t => t.name === held)?.element.focus({ preventScroll: true });
     filter();
   }
@@ -129,6 +130,10 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     reasons();
     say(message, limitReached ? words.methods.most(String(most)) : store.trouble.methods);
   }
+  // A row that goes on is seen to.
+  const cut = (): void => { list.classList.toggle('cut', list.scrollWidth - list.clientWidth - list.scrollLeft > 8); };
+  list.addEventListener('scroll', cut, { passive: true });
+  new ResizeObserver(cut).observe(list);
   search.addEventListener('input', filter);
   search.addEventListener('keydown', event => { if (event.key === 'Escape' && search.value) { search.value = ''; filter(); event.stopPropagation(); } });
   store.subscribe(what => { if (what !== 'view' && what !== 'busy') refresh(); });

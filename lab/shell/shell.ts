@@ -47,7 +47,12 @@ export function mountShell(store: LiveStore, stage: Stage, clock: { replay(): vo
       galleryPlace.replaceChildren(gallery);
       scrollTo(0, 0);
       gallery.querySelector<HTMLElement>('input')?.focus({ preventScroll: true });
-    } else { galleryPlace.replaceChildren(); stage.relayout(); }
+    } else {
+      galleryPlace.replaceChildren();
+      stage.relayout();
+      // What had the focus is gone.
+      if (document.activeElement === document.body) place('transport').querySelector('button')?.focus({ preventScroll: true });
+    }
   }
   store.subscribe((what) => { if (what === 'state' || what === 'view') arrive(); });
   place('undo').append(history(store));

@@ -93,7 +93,7 @@ await attempt('an equation of one’s own', async () => {
 await attempt('a link', async () => {
   await shareOf(page);
   await shows(page, '.popup input', '#v=1');
-  address = await page.getByLabel('The address holds all that you see').inputValue();
+  address = await page.getByLabel('The address holds the model, its numbers and the view').inputValue();
   judge('the link has the equation', decodeURIComponent(address).includes("theta'' = -sin(theta)"), address);
   await page.keyboard.press('Escape');
   await page.waitForFunction((wanted) => location.href === wanted, address);

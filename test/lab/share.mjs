@@ -82,7 +82,7 @@ await attempt('copy as command', async () => {
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await shareOf(page);
   same('the menu opens, and has the focus', [await page.locator('.share .popup').isVisible(), await page.evaluate(() => document.activeElement.textContent)], [true, 'Copy link']);
-  const link = await page.getByLabel('The address holds all that you see').inputValue();
+  const link = await page.getByLabel('The address holds the model, its numbers and the view').inputValue();
   judge('the link is this state', link.endsWith('#v=1&p=thrown-ball'), link);
   await page.getByRole('button', { name: 'Copy link' }).click();
   await page.waitForTimeout(100);

@@ -3,7 +3,7 @@ const copied = (what: string): string => `${what} copied.`, selected = (what: st
 
 export const share = {
   share: 'Share',
-  link: { label: 'The address holds all that you see', copy: 'Copy link', copied: copied('Link'), selected: selected('Link') },
+  link: { label: 'The address holds the model, its numbers and the view', copy: 'Copy link', copied: copied('Link'), selected: selected('Link') },
   command: {
     one: 'The same bits from the program', several: 'The same runs, compared by the program', copy: 'Copy as command', copied: copied('Command'), selected: selected('Command'),
   },

@@ -9,7 +9,9 @@ export const trouble = {
   stepMany: (count: string) => `That makes ${count} steps; the page stops at 10 million. The program has no such limit.`,
   stepLong: (span: string) => `The step is longer than the whole motion: one step of ${span} is taken.`,
   noStep: 'The model names no step: type one, for example 0.01.', noUntil: 'The model names no end: type one, for example 10.',
-  methods: (names: readonly string[]) => `Not for this force: ${names.join(', ')}.`,
+  /** A method that is not shown: the core knows none of that name, or refuses it. */
+  unknown: (name: string) => `There is no method “${name}”.`, refused: (name: string, reason: string) => `Not here: ${name} (${reason}).`,
+  methods: (sentences: readonly string[]) => sentences.join(' '),
   cancelled: 'The computation was stopped. The picture is the last one that was finished.',
   computing: 'Computing …', cancel: 'Cancel',
   last: 'The last motion that could be read.', model: 'The model has an error; see under its text.',
