@@ -33,11 +33,14 @@ function read(where: string): At | null {
 
 export interface Lessons { readonly element: HTMLElement; readonly list: HTMLElement; open(id: string): void; readonly here: () => boolean }
 
+/** A number and its unit stay on one line. */
+const bound = (text: string): string => text.replace(/(\d) (?=[sm]\b)/g, '$1\u00a0');
+
 /** clock: plays the motion from its start. */
 export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): void }): Lessons {
   const element = el('div', { class: 'lesson', hidden: true }), list = el('div', { id: 'lessons', class: 'sheet', popover: 'auto', role: 'group', 'aria-label': words.lesson.lessons });
   const opened = new Set<string>(), ticked = new Set<string>(), measured = runs(), finished = new Set((recall('lessons') ?? '').split(' ').filter(Boolean));
-  let shown = '', arriving = false, toEnd = false, chosen: number | null = null, ticks: (() => void) | null = null, sketch: (() => void) | null = null;
+  let shown = '', arriving = false, stale = false, toEnd = false, chosen: number | null = null, ticks: (() => void) | null = null, sketch: (() => void) | null = null;
 
   function fill(): void {
     list.replaceChildren(el('h2', {}, words.lesson.lessons), el('ol', { class: 'lesson-list' }, ...data.lessons.map((lesson) => el('li', {},
@@ -50,6 +53,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   const setOf = ({ scene }: Lesson): Readonly<Record<string, string>> => ({ ...sceneOf(scene.model)?.set, ...scene.set });
   function begin(lesson: Lesson, where: string): void {
     const { scene } = lesson;
+    stale = true;
     store.load({
       ...presetState(presets, scene.model), set: setOf(lesson), methods: scene.methods, step: scene.step, until: scene.until,
       view: { ...store.state.view, plane: scene.view[0] === 'plane' ? 'plane' : 'auto', quantities: [], phase: null }, place: where,
@@ -77,11 +81,11 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   }
 
   function predict(at: At): Body {
-    const { predict: ask, title } = at.lesson, text = ask.text.join(' '), cut = /^(.*[.!]\s)?([^.!]*)$/s.exec(text);
+    const { predict: ask, title } = at.lesson, text = bound(ask.text.join(' ')), cut = /^(.*[.!]\s)?([^.!]*)$/s.exec(text);
     const rows = ask.choices.map((choice, k) => {
       const radio = el('input', { type: 'radio', name: 'guess', value: k });
       radio.addEventListener('change', () => guessed(at, k));
-      return el('label', { class: 'choice' }, radio, el('span', {}, choice.label));
+      return el('label', { class: 'choice' }, radio, el('span', {}, bound(choice.label)));
     });
     const go = button('', () => {
       if (chosen === null) return;
@@ -94,12 +98,13 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   /** Does what a task asks for. */
   function perform(condition: Condition): void {
     const { state, scene } = store, methods = scene?.state.methods ?? state.methods;
+    const kept = condition.kind === 'scene' ? methods.filter((m) => presets.methods(condition.model).includes(m)) : [];
     switch (condition.kind) {
       case 'method': store.change({ methods: [...methods.filter((m) => m !== condition.method), ...(condition.on ? [condition.method] : [])] }); break;
       case 'step': store.change({ step: String(condition.value) }); break;
       case 'until': store.change({ until: String(condition.value) }); toEnd = true; break;
       case 'set': store.change({ set: { ...state.set, [condition.name]: condition.value } }); break;
-      case 'scene': store.load({ ...presetState(presets, condition.model), set: sceneOf(condition.model)?.set ?? {}, methods: state.methods, step: state.step, until: state.until, view: state.view, place: state.place }); break;
+      case 'scene': store.load({ ...presetState(presets, condition.model), set: sceneOf(condition.model)?.set ?? {}, methods: kept.length ? kept : methods, step: state.step, until: state.until, view: state.view, place: state.place }); break;
       case 'opened':
         if (condition.place === 'step') store.go('step');
         else { place('looking').scrollIntoView(); document.dispatchEvent(new CustomEvent('motus-opened', { detail: condition.place })); }
@@ -107,9 +112,12 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
   }
   function attempt(at: At): Node[] {
     const { attempt: task } = at.lesson, begun = { scene: { ...at.lesson.scene, set: setOf(at.lesson) } }, told = el('p', { class: 'unseen', role: 'status' });
-    const items = task.tasks.map(({ label, condition }) => el('li', {}, button('', () => perform(condition), { class: 'task' }, el('span', { class: 'tick', 'aria-hidden': 'true' }), el('span', {}, label), el('span', { class: 'unseen' }))));
+    const items = task.tasks.map(({ label, condition }) => el('li', {}, button('', () => perform(condition), { class: 'task' }, el('span', { class: 'tick', 'aria-hidden': 'true' }), el('span', {}, bound(label)), el('span', { class: 'unseen' }))));
     ticks = () => {
       const { numbers, state, scene } = store;
+      // What was computed before the lesson began has done nothing of what it asks.
+      if (stale && (!scene || scene.state.text !== state.text || scene.state.step !== state.step || scene.state.until !== state.until || !scene.state.methods.every((m) => state.methods.includes(m)))) return;
+      stale = false;
       const now = { model: state.preset, methods: scene?.state.methods ?? state.methods, step: numbers.step ?? 0, until: numbers.until ?? 0, set: state.set, opened };
       task.tasks.forEach(({ label, condition }, k) => {
         const key = `${at.lesson.id}.${k}`, item = items[k]!;
@@ -119,20 +127,20 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
       });
     };
     ticks();
-    return [...answer(at), el('p', {}, task.text.join(' ')), el('ul', { class: 'tasks' }, ...items), told, ...(task.measured ? [measured.element] : [])];
+    return [...answer(at), el('p', {}, bound(task.text.join(' '))), el('ul', { class: 'tasks' }, ...items), told, ...(task.measured ? [measured.element] : [])];
   }
   const answer = (at: At): Node[] => {
     const choice = at.answer === null ? null : at.lesson.predict.choices[at.answer];
-    return choice ? [el('p', { class: choice.right ? 'answer right' : 'answer' }, ...(choice.right ? [icon('M4.5 12.5l5 5L19.5 7')] : []), choice.answer)] : [];
+    return choice ? [el('p', { class: choice.right ? 'answer right' : 'answer' }, ...(choice.right ? [icon('M4.5 12.5l5 5L19.5 7')] : []), bound(choice.answer))] : [];
   };
   function why(at: At): Body {
     const { why: told, next } = at.lesson, following = data.lessons[at.number];
     finished.add(at.lesson.id);
     remember('lessons', [...finished].join(' '));
-    const drawing = told.picture ? el('figure', { class: 'closeup' }, el('div', {}), el('figcaption', {}, told.caption)) : null;
+    const drawing = told.picture ? el('figure', { class: 'closeup' }, el('div', {}), el('figcaption', {}, bound(told.caption))) : null;
     sketch = () => drawing?.firstElementChild?.replaceChildren(...[closeUp(told.picture, store)].filter((d) => d !== null));
     sketch();
-    return [[...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, paragraph)), ...(drawing ? [drawing] : [])],
+    return [[...answer(at), el('h2', {}, told.title), ...told.text.map((paragraph) => el('p', {}, bound(paragraph))), ...(drawing ? [drawing] : [])],
       following ? button('', () => open(following.id), { class: 'primary' }, words.lesson.next(next || following.title), icon('M5 12h13M12.5 6l5.5 6-5.5 6')) : button(words.lesson.gallery, () => store.go('gallery'), { class: 'primary' })];
   }
 
@@ -151,7 +159,7 @@ export function lessonPlace(store: LiveStore, stage: Stage, clock: { replay(): v
     const bar = el('ol', { class: 'parts' }, ...parts.map((part) => el('li', {}, button(words.lesson.parts[part], () => to(at, part), { 'aria-current': part === at.part && 'step', class: parts.indexOf(part) <= parts.indexOf(at.part) ? 'past' : '' }))));
     const [body, next] = at.part === 'predict' ? predict(at) : at.part === 'why' ? why(at)
       : at.part === 'try' ? [attempt(at), button(words.lesson.saw, () => to(at, 'see'), { class: 'primary' })] as const
-        : [[...answer(at), el('p', {}, at.lesson.see.join(' ')), ...(at.lesson.attempt.measured ? [measured.element] : [])], button(words.lesson.why, () => to(at, 'why'), { class: 'primary' })] as const;
+        : [[...answer(at), el('p', {}, bound(at.lesson.see.join(' '))), ...(at.lesson.attempt.measured ? [measured.element] : [])], button(words.lesson.why, () => to(at, 'why'), { class: 'primary' })] as const;
     element.replaceChildren(el('div', { class: 'lesson-head' }, el('h1', {}, words.lesson.head(String(at.number), String(data.lessons.length))), button(words.lesson.leave, leave, { class: 'text-button' })), bar, el('div', { class: 'lesson-body' }, ...body), next);
     const { rail } = at.lesson.predict;
     // The guess stays where it was, dashed.
