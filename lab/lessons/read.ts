@@ -9,7 +9,7 @@ import { faults } from '../words';
 export type Condition =
   | { readonly kind: 'method'; readonly method: string; readonly on: boolean }
   | { readonly kind: 'step' | 'until'; readonly value: number }
-  | { readonly kind: 'set'; readonly name: string }
+  | { readonly kind: 'set'; readonly name: string; readonly value: string }
   | { readonly kind: 'opened'; readonly place: string }
   | { readonly kind: 'scene'; readonly model: string };
 export interface Task { readonly condition: Condition; readonly label: string }
@@ -27,7 +27,8 @@ export interface Lesson {
     /** The guess is a ring that is dragged along this column, at the end of the motion by this method. */
     readonly rail: { readonly column: string; readonly method: string } | null;
   };
-  readonly attempt: { readonly text: readonly string[]; readonly tasks: readonly Task[] };
+  /** measured: what is written down of each run, '' for nothing. */
+  readonly attempt: { readonly text: readonly string[]; readonly tasks: readonly Task[]; readonly measured: string };
   readonly see: readonly string[];
   readonly why: { readonly title: string; readonly text: readonly string[]; readonly picture: string; readonly caption: string };
   /** The word of the link to the next lesson; '' where there is none. */
@@ -42,13 +43,15 @@ export const places = ['above', 'on', 'below'] as const;
 /** The close-up pictures that can stand beside an explanation. */
 export const pictures = ['straight', 'old-new-speed', 'middle', 'halves', 'energy', 'two-places', 'overshoot'] as const;
 export const opened = ['step', 'closer'] as const;
+/** What can be written down of each run: how far from the exact motion it ends. */
+export const measured = ['distance'] as const;
 const views = ['plane', 'time', 'phase'] as const;
 
 /** once: at most once; many: as often as one likes. A needed key must be there. */
 const keys: Readonly<Record<string, { readonly needed?: boolean; readonly many?: boolean }>> = {
   'lesson': { needed: true }, 'scene': { needed: true }, 'set': { many: true }, 'methods': { needed: true }, 'step': {}, 'until': {}, 'view': { needed: true },
   'predict': { needed: true }, 'hide': {}, 'right': {}, 'wrong': { many: true }, 'rail': {}, 'hint': {}, 'button': { needed: true },
-  'try': { needed: true }, 'do': { needed: true, many: true }, 'see': { needed: true },
+  'try': { needed: true }, 'do': { needed: true, many: true }, 'measured': {}, 'see': { needed: true },
   'why': { needed: true }, 'picture': {}, 'caption': {}, 'next': {}, 'number': { many: true },
 };
 
@@ -146,8 +149,10 @@ class Reader {
   }
 
   condition({ line, value }: Field): Condition {
+    const [, changed, to] = /^set\s+([^\s=]+)\s*=\s*(\S.*)$/.exec(value) ?? [];
+    if (changed !== undefined && to !== undefined) return { kind: 'set', name: changed, value: to };
     const [kind = '', name = '', state = '', ...more] = value.split(/\s+/);
-    const surplus = kind === 'method' ? more[0] : state;
+    const surplus = kind === 'method' ? more[0] : kind === 'set' ? '' : state;
     if (surplus) this.wrong(line, faults.surplus(surplus), faults.one);
     switch (kind) {
       case 'method':
@@ -155,8 +160,8 @@ class Reader {
         return { kind, method: this.method(line, name), on: state !== 'off' };
       case 'step': case 'until': return { kind, value: this.number(line, name, kind) };
       case 'set':
-        if (name === '') this.wrong(line, faults.whichSet, faults.exampleSet);
-        return { kind, name };
+        this.wrong(line, name === '' ? faults.whichSet : faults.toWhat(name), faults.exampleSet);
+        return { kind, name, value: '' };
       case 'opened': this.member(line, name, opened, faults.no.opened); return { kind, place: name };
       case 'scene': this.member(line, name, this.known.models, faults.no.scene); return { kind, model: name };
       default:
@@ -182,7 +187,8 @@ class Reader {
   }
 
   lesson(id: string): Lesson {
-    const scene = this.one('scene'), until = this.one('until'), step = this.one('step'), rail = this.one('rail'), why = this.one('why'), picture = this.one('picture');
+    const scene = this.one('scene'), until = this.one('until'), step = this.one('step'), rail = this.one('rail'), why = this.one('why'), picture = this.one('picture'), measure = this.one('measured');
+    if (measure.line) this.member(measure.line, measure.value, measured, faults.no.measured);
     if (scene.line) this.member(scene.line, scene.value, this.known.models, faults.no.scene);
     for (const { line, key, value } of [step, until]) if (line) this.number(line, value, key);
     const set: Record<string, string> = {};
@@ -213,7 +219,7 @@ class Reader {
         text: this.paragraphs('predict'), hide: this.list('hide', this.one('methods').line ? this.list('methods', this.known.methods, faults.no.method) : [], faults.no.methodHere),
         choices: this.choices(), button: this.words('button'), hint: this.words('hint'), rail: rail.line ? { method: railMethod, column: railColumn } : null,
       },
-      attempt: { text: this.paragraphs('try'), tasks: this.all('do').map(field => ({ condition: this.condition(field), label: field.below.join(' ') || field.value })) },
+      attempt: { text: this.paragraphs('try'), tasks: this.all('do').map(field => ({ condition: this.condition(field), label: field.below.join(' ') || field.value })), measured: measure.value },
       see: this.paragraphs('see'),
       why: { title: why.value, text: why.below, picture: picture.value, caption: this.words('caption') },
       next: this.words('next'), numbers,
@@ -253,14 +259,17 @@ export interface Done {
   readonly model: string; readonly methods: readonly string[]; readonly step: number; readonly until: number; readonly set: Readonly<Record<string, string>>; readonly opened: ReadonlySet<string>;
 }
 
-/** Whether a task is done now. Numbers may be off by a hundredth of themselves: a slider was dragged. */
+/** Whether two texts set a number differently: 0.0 is 0. */
+const differ = (a: string | undefined, b: string | undefined): boolean => a !== b && (a === undefined || b === undefined || Number.isNaN(Number(a)) || Number(a) !== Number(b));
+
+/** Whether a task is done now. Numbers may be off by a hundredth of themselves: a slider was dragged. A number that is no longer set has the model's own value. */
 export function met(condition: Condition, lesson: Pick<Lesson, 'scene'>, done: Done): boolean {
   const near = (a: number, b: number): boolean => Math.abs(a - b) <= 0.01 * b;
   switch (condition.kind) {
     case 'method': return done.methods.includes(condition.method) === condition.on;
     case 'step': return near(done.step, condition.value);
     case 'until': return near(done.until, condition.value);
-    case 'set': return Object.hasOwn(done.set, condition.name) && done.set[condition.name] !== lesson.scene.set[condition.name];
+    case 'set': return differ(done.set[condition.name], lesson.scene.set[condition.name]);
     case 'opened': return done.opened.has(condition.place);
     case 'scene': return done.model === condition.model;
   }

@@ -49,8 +49,8 @@ export function dials(store: LiveStore): HTMLElement {
   slide.addEventListener('change', () => {
     const { state } = store, staging = stagingOf(state.preset), to = staging.switch?.to;
     if (to === undefined || presets.text(to) === undefined) return;
-    // What both models have goes along: start, step, methods.
-    store.load({ ...presetState(presets, to), set: Object.fromEntries(Object.entries(state.set).filter(([name]) => /\(/.test(name))), methods: state.methods, step: state.step, until: state.until, view: state.view });
+    // What both models have goes along: start, step, methods, and the lesson that one is in.
+    store.load({ ...presetState(presets, to), set: Object.fromEntries(Object.entries(state.set).filter(([name]) => /\(/.test(name))), methods: state.methods, step: state.step, until: state.until, view: state.view, place: state.place });
   });
   function build(): void {
     const { description, state } = store;

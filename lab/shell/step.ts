@@ -1,9 +1,9 @@
 /* The step: a slider on a scale of powers whose stops halve, and the number itself as a field.
  *
  * Invariant: what the field shows is what the reader typed; what is wrong with it is said under it, and the last good picture stays. Stops belong to the
- * model, not to the state: they do not move under the reader's hand.
+ * model, not to the state: they do not move under the reader's hand. A lesson's hold every step that it asks for.
  */
-import { exampleOf } from '../data';
+import { data, exampleOf } from '../data';
 import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
 import type { LiveStore } from '../state';
@@ -12,6 +12,16 @@ import { words } from '../words';
 import { compact, normal, short } from './number';
 
 const positions = 1000, catching = 6;               // pixels within which a stop catches
+
+/** Stops, from large to small, that hold what a lesson asks for. Where it asks for more than halves, they reach no farther than it does, so that stops stand apart. */
+function withAsked(halves: readonly number[], base: number, asked: readonly number[]): number[] {
+  const all = [base, ...asked], largest = Math.max(...all), least = Math.min(...all), near = (a: number, b: number, by: number): boolean => Math.abs(a / b - 1) < by;
+  if (asked.every((h) => near(Math.log2(base / h), Math.round(Math.log2(base / h)) || 1, 1e-9) || near(h, base, 1e-9))) {
+    const from = Math.max(halves[0] ?? base, largest), to = Math.min(halves[halves.length - 1] ?? base, least);
+    return Array.from({ length: Math.round(Math.log2(from / to)) + 1 }, (_, k) => from / 2 ** k);
+  }
+  return [...halves.filter((h) => h < largest && h > least && !all.some((a) => near(h, a, 0.2))), ...all].sort((a, b) => b - a);
+}
 
 export function stepSlider(store: LiveStore): HTMLElement {
   const slider = el('input', { type: 'range', min: 0, max: positions, step: 1, id: 'step-slider', 'aria-label': words.dock.step.slider });
@@ -41,13 +51,13 @@ export function stepSlider(store: LiveStore): HTMLElement {
     const [largest, count] = stagingOf(exampleOf(store.state)).stops ?? [4, 5];
     const span = settings.until === null ? Infinity : Math.abs(settings.until - settings.start);
     // A lesson that begins with a step of its own has its stops about that.
-    const typed = Number(store.state.step), base = store.state.place.includes('.') && typed > 0 ? typed : settings.step;
+    const lesson = data.lessons.find(({ id }) => store.state.place.startsWith(`${id}.`)), base = Number(lesson?.scene.step) || settings.step;
     let first = base * largest;
     while (first > span && first > base) first /= 2;
-    halves = Array.from({ length: count }, (_, k) => first / 2 ** k);
-    stops.replaceChildren(...halves.map((h, k) => {
+    halves = withAsked(Array.from({ length: count }, (_, k) => first / 2 ** k), base, lesson?.attempt.tasks.flatMap(({ condition: c }) => (c.kind === 'step' ? [c.value] : [])) ?? []);
+    stops.replaceChildren(...halves.map((h) => {
       const stop = el('span', {}, compact(Number(h.toPrecision(3))));
-      stop.style.left = `${100 * k / (count - 1)}%`;
+      stop.style.left = `${100 * positionOf(h) / positions}%`;
       return stop;
     }));
   }
@@ -77,8 +87,8 @@ export function stepSlider(store: LiveStore): HTMLElement {
   };
   slider.addEventListener('input', () => {
     if (!halves.length) return;
-    const width = slider.clientWidth || 400, position = slider.valueAsNumber, near = halves.findIndex((_, k) => Math.abs(position / positions - k / (halves.length - 1)) * width <= catching);
-    set(near >= 0 ? halves[near]! : stepOf(position));
+    const width = slider.clientWidth || 400, position = slider.valueAsNumber, near = halves.find((h) => Math.abs(position - positionOf(h)) / positions * width <= catching);
+    set(near ?? stepOf(position));
   });
   slider.addEventListener('change', () => { slider.value = String(positionOf(store.numbers.step ?? halves[0]!)); });
   slider.addEventListener('keydown', (event) => {

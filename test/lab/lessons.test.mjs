@@ -50,7 +50,8 @@ do: method rk4 on
   RK4
 do: step 0.05
 do: until 30
-do: set k
+do: set k = 9
+measured: distance
 do: opened step
 do: scene pendulum
 see: It went.
@@ -84,12 +85,12 @@ test('a lesson is read as it stands', () => {
       text: ['Do it.'],
       tasks: [
         { condition: { kind: 'method', method: 'rk4', on: true }, label: 'RK4' }, { condition: { kind: 'step', value: 0.05 }, label: 'step 0.05' },
-        { condition: { kind: 'until', value: 30 }, label: 'until 30' }, { condition: { kind: 'set', name: 'k' }, label: 'set k' },
+        { condition: { kind: 'until', value: 30 }, label: 'until 30' }, { condition: { kind: 'set', name: 'k', value: '9' }, label: 'set k = 9' },
         { condition: { kind: 'opened', place: 'step' }, label: 'opened step' }, { condition: { kind: 'scene', model: 'pendulum' }, label: 'scene pendulum' },
-      ],
+      ], measured: 'distance',
     },
     see: ['It went.'], why: { title: 'Because', text: ['One.', 'Two.'], picture: 'halves', caption: 'half' }, next: 'another',
-    numbers: [{ said: 'It', value: '3', quantity: 'steps(verlet) / 2', line: 37 }],
+    numbers: [{ said: 'It', value: '3', quantity: 'steps(verlet) / 2', line: 38 }],
   });
   assert.deepEqual(readLesson('1-a.txt', '\ufeff' + good.replaceAll('\n', '\r\n'), known), readLesson('1-a.txt', good, known));
 });
@@ -114,8 +115,10 @@ test('what is wrong is said with file, line and what would be right', () => {
     ['do: method rk4 on', 'do: metod rk4 on', '1-a.txt:22: “metod rk4 on” is no condition'],
     ['do: step 0.05', 'do: step 0,05', '1-a.txt:24: step is a number above 0, not “0,05”'],
     ['do: step 0.05', 'do: step 0.05 0.1', '1-a.txt:24: “0.1” is too much'],
-    ['do: opened step', 'do: opened door', '1-a.txt:27: there is no place to open “door”'],
-    ['picture: halves', 'picture: halfs', '1-a.txt:34: there is no close-up picture “halfs” (did you mean “halves”?)'],
+    ['do: opened step', 'do: opened door', '1-a.txt:28: there is no place to open “door”'],
+    ['picture: halves', 'picture: halfs', '1-a.txt:35: there is no close-up picture “halfs” (did you mean “halves”?)'],
+    ['do: set k = 9', 'do: set k', '1-a.txt:26: what k is set to is not said (do: set gamma = 0.1)'],
+    ['measured: distance', 'measured: distnce', '1-a.txt:27: there is nothing to measure “distnce” (did you mean “distance”?)'],
     ['picture: halves\n', '', 'a caption needs a picture'],
     ['set: k = 4', 'set: k', '1-a.txt:5: “k” sets nothing'],
     ['see: It went.\n', '', '1-a.txt: “see:” is missing'],
@@ -150,7 +153,8 @@ test('tasks tick themselves off', () => {
     [{ kind: 'method', method: 'rk4', on: false }, {}, { methods: ['rk4'] }],
     [{ kind: 'step', value: 0.05 }, { step: 0.0502 }, { step: 0.052 }],
     [{ kind: 'until', value: 60 }, { until: 60 }, { until: 59 }],
-    [{ kind: 'set', name: 'gamma' }, { set: { gamma: '0.1' } }, {}],
+    [{ kind: 'set', name: 'gamma' }, { set: { gamma: '0.1' } }, { set: { gamma: '0.0' } }],
+    [{ kind: 'set', name: 'gamma' }, { set: {} }, {}],                 // its own value is friction too
     [{ kind: 'opened', place: 'step' }, {}, { opened: new Set() }],
     [{ kind: 'scene', model: 'spring' }, {}, { model: 'pendulum' }],
   ]) {
@@ -168,7 +172,7 @@ test('the lesson that the manual shows is read, and its words are the reader’s
   assert.ok(keys.length > 20);
   const [, table] = /\| key \|[^\n]*\n([^]*?)\n\n/.exec(manual);
   assert.deepEqual([...table.matchAll(/`([a-z]+)`(?=[^|]*\|)/g)].map(match => match[1]).filter(word => keys.includes(word)).filter((word, k, all) => all.indexOf(word) === k).sort(), [...keys].sort());
-  for (const [, words] of reader.matchAll(/export const (?:pictures|places|opened) = \[([^\]]*)\]/g)) for (const [, word] of words.matchAll(/'([^']*)'/g)) assert.ok(manual.includes(word), word);
+  for (const [, words] of reader.matchAll(/export const (?:pictures|places|opened|measured) = \[([^\]]*)\]/g)) for (const [, word] of words.matchAll(/'([^']*)'/g)) assert.ok(manual.includes(word), word);
 });
 
 /* What the lessons claim -------------------------------------------------------------------------------------------- */

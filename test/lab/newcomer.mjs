@@ -59,7 +59,7 @@ await attempt('the question of the picture', async () => {
   await guess.click();
   judge('the answer is chosen', await guess.locator('input').isChecked());
   await page.getByRole('button', { name: 'Throw' }).click();
-  await shows(page, '.answer', 'You said on the green ball\\. It ends 1\\.96 m above\\.');
+  await shows(page, '.answer', 'You said on the green ball\\. With ten steps it ends 1\\.96\\sm above\\.');
   await page.waitForFunction(() => document.querySelector('.transport-now').textContent === '2.00' && document.querySelector('.transport-play').getAttribute('aria-label').startsWith('Play'));
   const { words } = await drawn(page);
   judge('… and the picture shows it', words.includes('explicit Euler') && words.includes('1.96 m too high'), words.join(' | '));

@@ -181,7 +181,7 @@ await attempt('coming and going', async () => {
   await at(page, 1, ['explicit-euler', 'symplectic-euler']);
   await page.getByRole('button', { name: 'Back to the lesson' }).click();
   await gone();
-  same('back in the lesson: the task is done', await page.locator('.tasks li.done').allTextContents(), ['one step done']);
+  same('back in the lesson: the task is done', await page.locator('.tasks li.done').allTextContents(), ['Open one step done']);
   await clean('coming and going', page);
 });
 await attempt('Play, keys, methods', async () => {

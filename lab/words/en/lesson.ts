@@ -2,7 +2,9 @@
 export const lesson = {
   lessons: 'Lessons', done: 'done',
   /** Behind a task, for those who do not see its tick. */
-  ticked: ' done',
+  ticked: ' done', isTicked: (task: string) => `${task}: done`,
+  /** The table of what a lesson has measured; unit: '' where there is none. */
+  runs: { caption: (end: string, unit: string) => `How far off at ${end}${unit ? `, in ${unit}` : ''}`, step: 'step', none: 'on it' },
   head: (number: string, count: string) => `Lesson ${number} of ${count}`, leave: 'Leave',
   parts: { predict: 'Predict', try: 'Try', see: 'See', why: 'Why' },
   saw: 'What did you see?', why: 'Why?', next: (title: string) => `Next: ${title}`, gallery: 'Back to the gallery',
