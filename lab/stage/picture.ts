@@ -6,6 +6,7 @@
 import { extent, rangeOf } from '../figure/axes';
 import { shortLabel } from '../figure/ends';
 import { brief } from '../figure/number';
+import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
 import { words } from '../words';
@@ -15,7 +16,7 @@ import { person, rod, spring } from './decor';
 import { motionOf, type Line, type Motion } from './motion';
 import { drawNames, missText, type Named } from './names';
 import { trail } from './path';
-import type { Box, Place } from './place';
+import { wideEnough, type Box, type Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
 import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
@@ -31,7 +32,7 @@ export interface Setting {
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
   /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
@@ -54,7 +55,7 @@ const LIVE_MARKS = 400, STEPS_SEEN = 40;
 export type Side = 'phase' | 'rod' | '';
 const ANGLES = new Set(['theta', 'phi', 'alpha', 'varphi', 'θ', 'φ', 'ϑ']);
 export function sideOf(scene: Scene, subject: Subject, staging: Staging, place: Place): Side {
-  if (subject.kind !== 'time' || place.frame.right - place.frame.left < 600) return '';
+  if (subject.kind !== 'time' || !place.names || place.frame.right - place.frame.left < 600) return '';
   const positions = scene.description.variables.reduce((sum, v) => sum + (v.order === 2 ? v.count * Math.max(1, v.components) : 0), 0);
   if (positions !== 1) return '';
   if (staging.decor === 'pendulum' || ANGLES.has(subject.axes[1] ?? '')) return 'rod';
@@ -86,14 +87,14 @@ export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): bo
 function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, side: Side): Plot[] {
   const { scale: letters } = place, { solution } = scene, units = staging.units;
   // The ground of a throw runs on below the words; nothing else does.
-  const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
+  const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : wideEnough({ ...place.frame, left: Math.max(place.frame.left, place.text + 9) }, place);
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
-  const common = { solution, letters, fine: place.fine };
+  const common = { solution, letters, fine: place.fine, edge: place.text && place.text + 2 };
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };
     const axes = [axisOf('t', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
-    if (!side) return [flatPlot({ ...common, bounds, box: whole, equal: false, style: 'time', axes })];
+    if (!side) return [flatPlot({ ...common, bounds, box: wideEnough(whole, place), equal: false, style: 'time', axes })];
     const right = place.width - 37 * letters, width = Math.min(0.4 * (right - left), 1.05 * (frame.bottom - top), side === 'rod' ? 220 * letters : Infinity), from = right - width;
     const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - (side === 'rod' ? 150 : 116) * letters }, equal: false, style: 'time', axes });
     if (side === 'rod') return [main];
@@ -108,7 +109,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   // Misses beside an upright path need room for their words.
   const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
   const box = ground ? frame : { left: frame.left + (small ? 14 : 44), top: frame.top + 22, right, bottom: frame.bottom - (small ? 4 : 8) };
-  return [flatPlot({ ...common, bounds, box, equal, style: ground ? 'ground' : 'plane', axes })];
+  return [flatPlot({ ...common, bounds, box: ground ? box : wideEnough(box, place), equal, style: ground ? 'ground' : 'plane', axes })];
 }
 function velocityRange(scene: Scene, subject: Subject): Range {
   const column = velocityColumn(scene.solution, subject.bodies[0]!.columns[0]!), { truth } = scene.solution;
@@ -410,18 +411,25 @@ export function pictureOf(setting: Setting): Picture {
     });
   }
 
-  const leaving: Leaving[] = [];
+  const leaving: Leaving[] = [], leaveSize = (place.names ? 14 : 12) * place.scale;
+  const wideOf = (l: Pick<Leaving, 'name' | 'more'>): number => Math.max(textWidth(words.stage.leaves(l.name), leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
   curves.methods.forEach((of, i) => {
     const c = of.find((curve) => curve.exit);
     if (!c?.exit || nowhere.has(i)) return;
-    const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
-    const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
-    leaving.push({ name: shortLabel(c.line.look.label), more: told(motion, c, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+    const { exit } = c, low = exit.y > main.box.bottom - 40, said = { name: shortLabel(c.line.look.label), more: told(motion, c, staging) }, wide = wideOf(said);
+    // Behind the arrow, before it where the right is too narrow, and never beyond the stage.
+    const room = place.width - 4, least = place.text + 4, anchor = exit.x + 14 + wide > room && exit.x - 14 - wide >= least ? 'end' as const : 'start' as const;
+    const left = anchor === 'end' ? exit.x - 14 - wide : Math.max(least, Math.min(exit.x + 14, room - wide)), high = leaveSize * 2.5 + 24;
+    let y = low ? exit.y - 46 : Math.max(26, exit.y + 8);
+    // Clear of the notes of those that left before, "show all" below the first one included.
+    const met = (at: number): boolean => leaving.some((l) => Math.abs(l.y - at) < high && l.left < left + wide + 8 && left < l.left + wideOf(l) + 8);
+    for (let k = 0; k < 12 && met(y); k++) y += low ? -high / 2 : high / 2;
+    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? left + wide : left, left, y, time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
       if (time < l.time) continue;
-      const size = (place.names ? 14 : 12) * place.scale, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
+      const size = leaveSize, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
       pen.text(l.x, l.y, [{ text: words.stage.leaves(l.name), bold: true }], letters);
       if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
     }

@@ -1,0 +1,58 @@
+/* The picture of a motion, without a browser: the library's module computes a scene, the page's code draws it onto a pen that keeps what it is asked for.
+ * Law: what is written agrees with what is drawn and with the numbers of the run, and stands within the stage at every size of it.
+ */
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+import test from 'node:test';
+
+const lab = new URL('../../lab/', import.meta.url), { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
+const contents = `export { Answers } from './answers'; export { Core } from './core'; export { looksOf, named } from './figure/ink'; export { textWidth } from './figure/shapes';
+  export { defaultView } from './share'; export * from './stage/picture'; export { extentOf, suits } from './stage/bounds'; export { motionOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
+  export { stagings } from './stage/stagings'; export { subjects } from './stage/subject';`;
+const bundled = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
+const page = await import('data:text/javascript;base64,' + Buffer.from(bundled.outputFiles[0].contents).toString('base64'));
+const answers = new page.Answers(new page.Core(new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)))));
+const catalogue = answers.answer('catalogue', {}), model = (name) => readFileSync(new URL(`../../models/${name}.motus`, import.meta.url), 'utf8');
+
+/** A scene of an example, or of a text. */
+function sceneOf(name, methods, { text = model(name), set = {}, step = null, until = null } = {}) {
+  const solution = answers.answer('solve', { model: { text, set: Object.entries(set) }, methods, step, until, columns: [], rows: 6000, truth: true });
+  return { state: { preset: name, text, set, methods, step: '', until: '', view: page.defaultView, place: '' }, description: solution.description, solution, looks: page.looksOf(methods, catalogue, page.named), catalogue };
+}
+const DESK = { width: 1280, height: 528, column: 290, page: { width: 1280, height: 800 } };
+/** The picture of a scene, and all that is drawn of it at a time: texts with their edges, the other marks by name. */
+function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false } = {}) {
+  const subject = page.subjects(scene.description, scene.solution)[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
+  const bounds = page.boundsFor(scene, subject, staging, all, null), picture = page.pictureOf({ scene, subject, staging, place, bounds, camera: page.HOME, before: null, pinned: null });
+  const texts = [], lines = [], marks = [];
+  const pen = {
+    width, height, clip: (_x, _y, _w, _h, inside) => inside(), area() {}, box() {}, arrow() {}, line: (xy, stroke, count = xy.length) => lines.push({ xy: Array.from(xy).slice(0, count), ...stroke }),
+    mark: (shape, x, y, r, colour) => marks.push({ shape, x, y, r, colour }),
+    text(x, y, what, { anchor = 'start', size = 12 } = {}) {
+      const words = typeof what === 'string' ? what : what.map((span) => span.text).join(''), wide = page.textWidth(what, size), left = anchor === 'end' ? x - wide : anchor === 'middle' ? x - wide / 2 : x;
+      texts.push({ text: words.replaceAll('\u2009', ' '), x, y, left, right: left + wide, size });
+    },
+  };
+  picture.still(pen, page.named.ink, true);
+  picture.moving(pen, page.named.ink, time ?? scene.solution.tracks[0].times.at(-1));
+  return { picture, place, bounds, texts, lines, marks, words: texts.map((t) => t.text), subject, staging };
+}
+
+// --- every size ------------------------------------------------------------------------------------------------------------------------------
+const LOW = [[844, 390], [667, 375], [740, 360], [812, 375], [896, 414], [932, 430], [1000, 450], [640, 400]];
+const scenes = [['spring', ['explicit-euler', 'verlet']], ['kepler', ['symplectic-euler', 'velocity-verlet']], ['pendulum', ['explicit-euler']], ['comet', ['explicit-euler', 'velocity-verlet']],
+  ['charged-particle', ['explicit-euler', 'boris']], ['thrown-ball', ['explicit-euler', 'midpoint']], ['chain', ['velocity-verlet']]].map(([name, methods]) => sceneOf(name, methods));
+test('on a low window every motion has room, from left to right', () => {
+  for (const scene of scenes) for (const [width, height] of LOW) {
+    const room = width - 284, name = `${scene.state.preset}, ${width} × ${height}`, motion = page.motionOf(scene, page.subjects(scene.description, scene.solution)[0]);
+    // The line of title and equation crosses the stage.
+    const { place, lines, texts } = drawn(scene, undefined, { width: room, height, column: room - 12, page: { width, height } });
+    assert.ok(place.frame.right - place.frame.left >= 150 && place.frame.left >= 0 && place.frame.right <= room, `${name}: the frame`);
+    const curve = lines.filter((l) => l.colour === page.named.ink.exact && l.width === 4).at(-1).xy.filter((_, k) => k % 2 === 0), wide = Math.max(...curve) - Math.min(...curve);
+    assert.ok(wide > 100 && Math.min(...curve) >= 0 && Math.max(...curve) <= room, `${name}: the exact motion is ${wide} px wide, from ${Math.min(...curve)}`);
+    if (motion.subject.kind === 'time') assert.ok(curve[0] < curve.at(-1), `${name}: time goes to the right`);
+    for (const t of texts) assert.ok(t.left >= -1 && t.right <= room + 4, `${name}: “${t.text}” from ${t.left} to ${t.right}`);
+  }
+});
