@@ -50,6 +50,8 @@ export interface Picture {
 
 const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
 const LIVE_MARKS = 400, STEPS_SEEN = 40;
+/** Pixels that tell a distance from another one. */
+const SEEN = 2;
 
 /** Which other plot stands beside a number against time. */
 export type Side = 'phase' | 'rod' | '';
@@ -264,15 +266,18 @@ export function pictureOf(setting: Setting): Picture {
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
 
-  /** The error of a line at the last step that was made by then; null: not known. */
-  function miss(line: Line, time: number, y: number, exactY: number): Named['miss'] {
+  /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
+  function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
     const errors = scene.solution.errors[line.index]?.x;
     if (!errors?.length || !truth) return null;
-    const at = placeAt(line.track.times, time), row = at.part === 1 ? at.row + 1 : at.row, value = errors[row];
-    if (value === undefined || !Number.isFinite(value)) return null;
+    const { row, part } = placeAt(line.track.times, time), made = errors[part === 1 ? row + 1 : row];
+    if (made === undefined || !Number.isFinite(made)) return null;
+    const pixels = main.unit ?? (upright && main.up ? Math.abs(main.up(1) - main.up(0)) : 0), seen = upright ? Math.abs(at.y - exact.y) : Math.hypot(at.x - exact.x, at.y - exact.y);
+    // In space the picture shortens distances.
+    const value = single && flat && pixels > 0 && Math.abs(seen - made * pixels) > SEEN ? seen / pixels : made;
     const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
     if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (y < exactY ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
   }
 
   function moving(pen: Pen, ink: Ink, time: number): void {
@@ -375,7 +380,7 @@ export function pictureOf(setting: Setting): Picture {
       if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
       labels.push({
         names: own.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
-        miss: miss(own[0]!, time, at.y, exactPoint.y), exact: false,
+        miss: miss(own[0]!, time, at, exactPoint), exact: false,
       });
     }
     return labels.length > 14 ? labels.slice(0, 14) : labels;

@@ -56,3 +56,26 @@ test('on a low window every motion has room, from left to right', () => {
     for (const t of texts) assert.ok(t.left >= -1 && t.right <= room + 4, `${name}: “${t.text}” from ${t.left} to ${t.right}`);
   }
 });
+
+// --- numbers are what is drawn -----------------------------------------------------------------------------------------------------------------
+test('a bracket is as long as the number beside it, at every time', () => {
+  for (const [name, methods, options] of [['thrown-ball', ['explicit-euler', 'symplectic-euler'], { step: 0.4 }], ['thrown-ball', ['explicit-euler', 'symplectic-euler'], { step: 0.05 }], ['thrown-ball-air', ['explicit-euler', 'midpoint'], { step: 0.2 }]]) {
+    const scene = sceneOf(name, methods, options);
+    let judged = 0;
+    for (let t = 0.05; t < 2; t += 0.049) {
+      const { lines, texts, picture, bounds, place } = drawn(scene, t), unit = (place.frame.bottom - picture.handle.fromY) / 1.7;
+      assert.ok(bounds[1][0] === 0 && unit > 20);
+      for (const [colour, word] of [[scene.looks[0].colour, 'too high'], [scene.looks[1].colour, name === 'thrown-ball' ? 'too low' : 'too high']]) {
+        const shaft = lines.find((l) => l.colour === colour && l.width === 1.75 && l.xy.length === 4), number = texts.map((x) => /(?:^|  )([\d.]+) m (too high|too low)$/.exec(x.text)).find((m) => m?.[2] === word);
+        if (!shaft || !number) continue;
+        judged++;
+        // From 5 px off the ball's middle to 2 px before the method's.
+        const drawnLength = (Math.abs(shaft.xy[3] - shaft.xy[1]) + 7) / unit;
+        assert.ok(Math.abs(drawnLength - Number(number[1])) * unit < 3, `${name}, t = ${t}: drawn ${drawnLength} m, told ${number[0]}`);
+      }
+    }
+    assert.ok(judged > 10, `${name}: ${judged} brackets`);
+  }
+  // Before the first step has landed, who is seen beside it is not "on it".
+  assert.ok(!drawn(sceneOf('thrown-ball', ['symplectic-euler'], { step: 0.4 }), 0.2).words.some((w) => w.endsWith('on it')));
+});
