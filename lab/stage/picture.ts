@@ -13,7 +13,7 @@ import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
-import { motionOf, type Line, type Motion } from './motion';
+import { motionOf, type Line, type Motion, type Rows } from './motion';
 import { drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { wideEnough, type Box, type Place } from './place';
@@ -488,16 +488,30 @@ function told(motion: Motion, curve: Curve, staging: Staging): string {
   const end = track.times[track.times.length - 1] ?? 0;
   if (track.problem) return words.stage.ends(`${brief(track.problem.time ?? end, 3)}${unit}`);
   if (motion.subject.kind === 'time' && truth) {
-    // How large the ellipse of place and velocity is that it ends on, beside that of the exact motion.
-    const column = motion.subject.bodies[curve.body]!.columns[0]!, speed = velocityColumn(motion.scene.solution, column);
-    const part = (k: number): number => {
-      const exact = truth.columns[k], own = track.columns[k];
-      if (!exact?.length || !own?.length) return NaN;
-      const [low, high] = extent([exact]);
-      return ((own[own.length - 1]! - (low + high) / 2) / ((high - low) / 2)) ** 2;
-    };
-    const times = Math.sqrt(part(column) + part(speed));
+    const times = wider(motion, curve, truth);
     if (Number.isFinite(times) && times >= 1.5) return words.stage.wide(brief(times, 2), `${brief(end, 3)}${unit}`);
   }
   return words.stage.at(`${brief(curve.exit!.time, 3)}${unit}`);
+}
+/** How many times as wide as the exact motion a method swings at the end; NaN where the exact one does not swing. */
+function wider(motion: Motion, curve: Curve, truth: Rows): number {
+  const column = motion.subject.bodies[curve.body]!.columns[0]!, exact = truth.columns[column], { track } = curve.line;
+  if (!exact?.length) return NaN;
+  const [low, high] = extent([exact]), middle = (low + high) / 2, passes: number[] = [];
+  for (let i = 1; i < exact.length; i++) if ((exact[i - 1]! < middle) !== (exact[i]! < middle)) passes.push(truth.times[i]!);
+  if (passes.length < 4) return NaN;
+  // A whole swing, the last one.
+  const first = passes[2]!, since = passes[passes.length - 3]!, way = Math.sign(truth.times[truth.times.length - 1]! - truth.times[0]!) || 1;
+  const widest = (of: Rows, early = false): number => { let most = 0; of.times.forEach((t, i) => { if (early ? (t - first) * way <= 0 : (t - since) * way >= 0) most = Math.max(most, Math.abs(of.columns[column]![i]! - middle)); }); return most; };
+  const own = widest(track), swing = widest(truth), speed = velocityColumn(motion.scene.solution, column);
+  if (Math.abs(swing - widest(truth, true)) > 0.02 * swing || speed < 0) return own / swing;
+  // Where swings stay as wide as they are, a method's width is known between its turning points too: from the ellipse of place and velocity that it is on.
+  const part = (k: number): number => {
+    const of = truth.columns[k], values = track.columns[k];
+    if (!of?.length || !values?.length) return NaN;
+    const [least, most] = extent([of]);
+    return ((values[values.length - 1]! - (least + most) / 2) / ((most - least) / 2)) ** 2;
+  };
+  const ellipse = Math.sqrt(part(column) + part(speed));
+  return Number.isFinite(ellipse) ? ellipse : own / swing;
 }

@@ -5,7 +5,7 @@
 import { scaleAlong, scaleOf } from '../figure/axes';
 import { nameSpans } from '../figure/name';
 import { textWidth } from '../figure/shapes';
-import { readable } from '../figure/number';
+import { grouped, minus, readable } from '../figure/number';
 import type { Ink, Pen, Scale, Span } from '../figure/types';
 import { words } from '../words';
 import type { Bounds, Range } from './bounds';
@@ -68,6 +68,8 @@ export function flatPlot({ bounds, box: given, equal, style, axes: [across, upwa
       pen.text(along(v), zero + 20 * Math.sqrt(letters), along.label(v) + (v === last ? ` ${across.unit}` : ''), { ...quiet(ink), anchor: 'middle' });
     }
   }
+  /** Numbers that nearly agree say by how much they differ from this one. */
+  const from = (base: number): Span[] => (base === 0 ? [] : [{ text: `  ${Number.isInteger(base) ? minus(grouped(base)) : minus(String(Number(base.toPrecision(15))))} +`, size }]);
   /** Beside the numbers, above the highest of them; over the picture where the stage ends. */
   function nameUp(pen: Pen, ink: Ink, name: Span[]): void {
     const fits = frame.left - 10 - textWidth(name, 15 * letters) >= edge;
@@ -87,7 +89,8 @@ export function flatPlot({ bounds, box: given, equal, style, axes: [across, upwa
       const tail: Span[] = v !== last ? [] : across.unit ? [{ text: ` ${across.unit}` }] : [{ text: ' ' }, { text: across.name, italic: true, colour: ink.text }];
       pen.text(along(v), low + 20, [{ text: along.label(v) }, ...tail], { ...quiet(ink), anchor: 'middle' });
     }
-    nameUp(pen, ink, nameSpans(upward.name, 15 * letters));
+    nameUp(pen, ink, [...nameSpans(upward.name, 15 * letters), ...from(up.base)]);
+    if (along.base !== 0) pen.text(frame.right, low + 36, from(along.base), { ...quiet(ink), anchor: 'end' });
   }
   function plane(pen: Pen, ink: Ink): void {
     const bare = style === 'phase';
@@ -99,13 +102,13 @@ export function flatPlot({ bounds, box: given, equal, style, axes: [across, upwa
       pen.line([crisp(along(v)), frame.top, crisp(along(v)), frame.bottom], { colour: v === 0 ? ink.ghost : ink.grid, width: v === 0 ? 1.5 : 1 });
       pen.text(along(v), frame.bottom + 19, along.label(v), { ...quiet(ink), anchor: 'middle' });
     }
-    const name = (axis: Axis): Span[] => [...nameSpans(axis.name, 15 * letters), ...(axis.unit ? [{ text: ` (${axis.unit})`, size }] : [])];
-    const along_: Span[] = bare ? [{ text: words.stage.velocity, size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across), letter = { colour: ink.text, size: 15 * letters };
+    const name = (axis: Axis, base: number): Span[] => [...nameSpans(axis.name, 15 * letters), ...(axis.unit ? [{ text: ` (${axis.unit})`, size }] : []), ...from(base)];
+    const along_: Span[] = bare ? [{ text: words.stage.velocity, size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across, along.base), letter = { colour: ink.text, size: 15 * letters };
     // Below the numbers, or behind the last of them where the stage ends.
     const last = along.ticks[along.ticks.length - 1] ?? x[1], behind = Math.max(frame.right, along(last) + textWidth(along.label(last), size) / 2) + 8;
     if (frame.bottom + 40 <= pen.height) pen.text(frame.right, frame.bottom + 36, along_, { ...letter, anchor: 'end' });
     else pen.text(Math.min(behind, pen.width - textWidth(along_, 15 * letters) - 2), frame.bottom + 19, along_, letter);
-    if (!bare) nameUp(pen, ink, name(upward));
+    if (!bare) nameUp(pen, ink, name(upward, up.base));
   }
   const column = (of: Rows, body: Body, k: number): ArrayLike<number> => {
     if (style === 'time') return k === 0 ? of.times : of.columns[body.columns[0]!] ?? EMPTY;

@@ -79,3 +79,25 @@ test('a bracket is as long as the number beside it, at every time', () => {
   // Before the first step has landed, who is seen beside it is not "on it".
   assert.ok(!drawn(sceneOf('thrown-ball', ['symplectic-euler'], { step: 0.4 }), 0.2).words.some((w) => w.endsWith('on it')));
 });
+
+const own = (text, methods, options) => sceneOf('', methods, { ...options, text });
+test('who swings too wide, and who only leaves', () => {
+  const last = (scene) => drawn(scene).words.filter((w) => / times too wide at |^at /.test(w));
+  assert.deepEqual(last(own("x'' = -9.81\nx(0) = 1000\nstep 0.1\nuntil 1", ['explicit-euler'])), []);
+  assert.ok(!drawn(own("x'' = -9.81\nx(0) = 1000\nstep 0.1\nuntil 1", ['symplectic-euler'])).words.some((w) => w.includes('too wide')), 'a fall is no swing');
+  assert.match(last(sceneOf('spring', ['explicit-euler'], { step: 0.16, until: 20 })).join(), /^4\.[89] times too wide at 20 s$/);
+  assert.match(last(sceneOf('spring', ['explicit-euler'])).join(), /^4\.5 times too wide at 60 s$/);
+  // Swings that grow: the largest of the last one, of the method and of the exact motion.
+  assert.match(last(sceneOf('resonance', ['explicit-euler'])).join(), /^2\.3 times too wide at 60 s$/);
+});
+test('a method leaves when its line crosses the edge', () => {
+  const { picture, words } = drawn(sceneOf('thrown-ball', ['symplectic-euler'], { step: 0.4 })), [left] = picture.leaving;
+  // Below the ground, in its last step.
+  assert.ok(left && left.time > 1.6 && left.time < 1.99, `at ${left?.time}`);
+  assert.ok(words.includes(`at ${Number(left.time.toPrecision(3))} s`) && picture.remarks()[0].includes(String(Number(left.time.toPrecision(4)))), words.join());
+});
+test('an axis of numbers that nearly agree says from which one they differ', () => {
+  assert.ok(drawn(own("x'' = -9.81\nx(0) = 6371000\nstep 0.1\nuntil 1", ['midpoint'])).words.some((w) => w.replaceAll('\u2009', ' ').includes('6 371 000 +')));
+  assert.ok(drawn(own("T' = -1e-6 (T - 20)\nT(0) = 90\nstep 1\nuntil 10", ['rk4'])).words.some((w) => w.includes('90 +')));
+  assert.ok(!drawn(sceneOf('spring', ['verlet'])).words.some((w) => w.endsWith(' +')));
+});
