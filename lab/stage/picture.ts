@@ -10,7 +10,7 @@ import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
 import { words } from '../words';
-import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
+import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
 import { motionOf, type Line, type Motion, type Rows } from './motion';
@@ -32,7 +32,7 @@ export interface Setting {
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
   /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
@@ -70,13 +70,13 @@ const axisOf = (name: string, unit = ''): Axis => ({ name, unit });
 export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all: boolean, old: Bounds | null): Bounds {
   const motion = motionOf(scene, subject), time = subject.kind === 'time';
   if (all) return allOf(motion);
-  const { ranges } = extentOf(motion);
+  const ground = staging.decor === 'throw', { ranges } = extentOf(motion, ground);
   if (old && old.length === ranges.length && suits(old, ranges, time, subject.kind === 'plane')) return old;
   const own = staging.frame && [time ? ranges[0]! : staging.frame.x ?? ranges[0]!, staging.frame.y];
   if (own && suits(own, ranges, time, !time)) return own;
   const wide = roomy(ranges, time);
-  // Whoever throws stands on the ground, which is part of the picture.
-  return staging.decor === 'throw' ? [wide[0]!, join(wide[1]!, [0, 0])] : wide;
+  // Whoever throws stands on the ground, which is part of the picture; below it nothing is shown.
+  return ground && !time ? [wide[0]!, ranges[1]![0] >= 0 ? [0, wide[1]![1]] : join(wide[1]!, [0, 0])] : wide;
 }
 
 /** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
@@ -317,6 +317,7 @@ export function pictureOf(setting: Setting): Picture {
     drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
+    drawLanding(pen, ink, time);
     beside(pen, ink, time);
   }
 
@@ -365,7 +366,7 @@ export function pictureOf(setting: Setting): Picture {
       const other = pointAt(drawn[1]!.curves.exact[0]!.way, truth.times, time);
       pen.line([staging.decor === 'spring' ? springX + 13 : exactPoint.x, exactPoint.y, other.x, exactPoint.y], { colour: ink.exact, width: 1, dash: [2, 3], alpha: 0.6 });
     }
-    if (truth) {
+    if (truth && !(landing && time > landing.time)) {
       const joined = groups.get(-1) ?? [];
       labels.push({
         names: [{ text: exactName, colour: ink.exact }, ...joined.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone }))], colour: ink.exact, line: ink.exact,
@@ -416,16 +417,30 @@ export function pictureOf(setting: Setting): Picture {
     });
   }
 
+  /** When and where the exact motion comes down to the ground that is drawn. */
+  const landing = ((): (Point & { readonly time: number }) | null => {
+    if (staging.decor !== 'throw' || subject.kind !== 'plane' || !truth || !main.up || !(bounds[1]![0] >= 0)) return null;
+    const { at } = untilGround(truth, subject.bodies[0]!.columns[1]!);
+    return at === null ? null : { time: at, ...pointAt(curves.exact[0]!.way, truth.times, at) };
+  })();
+  const seconds = (time: number): string => `${brief(time, 3)}${staging.units ? `\u2009${staging.units.t}` : ''}`;
+  function drawLanding(pen: Pen, ink: Ink, time: number): void {
+    if (!landing || time < landing.time) return;
+    const text = words.stage.lands(exactName, seconds(landing.time)), size = leaveSize, wide = textWidth(text, size) * 1.06;
+    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
+    pen.text(Math.max(place.text + 4, Math.min(place.width - 4 - wide, landing.x + place.ball + 6)), landing.y - 8, [{ text, bold: true }], { colour: ink.exact, size, halo: ink.surface });
+  }
   const leaving: Leaving[] = [], leaveSize = (place.names ? 14 : 12) * place.scale;
-  const wideOf = (l: Pick<Leaving, 'name' | 'more'>): number => Math.max(textWidth(words.stage.leaves(l.name), leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
+  const wideOf = (l: Pick<Leaving, 'says' | 'more'>): number => Math.max(textWidth(l.says, leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
   curves.methods.forEach((of, i) => {
     const c = of.find((curve) => curve.exit);
     if (!c?.exit || nowhere.has(i)) return;
-    const { exit } = c, low = exit.y > main.box.bottom - 40, said = { name: shortLabel(c.line.look.label), more: told(motion, c, staging) }, wide = wideOf(said);
+    const { exit } = c, low = exit.y > main.box.bottom - 40, name = shortLabel(c.line.look.label);
+    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(name) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
     // Behind the arrow, before it where the right is too narrow, and never beyond the stage.
     const room = place.width - 4, least = place.text + 4, anchor = exit.x + 14 + wide > room && exit.x - 14 - wide >= least ? 'end' as const : 'start' as const;
     const left = anchor === 'end' ? exit.x - 14 - wide : Math.max(least, Math.min(exit.x + 14, room - wide)), high = leaveSize * 2.5 + 24;
-    let y = low ? exit.y - 46 : Math.max(26, exit.y + 8);
+    let y = grounded ? exit.y - 84 : low ? exit.y - 46 : Math.max(26, exit.y + 8);
     // Clear of the notes of those that left before, "show all" below the first one included.
     const met = (at: number): boolean => leaving.some((l) => Math.abs(l.y - at) < high && l.left < left + wide + 8 && left < l.left + wideOf(l) + 8);
     for (let k = 0; k < 12 && met(y); k++) y += low ? -high / 2 : high / 2;
@@ -435,7 +450,7 @@ export function pictureOf(setting: Setting): Picture {
     for (const l of leaving) {
       if (time < l.time) continue;
       const size = leaveSize, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
-      pen.text(l.x, l.y, [{ text: words.stage.leaves(l.name), bold: true }], letters);
+      pen.text(l.x, l.y, [{ text: l.says, bold: true }], letters);
       if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
     }
   }
@@ -469,7 +484,7 @@ export function pictureOf(setting: Setting): Picture {
     still, moving, ghost, handle, leaving,
     over: (time) => [...lines.map(({ track }) => track), ...(truth ? [truth] : [])].every(({ times }) => isDone(times, time)),
     end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
-    remarks: () => lines.map((line) => {
+    remarks: () => [...(landing ? [words.stage.summary.ground(seconds(landing.time))] : []), ...lines.map((line) => {
       const { problem, times } = line.track;
       if (problem) {
         const at = brief(problem.time ?? times[times.length - 1] ?? 0);
@@ -477,7 +492,7 @@ export function pictureOf(setting: Setting): Picture {
       }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
       return c?.exit ? words.stage.summary.leaves(line.look.label, brief(c.exit.time)) : '';
-    }).filter(Boolean),
+    })].filter(Boolean),
   };
 }
 const SPACING_LADDER = 8;

@@ -18,7 +18,7 @@ const catalogue = answers.answer('catalogue', {}), model = (name) => readFileSyn
 
 /** A scene of an example, or of a text. */
 function sceneOf(name, methods, { text = model(name), set = {}, step = null, until = null } = {}) {
-  const solution = answers.answer('solve', { model: { text, set: Object.entries(set) }, methods, step, until, columns: [], rows: 6000, truth: true });
+  const solution = answers.answer('solve', { model: { text, set: Object.entries(set).map((pair) => pair.join(' = ')) }, methods, step, until, columns: [], rows: 6000, truth: true });
   return { state: { preset: name, text, set, methods, step: '', until: '', view: page.defaultView, place: '' }, description: solution.description, solution, looks: page.looksOf(methods, catalogue, page.named), catalogue };
 }
 const DESK = { width: 1280, height: 528, column: 290, page: { width: 1280, height: 800 } };
@@ -100,4 +100,13 @@ test('an axis of numbers that nearly agree says from which one they differ', () 
   assert.ok(drawn(own("x'' = -9.81\nx(0) = 6371000\nstep 0.1\nuntil 1", ['midpoint'])).words.some((w) => w.replaceAll('\u2009', ' ').includes('6 371 000 +')));
   assert.ok(drawn(own("T' = -1e-6 (T - 20)\nT(0) = 90\nstep 1\nuntil 10", ['rk4'])).words.some((w) => w.includes('90 +')));
   assert.ok(!drawn(sceneOf('spring', ['verlet'])).words.some((w) => w.endsWith(' +')));
+});
+test('a throw ends on the ground, and the picture says so', () => {
+  for (const options of [{ set: { "r'(0)": '(6, 3)' } }, { until: 4 }]) {
+    const { bounds, words, texts, picture, place } = drawn(sceneOf('thrown-ball', ['explicit-euler', 'symplectic-euler'], options));
+    assert.ok(bounds[1][0] === 0 && bounds[0][1] < 15, JSON.stringify(bounds));
+    assert.ok(words.some((w) => /^exact lands at [\d.]+ s$/.test(w)) && words.includes('symplectic Euler lands'), words.join(' | '));
+    assert.match(picture.remarks()[0], /below the ground/);
+    for (const t of texts) assert.ok(t.left >= 0 && t.right <= place.width + 4 && t.y < place.height, t.text);
+  }
 });
