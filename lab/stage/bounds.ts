@@ -30,9 +30,21 @@ export function columnsOf(motion: Motion, of: Rows): ArrayLike<number>[][] {
 const rangesOf = (motion: Motion, of: Rows): Range[] => columnsOf(motion, of).map(rangeOf);
 const largest = (ranges: readonly Range[]): number => Math.max(0, ...ranges.map(size));
 
-/** How far the exact motion goes; without one, the calmest method; and whether that one was tamed. */
-export function extentOf(motion: Motion): { readonly ranges: readonly Range[]; readonly tamed: boolean } {
-  const { truth, lines, subject } = motion, still = subject.kind === 'time' ? 1 : 0;
+/** The rows up to the ground, where the motion comes down to it; at: its time there. */
+export function untilGround(of: Rows, column: number): { readonly rows: Rows; readonly at: number | null } {
+  const y = of.columns[column], { times } = of;
+  if (!y || !(y[0]! >= 0)) return { rows: of, at: null };
+  const below = y.findIndex((v) => v < 0);
+  if (below < 1) return { rows: of, at: null };
+  const part = y[below - 1]! / (y[below - 1]! - y[below]!), cut = (c: Float64Array): Float64Array => { const kept = c.slice(0, below + 1); if (below < c.length) kept[below] = c[below - 1]! + part * (c[below]! - c[below - 1]!); return kept; };
+  const whole = { times: cut(times), columns: of.columns.map(cut) };
+  whole.columns[column]![below] = 0;
+  return { rows: whole, at: whole.times[below]! };
+}
+
+/** How far the exact motion goes, as far as the ground where there is one; without one, the calmest method; and whether that one was tamed. */
+export function extentOf(motion: Motion, ground = false): { readonly ranges: readonly Range[]; readonly tamed: boolean } {
+  const { lines, subject } = motion, truth = ground && motion.truth && subject.kind === 'plane' ? untilGround(motion.truth, subject.bodies[0]!.columns[1]!).rows : motion.truth, still = subject.kind === 'time' ? 1 : 0;
   if (truth) return { ranges: rangesOf(motion, truth), tamed: false };
   let best: readonly Range[] | null = null, tamed = false;
   for (const { track } of lines) {

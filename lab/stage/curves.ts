@@ -20,6 +20,7 @@ const MARKED_ROWS = 240, SPACING = 22, SPARSE = 11;
 /** Beyond so many times the stage's size a line is a band, whose dashes nobody sees. */
 const BAND = 5;
 
+/** row: the first one outside; time: at which the line to it crosses the edge, there. */
 export interface Exit { readonly row: number; readonly time: number; readonly x: number; readonly y: number; readonly dx: number; readonly dy: number }
 export interface Curve {
   readonly line: Line; readonly body: number; readonly way: Way; readonly path: Path; readonly marks: readonly number[]; readonly band: boolean; readonly exit: Exit | null;
@@ -41,8 +42,8 @@ export function pointAt(way: Way, times: ArrayLike<number>, time: number, out: P
   return out;
 }
 
-/** Where a line from a point inside a box to one outside crosses its edge. */
-function crossing(box: Box, x0: number, y0: number, x1: number, y1: number): Point {
+/** Where a line from a point inside a box to one outside crosses its edge, and which part of it that is. */
+function crossing(box: Box, x0: number, y0: number, x1: number, y1: number): Point & { readonly part: number } {
   let part = 1;
   const cut = (from: number, to: number, low: number, high: number): void => {
     if (to > high) part = Math.min(part, (high - from) / (to - from));
@@ -51,7 +52,7 @@ function crossing(box: Box, x0: number, y0: number, x1: number, y1: number): Poi
   cut(x0, x1, box.left, box.right);
   cut(y0, y1, box.top, box.bottom);
   const p = Number.isFinite(part) && part >= 0 ? part : 0;
-  return { x: x0 + p * (x1 - x0), y: y0 + p * (y1 - y0) };
+  return { x: x0 + p * (x1 - x0), y: y0 + p * (y1 - y0), part: p };
 }
 
 function exitOf(way: Way, rows: number, times: ArrayLike<number>, box: Box): Exit | null {
@@ -68,7 +69,7 @@ function exitOf(way: Way, rows: number, times: ArrayLike<number>, box: Box): Exi
   const x1 = clamp(way.x(first)), y1 = clamp(way.y(first));
   if (Number.isNaN(x1 + y1)) return null;
   const at = crossing(box, x0, y0, x1, y1), length = Math.hypot(x1 - x0, y1 - y0) || 1;
-  return { row: first, time: times[first]!, ...at, dx: (x1 - x0) / length, dy: (y1 - y0) / length };
+  return { row: first, time: times[first - 1]! + at.part * (times[first]! - times[first - 1]!), x: at.x, y: at.y, dx: (x1 - x0) / length, dy: (y1 - y0) / length };
 }
 
 function marksOf(motion: Motion, line: Line, way: Way, rank: number): number[] {

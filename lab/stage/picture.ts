@@ -6,16 +6,17 @@
 import { extent, rangeOf } from '../figure/axes';
 import { shortLabel } from '../figure/ends';
 import { brief } from '../figure/number';
+import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
 import type { Scene } from '../scene';
 import { words } from '../words';
-import { allOf, extentOf, join, roomy, suits, type Bounds, type Range } from './bounds';
+import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
-import { motionOf, type Line, type Motion } from './motion';
+import { motionOf, type Line, type Motion, type Rows } from './motion';
 import { drawNames, missText, type Named } from './names';
 import { trail } from './path';
-import type { Box, Place } from './place';
+import { wideEnough, type Box, type Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
 import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
@@ -31,7 +32,7 @@ export interface Setting {
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
   /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
@@ -49,12 +50,14 @@ export interface Picture {
 
 const TO_COME_EXACT = 0.22, TO_COME = 0.25, STROBE = 0.16, EXACT_WIDTH = 4, WIDTH = 2;
 const LIVE_MARKS = 400, STEPS_SEEN = 40;
+/** Pixels that tell a distance from another one. */
+const SEEN = 2;
 
 /** Which other plot stands beside a number against time. */
 export type Side = 'phase' | 'rod' | '';
 const ANGLES = new Set(['theta', 'phi', 'alpha', 'varphi', 'θ', 'φ', 'ϑ']);
 export function sideOf(scene: Scene, subject: Subject, staging: Staging, place: Place): Side {
-  if (subject.kind !== 'time' || place.frame.right - place.frame.left < 600) return '';
+  if (subject.kind !== 'time' || !place.names || place.frame.right - place.frame.left < 600) return '';
   const positions = scene.description.variables.reduce((sum, v) => sum + (v.order === 2 ? v.count * Math.max(1, v.components) : 0), 0);
   if (positions !== 1) return '';
   if (staging.decor === 'pendulum' || ANGLES.has(subject.axes[1] ?? '')) return 'rod';
@@ -67,13 +70,13 @@ const axisOf = (name: string, unit = ''): Axis => ({ name, unit });
 export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all: boolean, old: Bounds | null): Bounds {
   const motion = motionOf(scene, subject), time = subject.kind === 'time';
   if (all) return allOf(motion);
-  const { ranges } = extentOf(motion);
+  const ground = staging.decor === 'throw', { ranges } = extentOf(motion, ground);
   if (old && old.length === ranges.length && suits(old, ranges, time, subject.kind === 'plane')) return old;
   const own = staging.frame && [time ? ranges[0]! : staging.frame.x ?? ranges[0]!, staging.frame.y];
   if (own && suits(own, ranges, time, !time)) return own;
   const wide = roomy(ranges, time);
-  // Whoever throws stands on the ground, which is part of the picture.
-  return staging.decor === 'throw' ? [wide[0]!, join(wide[1]!, [0, 0])] : wide;
+  // Whoever throws stands on the ground, which is part of the picture; below it nothing is shown.
+  return ground && !time ? [wide[0]!, ranges[1]![0] >= 0 ? [0, wide[1]![1]] : join(wide[1]!, [0, 0])] : wide;
 }
 
 /** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
@@ -86,14 +89,14 @@ export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): bo
 function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, side: Side): Plot[] {
   const { scale: letters } = place, { solution } = scene, units = staging.units;
   // The ground of a throw runs on below the words; nothing else does.
-  const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : { ...place.frame, left: Math.max(place.frame.left, place.text + 9) };
+  const ground = staging.decor === 'throw' && subject.kind === 'plane', frame = ground ? place.frame : wideEnough({ ...place.frame, left: Math.max(place.frame.left, place.text + 9) }, place);
   if (subject.kind === 'space') return [spacePlot(bounds, frame, camera, subject.axes.map((name) => axisOf(name)), letters)];
-  const common = { solution, letters, fine: place.fine };
+  const common = { solution, letters, fine: place.fine, edge: place.text && place.text + 2 };
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };
     const axes = [axisOf('t', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
-    if (!side) return [flatPlot({ ...common, bounds, box: whole, equal: false, style: 'time', axes })];
+    if (!side) return [flatPlot({ ...common, bounds, box: wideEnough(whole, place), equal: false, style: 'time', axes })];
     const right = place.width - 37 * letters, width = Math.min(0.4 * (right - left), 1.05 * (frame.bottom - top), side === 'rod' ? 220 * letters : Infinity), from = right - width;
     const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - (side === 'rod' ? 150 : 116) * letters }, equal: false, style: 'time', axes });
     if (side === 'rod') return [main];
@@ -108,7 +111,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   // Misses beside an upright path need room for their words.
   const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
   const box = ground ? frame : { left: frame.left + (small ? 14 : 44), top: frame.top + 22, right, bottom: frame.bottom - (small ? 4 : 8) };
-  return [flatPlot({ ...common, bounds, box, equal, style: ground ? 'ground' : 'plane', axes })];
+  return [flatPlot({ ...common, bounds, box: ground ? box : wideEnough(box, place), equal, style: ground ? 'ground' : 'plane', axes })];
 }
 function velocityRange(scene: Scene, subject: Subject): Range {
   const column = velocityColumn(scene.solution, subject.bodies[0]!.columns[0]!), { truth } = scene.solution;
@@ -263,15 +266,18 @@ export function pictureOf(setting: Setting): Picture {
   const last = (line: Line): number => line.track.times[line.track.times.length - 1] ?? NaN;
   const gone = (curve: Curve, time: number): boolean => (curve.exit !== null && time >= curve.exit.time) || isOver(curve.line.track.times, time);
 
-  /** The error of a line at the last step that was made by then; null: not known. */
-  function miss(line: Line, time: number, y: number, exactY: number): Named['miss'] {
+  /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
+  function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
     const errors = scene.solution.errors[line.index]?.x;
     if (!errors?.length || !truth) return null;
-    const at = placeAt(line.track.times, time), row = at.part === 1 ? at.row + 1 : at.row, value = errors[row];
-    if (value === undefined || !Number.isFinite(value)) return null;
+    const { row, part } = placeAt(line.track.times, time), made = errors[part === 1 ? row + 1 : row];
+    if (made === undefined || !Number.isFinite(made)) return null;
+    const pixels = main.unit ?? (upright && main.up ? Math.abs(main.up(1) - main.up(0)) : 0), seen = upright ? Math.abs(at.y - exact.y) : Math.hypot(at.x - exact.x, at.y - exact.y);
+    // In space the picture shortens distances.
+    const value = single && flat && pixels > 0 && Math.abs(seen - made * pixels) > SEEN ? seen / pixels : made;
     const frame = bounds[subject.kind === 'time' ? 1 : 0]!, size = frame[1] - frame[0], unit = staging.units && single ? `\u2009${staging.units.x}` : '';
     if (value <= 1e-12 * size) return { size: 0, text: words.stage.miss.none, how: '' };
-    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (y < exactY ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
+    return { size: value, text: `${missText(value, flat && upright ? bounds[1]![1] - bounds[1]![0] : size)}${unit}`, how: upright ? (at.y < exact.y ? words.stage.miss.high : words.stage.miss.low) : words.stage.miss.off };
   }
 
   function moving(pen: Pen, ink: Ink, time: number): void {
@@ -311,6 +317,7 @@ export function pictureOf(setting: Setting): Picture {
     drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
+    drawLanding(pen, ink, time);
     beside(pen, ink, time);
   }
 
@@ -359,7 +366,7 @@ export function pictureOf(setting: Setting): Picture {
       const other = pointAt(drawn[1]!.curves.exact[0]!.way, truth.times, time);
       pen.line([staging.decor === 'spring' ? springX + 13 : exactPoint.x, exactPoint.y, other.x, exactPoint.y], { colour: ink.exact, width: 1, dash: [2, 3], alpha: 0.6 });
     }
-    if (truth) {
+    if (truth && !(landing && time > landing.time)) {
       const joined = groups.get(-1) ?? [];
       labels.push({
         names: [{ text: exactName, colour: ink.exact }, ...joined.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone }))], colour: ink.exact, line: ink.exact,
@@ -374,7 +381,7 @@ export function pictureOf(setting: Setting): Picture {
       if (!Number.isFinite(at.x + at.y) || !inside(main.box, at.x, at.y, 8)) continue;
       labels.push({
         names: own.map((l) => ({ text: shortLabel(l.look.label), colour: l.look.tone })), colour: own[0]!.look.tone, line: own[0]!.look.colour, ...at,
-        miss: miss(own[0]!, time, at.y, exactPoint.y), exact: false,
+        miss: miss(own[0]!, time, at, exactPoint), exact: false,
       });
     }
     return labels.length > 14 ? labels.slice(0, 14) : labels;
@@ -410,19 +417,40 @@ export function pictureOf(setting: Setting): Picture {
     });
   }
 
-  const leaving: Leaving[] = [];
+  /** When and where the exact motion comes down to the ground that is drawn. */
+  const landing = ((): (Point & { readonly time: number }) | null => {
+    if (staging.decor !== 'throw' || subject.kind !== 'plane' || !truth || !main.up || !(bounds[1]![0] >= 0)) return null;
+    const { at } = untilGround(truth, subject.bodies[0]!.columns[1]!);
+    return at === null ? null : { time: at, ...pointAt(curves.exact[0]!.way, truth.times, at) };
+  })();
+  const seconds = (time: number): string => `${brief(time, 3)}${staging.units ? `\u2009${staging.units.t}` : ''}`;
+  function drawLanding(pen: Pen, ink: Ink, time: number): void {
+    if (!landing || time < landing.time) return;
+    const text = words.stage.lands(exactName, seconds(landing.time)), size = leaveSize, wide = textWidth(text, size) * 1.06;
+    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
+    pen.text(Math.max(place.text + 4, Math.min(place.width - 4 - wide, landing.x + place.ball + 6)), landing.y - 8, [{ text, bold: true }], { colour: ink.exact, size, halo: ink.surface });
+  }
+  const leaving: Leaving[] = [], leaveSize = (place.names ? 14 : 12) * place.scale;
+  const wideOf = (l: Pick<Leaving, 'says' | 'more'>): number => Math.max(textWidth(l.says, leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
   curves.methods.forEach((of, i) => {
     const c = of.find((curve) => curve.exit);
     if (!c?.exit || nowhere.has(i)) return;
-    const { exit } = c, low = exit.y > main.box.bottom - 40, anchor = exit.x > place.width - 260 ? 'end' as const : 'start' as const;
-    const shift = leaving.filter((l) => Math.abs(l.y - exit.y) < 34 && Math.abs(l.x - exit.x) < 240).length * 38;
-    leaving.push({ name: shortLabel(c.line.look.label), more: told(motion, c, staging), colour: c.line.look.tone, x: exit.x + (anchor === 'start' ? 14 : -14), y: (low ? exit.y - 46 : Math.max(26, exit.y + 8)) + (low ? -shift : shift), time: exit.time, anchor });
+    const { exit } = c, low = exit.y > main.box.bottom - 40, name = shortLabel(c.line.look.label);
+    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(name) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
+    // Behind the arrow, before it where the right is too narrow, and never beyond the stage.
+    const room = place.width - 4, least = place.text + 4, anchor = exit.x + 14 + wide > room && exit.x - 14 - wide >= least ? 'end' as const : 'start' as const;
+    const left = anchor === 'end' ? exit.x - 14 - wide : Math.max(least, Math.min(exit.x + 14, room - wide)), high = leaveSize * 2.5 + 24;
+    let y = grounded ? exit.y - 84 : low ? exit.y - 46 : Math.max(26, exit.y + 8);
+    // Clear of the notes of those that left before, "show all" below the first one included.
+    const met = (at: number): boolean => leaving.some((l) => Math.abs(l.y - at) < high && l.left < left + wide + 8 && left < l.left + wideOf(l) + 8);
+    for (let k = 0; k < 12 && met(y); k++) y += low ? -high / 2 : high / 2;
+    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? left + wide : left, left, y, time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
       if (time < l.time) continue;
-      const size = (place.names ? 14 : 12) * place.scale, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
-      pen.text(l.x, l.y, [{ text: words.stage.leaves(l.name), bold: true }], letters);
+      const size = leaveSize, letters = { colour: l.colour, size, anchor: l.anchor, halo: ink.surface };
+      pen.text(l.x, l.y, [{ text: l.says, bold: true }], letters);
       if (l.more) pen.text(l.x, l.y + 1.25 * size, l.more, { ...letters, size: size - 1 });
     }
   }
@@ -456,7 +484,7 @@ export function pictureOf(setting: Setting): Picture {
     still, moving, ghost, handle, leaving,
     over: (time) => [...lines.map(({ track }) => track), ...(truth ? [truth] : [])].every(({ times }) => isDone(times, time)),
     end: truth && single ? pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!) : null,
-    remarks: () => lines.map((line) => {
+    remarks: () => [...(landing ? [words.stage.summary.ground(seconds(landing.time))] : []), ...lines.map((line) => {
       const { problem, times } = line.track;
       if (problem) {
         const at = brief(problem.time ?? times[times.length - 1] ?? 0);
@@ -464,7 +492,7 @@ export function pictureOf(setting: Setting): Picture {
       }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
       return c?.exit ? words.stage.summary.leaves(line.look.label, brief(c.exit.time)) : '';
-    }).filter(Boolean),
+    })].filter(Boolean),
   };
 }
 const SPACING_LADDER = 8;
@@ -475,16 +503,30 @@ function told(motion: Motion, curve: Curve, staging: Staging): string {
   const end = track.times[track.times.length - 1] ?? 0;
   if (track.problem) return words.stage.ends(`${brief(track.problem.time ?? end, 3)}${unit}`);
   if (motion.subject.kind === 'time' && truth) {
-    // How large the ellipse of place and velocity is that it ends on, beside that of the exact motion.
-    const column = motion.subject.bodies[curve.body]!.columns[0]!, speed = velocityColumn(motion.scene.solution, column);
-    const part = (k: number): number => {
-      const exact = truth.columns[k], own = track.columns[k];
-      if (!exact?.length || !own?.length) return NaN;
-      const [low, high] = extent([exact]);
-      return ((own[own.length - 1]! - (low + high) / 2) / ((high - low) / 2)) ** 2;
-    };
-    const times = Math.sqrt(part(column) + part(speed));
+    const times = wider(motion, curve, truth);
     if (Number.isFinite(times) && times >= 1.5) return words.stage.wide(brief(times, 2), `${brief(end, 3)}${unit}`);
   }
   return words.stage.at(`${brief(curve.exit!.time, 3)}${unit}`);
+}
+/** How many times as wide as the exact motion a method swings at the end; NaN where the exact one does not swing. */
+function wider(motion: Motion, curve: Curve, truth: Rows): number {
+  const column = motion.subject.bodies[curve.body]!.columns[0]!, exact = truth.columns[column], { track } = curve.line;
+  if (!exact?.length) return NaN;
+  const [low, high] = extent([exact]), middle = (low + high) / 2, passes: number[] = [];
+  for (let i = 1; i < exact.length; i++) if ((exact[i - 1]! < middle) !== (exact[i]! < middle)) passes.push(truth.times[i]!);
+  if (passes.length < 4) return NaN;
+  // A whole swing, the last one.
+  const first = passes[2]!, since = passes[passes.length - 3]!, way = Math.sign(truth.times[truth.times.length - 1]! - truth.times[0]!) || 1;
+  const widest = (of: Rows, early = false): number => { let most = 0; of.times.forEach((t, i) => { if (early ? (t - first) * way <= 0 : (t - since) * way >= 0) most = Math.max(most, Math.abs(of.columns[column]![i]! - middle)); }); return most; };
+  const own = widest(track), swing = widest(truth), speed = velocityColumn(motion.scene.solution, column);
+  if (Math.abs(swing - widest(truth, true)) > 0.02 * swing || speed < 0) return own / swing;
+  // Where swings stay as wide as they are, a method's width is known between its turning points too: from the ellipse of place and velocity that it is on.
+  const part = (k: number): number => {
+    const of = truth.columns[k], values = track.columns[k];
+    if (!of?.length || !values?.length) return NaN;
+    const [least, most] = extent([of]);
+    return ((values[values.length - 1]! - (least + most) / 2) / ((most - least) / 2)) ** 2;
+  };
+  const ellipse = Math.sqrt(part(column) + part(speed));
+  return Number.isFinite(ellipse) ? ellipse : own / swing;
 }

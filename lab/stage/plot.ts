@@ -4,7 +4,8 @@
  */
 import { scaleAlong, scaleOf } from '../figure/axes';
 import { nameSpans } from '../figure/name';
-import { readable } from '../figure/number';
+import { textWidth } from '../figure/shapes';
+import { grouped, minus, readable } from '../figure/number';
 import type { Ink, Pen, Scale, Span } from '../figure/types';
 import { words } from '../words';
 import type { Bounds, Range } from './bounds';
@@ -38,11 +39,17 @@ function fitted(box: Box, x: Range, y: Range, ground: boolean): Box {
   return { left, top, right: left + w, bottom: top + h };
 }
 
-export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly letters: number; readonly fine?: boolean }
+export interface Flat { readonly bounds: Bounds; readonly box: Box; readonly equal: boolean; readonly style: Style; readonly axes: readonly [Axis, Axis]; readonly solution: Solution; readonly letters: number; readonly fine?: boolean;
+  /** Where numbers beside the axis may begin. */
+  readonly edge?: number }
 
-export function flatPlot({ bounds, box, equal, style, axes: [across, upward], solution, letters, fine }: Flat): Plot {
+export function flatPlot({ bounds, box: given, equal, style, axes: [across, upward], solution, letters, fine, edge = 0 }: Flat): Plot {
   const crisp = (p: number): number => (fine ? p : Math.round(p) + 0.5);
-  const x = bounds[0]!, y = bounds[1]!, frame = equal ? fitted(box, x, y, style === 'ground') : box;
+  const x = bounds[0]!, y = bounds[1]!;
+  // Numbers stand at the left of the frame, which leaves them their room.
+  const rough = scaleOf({ min: y[0], max: y[1], label: '' }, given.bottom, given.top, 4), widest = Math.max(...rough.ticks.map((v) => textWidth(rough.label(v), 12 * letters)), 0);
+  const box = style === 'ground' || style === 'phase' ? given : { ...given, left: Math.min(Math.max(given.left, edge + widest + 12), given.right - 60) };
+  const frame = equal ? fitted(box, x, y, style === 'ground') : box;
   const size = 12 * letters, small = frame.right - frame.left < 480, count = Math.max(2, Math.round((frame.bottom - frame.top) / ((small ? 56 : style === 'ground' ? 118 : 64) * letters)));
   const up = scaleOf({ min: y[0], max: y[1], label: '' }, frame.bottom, frame.top, count);
   const along = scaleAlong({ min: x[0], max: x[1], label: '' }, frame.left, frame.right, (small ? 48 : 110) * letters);
@@ -61,6 +68,13 @@ export function flatPlot({ bounds, box, equal, style, axes: [across, upward], so
       pen.text(along(v), zero + 20 * Math.sqrt(letters), along.label(v) + (v === last ? ` ${across.unit}` : ''), { ...quiet(ink), anchor: 'middle' });
     }
   }
+  /** Numbers that nearly agree say by how much they differ from this one. */
+  const from = (base: number): Span[] => (base === 0 ? [] : [{ text: `  ${Number.isInteger(base) ? minus(grouped(base)) : minus(String(Number(base.toPrecision(15))))} +`, size }]);
+  /** Beside the numbers, above the highest of them; over the picture where the stage ends. */
+  function nameUp(pen: Pen, ink: Ink, name: Span[]): void {
+    const fits = frame.left - 10 - textWidth(name, 15 * letters) >= edge;
+    pen.text(fits ? frame.left - 10 : edge + 4, frame.top - (fits ? 2 : 10), name, { colour: ink.text, size: 15 * letters, anchor: fits ? 'end' : 'start', baseline: 'bottom' });
+  }
   function time(pen: Pen, ink: Ink): void {
     const low = Math.round(frame.bottom) + 0.5;
     for (const v of up.ticks) {
@@ -75,8 +89,8 @@ export function flatPlot({ bounds, box, equal, style, axes: [across, upward], so
       const tail: Span[] = v !== last ? [] : across.unit ? [{ text: ` ${across.unit}` }] : [{ text: ' ' }, { text: across.name, italic: true, colour: ink.text }];
       pen.text(along(v), low + 20, [{ text: along.label(v) }, ...tail], { ...quiet(ink), anchor: 'middle' });
     }
-    // Beside the numbers, above the highest of them.
-    pen.text(frame.left - 10, frame.top - 2, nameSpans(upward.name, 15 * letters), { colour: ink.text, size: 15 * letters, anchor: 'end', baseline: 'bottom' });
+    nameUp(pen, ink, [...nameSpans(upward.name, 15 * letters), ...from(up.base)]);
+    if (along.base !== 0) pen.text(frame.right, low + 36, from(along.base), { ...quiet(ink), anchor: 'end' });
   }
   function plane(pen: Pen, ink: Ink): void {
     const bare = style === 'phase';
@@ -88,10 +102,13 @@ export function flatPlot({ bounds, box, equal, style, axes: [across, upward], so
       pen.line([crisp(along(v)), frame.top, crisp(along(v)), frame.bottom], { colour: v === 0 ? ink.ghost : ink.grid, width: v === 0 ? 1.5 : 1 });
       pen.text(along(v), frame.bottom + 19, along.label(v), { ...quiet(ink), anchor: 'middle' });
     }
-    const name = (axis: Axis): Span[] => [...nameSpans(axis.name, 15 * letters), ...(axis.unit ? [{ text: ` (${axis.unit})`, size }] : [])];
-    pen.text(frame.right, frame.bottom + 36, bare ? [{ text: words.stage.velocity, size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across),
-      { colour: ink.text, size: 15 * letters, anchor: 'end' });
-    if (!bare) pen.text(frame.left - 8, frame.top - 2, name(upward), { colour: ink.text, size: 15 * letters, anchor: 'end', baseline: 'bottom' });
+    const name = (axis: Axis, base: number): Span[] => [...nameSpans(axis.name, 15 * letters), ...(axis.unit ? [{ text: ` (${axis.unit})`, size }] : []), ...from(base)];
+    const along_: Span[] = bare ? [{ text: words.stage.velocity, size, colour: ink.quiet }, ...nameSpans(across.name, 15 * letters)] : name(across, along.base), letter = { colour: ink.text, size: 15 * letters };
+    // Below the numbers, or behind the last of them where the stage ends.
+    const last = along.ticks[along.ticks.length - 1] ?? x[1], behind = Math.max(frame.right, along(last) + textWidth(along.label(last), size) / 2) + 8;
+    if (frame.bottom + 40 <= pen.height) pen.text(frame.right, frame.bottom + 36, along_, { ...letter, anchor: 'end' });
+    else pen.text(Math.min(behind, pen.width - textWidth(along_, 15 * letters) - 2), frame.bottom + 19, along_, letter);
+    if (!bare) nameUp(pen, ink, name(upward, up.base));
   }
   const column = (of: Rows, body: Body, k: number): ArrayLike<number> => {
     if (style === 'time') return k === 0 ? of.times : of.columns[body.columns[0]!] ?? EMPTY;

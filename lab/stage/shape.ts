@@ -7,6 +7,7 @@ import { words } from '../words';
 import type { Motion, Rows } from './motion';
 import { drawNames, type Named } from './names';
 import type { Picture, Setting } from './picture';
+import { wideEnough } from './place';
 import { flatPlot } from './plot';
 import { isOver, placeAt } from './rows';
 
@@ -18,7 +19,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
   const number = cells.map((c, k) => Number(/\[(-?\d+)/.exec(scene.solution.columns[c] ?? '')?.[1] ?? k));
   const first = Math.min(...number), lastNumber = Math.max(...number), y = bounds[bounds.length - 1]!;
   const { frame, names } = place, plot = flatPlot({
-    bounds: [[first - 1, lastNumber + 1], y], box: { left: frame.left + (names ? 52 : 18), top: frame.top + 24, right: names ? place.width - 210 * place.scale : frame.right + 40, bottom: frame.bottom },
+    bounds: [[first - 1, lastNumber + 1], y], box: wideEnough({ left: frame.left + (names ? 52 : 18), top: frame.top + 24, right: names ? place.width - 210 * place.scale : frame.right + 40, bottom: frame.bottom }, place),
     equal: false, style: 'time', axes: [{ name: 'i', unit: '' }, { name: subject.axes[1] ?? '', unit: '' }], solution: scene.solution, letters: place.scale,
   });
   const xy = new Float64Array(2 * cells.length);

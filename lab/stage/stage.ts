@@ -188,7 +188,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   /** The frame goes to where it belongs, once. */
   function settle(): void {
     if (!scene || !subject || !bounds || showAll || bounds.length !== subject.axes.length) return;
-    const { ranges } = extentOf(motionOf(scene, subject)), inTime = subject.kind === 'time';
+    const { ranges } = extentOf(motionOf(scene, subject), staging().decor === 'throw'), inTime = subject.kind === 'time';
     if (suits(bounds, ranges, inTime, subject.kind === 'plane')) return;
     const from = bounds, to = boundsFor(scene, subject, staging(), false, null), began = performance.now();
     cancelAnimationFrame(moveFrame);
@@ -231,7 +231,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
       clearTimeout(ghostTimer);
       ghostTimer = window.setTimeout(endGhost, GHOST);
     } else if (bounds && subject && before && !other && !ghost) {
-      const until = next.state.until !== before.state.until, { ranges } = extentOf(motionOf(next, subject));
+      const until = next.state.until !== before.state.until, { ranges } = extentOf(motionOf(next, subject), staging().decor === 'throw');
       if (until || next.state.text !== before.state.text || !before.solution.truth) {
         if (!suits(bounds, ranges, subject.kind === 'time', subject.kind === 'plane')) bounds = showAll ? null : boundsFor(next, subject, staging(), false, null);
       }

@@ -26,6 +26,8 @@ export const stage = {
   miss: { none: 'on it', high: 'too high', low: 'too low', off: 'off' },
   /** A method that leaves the picture, and how it ends. */
   leaves: (method: string) => `${method} leaves`,
+  /** One that comes down to the ground, below which nothing is drawn. */
+  landed: (method: string) => `${method} lands`, lands: (name: string, time: string) => `${name} lands at ${time}`,
   ends: (time: string) => `and ends at ${time}, no longer a number`, wide: (times: string, time: string) => `${times} times too wide at ${time}`, at: (time: string) => `at ${time}`,
   /** The motion in words, for those who do not see it. */
   summary: {
@@ -40,6 +42,7 @@ export const stage = {
     stops: (method: string, time: string) => `${upper(method)} stops at t = ${time}.`,
     stopsAs: (method: string, time: string, variable: string) => `${upper(method)} stops at t = ${time}: ${variable} is no finite number.`,
     leaves: (method: string, time: string) => `${upper(method)} leaves the picture at t = ${time}.`,
+    ground: (time: string) => `From ${time} on the motion would be below the ground, where nothing is drawn.`,
     whole: (sentences: readonly string[]) => sentences.join(' '),
   },
   /** The numbers behind the picture: the first column, the rows that no method computed. */

@@ -1,0 +1,112 @@
+/* The picture of a motion, without a browser: the library's module computes a scene, the page's code draws it onto a pen that keeps what it is asked for.
+ * Law: what is written agrees with what is drawn and with the numbers of the run, and stands within the stage at every size of it.
+ */
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { fileURLToPath } from 'node:url';
+import test from 'node:test';
+
+const lab = new URL('../../lab/', import.meta.url), { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
+const contents = `export { Answers } from './answers'; export { Core } from './core'; export { looksOf, named } from './figure/ink'; export { textWidth } from './figure/shapes';
+  export { defaultView } from './share'; export * from './stage/picture'; export { extentOf, suits } from './stage/bounds'; export { motionOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
+  export { stagings } from './stage/stagings'; export { subjects } from './stage/subject';`;
+const bundled = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
+const page = await import('data:text/javascript;base64,' + Buffer.from(bundled.outputFiles[0].contents).toString('base64'));
+const answers = new page.Answers(new page.Core(new WebAssembly.Module(readFileSync(new URL('../../build/lab/motus.wasm', import.meta.url)))));
+const catalogue = answers.answer('catalogue', {}), model = (name) => readFileSync(new URL(`../../models/${name}.motus`, import.meta.url), 'utf8');
+
+/** A scene of an example, or of a text. */
+function sceneOf(name, methods, { text = model(name), set = {}, step = null, until = null } = {}) {
+  const solution = answers.answer('solve', { model: { text, set: Object.entries(set).map((pair) => pair.join(' = ')) }, methods, step, until, columns: [], rows: 6000, truth: true });
+  return { state: { preset: name, text, set, methods, step: '', until: '', view: page.defaultView, place: '' }, description: solution.description, solution, looks: page.looksOf(methods, catalogue, page.named), catalogue };
+}
+const DESK = { width: 1280, height: 528, column: 290, page: { width: 1280, height: 800 } };
+/** The picture of a scene, and all that is drawn of it at a time: texts with their edges, the other marks by name. */
+function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false } = {}) {
+  const subject = page.subjects(scene.description, scene.solution)[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
+  const bounds = page.boundsFor(scene, subject, staging, all, null), picture = page.pictureOf({ scene, subject, staging, place, bounds, camera: page.HOME, before: null, pinned: null });
+  const texts = [], lines = [], marks = [];
+  const pen = {
+    width, height, clip: (_x, _y, _w, _h, inside) => inside(), area() {}, box() {}, arrow() {}, line: (xy, stroke, count = xy.length) => lines.push({ xy: Array.from(xy).slice(0, count), ...stroke }),
+    mark: (shape, x, y, r, colour) => marks.push({ shape, x, y, r, colour }),
+    text(x, y, what, { anchor = 'start', size = 12 } = {}) {
+      const words = typeof what === 'string' ? what : what.map((span) => span.text).join(''), wide = page.textWidth(what, size), left = anchor === 'end' ? x - wide : anchor === 'middle' ? x - wide / 2 : x;
+      texts.push({ text: words.replaceAll('\u2009', ' '), x, y, left, right: left + wide, size });
+    },
+  };
+  picture.still(pen, page.named.ink, true);
+  picture.moving(pen, page.named.ink, time ?? scene.solution.tracks[0].times.at(-1));
+  return { picture, place, bounds, texts, lines, marks, words: texts.map((t) => t.text), subject, staging };
+}
+
+// --- every size ------------------------------------------------------------------------------------------------------------------------------
+const LOW = [[844, 390], [667, 375], [740, 360], [812, 375], [896, 414], [932, 430], [1000, 450], [640, 400]];
+const scenes = [['spring', ['explicit-euler', 'verlet']], ['kepler', ['symplectic-euler', 'velocity-verlet']], ['pendulum', ['explicit-euler']], ['comet', ['explicit-euler', 'velocity-verlet']],
+  ['charged-particle', ['explicit-euler', 'boris']], ['thrown-ball', ['explicit-euler', 'midpoint']], ['chain', ['velocity-verlet']]].map(([name, methods]) => sceneOf(name, methods));
+test('on a low window every motion has room, from left to right', () => {
+  for (const scene of scenes) for (const [width, height] of LOW) {
+    const room = width - 284, name = `${scene.state.preset}, ${width} × ${height}`, motion = page.motionOf(scene, page.subjects(scene.description, scene.solution)[0]);
+    // The line of title and equation crosses the stage.
+    const { place, lines, texts } = drawn(scene, undefined, { width: room, height, column: room - 12, page: { width, height } });
+    assert.ok(place.frame.right - place.frame.left >= 150 && place.frame.left >= 0 && place.frame.right <= room, `${name}: the frame`);
+    const curve = lines.filter((l) => l.colour === page.named.ink.exact && l.width === 4).at(-1).xy.filter((_, k) => k % 2 === 0), wide = Math.max(...curve) - Math.min(...curve);
+    assert.ok(wide > 100 && Math.min(...curve) >= 0 && Math.max(...curve) <= room, `${name}: the exact motion is ${wide} px wide, from ${Math.min(...curve)}`);
+    if (motion.subject.kind === 'time') assert.ok(curve[0] < curve.at(-1), `${name}: time goes to the right`);
+    for (const t of texts) assert.ok(t.left >= -1 && t.right <= room + 4, `${name}: “${t.text}” from ${t.left} to ${t.right}`);
+  }
+});
+
+// --- numbers are what is drawn -----------------------------------------------------------------------------------------------------------------
+test('a bracket is as long as the number beside it, at every time', () => {
+  for (const [name, methods, options] of [['thrown-ball', ['explicit-euler', 'symplectic-euler'], { step: 0.4 }], ['thrown-ball', ['explicit-euler', 'symplectic-euler'], { step: 0.05 }], ['thrown-ball-air', ['explicit-euler', 'midpoint'], { step: 0.2 }]]) {
+    const scene = sceneOf(name, methods, options);
+    let judged = 0;
+    for (let t = 0.05; t < 2; t += 0.049) {
+      const { lines, texts, picture, bounds, place } = drawn(scene, t), unit = (place.frame.bottom - picture.handle.fromY) / 1.7;
+      assert.ok(bounds[1][0] === 0 && unit > 20);
+      for (const [colour, word] of [[scene.looks[0].colour, 'too high'], [scene.looks[1].colour, name === 'thrown-ball' ? 'too low' : 'too high']]) {
+        const shaft = lines.find((l) => l.colour === colour && l.width === 1.75 && l.xy.length === 4), number = texts.map((x) => /(?:^|  )([\d.]+) m (too high|too low)$/.exec(x.text)).find((m) => m?.[2] === word);
+        if (!shaft || !number) continue;
+        judged++;
+        // From 5 px off the ball's middle to 2 px before the method's.
+        const drawnLength = (Math.abs(shaft.xy[3] - shaft.xy[1]) + 7) / unit;
+        assert.ok(Math.abs(drawnLength - Number(number[1])) * unit < 3, `${name}, t = ${t}: drawn ${drawnLength} m, told ${number[0]}`);
+      }
+    }
+    assert.ok(judged > 10, `${name}: ${judged} brackets`);
+  }
+  // Before the first step has landed, who is seen beside it is not "on it".
+  assert.ok(!drawn(sceneOf('thrown-ball', ['symplectic-euler'], { step: 0.4 }), 0.2).words.some((w) => w.endsWith('on it')));
+});
+
+const own = (text, methods, options) => sceneOf('', methods, { ...options, text });
+test('who swings too wide, and who only leaves', () => {
+  const last = (scene) => drawn(scene).words.filter((w) => / times too wide at |^at /.test(w));
+  assert.deepEqual(last(own("x'' = -9.81\nx(0) = 1000\nstep 0.1\nuntil 1", ['explicit-euler'])), []);
+  assert.ok(!drawn(own("x'' = -9.81\nx(0) = 1000\nstep 0.1\nuntil 1", ['symplectic-euler'])).words.some((w) => w.includes('too wide')), 'a fall is no swing');
+  assert.match(last(sceneOf('spring', ['explicit-euler'], { step: 0.16, until: 20 })).join(), /^4\.[89] times too wide at 20 s$/);
+  assert.match(last(sceneOf('spring', ['explicit-euler'])).join(), /^4\.5 times too wide at 60 s$/);
+  // Swings that grow: the largest of the last one, of the method and of the exact motion.
+  assert.match(last(sceneOf('resonance', ['explicit-euler'])).join(), /^2\.3 times too wide at 60 s$/);
+});
+test('a method leaves when its line crosses the edge', () => {
+  const { picture, words } = drawn(sceneOf('thrown-ball', ['symplectic-euler'], { step: 0.4 })), [left] = picture.leaving;
+  // Below the ground, in its last step.
+  assert.ok(left && left.time > 1.6 && left.time < 1.99, `at ${left?.time}`);
+  assert.ok(words.includes(`at ${Number(left.time.toPrecision(3))} s`) && picture.remarks()[0].includes(String(Number(left.time.toPrecision(4)))), words.join());
+});
+test('an axis of numbers that nearly agree says from which one they differ', () => {
+  assert.ok(drawn(own("x'' = -9.81\nx(0) = 6371000\nstep 0.1\nuntil 1", ['midpoint'])).words.some((w) => w.replaceAll('\u2009', ' ').includes('6 371 000 +')));
+  assert.ok(drawn(own("T' = -1e-6 (T - 20)\nT(0) = 90\nstep 1\nuntil 10", ['rk4'])).words.some((w) => w.includes('90 +')));
+  assert.ok(!drawn(sceneOf('spring', ['verlet'])).words.some((w) => w.endsWith(' +')));
+});
+test('a throw ends on the ground, and the picture says so', () => {
+  for (const options of [{ set: { "r'(0)": '(6, 3)' } }, { until: 4 }]) {
+    const { bounds, words, texts, picture, place } = drawn(sceneOf('thrown-ball', ['explicit-euler', 'symplectic-euler'], options));
+    assert.ok(bounds[1][0] === 0 && bounds[0][1] < 15, JSON.stringify(bounds));
+    assert.ok(words.some((w) => /^exact lands at [\d.]+ s$/.test(w)) && words.includes('symplectic Euler lands'), words.join(' | '));
+    assert.match(picture.remarks()[0], /below the ground/);
+    for (const t of texts) assert.ok(t.left >= 0 && t.right <= place.width + 4 && t.y < place.height, t.text);
+  }
+});
