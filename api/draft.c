@@ -103,13 +103,13 @@ static void of_rates(const draft_scales *d, proposal *p, motus_settings *set)
 /* Makes both numbers plain, and keeps what is given. */
 static void settle(const draft_scales *d, proposal *p, motus_settings *set)
 {
-    const bool ends = d->duration > 0;
+    const bool ends = !isnan(set->until);
     if (!isnan(set->step))
         p->step = set->step;
     else if (ends && d->duration / p->step > STEPS_MOST)
         p->step = rounded(d->duration / STEPS_MOST, 2, NEAR);
     else
-        p->step = rounded(fmin(p->step, ends ? d->duration / STEPS_A_FLIGHT : INFINITY), 2, NEAR);
+        p->step = rounded(fmin(p->step, d->duration > 0 ? d->duration / STEPS_A_FLIGHT : INFINITY), 2, NEAR);
     if (!ends && p->duration > STEPS_MOST * p->step) {
         p->duration = STEPS_MOST * p->step;
         snprintf(set->until_why, sizeof set->until_why, "%.0f steps", STEPS_MOST);
@@ -118,7 +118,7 @@ static void settle(const draft_scales *d, proposal *p, motus_settings *set)
     if (!isnan(set->step)) {
         set->step_why[0] = 0;
     } else {
-        set->step = d->uniform && ends ? duration / ceil(duration / p->step) : p->step;
+        set->step = d->uniform && d->duration > 0 ? duration / ceil(duration / p->step) : p->step;
     }
     if (ends)
         set->until_why[0] = 0;

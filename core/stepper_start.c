@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define STEPS_TOLD 1e5 /* decimal_time of so many steps tells the times of two steps apart */
+
 /* Errors ---------------------------------------------------------------------------------------------------------- */
 
 static const char *name_of(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
@@ -18,7 +20,7 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
 {
     const work *w = &s->work;
     char time[DECIMAL_MAX], name[MOTUS_NAME_MAX], step[DECIMAL_MAX];
-    decimal(t, time);
+    decimal_time(t, STEPS_TOLD * w->h, time);
     decimal(w->h, step);
     name_of(s, w->in_v, w->which, name);
     motus_status status = MOTUS_CALLBACK;

@@ -37,6 +37,8 @@ export function appended(text: string, lines: readonly string[]): Repair {
   return { label: '', from: text.length, to: text.length, text: (open ? '' : '\n') + lines.join('\n') + (open ? '\n' : '') };
 }
 
+const DEGREES = /^deg(rees?)?$/, UNITS = /^(m|s|kg|rad)$/;
+
 export function repairs(text: string, problem: Problem): Repair[] {
   const place = placeOf(text, problem), { word, instead } = problem;
   if (word === '') return instead === '' ? [] : [{ ...appended(text, [instead]), label: words.editor.repair.add(instead) }];
@@ -44,7 +46,10 @@ export function repairs(text: string, problem: Problem): Repair[] {
   const [from] = place, to = from + word.length, found: Repair[] = [];
   if (instead !== '') found.push({ label: words.editor.repair.replace(instead), from, to, text: instead });
   if (problem.kind === 'name' && !/^['′’([]/.test(text.slice(to))) {
-    const line = beginning(text, from);
+    const line = beginning(text, from), number = /(?:^|[^\p{L}\p{N}_.])(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?[ \t]*$/u.exec(text.slice(0, from));
+    // A number with its unit: angles are in radians, and a slider of 1 would make of 30 degrees 30 radians.
+    if (DEGREES.test(word)) return [...found, { label: words.editor.repair.add(`${word} = pi/180`), from: line, to: line, text: `${word} = pi/180\n` }];
+    if (number && UNITS.test(word)) found.push({ label: words.editor.repair.remove(word), from: from - (/[ \t]*$/.exec(text.slice(0, from))?.[0].length ?? 0), to, text: '' });
     found.push({ label: words.editor.repair.slider, from: line, to: line, text: `${word} = 1\n` });
   }
   return found;

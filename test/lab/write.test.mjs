@@ -63,6 +63,13 @@ test('repairs', () => {
   assert.equal(replace.label, 'Replace by theta');
   assert.deepEqual(repairs('𝜃x = sni(x)', wrong(1, 6, 'sni', 'sin')).map(r => [r.label, r.from]), [['Replace by sin', 6]]);
   assert.deepEqual(repairs('x = k', wrong(1, 5, 'k', '')).map(r => r.label), ['Make it a slider']);
+  // A slider of 1 would make 30 radians of 30 degrees.
+  for (const unit of ['deg', 'degrees']) {
+    const line = `theta(0) = 30 ${unit}\n`, found = repairs(line, wrong(1, 15, unit, ''));
+    assert.deepEqual(found.map(r => [r.label, applied(line, r)]), [[`Add ${unit} = pi/180`, `${unit} = pi/180\n${line}`]]);
+  }
+  assert.deepEqual(repairs('x(0) = 2.5 kg', wrong(1, 12, 'kg', '')).map(r => [r.label, applied('x(0) = 2.5 kg', r)]), [['Remove the unit kg', 'x(0) = 2.5'], ['Make it a slider', 'kg = 1\nx(0) = 2.5 kg']]);
+  assert.deepEqual(repairs('x = x2 m', wrong(1, 8, 'm', '')).map(r => r.label), ['Make it a slider']);
   assert.deepEqual(repairs('method rk', { ...wrong(1, 8, 'rk', 'rk4'), kind: 'method' }).map(r => r.label), ['Replace by rk4']);
   assert.equal(applied("x'' = -x", repairs("x'' = -x", wrong(1, 1, '', 'x(0) = 1'))[0]), "x'' = -x\nx(0) = 1");
   assert.deepEqual(repairs('x = 2', wrong(1, 5, 'k', 'l')), []);       // the text has changed meanwhile
