@@ -8,3 +8,5 @@ addEventListener('click', ({ target }) => {
   if (window.early !== undefined && target instanceof Element) window.early = target.closest('button');
 }, true);
 fitFirst();
+// It has done its work: no script stays in the part of the page that shows.
+document.currentScript?.remove();

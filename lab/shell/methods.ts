@@ -134,6 +134,8 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
   const cut = (): void => { list.classList.toggle('cut', list.scrollWidth - list.clientWidth - list.scrollLeft > 8); };
   list.addEventListener('scroll', cut, { passive: true });
   new ResizeObserver(cut).observe(list);
+  // The key Tab may come to one that is half out of sight.
+  list.addEventListener('focusin', ({ target }) => { if (target instanceof HTMLElement) target.scrollIntoView({ block: 'nearest', inline: 'nearest' }); });
   search.addEventListener('input', filter);
   search.addEventListener('keydown', event => { if (event.key === 'Escape' && search.value) { search.value = ''; filter(); event.stopPropagation(); } });
   store.subscribe(what => { if (what !== 'view' && what !== 'busy') refresh(); });
