@@ -112,7 +112,7 @@ await attempt('paper', async () => {
   await page.getByRole('button', { name: 'Why do the two Eulers miss?' }).click();
   await page.locator('.choice').first().waitFor();
   await page.emulateMedia({ media: 'print' });
-  judge('paper, in a lesson: the picture and its equation', (await printed()).join().includes('pill,math,stage-figure') && !await page.locator('.choice').first().isVisible(), (await printed()).join());
+  judge('paper, in a lesson: its words, the picture and its equation', /pill,math,h1,h2,p,(?:legend,)?stage-figure/.test((await printed()).join()) && !await page.locator('.choice').first().isVisible(), (await printed()).join());
   await clean('paper', page);
 });
 await finish();
