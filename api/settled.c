@@ -1,7 +1,7 @@
 /* From when on a followed motion is where it ends. See settled.h.
  *
- * Invariant: samples lie so that neighbours are at least a fiftieth of their time apart, so a thousand of them span nine
- * powers of ten.
+ * Invariant: neighbouring samples are at least a fiftieth of their time apart, so a thousand of them span eight powers
+ * of ten.
  */
 #include "api/settled.h"
 
