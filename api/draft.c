@@ -19,6 +19,8 @@
 #define HORIZON 200 /* of the scales of time at the start: so long the motion is followed */
 #define SCALES 5    /* of what decays */
 #define SHORT_OF 0.95
+#define SEVERAL 1.15        /* the slowest swing over the fastest, where they are told apart */
+#define START "for a start" /* the reason of what follows from nothing that was followed */
 
 typedef enum rounding { NEAR, DOWN } rounding;
 
@@ -37,7 +39,9 @@ static double rounded(double x, int count, rounding way)
 /* A proposal: numbers before they are rounded. */
 typedef struct proposal {
     double step, duration;
+    int digits; /* of the duration */
     rounding end;
+    bool counts; /* the reason of the step is how many there are */
 } proposal;
 
 static const char *word_of(const motus_system *s, size_t number)
@@ -50,15 +54,27 @@ static const char *word_of(const motus_system *s, size_t number)
 
 static void of_swings(const motus_system *s, const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
 {
-    const char *word = word_of(s, m->slowest);
+    const bool several = m->longest > SEVERAL * m->shortest;
+    const char *mean = m->irregular ? ", on average" : "";
     p->step = m->shortest / STEPS_A_SWING;
     p->duration = 3 * m->longest;
-    snprintf(set->step_why, sizeof set->step_why, "%d to a %s", STEPS_A_SWING, word);
-    snprintf(set->until_why, sizeof set->until_why, "three %ss", word);
-    const double fast = fmin(TWO_PI / d->rate / STEPS_A_RATE, m->change > 0 ? m->change : INFINITY);
+    snprintf(set->step_why, sizeof set->step_why, several ? "%d to its fastest %s%s" : "%d to a %s%s", STEPS_A_SWING,
+             word_of(s, m->fastest), mean);
+    snprintf(set->until_why, sizeof set->until_why, several ? "three of its slowest %ss%s" : "three %ss%s",
+             word_of(s, m->slowest), mean);
+    const double fast = fmin(TWO_PI / fmax(d->rate, m->fast) / STEPS_A_RATE, m->change > 0 ? m->change : INFINITY);
     if (p->step <= fast) return;
     p->step = fast;
     snprintf(set->step_why, sizeof set->step_why, "its fastest change");
+}
+
+/* Steps of equal number, which settle() counts; where the draft was too short to follow it, as short as those were. */
+static void even_steps(const followed *m, int steps, double rate, proposal *p)
+{
+    p->step = p->duration / steps;
+    if (rate > 0) p->step = fmin(p->step, TWO_PI / rate / STEPS_A_RATE);
+    if (m && m->cut) p->step = fmin(p->step, m->step / 2);
+    p->counts = true;
 }
 
 static void of_bound(const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
@@ -66,85 +82,132 @@ static void of_bound(const draft_scales *d, const followed *m, proposal *p, motu
     char at[DECIMAL_MAX];
     p->duration = SHORT_OF * m->bound;
     p->end = DOWN;
-    p->step = p->duration / STEPS_A_SWING;
-    snprintf(set->step_why, sizeof set->step_why, "%d steps", STEPS_A_SWING);
-    snprintf(set->until_why, sizeof set->until_why, "infinite at %s",
-             decimal(d->from + rounded(m->bound, 3, DOWN), at));
+    even_steps(m, STEPS_A_SWING, d->rate, p);
+    if (m->end == FOLLOW_UNDEFINED)
+        snprintf(set->until_why, sizeof set->until_why, "near where its force is undefined");
+    else
+        snprintf(set->until_why, sizeof set->until_why, "%s at %s", m->end == FOLLOW_INFINITE ? "infinite" : "singular",
+                 decimal(d->from + d->way * rounded(m->bound, 3, NEAR), at));
 }
 
-static void of_growth(const followed *m, proposal *p, motus_settings *set)
+static void of_growth(const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
 {
+    char at[DECIMAL_MAX];
     p->duration = m->grown;
-    p->step = m->grown / STEPS_A_SWING;
-    snprintf(set->step_why, sizeof set->step_why, "%d steps", STEPS_A_SWING);
-    snprintf(set->until_why, sizeof set->until_why, "grown %d times", FOLLOW_GROWTH);
+    even_steps(m, STEPS_A_SWING, d->rate, p);
+    if (m->since == 0)
+        snprintf(set->until_why, sizeof set->until_why, "grown %d times", FOLLOW_GROWTH);
+    else
+        snprintf(set->until_why, sizeof set->until_why, "%d times its size at %s", FOLLOW_GROWTH,
+                 decimal(d->from + d->way * rounded(m->since, 3, NEAR), at));
 }
 
-static void of_flight(double duration, bool lands, proposal *p, motus_settings *set)
+static void of_settling(const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
 {
-    p->duration = duration;
-    p->step = duration / STEPS_A_FLIGHT;
-    snprintf(set->step_why, sizeof set->step_why, "%d steps", STEPS_A_FLIGHT);
-    snprintf(set->until_why, sizeof set->until_why, "%s", lands ? "when it is at 0" : "");
+    char to[DECIMAL_MAX];
+    p->duration = 1.1 * m->settled;
+    even_steps(m, STEPS_A_SWING, d->rate, p);
+    snprintf(set->until_why, sizeof set->until_why, "settled to 1 %% of its range, followed to %s",
+             decimal(d->from + d->way * rounded(m->elapsed, 2, DOWN), to));
 }
 
-/* What the motion does not tell, because it does nothing, or because it is too large to follow: the equations at the
+/* number: of v; of several, its name is told. */
+static void of_flight(const motus_system *s, double duration, bool lands, size_t number, const followed *m, double rate,
+                      proposal *p, motus_settings *set)
+{
+    char name[MOTUS_NAME_MAX] = "it";
+    const problem *q = &s->problem;
+    p->duration = duration;
+    p->digits = lands ? 3 : 2;
+    even_steps(m, STEPS_A_FLIGHT, rate, p);
+    if (q->nv > 1 && q->name) q->name(q->ctx, false, number, name, sizeof name);
+    if (lands) snprintf(set->until_why, sizeof set->until_why, "when %.40s is at 0", name);
+}
+
+/* What the motion does not tell, because it does nothing, or nothing of all that was followed: the equations at the
  * start. */
-static void of_rates(const draft_scales *d, proposal *p, motus_settings *set)
+static void of_rates(const draft_scales *d, const followed *m, proposal *p, motus_settings *set)
 {
     p->duration = (d->turns ? 3 : SCALES) * d->period;
     p->step = TWO_PI / d->rate / STEPS_A_SWING;
-    snprintf(set->step_why, sizeof set->step_why, "%d to its fastest swing", STEPS_A_SWING);
-    snprintf(set->until_why, sizeof set->until_why,
-             d->turns ? "three of its slowest swings" : "%d of its scales of time", SCALES);
-    if (!d->turns) snprintf(set->step_why, sizeof set->step_why, "its fastest rate");
+    if (m->cut && m->step / 2 < p->step) {
+        p->step = m->step / 2;
+        snprintf(set->step_why, sizeof set->step_why, START);
+    } else if (d->turns) {
+        snprintf(set->step_why, sizeof set->step_why, "%d to its fastest %sswing", STEPS_A_SWING,
+                 m->rests ? "small " : "");
+    } else {
+        snprintf(set->step_why, sizeof set->step_why, "its fastest rate at the start");
+    }
+    if (m->rests)
+        snprintf(set->until_why, sizeof set->until_why,
+                 d->turns ? "at rest; three of its slowest small swings" : "at rest, " START);
+    else
+        snprintf(set->until_why, sizeof set->until_why, START);
 }
 
-/* Makes both numbers plain, and keeps what is given. */
+static double step_of(const draft_scales *d, bool ends, proposal *p)
+{
+    const double within = d->duration > 0 ? d->duration : INFINITY;
+    if (ends && within < INFINITY && within / p->step > STEPS_MOST) {
+        p->counts = true;
+        return rounded(within / STEPS_MOST, 2, NEAR);
+    }
+    if (within / STEPS_A_FLIGHT < p->step) p->counts = true;
+    return rounded(fmin(p->step, within / STEPS_A_FLIGHT), 2, NEAR);
+}
+
+/* Makes both numbers plain, keeps what is given, and counts the steps of what they have become. */
 static void settle(const draft_scales *d, proposal *p, motus_settings *set)
 {
-    const bool ends = !isnan(set->until);
-    if (!isnan(set->step))
-        p->step = set->step;
-    else if (ends && d->duration / p->step > STEPS_MOST)
-        p->step = rounded(d->duration / STEPS_MOST, 2, NEAR);
-    else
-        p->step = rounded(fmin(p->step, d->duration > 0 ? d->duration / STEPS_A_FLIGHT : INFINITY), 2, NEAR);
+    const bool ends = !isnan(set->until), given = !isnan(set->step);
+    p->step = given ? set->step : step_of(d, ends, p);
     if (!ends && p->duration > STEPS_MOST * p->step) {
         p->duration = STEPS_MOST * p->step;
         snprintf(set->until_why, sizeof set->until_why, "%.0f steps", STEPS_MOST);
     }
-    const double duration = ends ? d->duration : fmax(rounded(p->duration, 2, p->end), p->step);
-    if (!isnan(set->step)) {
+    const double duration = ends ? d->duration : fmax(rounded(p->duration, p->digits, p->end), p->step);
+    if (!given) set->step = d->uniform && ends && duration > 0 ? duration / ceil(duration / p->step) : p->step;
+    const double steps = ceil(duration / set->step - 1e-9);
+    if (given)
         set->step_why[0] = 0;
-    } else {
-        set->step = d->uniform && d->duration > 0 ? duration / ceil(duration / p->step) : p->step;
-    }
+    else if (p->counts)
+        snprintf(set->step_why, sizeof set->step_why, "%.0f steps", steps);
     if (ends)
         set->until_why[0] = 0;
     else
-        set->until = d->from + (d->uniform ? ceil(duration / set->step - 1e-9) * set->step : duration);
+        set->until = d->from + (d->uniform ? steps * set->step : duration);
 }
 
-motus_status draft_choose(motus_system *s, const draft_scales *d, motus_settings *set, motus_error *err)
+motus_status draft_choose(motus_system *s, draft_scales *d, motus_settings *set, motus_error *err)
 {
     followed m = {0};
-    proposal p = {.end = NEAR};
-    const double way = set->until < d->from ? -1 : 1, horizon = HORIZON * d->period;
-    if (d->rate > 0 && !follow_motion(s, d->from, way, d->rate, horizon, &m))
+    proposal p = {.end = NEAR, .digits = 2};
+    /* A force without a rate at the start may still change: it is followed at the pace of the flight. */
+    const bool even = d->rate == 0;
+    const double horizon = HORIZON * d->period, rate = even ? 1 / d->period : d->rate;
+    d->way = set->until < d->from ? -1 : 1;
+    if (even && s->problem.traits.constant)
+        of_flight(s, d->period, d->lands, d->falling, NULL, 0, &p, set);
+    else if (!follow_motion(s, d->from, d->way, rate, horizon, &m))
         return fail(err, MOTUS_MEMORY, "no memory to follow the motion");
-    if (d->rate == 0)
-        of_flight(d->period, d->lands, &p, set);
+    d->rate = rate;
+    if (p.duration > 0)
+        ;
     else if (m.shortest > 0)
         of_swings(s, d, &m, &p, set);
+    else if (m.landed > 0)
+        of_flight(s, m.landed, true, m.falling, &m, even ? 0 : rate, &p, set);
     else if (m.bound > 0)
         of_bound(d, &m, &p, set);
-    else if (m.landed > 0)
-        of_flight(m.landed, true, &p, set);
+    else if (m.settled > 0)
+        of_settling(d, &m, &p, set);
     else if (m.grown > 0)
-        of_growth(&m, &p, set);
+        of_growth(d, &m, &p, set);
+    else if (even)
+        of_flight(s, d->period, false, 0, NULL, 0, &p, set);
     else
-        of_rates(d, &p, set);
+        of_rates(d, &m, &p, set);
     settle(d, &p, set);
     return MOTUS_OK;
 }

@@ -40,6 +40,7 @@ typedef struct scales {
     double size_x, size_v, size_a, size_moving; /* size_moving: of the velocities of positions */
     bool failed, no_memory;                     /* failed: a callback */
     bool turns, lands;                          /* the longest is one of an oscillation; the period is a flight's */
+    size_t falling;                             /* the position with the largest force */
     double rate, period;                        /* the fastest, 0: the force is constant; and the longest */
 } scales;
 
@@ -209,6 +210,7 @@ static double time_of_flight(scales *s)
     const double x = s->x[most], v = s->v[most], a = s->a[most], under = v * v - 2 * a * x;
     const double root = sqrt(fmax(under, 0)), one = (-v - root) / a, two = (-v + root) / a, t = fmax(one, two);
     s->lands = under >= 0 && t > 0;
+    s->falling = most;
     return s->lands ? t : time_of_values(s);
 }
 
@@ -318,7 +320,8 @@ static motus_status suggest(motus_system *system, motus_settings *set, motus_err
     status = measure(&s, duration, err);
     if (status != MOTUS_OK) return status;
     if (system->text.draft) {
-        const draft_scales d = {s.rate, s.period, s.lands, s.turns, from, duration, row_uniform(&row)};
+        draft_scales d = {.rate = s.rate, .period = s.period, .lands = s.lands, .falling = s.falling, .turns = s.turns};
+        d.from = from, d.duration = duration, d.uniform = row_uniform(&row);
         status = draft_choose(system, &d, set, err);
         if (status != MOTUS_OK) return status;
     } else {

@@ -365,13 +365,15 @@ MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *)
  * grows. The method is verlet. MOTUS_METHOD: as motus_method_admits. MOTUS_CALLBACK: a callback returned other than
  * 0.
  *
- * Of a system with `draft` it follows the motion itself, by an embedded pair of orders 3 and 2. Of what swings, the
- * step is 1/60 of the shortest swing, from a turning point to the next but one, and less where the motion changes
- * faster in between; the end comes after three of the longest swings. What runs away ends when it has grown 20
- * times, or before it is infinite. What falls ends where the number with the largest force is at 0. Both numbers
- * have two digits, and there are at most 10000 steps. What does none of this is chosen by its rates at the start: 60
- * steps in the period of the fastest, and 3 of the longest periods, or 5 scales of time of what does not oscillate.
- * */
+ * Of a system with `draft` it follows the motion itself, by an embedded pair of orders 3 and 2, and says of it what
+ * happened in what was followed. Of what swings, the step is 1/60 of the shortest swing, from a turning point to the
+ * next but one, and less where the motion changes faster in between; the end comes after three of the longest swings,
+ * means of those that differ. What falls ends where the number with the largest force is at 0. What becomes infinite
+ * or singular, or has no force any more, ends before. What settles ends when every number is within a hundredth of its
+ * range of where it stays, as long as it was followed. What runs away ends when it has grown 20 times. Where none of
+ * this shows, the rates at the start choose: 60 steps in the period of the fastest, and 3 of the longest periods, or 5
+ * scales of time of what does not oscillate, "for a start". The numbers have two digits, the end of a fall three, and
+ * there are at most 10000 steps. */
 MOTUS_API motus_status motus_suggest(motus_system *, motus_settings *, motus_error *);
 
 /* What the library knows of the equations: read off a model, given by the definition of a callback. 1: yes; 0: no, or
