@@ -110,3 +110,10 @@ test('a throw ends on the ground, and the picture says so', () => {
     for (const t of texts) assert.ok(t.left >= 0 && t.right <= place.width + 4 && t.y < place.height, t.text);
   }
 });
+test('“exact” alone is what a formula gives', () => {
+  const small = { width: 390, height: 330, column: 0, page: { width: 390, height: 844 } };
+  const said = (scene, size) => drawn(scene, undefined, size).words.filter((w) => /exact|computed/.test(w));
+  const computed = own("x'' = -sin(x)\nx(0) = 1\nstep 0.2\nuntil 10", ['explicit-euler']);
+  for (const size of [small, undefined]) assert.ok(said(computed, size).length > 0 && said(computed, size).every((w) => w.includes('computed')), said(computed, size).join());
+  assert.deepEqual(said(sceneOf('thrown-ball', ['explicit-euler']), small), ['exact']);
+});
