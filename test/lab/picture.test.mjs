@@ -117,3 +117,11 @@ test('“exact” alone is what a formula gives', () => {
   for (const size of [small, undefined]) assert.ok(said(computed, size).length > 0 && said(computed, size).every((w) => w.includes('computed')), said(computed, size).join());
   assert.deepEqual(said(sceneOf('thrown-ball', ['explicit-euler']), small), ['exact']);
 });
+test('bodies at rest are named, and numbers of axes in space stand apart', () => {
+  assert.deepEqual(drawn(sceneOf('arenstorf', ['gauss8'])).words.filter((w) => /Earth|Moon|Sun/.test(w)), ['Earth', 'Moon']);
+  for (const size of [DESK, { width: 356, height: 400, column: 0, page: { width: 640, height: 400 } }]) {
+    const numbers = drawn(sceneOf('charged-particle', ['boris']), 0, size).texts.filter((t) => /^−?[\d.]+$/.test(t.text));
+    assert.ok(numbers.length >= 4);
+    numbers.forEach((a, i) => numbers.slice(0, i).forEach((b) => assert.ok(a.right + 4 <= b.left || b.right + 4 <= a.left || Math.abs(a.y - b.y) >= 13, `${a.text} and ${b.text}`)));
+  }
+});

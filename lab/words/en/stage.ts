@@ -18,6 +18,8 @@ export const stage = {
     mass: (number: string) => `mass ${number}`,
   },
   velocity: 'velocity ',
+  /** Bodies at rest. */
+  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon' },
   /** The green curve, where a formula gives it and where it is computed; the latter in short. */
   exact: 'exact', computed: 'exact, computed', short: 'computed',
   /** Between the names of curves that coincide; how many others do. */
