@@ -16,7 +16,7 @@ const colourOf = (scene: Scene, method: string, otherwise: string): string => sc
 
 /** One step of a throw: its velocity and gravity in pixels of the drawing. */
 interface Throw { readonly x0: number; readonly y0: number; readonly vx: number; readonly vy: number; readonly g: number }
-const THROW: Throw = { x0: 16, y0: 118, vx: 150, vy: 104, g: 56 };
+const THROW: Throw = { x0: 16, y0: 118, vx: 130, vy: 104, g: 56 };
 /** The way of the ball during the step, and its straight lines with the velocity of the start, the middle, the end. */
 function flight(pen: Pen, ink: Ink, parts: number): number[] {
   const { x0, y0, vx, vy, g } = THROW, xy = Array.from({ length: 2 * parts + 2 }, (_, k) => { const t = (k >> 1) / parts; return k % 2 ? y0 - vy * t + g * t * t / 2 : x0 + vx * t; });
@@ -50,7 +50,8 @@ const drawings: Readonly<Record<string, Draw>> = {
     flight(pen, i, 24);
     pen.line([x0, y0, x0 + vx / 2, y0 - vy / 2], { colour: i.quiet, width: 1.25, dash: [2, 3] });
     pen.mark('ring', x0 + vx / 2, y0 - vy / 2, 4, colour);
-    pen.text(x0 + vx / 2 + 8, y0 - vy / 2 - 8, words.lesson.drawn.half, { colour: i.quiet });
+    // Below the lines, which rise from here.
+    pen.text(x0 + vx / 2 + 8, y0 - vy / 2 + 30, words.lesson.drawn.half, { colour: i.quiet });
     const [x, y] = along(pen, 0.5, colour, 'diamond', [9, 3, 2, 3]);
     pen.text(x + 9, y, words.lesson.drawn.on, { colour, baseline: 'middle' });
     start(pen, i);

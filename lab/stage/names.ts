@@ -35,10 +35,12 @@ function briefly(name: string, all: readonly string[]): string {
   return parts.length > 1 && all.some((other) => other !== name && other.split(/,? /).includes(last)) ? parts[0]! : last;
 }
 
+/** Exact alone is what a formula gives. */
+const shortOf = (label: Named): string => (label.names[0]?.text === words.stage.exact ? words.stage.exact : words.stage.short);
 /** "exact = midpoint"; three and more are counted. From the longest to the shortest way to say it. all: every name in the picture. */
 function waysOf(label: Named, ink: Ink, size: number, withMiss: boolean, all: readonly string[]): Span[][] {
   const full = namesOf(label, ink), { miss } = label, first = label.names[0];
-  const start = label.exact ? words.stage.short : briefly(first?.text ?? '', all), brief: Span[] = [{ text: start, colour: first?.colour, bold: true }], rest = full.slice(1);
+  const start = label.exact ? shortOf(label) : briefly(first?.text ?? '', all), brief: Span[] = [{ text: start, colour: first?.colour, bold: true }], rest = full.slice(1);
   const number: Span[] = miss && withMiss && !label.exact ? [{ text: `  ${miss.text}${miss.how ? ` ${miss.how}` : ''}`, size: size - 2 }] : [];
   return [...(number.length ? [[...full, ...number]] : []), full, ...(rest.length ? [[...brief, ...rest]] : []), brief];
 }
@@ -130,7 +132,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
       pen.line([start, label.y, end, Math.abs(y - label.y) > 3 ? y : label.y], { colour: label.line, width: 1, alpha: 0.55 });
     }
     if (!place.names) {
-      if (label.exact && upright) pen.text(textX, y, [{ text: words.stage.short, bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
+      if (label.exact && upright) pen.text(textX, y, [{ text: shortOf(label), bold: true }], { colour: label.colour, size: 12, anchor, baseline: 'middle', halo: ink.surface });
       return;
     }
     if (!named) return;

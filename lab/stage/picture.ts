@@ -216,7 +216,11 @@ export function pictureOf(setting: Setting): Picture {
       if (way.y(last) < ground - 1.2 * main.unit && way.y(last) > ground - 2.4 * main.unit) person(pen, ink, way.x(last), way.y(last), ground, main.unit, -1);
     }
     for (const { plot } of drawn) plot.draw(pen, ink);
-    if (subject.kind === 'plane' && main.along && main.up) for (const [x, y, r] of staging.rests ?? []) pen.mark('circle', main.along(x), main.up(y), r * (place.names ? 1 : 0.7), ink.axis, { rim: ink.surface });
+    if (subject.kind === 'plane' && main.along && main.up) for (const [x, y, radius, name] of staging.rests ?? []) {
+      const px = main.along(x), py = main.up(y), r = radius * (place.names ? 1 : 0.7);
+      pen.mark('circle', px, py, r, ink.axis, { rim: ink.surface });
+      pen.text(px - r - 4, py + r + 10, words.stage.bodies[name], { colour: ink.quiet, size: 12 * place.scale, anchor: 'end', halo: ink.surface });
+    }
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
     if (finished) return;

@@ -152,7 +152,7 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
   const nearest = corners.reduce((best, p, k) => (depth(p) < depth(corners[best]!) ? k : best), 0);
 
   /* Each axis is named at the edge of the outline that is lowest, or for the upright one leftmost; with the numbers of its ends. */
-  function name(pen: Pen, ink: Ink, d: number): void {
+  function name(pen: Pen, ink: Ink, d: number, taken: Box[]): void {
     let best: readonly [number, number] | null = null, score = -Infinity;
     for (const [i, j] of EDGES) {
       if ((j ^ i) !== 1 << d || i === nearest || j === nearest) continue;
@@ -165,8 +165,17 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
     const mx = (x0 + x1) / 2, my = (y0 + y1) / 2, away = Math.hypot(mx - cx, my - cy) || 1;
     const ox = (mx - cx) / away * 14, oy = (my - cy) / away * 14, anchor = ox > 5 ? 'start' : ox < -5 ? 'end' : 'middle';
     pen.text(mx + ox, my + oy, nameSpans(axes[d]?.name ?? '', 15 * letters), { colour: ink.text, size: 15 * letters, anchor, baseline: 'middle' });
-    for (const [share, value] of [[0.08, bounds[d]![0]], [0.92, bounds[d]![1]]] as const) {
-      pen.text(x0 + (x1 - x0) * share + ox * 0.8, y0 + (y1 - y0) * share + oy * 0.8, readable(value, 2), { colour: ink.quiet, size: 12 * letters, anchor, baseline: 'middle' });
+    for (const [end, value] of [[0, bounds[d]![0]], [1, bounds[d]![1]]] as const) {
+      const text = readable(value, 2), wide = textWidth(text, 12 * letters), half = 7 * letters;
+      // Where two axes meet, the number of the later one moves along its own; what finds no room is left out.
+      for (const inwards of [0.08, 0.16, 0.24, 0.32]) {
+        const share = end ? 1 - inwards : inwards, x = x0 + (x1 - x0) * share + ox * 0.8, y = y0 + (y1 - y0) * share + oy * 0.8;
+        const left = anchor === 'end' ? x - wide : anchor === 'middle' ? x - wide / 2 : x, own = { left: left - 3, right: left + wide + 3, top: y - half, bottom: y + half };
+        if (taken.some((t) => t.left < own.right && own.left < t.right && t.top < own.bottom && own.top < t.bottom)) continue;
+        taken.push(own);
+        pen.text(x, y, text, { colour: ink.quiet, size: 12 * letters, anchor, baseline: 'middle' });
+        break;
+      }
     }
   }
   return {
@@ -181,7 +190,8 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
         const front = i === nearest || j === nearest;
         pen.line([...at[i]!, ...at[j]!], { colour: front ? ink.grid : ink.ghost, width: 1, dash: front ? [2, 4] : [] });
       }
-      for (let d = 0; d < 3; d++) name(pen, ink, d);
+      const taken: Box[] = [];
+      for (let d = 0; d < 3; d++) name(pen, ink, d, taken);
     },
   };
 }

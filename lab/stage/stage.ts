@@ -345,7 +345,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const [across = '', up = ''] = subject.axes, from = brief(times[0] ?? 0), to = brief(times[times.length - 1] ?? 0);
     const seen = subject.kind === 'shape' ? words.stage.summary.shape(subject.bodies[0]?.label ?? '', from, to) : subject.kind === 'time' ? words.stage.summary.time(up, from, to)
       : subject.kind === 'space' ? words.stage.summary.space(from, to) : words.stage.summary.plane(across, up, from, to);
-    const errors = solution.errors.map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
+    // One that stopped has no place at the end; the remarks tell when it stopped.
+    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
     const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name));
     const told = distances.length === 0 ? [] : [scene.description.has_exact ? words.stage.summary.exact(distances) : words.stage.summary.reference(distances)];
     return words.stage.summary.whole([seen, ...told, ...picture.remarks()]);

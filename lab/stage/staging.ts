@@ -25,8 +25,8 @@ export interface Staging {
   readonly stops?: readonly [largest: number, count: number];
   /** How high a number lies is told as "too high", "too low". */
   readonly upright?: boolean;
-  /** Bodies at rest, with their radius in pixels. */
-  readonly rests?: readonly (readonly [x: number, y: number, radius: number])[];
+  /** Bodies at rest, with their radius in pixels, and their names. */
+  readonly rests?: readonly (readonly [x: number, y: number, radius: number, name: 'sun' | 'earth' | 'moon'])[];
   /** Rods from (0, 0) to these places, one after the other. */
   readonly rods?: readonly (readonly [x: string, y: string])[];
 }

@@ -50,15 +50,15 @@ export const stagings: Readonly<Record<string, Staging>> = {
     dials: [{ name: 'mu', low: 0, high: 10 }, { name: 'x(0)', low: -4, high: 4 }, { name: "x'(0)", low: -4, high: 4 }],
   },
   'kepler': {
-    rests: [[0, 0, 10]],
+    rests: [[0, 0, 10, 'sun']],
     ask: 'energy', dials: [{ name: 'e', low: 0, high: 0.95 }, { name: 'mu', low: 0.1, high: 2 }],
   },
   'comet': {
-    rests: [[0, 0, 8]], units: { x: 'au', t: 'years', v: 'au/year' },
+    rests: [[0, 0, 8, 'sun']], units: { x: 'au', t: 'years', v: 'au/year' },
     dials: [{ name: 'e', low: 0.5, high: 0.99 }],
   },
   'arenstorf': {
-    rests: [[-0.012277471, 0, 10], [0.987722529, 0, 5]],
+    rests: [[-0.012277471, 0, 10, 'earth'], [0.987722529, 0, 5, 'moon']],
     dials: [{ name: 'x(0)', low: 0.9, high: 1.1 }, { name: "y'(0)", low: -2.2, high: -1.8 }],
   },
   'outer-solar-system': { units: { x: 'au', t: 'days', v: 'au/day' }, dials: [{ name: 'G', low: 2e-4, high: 4e-4 }] },

@@ -110,3 +110,18 @@ test('a throw ends on the ground, and the picture says so', () => {
     for (const t of texts) assert.ok(t.left >= 0 && t.right <= place.width + 4 && t.y < place.height, t.text);
   }
 });
+test('“exact” alone is what a formula gives', () => {
+  const small = { width: 390, height: 330, column: 0, page: { width: 390, height: 844 } };
+  const said = (scene, size) => drawn(scene, undefined, size).words.filter((w) => /exact|computed/.test(w));
+  const computed = own("x'' = -sin(x)\nx(0) = 1\nstep 0.2\nuntil 10", ['explicit-euler']);
+  for (const size of [small, undefined]) assert.ok(said(computed, size).length > 0 && said(computed, size).every((w) => w.includes('computed')), said(computed, size).join());
+  assert.deepEqual(said(sceneOf('thrown-ball', ['explicit-euler']), small), ['exact']);
+});
+test('bodies at rest are named, and numbers of axes in space stand apart', () => {
+  assert.deepEqual(drawn(sceneOf('arenstorf', ['gauss8'])).words.filter((w) => /Earth|Moon|Sun/.test(w)), ['Earth', 'Moon']);
+  for (const size of [DESK, { width: 356, height: 400, column: 0, page: { width: 640, height: 400 } }]) {
+    const numbers = drawn(sceneOf('charged-particle', ['boris']), 0, size).texts.filter((t) => /^−?[\d.]+$/.test(t.text));
+    assert.ok(numbers.length >= 4);
+    numbers.forEach((a, i) => numbers.slice(0, i).forEach((b) => assert.ok(a.right + 4 <= b.left || b.right + 4 <= a.left || Math.abs(a.y - b.y) >= 13, `${a.text} and ${b.text}`)));
+  }
+});

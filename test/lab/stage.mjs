@@ -162,6 +162,14 @@ await attempt('a runaway', async () => {
   await clean('a runaway', page);
 });
 
+await attempt('one that stops', async () => {
+  const page = await open(`${singleFile}#v=1&m=${encodeURIComponent("x'' = x - x^3\nx(0) = 0.1\nstep 0.2\nuntil 60\n")}&a=explicit-euler,verlet`, { calm: true, height: 800 });
+  const told = () => page.locator('#stage-figure figcaption').textContent();
+  await page.waitForFunction(() => /stops at t/.test(document.querySelector('#stage-figure figcaption').textContent));
+  judge('… has no distance at the end', /Explicit Euler stops at t = [\d.]+/.test(await told()) && !/for explicit Euler/.test(await told()), await told());
+  await clean('one that stops', page);
+});
+
 // --- pinned -------------------------------------------------------------------------------------------------------------------------------------
 await attempt('a pinned run', async () => {
   const page = await open(singleFile, { calm: true, height: 800 });

@@ -18,8 +18,10 @@ export const stage = {
     mass: (number: string) => `mass ${number}`,
   },
   velocity: 'velocity ',
-  /** The green curve, where a formula gives it and where it is computed; in short. */
-  exact: 'exact', computed: 'exact, computed', short: 'exact',
+  /** Bodies at rest. */
+  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon' },
+  /** The green curve, where a formula gives it and where it is computed; the latter in short. */
+  exact: 'exact', computed: 'exact, computed', short: 'computed',
   /** Between the names of curves that coincide; how many others do. */
   equals: ' = ', several: (count: string) => `${count} methods`,
   /** How a point misses the exact motion; its number stands before. */
