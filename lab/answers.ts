@@ -16,7 +16,7 @@ import { computed } from './words';
 const NUMBERS_MAX = 4e6, NUMBERS_ENOUGH = 1e5, ROWS_ENOUGH = 1500;      // of one track: never more; beyond this fewer rows, down to so many
 const COLUMNS_MAX = 256;
 /* Of a curve that is drawn as the exact motion; times the rows that are asked for, while they are few. Milliseconds: of a draft, and of reading a curve. */
-const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 1500, CURVE_LIMIT = { coarse: 600, certified: 1500 };
+const POINTS_MAX = 20_000, POINTS_A_ROW = 3, TRUTH_NUMBERS_MAX = 2e6, DRAFT_LIMIT = 4000, CURVE_LIMIT = { coarse: 600, certified: 1500 };
 /* Times in a row at which a reference is asked first, to see how long it takes. */
 const TRIED = 16;
 const REGION_MAX = 250_000;
