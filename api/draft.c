@@ -179,35 +179,41 @@ static void settle(const draft_scales *d, proposal *p, motus_settings *set)
         set->until = d->from + (d->uniform ? steps * set->step : duration);
 }
 
+/* The first of these that the motion shows decides. */
+static void of_motion(motus_system *s, const draft_scales *d, const followed *m, bool even, proposal *p,
+                      motus_settings *set)
+{
+    if (m->shortest > 0)
+        of_swings(s, d, m, p, set);
+    else if (m->landed > 0)
+        of_flight(s, m->landed, true, m->falling, m, even ? 0 : d->rate, p, set);
+    else if (m->bound > 0)
+        of_bound(d, m, p, set);
+    else if (m->settled > 0)
+        of_settling(d, m, p, set);
+    else if (m->grown > 0)
+        of_growth(d, m, p, set);
+    else if (even)
+        of_flight(s, d->period, false, 0, NULL, 0, p, set);
+    else
+        of_rates(d, m, p, set);
+}
+
 motus_status draft_choose(motus_system *s, draft_scales *d, motus_settings *set, motus_error *err)
 {
     followed m = {0};
     proposal p = {.end = NEAR, .digits = 2};
     /* A force without a rate at the start may still change: it is followed at the pace of the flight. */
     const bool even = d->rate == 0;
-    const double horizon = HORIZON * d->period, rate = even ? 1 / d->period : d->rate;
+    const double horizon = HORIZON * d->period;
+    if (even) d->rate = 1 / d->period;
     d->way = set->until < d->from ? -1 : 1;
     if (even && s->problem.traits.constant)
         of_flight(s, d->period, d->lands, d->falling, NULL, 0, &p, set);
-    else if (!follow_motion(s, d->from, d->way, rate, horizon, &m))
-        return fail(err, MOTUS_MEMORY, "no memory to follow the motion");
-    d->rate = rate;
-    if (p.duration > 0)
-        ;
-    else if (m.shortest > 0)
-        of_swings(s, d, &m, &p, set);
-    else if (m.landed > 0)
-        of_flight(s, m.landed, true, m.falling, &m, even ? 0 : rate, &p, set);
-    else if (m.bound > 0)
-        of_bound(d, &m, &p, set);
-    else if (m.settled > 0)
-        of_settling(d, &m, &p, set);
-    else if (m.grown > 0)
-        of_growth(d, &m, &p, set);
-    else if (even)
-        of_flight(s, d->period, false, 0, NULL, 0, &p, set);
+    else if (follow_motion(s, d->from, d->way, d->rate, horizon, &m))
+        of_motion(s, d, &m, even, &p, set);
     else
-        of_rates(d, &m, &p, set);
+        return fail(err, MOTUS_MEMORY, "no memory to follow the motion");
     settle(d, &p, set);
     return MOTUS_OK;
 }
