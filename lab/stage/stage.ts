@@ -102,12 +102,13 @@ export function stage(store: Store, room: { column(): number }): Stage {
 
   // --- drawing -----------------------------------------------------------------------------------------------------------------------
   const enlarged = (): number => Number((holder.getBoundingClientRect().width / (holder.clientWidth || 1)).toFixed(3)) || 1;
+  const placeFor = (width: number, height: number): Place => (lecturing() ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined }));
   function fit(): boolean {
     const width = holder.clientWidth, height = holder.clientHeight;
     if (!width || !height) return false;
     // In a lecture, and on a very large screen, the style enlarges the stage: its pixels are the layout's, of which it has fewer.
     const s = Math.min(4, Math.max(1, devicePixelRatio || 1) * enlarged());
-    const next = lecturing() ? placeOf(width, height, 0, { width: width < 560 ? 700 : 1000, height: 1000 }) : placeOf(width, height, room.column(), { width: innerWidth, height: innerHeight, bare: store.state.embed !== undefined });
+    const next = placeFor(width, height);
     if (!place || JSON.stringify(next) !== JSON.stringify(place) || s !== scale) { place = next; ghost = null; picture = null; }
     scale = s;
     for (const canvas of [still, moving]) {
@@ -411,6 +412,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
       if (picture) { redrawMoving(); attach(); }
     },
     onGuess(listener) { guessed = listener; },
-    sees: () => ({ kind: subject?.kind ?? null, side: scene && subject && (place ?? (fit() ? place : null)) ? sideOf(scene, subject, staging(), place!) : '' }),
+    // As it would be drawn now: while it is out of sight it is not.
+    sees: () => ({ kind: subject?.kind ?? null, side: scene && subject ? sideOf(scene, subject, staging(), placeFor(holder.clientWidth, holder.clientHeight)) : '' }),
   };
 }
