@@ -19,7 +19,7 @@ export const notes: Readonly<Record<string, Note>> = {
   ],
   'driven-oscillator': [
     'The motion swells and dies away again: the softening spring falls out of step with the drive. Raise F from 0.1 to 0.11 and the mass escapes over the hill at |x| = 1.',
-    'Verlet ends 7×10⁻⁷ away from the motion at t = 100; halve the step and a quarter of that is left. The error panel shows it.',
+    'Verlet ends 7×10⁻⁷ away from the motion at t = 100; halve the step and a quarter of that is left. Below it is shown how far off it is.',
   ],
   'damped-cubic': [
     'The force depends on the velocity, and Verlet’s central difference for it makes the step an equation; being linear in the velocity, it is solved in closed form. The formula is in the theory, under Störmer–Verlet.',
@@ -27,7 +27,7 @@ export const notes: Readonly<Record<string, Note>> = {
   ],
   'damped-spring': [
     'Set F to 1 and move omega towards omega0 = 2: the steady swing grows, and lags further behind the force.',
-    'In the stability panel the points hλ now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
+    'In the plane of hλ, under the question how large the step may be, the points now lie to the left of the imaginary axis, where even explicit Euler has a step that is short enough.',
   ],
   pendulum: [
     'Let it go at theta = 2 and the swing takes a third longer than a small one. Start at 3.1, nearly upright, and it lingers at the top.',
@@ -43,7 +43,7 @@ export const notes: Readonly<Record<string, Note>> = {
   ],
   'van-der-pol': [
     'Start where you like, the motion ends on the same closed curve of the phase plane. The larger mu, the longer it creeps and the faster it jumps.',
-    'In the stability panel the points hλ run far to the left and back on each turn: raise mu, and explicit methods need ever shorter steps.',
+    'In the plane of hλ the points run far to the left and back on each turn: raise mu, and explicit methods need ever shorter steps.',
   ],
   'double-pendulum': ['Neighbouring motions part by a factor e every second. Change the first angle by 0.0001 and watch for how long nothing seems to have happened.'],
   'henon-heiles': ['Nearly all motions are regular below the energy 1/12; from there to 1/6, where the star can escape, chaos takes over. This start is between the two. A symplectic method keeps the energy, and with it the answer to the question whether the star may escape.'],
