@@ -39,7 +39,7 @@ const MOST = 0.34;
 export const shortLabel = (label: string): string => label.replace(/\s*\(.*\)$/, '');
 let context: CanvasRenderingContext2D | null | undefined;
 /** How wide bold letters are: measured, where there is a page; else nearly. */
-function bold(text: string, size: number): number {
+export function bold(text: string, size: number): number {
   context ??= typeof document === 'undefined' ? null : document.createElement('canvas').getContext('2d');
   if (!context) return 1.06 * textWidth(text, size);
   context.font = `600 ${size}px ${FAMILY}`;

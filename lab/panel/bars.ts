@@ -3,6 +3,7 @@
  * Invariant: a bar ends at the limit; a method without one has a ring at zero, or a bar that leaves the picture. What is beyond the picture has an arrow.
  */
 import { scaleAlong } from '../figure/axes';
+import { bold } from '../figure/ends';
 import { textWidth } from '../figure/shapes';
 import type { Ink, Pen } from '../figure/types';
 import type { Look } from '../scene';
@@ -22,7 +23,7 @@ const ROW = 30, TOP = 14, BELOW = 26, FOOT = 46, LEFT = 12, GAP = 12, THICK = 7,
 const FAR = 1.6;
 export const heightOf = (count: number): number => Math.max(LEAST, TOP + ROW * count + BELOW + FOOT);
 
-const wide = (text: string): number => 1.08 * textWidth(text, SIZE);
+const wide = (text: string): number => bold(text, SIZE) + 2;
 /** Numbers that fit into the width with the names behind the bars. */
 function reach({ bars, here }: Bars, room: number): number {
   const limits = bars.map(({ limit }) => (limit.kind === 'upTo' ? limit.value : 0)), longest = Math.max(...limits, 0);

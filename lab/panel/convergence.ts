@@ -129,6 +129,7 @@ export const convergence: PanelMaker = (store): Panel => {
     fig.redraw();
   }
   study.listen(update);
+  fig.say(words.study.going(study.label));
 
   return {
     id: 'convergence', title: say.title, element: fig.element,

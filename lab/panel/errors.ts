@@ -3,7 +3,7 @@
  * Invariant: what goes along runs from the left to the right, whether the numbers rise or fall.
  */
 import { axes, extent, padded } from '../figure/axes';
-import { drawEnds, endsLayout, shortLabel, type End, type EndsLayout } from '../figure/ends';
+import { bold, drawEnds, endsLayout, shortLabel, type End, type EndsLayout } from '../figure/ends';
 import { brief } from '../figure/number';
 import { textWidth } from '../figure/shapes';
 import type { Frame, Ink, Pen, Scale } from '../figure/types';
@@ -88,7 +88,7 @@ export const namesLayout = (width: number, labels: readonly string[]): EndsLayou
 /** The name and what it comes to, where that has room at the end of a curve; else the name. */
 export function endLabel(width: number, look: Look, whole: (name: string) => string): string {
   const name = shortLabel(look.label), text = whole(name);
-  return 1.06 * textWidth(text, 13) <= WIDEST * width || width < 480 ? text : name;
+  return bold(text, 13) <= WIDEST * width || width < 480 ? text : name;
 }
 
 /** By what the errors are judged. */

@@ -131,6 +131,7 @@ export const precision: PanelMaker = (store): Panel => {
     fig.redraw();
   }
   study.listen(update);
+  fig.say(words.study.going(study.label));
 
   return {
     id: 'precision', title: say.title, element: fig.element,

@@ -22,6 +22,8 @@ import { amount, moment, timeUnit } from './told';
 const say = words.study.stability;
 /** Moments of the run at which it is linearised: fewer where that is dear, by the numbers of the state; after the last change, so many milliseconds later. */
 const momentsFor = (numbers: number): number => (numbers <= 8 ? 128 : numbers <= 24 ? 32 : 16);
+/** A limit that is found, not certified, is known to this part. */
+const NEARLY = 2e-4;
 const PAUSE = 120, PLANE = { aspect: 0.78, tallest: 0.8 };
 
 const cardOf = (scene: Scene, name: string): Method | undefined =>
@@ -47,7 +49,7 @@ export function largestSteps(judged: readonly Judged[], scale: number, here: num
   const groups = new Map<string, string[]>(), of = (kind: Limit['kind']): string[] => judged.filter((j) => j.limit.kind === kind).map((j) => j.name);
   const bars = judged.flatMap((j) => (j.limit.kind === 'upTo' ? [{ name: j.name, step: j.limit.value / scale }] : [])).sort((a, b) => a.step - b.step);
   for (const { name, step } of bars) groups.set(written(step), [...groups.get(written(step)) ?? [], name]);
-  const any = of('any'), never = of('never'), slow = of('slow'), unknown = of('unknown'), over = bars.filter((b) => here > b.step).map((b) => b.name);
+  const any = of('any'), never = of('never'), slow = of('slow'), unknown = of('unknown'), over = bars.filter((b) => here > b.step * (1 + NEARLY)).map((b) => b.name);
   const limits = [...groups].map(([step, names], k) => say.below(step, names, k === 0));
   const rest = [
     ...(any.length ? [say.any(any)] : []), ...(never.length || slow.length ? [[never.length ? say.never(never) : '', slow.length ? say.slow(slow, !never.length) : ''].filter(Boolean).join(', ')] : []),
@@ -67,8 +69,16 @@ export const stability: PanelMaker = (store): Panel => {
   const main = (): Method | undefined => { const look = methods()[0]; return scene && look ? cardOf(scene, look.method) : undefined; };
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? scene?.description.settings.step ?? 0);
   const unit = (): string => (scene ? timeUnit(scene) : '');
-  /** A step, with its unit. */
-  const written = (h: number): string => (h >= 1000 && h < 1e5 ? `${grouped(Number(h.toPrecision(3)))}${unit() && `\u2009${unit()}`}` : amount(h, unit()));
+  /** A step, with its unit: to three digits, or to as many as tell it from the step of the run; that one as it is. */
+  const plain = (h: number, digits: number): string => (h >= 1000 && h < 1e5 ? grouped(Number(h.toPrecision(digits))) : brief(h, digits));
+  const united = (text: string): string => `${text}${unit() && `\u2009${unit()}`}`;
+  function written(h: number): string {
+    const here = step();
+    if (h === here) return united(plain(h, 6));
+    let digits = 3;
+    while (digits < 6 && Math.abs(h - here) > NEARLY * here && plain(h, digits) === plain(here, digits)) digits++;
+    return united(plain(h, digits));
+  }
   const frequency = (): number => motion?.frequencies[0] ?? 0;
   /** Bars are of step times frequency, or of the step. */
   const swinging = (): boolean => motion?.kind === 'swings';
@@ -195,7 +205,7 @@ export const stability: PanelMaker = (store): Panel => {
     const h = step(), f = frequency();
     drawBars(pen, ink, swinging()
       ? { bars: barsOf(), here: h * f, hereText: brief(h * f, 3), others: motion.frequencies.slice(1).map((w) => h * w), name: say.axis }
-      : { bars: barsOf(), here: h, hereText: written(h), others: [], name: say.stepAxis });
+      : { bars: barsOf(), here: h, hereText: united(plain(h, 3)), others: [], name: say.stepAxis });
   }
 
   /* ---- saying ---- */
@@ -267,6 +277,7 @@ export const stability: PanelMaker = (store): Panel => {
     fig.redraw();
   }
 
+  tell();
   return {
     id: 'stability', title: say.title, element: fig.element,
     there: (next) => next.solution.tracks.some((track) => track.method !== 'exact'),
