@@ -21,7 +21,7 @@ export interface Headline { readonly element: HTMLElement; openEditor(open: bool
 
 /** sees: what the stage shows; changed: its room is another one. */
 export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, changed: () => void): Headline {
-  const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' });
+  const title = el('h1', { id: 'scene-title' }), sentence = el('p', { id: 'scene-words' }, document.getElementById('scene-words')?.textContent ?? '');
   const ask = el('p', { class: 'ask' }), pillMath = el('span', { class: 'pill-math' }, ...document.querySelectorAll('#words .pill-math > *'));
   const pill = button('', () => openEditor(true), { class: 'pill' }, pillMath, el('small', {}, words.headline.type));
   const began = document.createTextNode(''), revert = button(words.headline.back, () => { open(store.state.preset); }, { class: 'text-button' });
@@ -53,7 +53,7 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
     const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.ask ?? '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
     say(title, titleIn(store.state));
     document.title = words.top.title(title.textContent ?? '');
-    // Nothing is told of steps before they are made.
+    // Until steps are made, those of the build stand there.
     say(sentence, name === '' ? '' : (typeof about === 'string' ? about : steps ? about(words.headline.counted(steps, grouped(steps))) : sentence.textContent) || described(text));
     sentence.hidden = sentence.textContent === '';
     ask.replaceChildren(...(lesson ? [button(question, () => element.dispatchEvent(new CustomEvent('lesson', { detail: lesson, bubbles: true })), { class: 'ask-button' },

@@ -130,7 +130,7 @@ await attempt('whole lines, as many as the model has, up to 20', async () => {
 await attempt('what another program has in store', async () => {
   await area.fill("r'' = (0, -9.81)\nr(0) = (0, 0)\nr'(0) = (3, 4)\ny'' = y^2\ny(0) = 1");
   await told(page);
-  same('several dimensions, and an end before the infinite', await lines(page), ["y'(0) = 0 | at rest, not given", 'step  0.047 | 60 steps', 'until 2.8 | infinite at 2.97']);
+  same('several dimensions: what falls lands before the other is infinite', await lines(page), ["y'(0) = 0 | at rest, not given", 'step  0.041 | 20 steps', 'until 0.815 | when r.y is at 0']);
   await area.fill("x[i]'' = -x[i] for i = 1..3\nx[i](0) = i for i = 1..3\nr'' = -r\nr(0) = (1, 2, 3)");
   await told(page);
   same('families and vectors', (await lines(page)).slice(0, 2), ["x[i]'(0) = 0 for i = 1..3 | at rest, not given", "r'(0) = (0, 0, 0) | at rest, not given"]);
