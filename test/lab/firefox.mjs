@@ -82,7 +82,7 @@ async function way(browser) {
     await says(page, '#stage-figure figcaption', '^Path');
     await page.screenshot(join(shots, 'firefox-lesson.png'));
     await page.click('.lesson .primary', 'Throw');
-    judge('it answers', await says(page, '.answer', 'it ends 1\\.96 m above\\.'));
+    judge('it answers', await says(page, '.answer', 'it ends 1\\.96\\sm above\\.'));
     await page.until(rests);
     await page.click('.text-button', 'Leave');
   });
