@@ -57,10 +57,16 @@ const failure = (message: string): Problem => problem('page', message);
 /** "newmark(1/4, 1/2)" is of the family newmark. */
 export const family = (name: string): string => name.replace(/\(.*$/s, '').trim();
 
+/** The name that the catalogue has for a method which an address may call by another: yoshida4 is forest-ruth. */
+export function ownName(name: string, catalogue: readonly Method[]): string {
+  const called = family(name), found = catalogue.find(m => m.aliases.includes(called));
+  return found ? found.name + name.slice(called.length) : name;
+}
+
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
-export function admittedMethods(state: State, description: Description): { methods: string[]; refused: { name: string; reason: string | null }[] } {
+export function admittedMethods(state: State, description: Description, catalogue: readonly Method[]): { methods: string[]; refused: { name: string; reason: string | null }[] } {
   const refused: { name: string; reason: string | null }[] = [];
-  const methods = state.methods.filter(name => {
+  const methods = [...new Set(state.methods.map(name => ownName(name, catalogue)))].filter(name => {
     const entry = description.methods.find(m => m.name === name) ?? description.methods.find(m => m.name === family(name));
     if (!entry?.admitted) refused.push({ name, reason: entry?.reason ?? null });
     return entry?.admitted ?? false;
@@ -185,7 +191,7 @@ export function createStore(client: Client, initial: State): LiveStore {
     if (state === of && JSON.stringify(set) !== JSON.stringify(of.set)) state = as;
     of = as;
     const measured = await measure(of, model);
-    const { methods, refused } = admittedMethods(of, model);
+    const { methods, refused } = admittedMethods(of, model, catalogue);
     trouble = { ...well, ...measured.trouble, methods: words.trouble.methods(refused.map(({ name, reason }) => (reason === null ? words.trouble.unknown(name) : words.trouble.refused(looksOf([name], catalogue)[0]?.label ?? name, reason)))) };
     tell('description');
     // A bad step or end leaves the last picture; where there is none of this model, the model's own serve.

@@ -5,7 +5,7 @@
  */
 import { looksOf } from '../figure/ink';
 import type { Method } from '../protocol';
-import { admittedMethods, family, type LiveStore } from '../state';
+import { admittedMethods, family, ownName, type LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { words } from '../words';
 import { sample } from './sample';
@@ -27,8 +27,8 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
   let toggles: Toggle[] = [], shown = '', opened = '', front: readonly string[] = [], limitReached = false, last: readonly unknown[] = [];
   /** What is drawn: the state's, or the model's own where the state names none. */
   const chosen = (): readonly string[] => {
-    if (store.state.methods.length) return store.state.methods;
-    return store.description ? admittedMethods(store.state, store.description).methods : [];
+    if (store.state.methods.length) return store.state.methods.map(name => ownName(name, store.catalogue));
+    return store.description ? admittedMethods(store.state, store.description, store.catalogue).methods : [];
   };
   function press(name: string): void {
     const now = chosen();

@@ -94,7 +94,7 @@ await attempt('copy as command', async () => {
   const nasty = "# it's \"$HOME\" `id` $(id) \\ %41 </script> MOTUS_END\nk = 2\nx'' = -k sin(x) - 0.1 x'\nx(0) = 1\nx'(0) = 0\nstep 0.01\nuntil 3\nMOTUS = 1\n";
   const cases = [
     ['#v=1&p=projectile&a=midpoint', 'midpoint'], ['#v=1&p=pendulum&a=rk4&h=1%2F64&T=2%20pi&s=theta(0)%3D3', 'rk4'], ['#v=1&p=driven-oscillator&s=F%3D0.105', 'verlet'],
-    ['#v=1&p=kepler&a=kahan-li8', 'kahan-li8'], ['#v=1&p=damped-spring&a=newmark(1%2F4,%201%2F2)', 'newmark(1/4, 1/2)'], ['#v=1&p=charged-particle&a=boris&h=0.013', 'boris'], [`#v=1&m=${encodeURIComponent(nasty)}&a=verlet`, 'verlet'],
+    ['#v=1&p=kepler&a=kahan-li8', 'kahan-li8'], ['#v=1&p=kepler&a=yoshida4', 'forest-ruth'], ['#v=1&p=damped-spring&a=newmark(1%2F4,%201%2F2)', 'newmark(1/4, 1/2)'], ['#v=1&p=charged-particle&a=boris&h=0.013', 'boris'], [`#v=1&m=${encodeURIComponent(nasty)}&a=verlet`, 'verlet'],
     // The page supposes what the program wants said.
     [`#v=1&m=${encodeURIComponent("k = 1\ntheta'' = -k sin(theta)\ntheta(0) = 2")}&a=rk4&s=k%3D4`, 'rk4'], [`#v=1&m=${encodeURIComponent("r'' = -r\nr(0) = (1, 2)")}&a=verlet&h=0.01&s=r'(0)%3D(0,1)`, 'verlet'],
   ];
