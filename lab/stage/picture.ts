@@ -13,10 +13,11 @@ import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
-import { motionOf, type Line, type Motion, type Rows } from './motion';
-import { drawNames, missText, type Named } from './names';
+import { freePlaces } from './free';
+import { greenName, motionOf, type Line, type Motion, type Rows } from './motion';
+import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
-import { wideEnough, type Box, type Place } from './place';
+import { apart, wideEnough, type Box, type Place } from './place';
 import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
 import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
@@ -32,7 +33,7 @@ export interface Setting {
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
   /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
@@ -132,7 +133,7 @@ export function pictureOf(setting: Setting): Picture {
   const springX = Math.max(place.frame.left, place.text + 9) + 39;
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
-  const exactName = scene.description.has_exact ? words.stage.exact : words.stage.computed;
+  const exactName = greenName(scene);
   const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
   const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
 
@@ -317,8 +318,8 @@ export function pictureOf(setting: Setting): Picture {
     rods(pen, ink, time);
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
-    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
-    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
+    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - (place.names ? 8 : 2);
+    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all, notes: written(time) });
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     drawLanding(pen, ink, time);
@@ -394,7 +395,7 @@ export function pictureOf(setting: Setting): Picture {
   /** On a small stage: names where a curve is farthest from the exact one, outside of it. */
   function atCurves(pen: Pen, ink: Ink, time: number): void {
     if (!truth || !single || lines.length > 5) return;
-    const taken: Box[] = [];
+    const taken: Box[] = written(time);
     curves.methods.forEach((of, i) => {
       const c = of[0]!;
       if (nowhere.has(i) || curves.same[i] !== i || c.exit) return;
@@ -415,7 +416,7 @@ export function pictureOf(setting: Setting): Picture {
       for (let row = 0; row < n; row++) if (Math.abs(c.way.x(row) - x) < half + 12) y = above ? Math.min(y, c.way.y(row)) : Math.max(y, Math.min(c.way.y(row), c.way.y(best) + 20));
       y += above ? -12 : 18;
       const box = { left: x - half, right: x + half, top: y - 12, bottom: y + 3 };
-      if (taken.some((t) => t.left < box.right && box.left < t.right && t.top < box.bottom && box.top < t.bottom)) return;
+      if (!taken.every((t) => apart(t, box))) return;
       taken.push(box);
       pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, c.line.look.label, { colour: c.line.look.tone, size: 13, bold: true, anchor: 'middle', halo: ink.surface });
     });
@@ -428,27 +429,49 @@ export function pictureOf(setting: Setting): Picture {
     return at === null ? null : { time: at, ...pointAt(curves.exact[0]!.way, truth.times, at) };
   })();
   const seconds = (time: number): string => `${brief(time, 3)}${staging.units ? `\u2009${staging.units.t}` : ''}`;
-  function drawLanding(pen: Pen, ink: Ink, time: number): void {
-    if (!landing || time < landing.time) return;
-    const text = words.stage.lands(exactName, seconds(landing.time)), size = leaveSize, wide = textWidth(text, size) * 1.06;
-    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
-    pen.text(Math.max(place.text + 4, Math.min(place.width - 4 - wide, landing.x + place.ball + 6)), landing.y - 8, [{ text, bold: true }], { colour: ink.exact, size, halo: ink.surface });
-  }
   const leaving: Leaving[] = [], leaveSize = (place.names ? 14 : 12) * place.scale;
+  /** What is written where a motion comes to the ground or leaves the picture, and from when on. */
+  const notes: { readonly box: Box; readonly time: number }[] = [], { frame } = place;
+  const free = freePlaces({
+    left: place.text + 4, right: drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : side === 'rod' ? main.box.right + 100 * place.scale : place.width - 4,
+    top: Math.max(0, frame.top - 8), bottom: Math.min(main.box.bottom, place.height) - 4,
+  });
+  /** Puts a note down and answers where. */
+  function note(left: number, top: number, width: number, height: number, time: number): Box {
+    if (!notes.length) occupy();
+    const at = free.put(left - CLEAR, top - CLEAR, width + 2 * CLEAR, height + 2 * CLEAR), box = { left: at.left + CLEAR, right: at.left + CLEAR + width, top: at.top + CLEAR, bottom: at.top + CLEAR + height };
+    notes.push({ box, time });
+    return box;
+  }
+  /** All curves, and the names and numbers where those end that stay. */
+  function occupy(): void {
+    for (const { path } of curves.exact) free.line(path.xy, path.count);
+    for (const of of curves.methods) for (const { path } of of) free.line(path.xy, path.count);
+    if (handle) free.line([handle.fromX, handle.fromY, handle.x, handle.y], 2);
+    const ends = [...(truth && !landing ? [pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!)] : []),
+      ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.line.track.times, last(c.line))] : []))];
+    for (const { x, y } of ends) if (single) free.take({ left: x - place.ball, right: x + (place.names ? 200 : 76) * place.scale, top: y - 12, bottom: y + 12 });
+  }
+  const written = (time: number): Box[] => notes.filter((n) => time >= n.time).map((n) => n.box);
+  const landed = landing && ((): { readonly text: string; readonly left: number; readonly y: number } => {
+    const text = words.stage.lands(exactName, seconds(landing.time)), at = note(landing.x + place.ball + 6, landing.y - 8 - leaveSize, textWidth(text, leaveSize) * 1.06, 1.4 * leaveSize, landing.time);
+    return { text, left: at.left, y: at.top + leaveSize };
+  })();
+  function drawLanding(pen: Pen, ink: Ink, time: number): void {
+    if (!landing || !landed || time < landing.time) return;
+    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
+    pen.text(landed.left, landed.y, [{ text: landed.text, bold: true }], { colour: ink.exact, size: leaveSize, halo: ink.surface });
+  }
   const wideOf = (l: Pick<Leaving, 'says' | 'more'>): number => Math.max(textWidth(l.says, leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
   curves.methods.forEach((of, i) => {
     const c = of.find((curve) => curve.exit);
     if (!c?.exit || nowhere.has(i)) return;
     const { exit } = c, low = exit.y > main.box.bottom - 40, name = shortLabel(c.line.look.label);
-    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(name) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
-    // Behind the arrow, before it where the right is too narrow, and never beyond the stage.
-    const room = place.width - 4, least = place.text + 4, anchor = exit.x + 14 + wide > room && exit.x - 14 - wide >= least ? 'end' as const : 'start' as const;
-    const left = anchor === 'end' ? exit.x - 14 - wide : Math.max(least, Math.min(exit.x + 14, room - wide)), high = leaveSize * 2.5 + 24;
-    let y = grounded ? exit.y - 84 : low ? exit.y - 46 : Math.max(26, exit.y + 8);
-    // Clear of the notes of those that left before, "show all" below the first one included.
-    const met = (at: number): boolean => leaving.some((l) => Math.abs(l.y - at) < high && l.left < left + wide + 8 && left < l.left + wideOf(l) + 8);
-    for (let k = 0; k < 12 && met(y); k++) y += low ? -high / 2 : high / 2;
-    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? left + wide : left, left, y, time: exit.time, anchor });
+    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(place.names ? name : briefly(name, names.all)) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
+    // Behind the arrow, before it where the right is too narrow; below the first note stands "show all".
+    const behind = exit.x + 14 + wide <= place.width - 4 || exit.x - 14 - wide < place.text + 4, high = leaveSize + (leaving.length ? (said.more ? 1.25 * leaveSize : 0) + 6 : (said.more ? 24 : 8) + (place.names ? 24 : 34));
+    const at = note(behind ? exit.x + 14 : exit.x - 14 - wide, (grounded ? exit.y - 84 : low ? exit.y - 46 : exit.y + 8) - leaveSize, wide, high, exit.time), anchor = at.left + wide / 2 < exit.x ? 'end' as const : 'start' as const;
+    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? at.right : at.left, y: at.top + leaveSize, time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
@@ -499,7 +522,8 @@ export function pictureOf(setting: Setting): Picture {
     })].filter(Boolean),
   };
 }
-const SPACING_LADDER = 8;
+/** Pixels of a ladder's rungs from one another; of a note from what it must not cover. */
+const SPACING_LADDER = 8, CLEAR = 4;
 
 /** How a runaway ends: by how much too wide it swings, or when it left. */
 function told(motion: Motion, curve: Curve, staging: Staging): string {

@@ -264,7 +264,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (at_ && place) ring.setAttribute('aria-valuenow', String(Math.round(at_.exact - at_.y)));
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
-    say(all, showAll ? words.stage.exactOnly : words.stage.all);
+    say(all, !showAll ? words.stage.all : !scene?.solution.truth ? words.stage.less : scene.description.has_exact ? words.stage.exactOnly : words.stage.computedOnly);
     const at = leaving ?? { x: (place?.width ?? 0) - 160, y: 24, anchor: 'start' as const, more: '' };
     all.style.left = leaving ? `${at.anchor === 'end' ? at.x - 62 : at.x}px` : 'auto';
     all.style.right = leaving ? 'auto' : '24px';

@@ -126,7 +126,7 @@ await attempt('the founding scene', async () => {
   await settled(page);
   await page.locator('.switch').click();
   await settled(page, 400);
-  same('air: another model, the same throw', [(await fields(page)).p, (await drawn(page)).words.some((w) => w.startsWith('exact, computed'))], ['thrown-ball-air', true]);
+  same('air: another model, the same throw', [(await fields(page)).p, (await drawn(page)).words.some((w) => w.startsWith('computed'))], ['thrown-ball-air', true]);
   judge('… in which mass matters', await page.getByLabel('Mass', { exact: true }).isVisible());
   await page.locator('.switch').click();
   await settled(page);
