@@ -10,6 +10,8 @@ const CELL = 6, COVERED = 60, LONGEST = 3e4;
 export interface Free {
   line(xy: ArrayLike<number>, count: number): void;
   take(box: Box): void;
+  /** How much of a box is covered, or lies outside; in cells. */
+  covered(box: Box): number;
   /** The left and the top of a box so large, as near to these as can be. */
   put(left: number, top: number, width: number, height: number): { readonly left: number; readonly top: number };
 }
@@ -24,6 +26,11 @@ export function freePlaces(within: Box): Free {
   }
   return {
     take,
+    covered({ left, right, top, bottom }) {
+      let count = 0;
+      for (let j = row(top); j <= row(bottom); j++) for (let i = column(left); i <= column(right); i++) if (i < 0 || j < 0 || i >= columns || j >= rows || full[i + columns * j]) count++;
+      return count;
+    },
     line(xy, count) {
       for (let k = 0; k + 1 < count; k++) {
         const x = xy[2 * k]!, y = xy[2 * k + 1]!, dx = xy[2 * k + 2]! - x, dy = xy[2 * k + 3]! - y, steps = Math.ceil(Math.min(LONGEST, Math.hypot(dx, dy)) / CELL * 1.5) || 1;

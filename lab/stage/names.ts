@@ -94,6 +94,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
   const from = Math.max(...sorted.map((l) => l.x)), least = Math.min(...sorted.map((l) => l.x)), reach = (name: Span[]): number => textWidth(name, size) * 1.04;
   const ways = sorted.map((l) => waysOf(l, ink, size, !numbered.has(l), all));
   const widest = place.names ? Math.max(...ways.map((w) => reach(w[w.length - 1]!)), numbered.size ? 116 * scale : 0) : 46;
+  const whole = Math.max(widest, ...ways.map((w) => reach(w[0]!)));
   // Clear of the text that stands on the stage.
   const leftmost = place.text ? place.text + 8 : box.left - 40, { way, textX } = side();
   const anchor = way < 0 ? 'end' as const : 'start' as const, base = way < 0 ? least : from, bracketX = base + way * (place.names ? BRACKET * scale : 16);
@@ -112,12 +113,12 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     const { left, top } = places.find((b) => fits(b) && clearOf(b)) ?? places.find((b) => fits(b)) ?? places[0]!;
     pen.text(left, top + 7, [{ text, bold: true }], { colour: label.colour, size: 12, baseline: 'middle', halo: ink.surface });
   }
-  /** Where names begin: outside of a path, at the nearer side; else beside the points, at the left where the right is too narrow. */
+  /** Where names begin: outside of a path, at the nearer side that has room for all of them, or for their short forms; else beside the points, at the left where the right is too narrow. */
   function side(): { readonly way: 1 | -1; readonly textX: number } {
     if (span && !upright && place.names) {
       const after = Math.max(span[1] + OUTSIDE, from + lead), before = Math.min(span[0] - OUTSIDE, least - lead);
-      const fits = { 1: after + widest <= right, [-1]: before - widest > leftmost }, nearer = from + least > span[0] + span[1] ? 1 : -1;
-      const chosen = fits[nearer] ? nearer : fits[1] ? 1 : fits[-1] ? -1 : 0;
+      const sides = from + least > span[0] + span[1] ? [1, -1] as const : [-1, 1] as const, fits = (chosen: 1 | -1, wide: number): boolean => (chosen > 0 ? after + wide <= right : before - wide > leftmost);
+      const chosen = sides.find((s) => fits(s, whole)) ?? sides.find((s) => fits(s, widest));
       if (chosen) return { way: chosen, textX: chosen > 0 ? after : before };
     }
     const flipped = from + lead + widest > right && least - lead - widest > 0;

@@ -14,7 +14,7 @@ import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Ran
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
 import { person, rod, spring } from './decor';
 import { freePlaces } from './free';
-import { greenName, motionOf, type Line, type Motion, type Rows } from './motion';
+import { errorsOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
 import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
@@ -82,7 +82,7 @@ export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all:
 
 /** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
 export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
-  if (subject.kind !== 'plane') return false;
+  if (subject.kind !== 'plane' || subject.unlike) return false;
   const [w, h] = bounds.map(([low, high]) => high - low) as [number, number];
   return staging.equal ?? (w <= 4 * h && h <= 4 * w);
 }
@@ -109,8 +109,8 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   }
   const equal = equalFor(subject, staging, bounds);
   const axes = [axisOf(subject.axes[0] ?? 'x', units?.x), axisOf(subject.axes[1] ?? 'y', units?.x)] as const;
-  // Misses beside an upright path need room for their words.
-  const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
+  // Misses beside an upright path need room for their words, and names beside a path that fills the frame.
+  const small = !place.names, right = small ? frame.right : frame.right - (staging.upright ? 110 : subject.unlike ? 64 * letters : 0);
   const box = ground ? frame : { left: frame.left + (small ? 14 : 44), top: frame.top + 22, right, bottom: frame.bottom - (small ? 4 : 8) };
   return [flatPlot({ ...common, bounds, box: ground ? box : wideEnough(box, place), equal, style: ground ? 'ground' : 'plane', axes })];
 }
@@ -192,6 +192,9 @@ export function pictureOf(setting: Setting): Picture {
     if (at.y - unit * v[1]! < 24 && v[1]! > 0) unit = Math.max(0, at.y - 24) / v[1]!;
     if (at.x + unit * v[0]! > place.width - 24 && v[0]! > 0) unit = Math.max(0, place.width - 24 - at.x) / v[0]!;
     if (at.x + unit * v[0]! < place.text + 32 && v[0]! < 0) unit = Math.max(0, at.x - place.text - 32) / -v[0]!;
+    // … and above the numbers below the picture.
+    const foot = main.up!(bounds[1]![0]) - 12, least = 40 / -v[1]!;
+    if (!staging.arrow && v[1]! < 0 && at.y - unit * v[1]! > foot) unit = Math.max(Math.min(unit, least), (foot - at.y) / -v[1]!);
     if (!(unit * speed > 16) || !(speed > 0) || !Number.isFinite(unit)) return null;
     return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
   }
@@ -205,9 +208,29 @@ export function pictureOf(setting: Setting): Picture {
       pen.mark('circle', px, py, radius - 1, ink.surface);
     }
     if (!place.names) return;
-    const way = x >= fromX ? -1 : 1, anchor = way < 0 ? 'end' as const : 'start' as const;
-    pen.text(x + way * 14, y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
-    pen.text(x + way * 14, y + 15 * letters, `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+    const { at, anchor } = aimed ??= besideAim(handle, speedText(speed));
+    pen.text(at.x, at.y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
+    pen.text(at.x, at.y + 15 * letters, speedText(speed), { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+  }
+  const speedText = (speed: number): string => `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`;
+  interface Aimed { readonly at: Point; readonly anchor: 'start' | 'middle' | 'end' }
+  let aimed: Aimed | null = null;
+  /** Where the velocity is told: behind the ring, before it, beyond it, whichever covers least of the curves and of where names stand. */
+  function besideAim({ x, y, fromX, fromY }: Handle, text: string): Aimed {
+    const way = x >= fromX ? -1 : 1, side = (of: number): Aimed => ({ at: { x: x + of * 14, y }, anchor: of < 0 ? 'end' : 'start' }), letters = place.scale, wide = textWidth(text, 12 * letters);
+    if (staging.arrow) return side(way);
+    const beyond: Aimed = { at: { x, y: y < fromY ? y - 28 * letters : y + 24 * letters }, anchor: 'middle' }, all = [side(way), side(-way), beyond];
+    const boxes = all.map(({ at, anchor }): Box => {
+      const left = anchor === 'end' ? at.x - wide : anchor === 'middle' ? at.x - wide / 2 : at.x, right = left + wide;
+      return { left, right, top: at.y - 14 * letters, bottom: at.y + 16 * letters };
+    });
+    return all[boxes.indexOf(freest(boxes))]!;
+  }
+  /** The first of the places that cover least of the curves, of the numbers and of where names stand. */
+  function freest(places: readonly Box[]): Box {
+    occupy();
+    const column = names.span && place.names ? names.span[1] + 12 : Infinity, cost = (b: Box): number => free.covered(b) + Math.max(0, b.right - Math.max(b.left, column)) / 3;
+    return places.reduce((best, b) => (cost(b) < cost(best) ? b : best));
   }
 
   function still(pen: Pen, ink: Ink, finished = false): void {
@@ -220,7 +243,12 @@ export function pictureOf(setting: Setting): Picture {
     if (subject.kind === 'plane' && main.along && main.up) for (const [x, y, radius, name] of staging.rests ?? []) {
       const px = main.along(x), py = main.up(y), r = radius * (place.names ? 1 : 0.7);
       pen.mark('circle', px, py, r, ink.axis, { rim: ink.surface });
-      pen.text(px - r - 4, py + r + 10, words.stage.bodies[name], { colour: ink.quiet, size: 12 * place.scale, anchor: 'end', halo: ink.surface });
+      const text = words.stage.bodies[name], size = 12 * place.scale, wide = textWidth(text, size);
+      const at = freest([[-1, 1], [1, 1], [-1, -1], [1, -1]].map(([across, down]) => {
+        const left = px + across! * (r + 4) - (across! < 0 ? wide : 0), y = py + down! * (r + 10) + (down! < 0 ? size / 2 : 0);
+        return { left, right: left + wide, top: y - 0.8 * size, bottom: y };
+      }));
+      pen.text(at.left, at.bottom, text, { colour: ink.quiet, size, halo: ink.surface });
     }
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
@@ -259,11 +287,11 @@ export function pictureOf(setting: Setting): Picture {
     }
   }
 
-  /** A path reaches from here to there, as far as it is seen. */
+  /** A path reaches from here to there, as far as it is seen, with the numbers beside it. */
   function spanOf(): readonly [number, number] | null {
     if (subject.kind === 'time') return null;
     const { left, right } = main.box, [low, high] = rangeOf((truth ? curves.exact : curves.methods.map((of) => of[0]!)).map(({ path }) => path.xy.subarray(0, 2 * path.count).filter((_, i) => i % 2 === 0)));
-    return high >= low ? [Math.max(left, low), Math.min(right, high)] : null;
+    return high >= low ? [Math.min(Math.max(left, low), main.numbers ?? Infinity), Math.min(right, high)] : null;
   }
   const names = { span: spanOf(), all: [exactName, ...lines.map((l) => shortLabel(l.look.label))] };
 
@@ -273,7 +301,7 @@ export function pictureOf(setting: Setting): Picture {
 
   /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
   function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
-    const errors = scene.solution.errors[line.index]?.x;
+    const of = scene.solution.errors[line.index], errors = of && errorsOf(of);
     if (!errors?.length || !truth) return null;
     const { row, part } = placeAt(line.track.times, time), made = errors[part === 1 ? row + 1 : row];
     if (made === undefined || !Number.isFinite(made)) return null;
@@ -438,15 +466,19 @@ export function pictureOf(setting: Setting): Picture {
   });
   /** Puts a note down and answers where. */
   function note(left: number, top: number, width: number, height: number, time: number): Box {
-    if (!notes.length) occupy();
+    occupy();
     const at = free.put(left - CLEAR, top - CLEAR, width + 2 * CLEAR, height + 2 * CLEAR), box = { left: at.left + CLEAR, right: at.left + CLEAR + width, top: at.top + CLEAR, bottom: at.top + CLEAR + height };
     notes.push({ box, time });
     return box;
   }
   /** All curves, and the names and numbers where those end that stay. */
+  let occupied = false;
   function occupy(): void {
+    if (occupied) return;
+    occupied = true;
     for (const { path } of curves.exact) free.line(path.xy, path.count);
     for (const of of curves.methods) for (const { path } of of) free.line(path.xy, path.count);
+    if (main.numbers !== null && main.along) free.take({ left: main.numbers, right: main.along(bounds[0]![0]), top: 0, bottom: place.height });
     if (handle) free.line([handle.fromX, handle.fromY, handle.x, handle.y], 2);
     const ends = [...(truth && !landing ? [pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!)] : []),
       ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.line.track.times, last(c.line))] : []))];

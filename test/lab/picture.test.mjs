@@ -23,8 +23,8 @@ function sceneOf(name, methods, { text = model(name), set = {}, step = null, unt
 }
 const DESK = { width: 1280, height: 528, column: 290, page: { width: 1280, height: 800 } };
 /** The picture of a scene, and all that is drawn of it at a time: texts with their edges, the other marks by name. */
-function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false } = {}) {
-  const subject = page.subjects(scene.description, scene.solution)[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
+function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false, view = '' } = {}) {
+  const views = page.subjects(scene.description, scene.solution), subject = views.find((v) => v.id === view) ?? views[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
   const bounds = page.boundsFor(scene, subject, staging, all, null), picture = page.pictureOf({ scene, subject, staging, place, bounds, camera: page.HOME, before: null, pinned: null });
   const texts = [], lines = [], marks = [];
   const pen = {
@@ -144,4 +144,23 @@ test('notes of what lands or leaves cover no curve, no other note and no name', 
 test('a throw that is computed is shown down to the ground, also before its green curve has come', () => {
   const scene = sceneOf('thrown-ball-air', ['explicit-euler', 'midpoint'], { until: 4 });
   assert.equal(drawn({ ...scene, solution: { ...scene.solution, truth: null, errors: [] } }).bounds[1][0], 0);
+});
+const lorenz = "sigma = 10\nrho = 28\nx' = sigma (y - x)\ny' = x (rho - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 5";
+const eaten = "prey' = prey - prey eater\neater' = prey eater - eater\nprey(0) = 1.5\neater(0) = 1\nstep 0.1\nuntil 20";
+test('of first order: variables against one another, and how far off each method ends', () => {
+  const ids = (scene) => page.subjects(scene.description, scene.solution).map((s) => `${s.id}: ${s.label}`), three = own(lorenz, ['rk4', 'explicit-euler']), two = own(eaten, ['midpoint']);
+  assert.deepEqual(ids(three), ['space-x-y-z: in space', 'plane-x-y: path in x, y', 'plane-x-z: path in x, z', 'plane-y-z: path in y, z', 'time-x: x against time', 'time-y: y against time', 'time-z: z against time']);
+  assert.deepEqual(ids(two), ['time-prey: prey against time', 'time-eater: eater against time', 'plane-prey-eater: path in prey, eater']);
+  assert.deepEqual(ids(own("x' = -x\nx(0) = 1\nexact x = exp(-t)\nstep 0.1\nuntil 2", ['rk4'])), ['time-x: x against time']);
+  const off = (scene, view) => drawn(scene, undefined, DESK, { view }).words.map((w) => /^(?:explicit Euler|midpoint)  ([\d.]+) off$/.exec(w)).find(Boolean)?.[1];
+  for (const [scene, view] of [[three, 'plane-x-z'], [three, 'space-x-y-z'], [two, 'plane-prey-eater']]) {
+    const told = off(scene, view), is = scene.solution.errors.at(-1).s.at(-1);
+    assert.ok(Math.abs(Number(told) - is) <= 0.06 * is, `${view}: ${told} is not ${is}`);
+  }
+  // Rabbits are no lengths of foxes: the curve fills the frame both ways.
+  const { place, lines } = drawn(two, undefined, DESK, { view: 'plane-prey-eater' }), curve = lines.filter((l) => l.colour === page.named.ink.exact && l.width === 4).at(-1).xy;
+  for (const [k, low, high] of [[0, place.frame.left, place.frame.right], [1, place.frame.top, place.frame.bottom]]) {
+    const of = curve.filter((_, i) => i % 2 === k);
+    assert.ok(Math.max(...of) - Math.min(...of) > 0.7 * (high - low), `along axis ${k}`);
+  }
 });
