@@ -420,6 +420,7 @@ export function pictureOf(setting: Setting): Picture {
     return labels.length > 14 ? labels.slice(0, 14) : labels;
   }
 
+  const nameBoxes = new Map<number, Box>();
   /** On a small stage: names where a curve is farthest from the exact one, outside of it. */
   function atCurves(pen: Pen, ink: Ink, time: number): void {
     if (!truth || !single || lines.length > 5) return;
@@ -443,10 +444,18 @@ export function pictureOf(setting: Setting): Picture {
       let y = c.way.y(best);
       for (let row = 0; row < n; row++) if (Math.abs(c.way.x(row) - x) < half + 12) y = above ? Math.min(y, c.way.y(row)) : Math.max(y, Math.min(c.way.y(row), c.way.y(best) + 20));
       y += above ? -12 : 18;
+      const name = { text: c.line.look.label, letters: { colour: c.line.look.tone, size: 13, bold: true, halo: ink.surface } };
+      // Where the curve lies among others: in the free place that is nearest. The build's picture follows the size of its stage, so its places are not looked for.
+      if (staging.decor !== 'throw') {
+        const box = nameBoxes.get(i) ?? put(x - half, y - 12, textWidth(name.text, 13) * 1.06, 15);
+        nameBoxes.set(i, box);
+        pen.text(box.left, box.top + 12, name.text, name.letters);
+        return;
+      }
       const box = { left: x - half, right: x + half, top: y - 12, bottom: y + 3 };
       if (!taken.every((t) => apart(t, box))) return;
       taken.push(box);
-      pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, c.line.look.label, { colour: c.line.look.tone, size: 13, bold: true, anchor: 'middle', halo: ink.surface });
+      pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, name.text, { ...name.letters, anchor: 'middle' });
     });
   }
 
@@ -464,10 +473,14 @@ export function pictureOf(setting: Setting): Picture {
     left: place.text + 4, right: drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : side === 'rod' ? main.box.right + 100 * place.scale : place.width - 4,
     top: Math.max(0, frame.top - 8), bottom: Math.min(main.box.bottom, place.height) - 4,
   });
-  /** Puts a note down and answers where. */
-  function note(left: number, top: number, width: number, height: number, time: number): Box {
+  /** Puts something down and answers where. */
+  function put(left: number, top: number, width: number, height: number): Box {
     occupy();
-    const at = free.put(left - CLEAR, top - CLEAR, width + 2 * CLEAR, height + 2 * CLEAR), box = { left: at.left + CLEAR, right: at.left + CLEAR + width, top: at.top + CLEAR, bottom: at.top + CLEAR + height };
+    const at = free.put(left - CLEAR, top - CLEAR, width + 2 * CLEAR, height + 2 * CLEAR);
+    return { left: at.left + CLEAR, right: at.left + CLEAR + width, top: at.top + CLEAR, bottom: at.top + CLEAR + height };
+  }
+  function note(left: number, top: number, width: number, height: number, time: number): Box {
+    const box = put(left, top, width, height);
     notes.push({ box, time });
     return box;
   }
@@ -479,6 +492,7 @@ export function pictureOf(setting: Setting): Picture {
     for (const { path } of curves.exact) free.line(path.xy, path.count);
     for (const of of curves.methods) for (const { path } of of) free.line(path.xy, path.count);
     if (main.numbers !== null && main.along) free.take({ left: main.numbers, right: main.along(bounds[0]![0]), top: 0, bottom: place.height });
+    if (main.numbers !== null && main.up) free.take({ left: 0, right: place.width, top: main.up(bounds[1]![0]) + 6, bottom: place.height });
     if (handle) free.line([handle.fromX, handle.fromY, handle.x, handle.y], 2);
     const ends = [...(truth && !landing ? [pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!)] : []),
       ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.line.track.times, last(c.line))] : []))];

@@ -164,3 +164,28 @@ test('of first order: variables against one another, and how far off each method
     assert.ok(Math.max(...of) - Math.min(...of) > 0.7 * (high - low), `along axis ${k}`);
   }
 });
+const boxOf = (t) => ({ left: t.left, right: t.right, top: t.y - 0.7 * t.size, bottom: t.y }), apartOf = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+/** Whether a curve of the motion runs through this box. */
+const crossed = (lines, b) => lines.some(({ xy, width }) => (width === 4 || width === 2) && xy.length > 8 && xy.some((x, k) => {
+  if (k % 2 || k + 3 >= xy.length) return false;
+  return Array.from({ length: 21 }, (_, s) => [x + s / 20 * (xy[k + 2] - x), xy[k + 1] + s / 20 * (xy[k + 3] - xy[k + 1])]).some(([px, py]) => px > b.left && px < b.right && py > b.top && py < b.bottom);
+}));
+test('names beside a path lie on no number of its axes, and the velocity is told where no curve runs', () => {
+  const tablet = { width: 1024, height: 366, column: 0, page: { width: 1024, height: 768 } };
+  for (const [name, methods] of [['kepler', ['symplectic-euler', 'velocity-verlet', 'kahan-li8']], ['comet', ['velocity-verlet', 'kahan-li8']]]) for (const size of [tablet, DESK]) {
+    const { texts, lines } = drawn(sceneOf(name, methods), undefined, size), what = `${name}, ${size.width}`;
+    const numbers = texts.filter((t) => /^−?[\d.]+$/.test(t.text) && t.size === 12), names = texts.filter((t) => /^(computed|symplectic|velocity)/.test(t.text)), speed = texts.findIndex((t) => t.text === 'v0');
+    assert.ok(numbers.length > 4 && names.length >= 2 && speed >= 0, what);
+    const told = texts.slice(speed, speed + 2);
+    for (const t of [...names.map((n) => ({ ...n, y: n.y + 0.35 * n.size })), ...told]) for (const n of numbers) assert.ok(told.includes(n) || apartOf(boxOf(t), boxOf({ ...n, y: n.y + 0.35 * n.size })), `${what}: “${t.text}” on ${n.text}`);
+    for (const t of told) assert.ok(!crossed(lines, boxOf(t)), `${what}: a curve runs through “${t.text}”`);
+  }
+});
+test('on a phone the end of a curve in time is named at its right', () => {
+  for (const [size, scene] of [[390, sceneOf('spring', ['verlet'])], [320, sceneOf('spring', ['verlet'])], [390, sceneOf('pendulum', ['explicit-euler'])], [320, sceneOf('pendulum', ['explicit-euler'])]]) {
+    const { texts, place, marks } = drawn(scene, undefined, { width: size, height: 330, column: 0, page: { width: size, height: 844 } }), name = texts.find((t) => /^(exact|computed)$/.test(t.text));
+    const ball = marks.filter((m) => m.colour === page.named.ink.exact).at(-1);
+    assert.ok(name && name.left > ball.x && name.right <= place.width, `${size}: from ${name?.left} to ${name?.right}, the ball at ${ball.x}`);
+    assert.ok(Math.abs(name.y - ball.y) < 24, `${name.y - ball.y} beside it`);
+  }
+});
