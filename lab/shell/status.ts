@@ -10,13 +10,14 @@ function stopped(store: LiveStore): string {
   if (model) return store.scene ? words.trouble.last : words.trouble.model;
   if (store.trouble.step || store.trouble.until) return words.trouble.numbers;
   if (run) return words.trouble.hinted(run.message, run.hint);
-  const { tracks = [], truth, problem } = store.scene?.solution ?? {};
-  // Where no method comes through, why is said of them.
-  const missing = problem && !truth && tracks.some((t) => !t.problem) ? [words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
-  return words.trouble.all([...tracks.map((track, k) => {
+  const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>();
+  tracks.forEach((track, k) => {
     const trouble = track.problem ?? track.singular;
-    return trouble ? words.trouble.method(store.scene?.looks[k]?.label ?? track.method, trouble.message) : '';
-  }).filter(Boolean), ...missing]);
+    if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);
+  });
+  // Where no method comes through, why is said of them.
+  const missing = problem && !truth && tracks.some((t) => !t.problem && !t.singular) ? [words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
+  return words.trouble.all([...[...whose].map(([message, names]) => words.trouble.method(words.panel.and(names), message)), ...missing]);
 }
 
 export function status(store: LiveStore): HTMLElement {

@@ -560,7 +560,8 @@ export function pictureOf(setting: Setting): Picture {
     remarks: () => [...(landing ? [words.stage.summary.ground(seconds(landing.time))] : []), ...lines.map((line) => {
       const { problem, times } = line.track;
       if (problem) {
-        const at = brief(problem.time ?? times[times.length - 1] ?? 0);
+        // What is undefined at its start stops there.
+        const at = brief((times.length > 1 ? problem.time : null) ?? times[times.length - 1] ?? 0);
         return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
       }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
