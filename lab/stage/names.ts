@@ -78,9 +78,9 @@ function clear(from: number, to: number, names: readonly number[], room: number)
   return best;
 }
 
-/** Draws the labels of these points. */
-export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], { upright, right, span, all, notes }: Surroundings): void {
-  if (!labels.length) return;
+/** Draws the labels of these points; answers where letters stand. */
+export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Named[], { upright, right, span, all, notes }: Surroundings): readonly Box[] {
+  if (!labels.length) return [];
   const { scale } = place, size = (place.names ? 15 : 13) * scale, lineHeight = (place.names ? 20 : 15) * scale, box = place.frame;
   const sorted = [...labels].sort((a, b) => a.y - b.y), exact = sorted.find((l) => l.exact);
   const heights = place.names ? spread(sorted.map((l) => l.y), sorted.slice(1).map(() => lineHeight), box.top + 4, box.bottom - 8) : sorted.map((l) => l.y);
@@ -109,7 +109,7 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
   function nameSmall(label: Named, y: number): void {
     const text = label.names[0]?.text ?? '', wide = textWidth(text, 12) * 1.06, off = place.ball + 11, along = Math.max(0, Math.min(label.x + 2, right - wide));
     const places = [boxAt(textX, y, wide, 14), ...[-off, off].map((by): Box => ({ left: along, right: along + wide, top: y + by - 7, bottom: y + by + 7 }))];
-    const fits = (b: Box): boolean => b.left >= 0 && b.right <= right && b.top >= 0 && b.bottom <= place.height, clearOf = (b: Box): boolean => [...notes, ...numbers].every((other) => apart(b, other));
+    const fits = (b: Box): boolean => b.left >= 0 && b.right <= right && b.top >= 0 && b.bottom <= place.height, clearOf = (b: Box): boolean => [...notes, ...written].every((other) => apart(b, other));
     const { left, top } = places.find((b) => fits(b) && clearOf(b)) ?? places.find((b) => fits(b)) ?? places[0]!;
     pen.text(left, top + 7, [{ text, bold: true }], { colour: label.colour, size: 12, baseline: 'middle', halo: ink.surface });
   }
@@ -125,11 +125,11 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     return flipped ? { way: -1, textX: least - lead } : { way: 1, textX: from + lead };
   }
 
-  const numbers: Box[] = [];
+  const written: Box[] = [];
   missing.forEach((label, k) => {
     const other = missing[0]!, sameSide = k === 1 && (label.y - exact!.y) * (other.y - exact!.y) > 0;
     const x = bracketX - (sameSide ? way * 14 * scale : 0), down = label.y > exact!.y ? 1 : -1, tip = label.y - down * 2;
-    numbers.push({ left: x - 5, right: x + 5, top: Math.min(exact!.y, tip), bottom: Math.max(exact!.y, tip) });
+    written.push({ left: x - 5, right: x + 5, top: Math.min(exact!.y, tip), bottom: Math.max(exact!.y, tip) });
     pen.line([x, exact!.y + down * 5, x, tip], { colour: label.line, width: 1.75 });
     pen.line([x - 4.5, tip - down * 7, x, tip, x + 4.5, tip - down * 7], { colour: label.line, width: 1.75 });
     const middle = numbered.get(label), { text, how } = label.miss!, letters = { colour: label.colour, anchor, halo: ink.surface };
@@ -138,11 +138,11 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
     else if (Math.abs(label.y - exact!.y) > 32) {
       // In two lines beside the end of the curve, clear of the exact motion's name.
       const first = down > 0 ? label.y - 10 : label.y + 9;
-      numbers.push(boxAt(textX, first + 2, widest, 28));
+      written.push(boxAt(textX, first + 2, widest, 28));
       pen.text(textX, first, [{ text, bold: true }], { ...letters, size: 13 });
       pen.text(textX, first + 13, how, { ...letters, size: 12 });
     } else {
-      numbers.push(boxAt(textX, label.y + down * 6, widest, 14));
+      written.push(boxAt(textX, label.y + down * 6, widest, 14));
       pen.text(textX, label.y, [{ text, bold: true }], { ...letters, size: 13, baseline: down > 0 ? 'top' : 'bottom' });
     }
   });
@@ -156,7 +156,9 @@ export function drawNames(pen: Pen, ink: Ink, place: Place, labels: readonly Nam
       return;
     }
     if (!named) return;
-    const free = way < 0 ? textX - leftmost : right - textX;
-    pen.text(textX, y, ways[k]!.find((spans) => reach(spans) <= free) ?? ways[k]![ways[k]!.length - 1]!, { colour: label.colour, size, anchor, baseline: 'middle', halo: ink.surface });
+    const free = way < 0 ? textX - leftmost : right - textX, said = ways[k]!.find((spans) => reach(spans) <= free) ?? ways[k]![ways[k]!.length - 1]!;
+    written.push(boxAt(textX, y, reach(said), size));
+    pen.text(textX, y, said, { colour: label.colour, size, anchor, baseline: 'middle', halo: ink.surface });
   });
+  return written;
 }

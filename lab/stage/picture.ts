@@ -12,13 +12,14 @@ import type { Scene } from '../scene';
 import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
+import { bodyNames, drawBodies } from './bodies';
 import { person, rod, spring } from './decor';
 import { freePlaces } from './free';
 import { errorsOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
 import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
 import { apart, wideEnough, type Box, type Place } from './place';
-import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
+import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot, type Way } from './plot';
 import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
@@ -347,7 +348,8 @@ export function pictureOf(setting: Setting): Picture {
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
     const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - (place.names ? 8 : 2);
-    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all, notes: written(time) });
+    const letters = drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all, notes: written(time) });
+    if (called.length) nameBodies(pen, ink, time, [...letters, ...written(time)]);
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     drawLanding(pen, ink, time);
@@ -365,6 +367,17 @@ export function pictureOf(setting: Setting): Picture {
     for (let k = 0; k + 3 < xy.length; k += 2) pen.mark('circle', xy[k]!, xy[k + 1]!, k ? 6 : 4, ink.quiet, { rim: ink.surface });
   }
 
+  const called = bodyNames(subject, staging);
+  /** Beside the exact motion's bodies; without one, beside the first method's. */
+  function nameBodies(pen: Pen, ink: Ink, time: number, letters: readonly Box[]): void {
+    const seen = (way: Way, times: ArrayLike<number>): Point | null => {
+      const at = pointAt(way, times, time);
+      return Number.isFinite(at.x + at.y) && inside(main.box, at.x, at.y, 8) ? at : null;
+    };
+    const methods = curves.methods.flatMap((of, i) => (nowhere.has(i) ? [] : of.map((c) => (gone(c, time) ? null : seen(c.way, c.line.track.times)))));
+    const exact = truth ? curves.exact.map(({ way }) => seen(way, truth.times)) : [];
+    drawBodies(pen, ink, place, called, truth ? exact : methods.slice(0, called.length), [...exact, ...methods].filter((p) => p !== null), letters);
+  }
   /** Where everybody is now; answers the labels that belong there. */
   function balls(pen: Pen, ink: Ink, time: number): Named[] {
     const labels: Named[] = [], groups = new Map<number, Line[]>();

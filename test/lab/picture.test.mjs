@@ -189,3 +189,29 @@ test('on a phone the end of a curve in time is named at its right', () => {
     assert.ok(Math.abs(name.y - ball.y) < 24, `${name.y - ball.y} beside it`);
   }
 });
+test('each of several bodies is named once, beside itself and on nothing that is written', () => {
+  const PHONE = { width: 390, height: 397, column: 0, page: { width: 390, height: 844 } }, planets = ['Sun', 'Jupiter', 'Saturn', 'Uranus', 'Neptune', 'Pluto'];
+  const own_ = own("sun'' = (0, 0)\nrock'' = -rock/|rock|^3\nsun(0) = (0, 0)\nsun'(0) = (0, 0)\nrock(0) = (1, 0)\nrock'(0) = (0, 1)\nstep 0.1\nuntil 6", ['rk4', 'verlet']);
+  for (const [what, scene, names] of [['planets', sceneOf('outer-solar-system', ['kahan-li8', 'velocity-verlet']), planets], ['eight', sceneOf('three-body-figure-eight', ['kahan-li6', 'velocity-verlet']), ['1', '2', '3']], ['own', own_, ['sun', 'rock']]]) {
+    const { times } = scene.solution.tracks[0];
+    for (const size of [DESK, PHONE]) for (const part of [1, 0, 0.13, 0.31, 0.5, 0.77]) {
+      const { texts, marks, place } = drawn(scene, times[0] + part * (times.at(-1) - times[0]), size), at = `${what}, ${size.width}, ${part}`;
+      // Names stand in the middle of their height.
+      const of = (t) => { const b = boxOf(t); return names.includes(t.text) ? { ...b, top: t.y - t.size / 2, bottom: t.y + t.size / 2 } : b; }, found = texts.filter((t) => names.includes(t.text));
+      assert.deepEqual(found.map((t) => t.text).sort(), [...names].sort(), at);
+      const balls = marks.filter((m) => m.colour === page.named.ink.exact), written = texts.filter((t) => / off$|^computed|^exact|lands|leaves/.test(t.text));
+      assert.equal(balls.length, names.length, at);
+      for (const t of found) {
+        assert.ok(t.left >= 0 && t.right <= place.width && t.y < place.height, `${at}: ${t.text}`);
+        for (const other of [...found, ...written]) if (other !== t) assert.ok(apartOf(of(t), of(other)), `${at}: “${t.text}” on “${other.text}”`);
+        for (const { x, y } of balls) assert.ok(x <= t.left || x >= t.right || Math.abs(y - t.y) > t.size / 2, `${at}: “${t.text}” on a body`);
+        // It is nearer to its own body than the names of others could be: no further than its line reaches.
+        const b = balls[names.indexOf(t.text)], far = Math.hypot(Math.max(0, t.left - b.x, b.x - t.right), Math.max(0, Math.abs(t.y - b.y) - t.size / 2));
+        assert.ok(far < 100, `${at}: “${t.text}” ${far} from its body`);
+      }
+    }
+  }
+  assert.ok(!drawn(sceneOf('kepler', ['velocity-verlet'])).words.includes('r'), 'one body alone needs no name');
+  // Numbers and names of axes in space stay on a narrow stage.
+  for (const name of ['outer-solar-system', 'charged-particle']) for (const t of drawn(sceneOf(name, ['velocity-verlet', 'boris'].slice(name === 'charged-particle' ? 1 : 0, name === 'charged-particle' ? 2 : 1)), undefined, PHONE).texts) assert.ok(t.left >= 0 && t.right <= 391, `${name}: ${t.text} from ${t.left} to ${t.right}`);
+});

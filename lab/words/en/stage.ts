@@ -18,8 +18,8 @@ export const stage = {
     mass: (number: string) => `mass ${number}`,
   },
   velocity: 'velocity ',
-  /** Bodies at rest. */
-  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon' },
+  /** What moves, or rests, in an example. */
+  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon', jupiter: 'Jupiter', saturn: 'Saturn', uranus: 'Uranus', neptune: 'Neptune', pluto: 'Pluto' },
   /** The green curve, where a formula gives it and where it is computed. */
   exact: 'exact', computed: 'computed',
   /** Between the names of curves that coincide; how many others do. */
