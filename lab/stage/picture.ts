@@ -82,7 +82,7 @@ export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all:
 }
 
 /** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
-export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
+function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
   if (subject.kind !== 'plane' || subject.unlike) return false;
   const [w, h] = bounds.map(([low, high]) => high - low) as [number, number];
   return staging.equal ?? (w <= 4 * h && h <= 4 * w);

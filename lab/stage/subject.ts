@@ -18,7 +18,7 @@ export interface Subject { readonly id: string; readonly kind: 'plane' | 'space'
 const CHOICES = 24, PAIRED = 4;
 
 /** The column of the velocity that belongs to a position: x -> x', r.x -> r'.x, r[3].x -> r[3]'.x. */
-export function velocityName(name: string): readonly string[] {
+function velocityName(name: string): readonly string[] {
   const dot = name.lastIndexOf('.');
   if (dot > 0) return [`${name.slice(0, dot)}'${name.slice(dot)}`];
   const bracket = name.lastIndexOf('[');
