@@ -61,6 +61,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
       stop.style.left = `${100 * positionOf(h) / positions}%`;
       return stop;
     }));
+    stops.classList.toggle('long', [...stops.children].some((stop) => (stop.textContent ?? '').length > 7));
   }
   function refresh(): void {
     const { state, trouble, numbers, description } = store;
@@ -80,7 +81,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
     say(steps, track && !wrong ? `\u2009·\u2009${words.dock.step.steps(track.total, grouped(track.total))}` : '');
     if (h === null || !halves.length) return;
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
-    slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? String(track.total) : ''));
+    slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? words.dock.step.steps(track.total, String(track.total)) : ''));
     [...stops.children].forEach((stop, k) => stop.classList.toggle('on', Math.abs(halves[k]! - h) < 1e-6 * h));
   }
   const set = (h: number): void => {

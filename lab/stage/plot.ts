@@ -23,6 +23,8 @@ export interface Plot {
   draw(pen: Pen, ink: Ink): void;
   /** Pixels of a unit, where both axes have the same; else null. */
   readonly unit: number | null;
+  /** Where the numbers of the second axis begin; null: it has none of its own. */
+  readonly numbers: number | null;
   /** Of a flat plot: pixels of the second axis. */
   readonly up: Scale | null; readonly along: Scale | null;
 }
@@ -116,6 +118,7 @@ export function flatPlot({ bounds, box: given, equal, style, axes: [across, upwa
     return of.columns[body.columns[k]!] ?? EMPTY;
   };
   return {
+    numbers: style === 'plane' ? frame.left - 8 - Math.max(0, ...up.ticks.map((v) => textWidth(up.label(v), size))) : null,
     // Curves may leave the bounds where the stage has room beside them, but not what stands below the ground or the axis.
     box: style === 'ground' ? { left: Math.max(0, frame.left - 12), top: 0, right: box.right + 500, bottom: up(Math.max(0, y[0])) } : equal && style === 'plane' ? box : frame,
     unit: equal ? (frame.right - frame.left) / (x[1] - x[0]) : null, up, along,
@@ -179,7 +182,7 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
     }
   }
   return {
-    box, unit, up: null, along: null,
+    box, unit, numbers: null, up: null, along: null,
     way(of, body) {
       const [a, b, c] = body.columns.map((k) => of.columns[k] ?? EMPTY) as [Float64Array, Float64Array, Float64Array];
       return { x: (row) => x(a[row] ?? NaN, b[row] ?? NaN), y: (row) => y(a[row] ?? NaN, b[row] ?? NaN, c[row] ?? NaN) };

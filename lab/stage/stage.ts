@@ -18,7 +18,7 @@ import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
 import { haste } from './haste';
-import { motionOf } from './motion';
+import { errorsOf, motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
 import { stagingOf } from './staging';
@@ -267,7 +267,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (at_ && place) ring.setAttribute('aria-valuenow', String(Math.round(at_.exact - at_.y)));
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
-    say(all, showAll ? words.stage.exactOnly : words.stage.all);
+    say(all, !showAll ? words.stage.all : !scene?.solution.truth ? words.stage.less : scene.description.has_exact ? words.stage.exactOnly : words.stage.computedOnly);
     const at = leaving ?? { x: (place?.width ?? 0) - 160, y: 24, anchor: 'start' as const, more: '' };
     all.style.left = leaving ? `${at.anchor === 'end' ? at.x - 62 : at.x}px` : 'auto';
     all.style.right = leaving ? 'auto' : '24px';
@@ -350,7 +350,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const seen = subject.kind === 'shape' ? words.stage.summary.shape(subject.bodies[0]?.label ?? '', from, to) : subject.kind === 'time' ? words.stage.summary.time(up, from, to)
       : subject.kind === 'space' ? words.stage.summary.space(from, to) : words.stage.summary.plane(across, up, from, to);
     // One that stopped has no place at the end; the remarks tell when it stopped.
-    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
+    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: errorsOf(e).at(-1) ?? NaN })).filter((e) => Number.isFinite(e.last));
     const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name));
     const told = distances.length === 0 ? [] : [scene.description.has_exact ? words.stage.summary.exact(distances) : words.stage.summary.reference(distances)];
     return words.stage.summary.whole([seen, ...told, ...picture.remarks()]);

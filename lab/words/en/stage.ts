@@ -2,7 +2,7 @@
 const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 export const stage = {
-  motion: 'Motion', view: 'View', all: 'show all', exactOnly: 'show the exact motion',
+  motion: 'Motion', view: 'View', all: 'show all', exactOnly: 'show the exact motion', computedOnly: 'show the computed motion', less: 'show less',
   noPositions: 'This model has no positions to show.', noMethod: 'Choose a method to see its motion.',
   turn: 'picture that can be turned: arrow keys, Home',
   /** The ring of the initial velocity. */
@@ -20,8 +20,8 @@ export const stage = {
   velocity: 'velocity ',
   /** Bodies at rest. */
   bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon' },
-  /** The green curve, where a formula gives it and where it is computed; the latter in short. */
-  exact: 'exact', computed: 'exact, computed', short: 'computed',
+  /** The green curve, where a formula gives it and where it is computed. */
+  exact: 'exact', computed: 'computed',
   /** Between the names of curves that coincide; how many others do. */
   equals: ' = ', several: (count: string) => `${count} methods`,
   /** How a point misses the exact motion; its number stands before. */
