@@ -6,7 +6,7 @@
 import { data, exampleOf } from '../data';
 import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
-import type { LiveStore } from '../state';
+import { outdated, type LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
 import { words } from '../words';
 import { compact, normal, short } from './number';
@@ -114,6 +114,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   store.subscribe((what) => {
     const key = `${exampleOf(store.state)} ${store.description?.settings.step} ${store.description?.settings.until} ${store.state.place.split('.')[0]}`;
     if (what === 'description' && last !== key && store.description) { last = key; limits(); }
+    element.inert = outdated(store);
     if (what !== 'view' && what !== 'busy') refresh();
   });
   return element;
