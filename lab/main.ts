@@ -8,6 +8,7 @@ import { STEP_EVENT, transport, type Transport } from './shell/transport';
 import { SEEK } from './figure/cursor';
 import { captionExports, nameExports } from './figure/export';
 import type { Track } from './protocol';
+import type { Scene } from './scene';
 import { startState } from './shell/address';
 import { captionOf } from './shell/caption';
 import { closer } from './shell/closer';
@@ -23,7 +24,7 @@ import { presets } from './shell/presets';
 import { printed } from './shell/print';
 import { mountShell } from './shell/shell';
 import { openedPlace } from './shell/opened';
-import { createStore } from './state';
+import { createStore, outdated } from './state';
 
 /** Where the steps of a method end, the start first, for the clock to stop at: of very many steps those that are kept. */
 function stepTimes({ times, step, steps, every }: Track): Float64Array {
@@ -31,6 +32,9 @@ function stepTimes({ times, step, steps, every }: Track): Float64Array {
   const first = times[0] ?? 0, last = times[times.length - 1] ?? first, h = Math.sign(last - first) * Math.abs(step);
   return Float64Array.from({ length: steps + 1 }, (_, n) => (n === steps ? last : first + n * h));
 }
+
+/** What moves, as it is typeset: where it changes, the motion is another one. */
+const equationOf = ({ description: { statements } }: Scene): string => statements.filter(({ kind }) => kind === 'motion' || kind === 'first-order').map(({ mathml }) => mathml).join();
 
 /** Milliseconds after the first picture that nobody touched; then the motion runs once, in its own time. */
 const GENTLE = 600;
@@ -72,7 +76,7 @@ async function start(): Promise<void> {
   document.addEventListener(STEP_EVENT, (event) => clock.step((event as CustomEvent<number>).detail));
 
   const paper = printed();
-  let preset = state.preset, shown = false;
+  let preset = state.preset, equation = '', shown = false;
   // The theory's own links to examples.
   place('theory-text').addEventListener('click', ({ target }) => {
     const name = target instanceof Element ? target.closest<HTMLElement>('[data-preset]')?.dataset.preset : undefined;
@@ -124,10 +128,11 @@ async function start(): Promise<void> {
     small.show(scene);
     opened.show(scene);
     clock.setRange(store.numbers.start, end, main ? stepTimes(main) : [store.numbers.start, end]);
-    // A scene begins with what it comes to, so that the misses are seen.
+    // A scene, or another equation, begins with what it comes to, so that the misses are seen.
     clock.setUnit(stagingOf(exampleOf(scene.state)).units?.t ?? '');
-    if (scene.state.preset !== preset || !shown) clock.seek(end);
+    if (scene.state.preset !== preset || equationOf(scene) !== equation || !shown) clock.seek(end);
     preset = scene.state.preset;
+    equation = equationOf(scene);
     if (!shown) gentle();
     shown = true;
     motion.at(clock.time());
@@ -137,6 +142,7 @@ async function start(): Promise<void> {
     // A picture that is not of what is typed looks like it.
     const { model, run, step, until } = store.trouble;
     document.body.classList.toggle('stale', Boolean(model || run || step || until));
+    document.body.classList.toggle('outdated', outdated(store));
     if (what === 'scene') show();
     if (what !== 'view') return;
     clock.setSpeed(store.state.view.speed);

@@ -63,6 +63,9 @@ export function ownName(name: string, catalogue: readonly Method[]): string {
   return found ? found.name + name.slice(called.length) : name;
 }
 
+/** Whether what the core last read is another text than the one that stands there, which it cannot read: equation and sliders are not this text's. */
+export const outdated = ({ trouble, described, state }: LiveStore): boolean => trouble.model !== null && described !== state.text;
+
 /** The methods that are computed: those chosen that the model admits; none chosen: the model's own. */
 export function admittedMethods(state: State, description: Description, catalogue: readonly Method[]): { methods: string[]; refused: { name: string; reason: string | null }[] } {
   const refused: { name: string; reason: string | null }[] = [];

@@ -7,7 +7,7 @@ import type { Parameter } from '../protocol';
 import { presetState } from '../share';
 import { stagingOf, type Dial } from '../stage/staging';
 import { saidOf } from '../scenes';
-import type { LiveStore } from '../state';
+import { outdated, type LiveStore } from '../state';
 import { el } from '../dom';
 import { presets } from './presets';
 import { axes, held, partName, rowsOf, type Row } from './sliders';
@@ -78,6 +78,7 @@ export function dials(store: LiveStore): HTMLElement {
   }
   store.subscribe((what) => {
     if (what === 'description') build();
+    element.inert = outdated(store);
     if (what === 'state' || what === 'description' || what === 'scene') for (const row of rows) row.refresh();
   });
   return element;

@@ -11,6 +11,7 @@ import { presetState } from '../share';
 import { words } from '../words';
 import { button, el, icon, say } from '../dom';
 import { editor } from './editor';
+import { toNote } from './note';
 import { described, presets, titleIn, titleOf } from './presets';
 import { settle } from './settle';
 import type { Sees } from '../stage/stage';
@@ -50,14 +51,16 @@ export function headline(store: LiveStore, toasts: Toasts, sees: () => Sees, cha
     const alone = store.scene !== null && sees().side !== 'phase', key = `${preset} ${name === '' ? text : ''} ${steps} ${moved} ${alone}`;
     if (key === shown) return;
     shown = key;
-    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.ask ?? '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
+    const said = saidOf(name), lesson = stagingOf(name).ask, question = said?.question ?? '', about = (moved ? said?.moved : undefined) ?? (alone ? said?.alone : undefined) ?? said?.sentence ?? '';
     say(title, titleIn(store.state));
     document.title = words.top.title(title.textContent ?? '');
     // Until steps are made, those of the build stand there.
     say(sentence, name === '' ? '' : (typeof about === 'string' ? about : steps ? about(words.headline.counted(steps, grouped(steps))) : sentence.textContent) || described(text));
     sentence.hidden = sentence.textContent === '';
-    ask.replaceChildren(...(lesson ? [button(question, () => element.dispatchEvent(new CustomEvent('lesson', { detail: lesson, bubbles: true })), { class: 'ask-button' },
-      el('span', {}, question), icon('M5 12h13M12.5 6l5.5 6-5.5 6'))] : []));
+    // A lesson answers it, or the note below.
+    const answer = (): void => { if (lesson) element.dispatchEvent(new CustomEvent('lesson', { detail: lesson, bubbles: true })); else toNote(); };
+    ask.replaceChildren(...(question ? [button(question, answer, { class: 'ask-button' },
+      el('span', {}, question), icon(lesson ? 'M5 12h13M12.5 6l5.5 6-5.5 6' : 'M12 5v13M6 12.5l6 5.5 6-5.5'))] : []));
     edited.hidden = preset === '' || !altered;
     began.data = preset === '' ? '' : words.headline.began(titleOf(preset));
   }

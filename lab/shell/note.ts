@@ -1,12 +1,24 @@
-/* What to try on an example, and what to see: above the pictures that look closer.
+/* What to try on an example, and what to see: above the pictures that look closer. Where no lesson answers the question that the stage asks, the note does,
+ * under that question.
  *
  * Invariant: what is said of an example holds for its own text only.
  */
 import { data, exampleOf } from '../data';
 import type { LiveStore } from '../state';
 import { presetState } from '../share';
-import { button, el } from '../dom';
+import { stagingOf } from '../stage/staging';
+import { saidOf } from '../scenes';
+import { button, el, place } from '../dom';
 import { presets } from './presets';
+
+/** To the answer of the question on the stage. */
+export function toNote(): void {
+  place('looking').scrollIntoView();
+  place('scene-note').querySelector('h3')?.focus({ preventScroll: true });
+}
+
+/** A number and its unit stay on one line. */
+const bound = (text: string): string => text.replace(/(\d) (?=(?:[ck]?m|mm|s|ns|au|kg|%)(?![\p{L}\d]))/gu, '$1\u00a0');
 
 export function note(store: LiveStore): HTMLElement {
   const element = el('div', { class: 'note', hidden: true });
@@ -17,10 +29,11 @@ export function note(store: LiveStore): HTMLElement {
     if (name === shown) return;
     shown = name;
     const written = Object.hasOwn(data.notes, name) ? data.notes[name] ?? [] : [];
-    const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? of
+    const part = (of: string | { readonly to: string; readonly label: string }): string | Node => (typeof of === 'string' ? bound(of)
       : button(of.label, () => { store.load(presetState(presets, of.to)); scrollTo(0, 0); }, { class: 'text-button' }));
     // One paragraph, however it is written down.
-    element.replaceChildren(el('p', {}, ...written.flatMap((piece, k) => [...(k ? [' '] : []), ...(typeof piece === 'string' ? [piece] : piece.map(part))])));
+    const answers = stagingOf(name).ask ? [] : [el('h3', { tabindex: -1 }, saidOf(name)?.question ?? '')];
+    element.replaceChildren(...answers, el('p', {}, ...written.flatMap((piece, k) => [...(k ? [' '] : []), ...(typeof piece === 'string' ? [bound(piece)] : piece.map(part))])));
     element.hidden = written.length === 0;
   });
   return element;

@@ -23,7 +23,7 @@ const told = words.opened;
 /** Milliseconds of a line of the recipe while playing. */
 const LINE = 1200;
 /** Columns that a window of this width has room for. */
-const capacity = (): number => (innerWidth >= 1600 ? 3 : innerWidth >= 900 ? 2 : 1);
+const capacity = (): number => (matchMedia('(min-width: 100rem)').matches ? 3 : matchMedia('(min-width: 56.25rem)').matches ? 2 : 1);
 
 /** The clock of the page, as far as this place needs it. */
 export interface Clock { time(): number; playing(): boolean; toggle(): void; seek(t: number): void }

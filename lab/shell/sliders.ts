@@ -4,7 +4,7 @@
  * not touch keeps the text that the model has, so an untouched component keeps its bits.
  */
 import type { Parameter } from '../protocol';
-import type { LiveStore } from '../state';
+import { outdated, type LiveStore } from '../state';
 import { button, el, fresh, icon, say } from '../dom';
 import { nameText } from '../figure/name';
 import { words } from '../words';
@@ -146,6 +146,7 @@ export function sliders(store: LiveStore): HTMLElement {
   }
   store.subscribe(what => {
     if (what === 'description') build();
+    for (const set of [first, second]) set.inert = outdated(store);
     if (what === 'state' || what === 'description' || what === 'scene') for (const row of rows) row.refresh();
     if (what === 'description' || what === 'scene') say(problem, store.trouble.run ? words.trouble.hinted(store.trouble.run.message, store.trouble.run.hint) : '');
   });

@@ -6,7 +6,7 @@
 import { data, exampleOf } from '../data';
 import { grouped } from '../figure/number';
 import { stagingOf } from '../stage/staging';
-import type { LiveStore } from '../state';
+import { outdated, type LiveStore } from '../state';
 import { button, el, icon, say } from '../dom';
 import { words } from '../words';
 import { compact, normal, short } from './number';
@@ -31,8 +31,9 @@ export function stepSlider(store: LiveStore): HTMLElement {
   const stops = el('div', { class: 'stops', 'aria-hidden': 'true' });
   const reset = button('', () => { store.change({ step: '' }); slider.focus(); refresh(); }, { class: 'icon-button reset', 'aria-label': words.dock.step.reset, title: words.dock.step.resetTitle },
     icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
+  const value = el('span', { class: 'dial-value waiting' }, reset, field, unit, steps);
   const element = el('div', { class: 'dial step' },
-    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), el('span', { class: 'dial-value' }, reset, field, unit, steps)),
+    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), value),
     el('div', { class: 'dial-track' }, slider, stops), message);
   let halves: number[] = [], last = '', empty = '';
 
@@ -75,6 +76,8 @@ export function stepSlider(store: LiveStore): HTMLElement {
     const { units } = stagingOf(exampleOf(state));
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
+    // The value grows to the left: it is not seen before all of it is known.
+    if (track || Object.values(trouble).some(Boolean)) value.classList.remove('waiting');
     say(steps, track && !wrong ? `\u2009·\u2009${words.dock.step.steps(track.total, grouped(track.total))}` : '');
     if (h === null || !halves.length) return;
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
@@ -111,6 +114,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
   store.subscribe((what) => {
     const key = `${exampleOf(store.state)} ${store.description?.settings.step} ${store.description?.settings.until} ${store.state.place.split('.')[0]}`;
     if (what === 'description' && last !== key && store.description) { last = key; limits(); }
+    element.inert = outdated(store);
     if (what !== 'view' && what !== 'busy') refresh();
   });
   return element;

@@ -46,7 +46,6 @@ export function typesetView(store: LiveStore): HTMLElement {
   function show(): void {
     const statements = store.description?.statements ?? [];
     const key = statements.map(s => s.mathml).join('\n');
-    element.classList.toggle('stale', store.trouble.model !== null);
     if (key === shown) return;
     shown = key;
     sizes.disconnect();

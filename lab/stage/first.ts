@@ -83,6 +83,6 @@ export function firstPictures(scene: Scene): string {
 export const equation = (scene: Scene): string => scene.description.statements.find((s) => s.kind === 'motion')?.mathml ?? '';
 /** What is said of the scene: its title, its sentence, the question that leads to a lesson. */
 export function said({ state: { preset }, solution }: Scene): { readonly title: string; readonly sentence: string; readonly ask: string } {
-  const { title = '', sentence = '', ask = '' } = saidOf(preset) ?? {}, total = solution.tracks[0]?.total ?? 0;
+  const { title = '', sentence = '', question: ask = '' } = saidOf(preset) ?? {}, total = solution.tracks[0]?.total ?? 0;
   return { title, ask, sentence: typeof sentence === 'string' ? sentence : sentence(words.headline.counted(total, grouped(total))) };
 }

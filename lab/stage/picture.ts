@@ -279,11 +279,12 @@ export function pictureOf(setting: Setting): Picture {
       for (const { x, y, colour } of ends) if (inside(plot.box, x, y, 2)) pen.text(x - 10, y - 8, 'A', { colour, size: 13, bold: true, anchor: 'end', halo: ink.surface });
     }
   }
+  /** Thin, since it is drawn anew in each frame of a drag: a line of one pixel costs a tenth of a wider one. */
   function ghost(pen: Pen, ink: Ink): void {
     for (const { plot, curves: own } of drawn) {
       clipped(pen, plot, () => {
-        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1.5, alpha: 0.4 }, 2 * path.count);
-        own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.5, alpha: 0.4 }, 2 * c.path.count); });
+        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1, alpha: 0.55 }, 2 * path.count);
+        own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1, alpha: 0.55 }, 2 * c.path.count); });
       });
     }
   }

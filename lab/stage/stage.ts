@@ -17,6 +17,7 @@ import { words } from '../words';
 import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
+import { haste } from './haste';
 import { errorsOf, motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
@@ -122,7 +123,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!context || !place || !colours) return;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.clearRect(0, 0, place.width, place.height);
-    draw(canvasPen(context, place.width, place.height), colours);
+    draw(canvasPen(context, place.width, place.height, thin ? 1 / scale : Infinity), colours);
   }
   function make(of: Bounds): void {
     if (!scene || !subject || !place) return;
@@ -139,6 +140,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!picture) make(bounds);
     if (!picture) return;
     finished = picture.over(time);
+    thin = hurried.draws(performance.now(), !!ghost);
     onto(still, (pen, i) => picture!.still(pen, i, finished));
     drawMoving();
     // The build's picture has done its work.
@@ -148,7 +150,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (scene.solution.truth) milestone('exact-motion');
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
-  let busy = false, again = false, finished = false;
+  let busy = false, again = false, finished = false, thin = false;
+  const hurried = haste(() => { thin = false; refresh(); });
   function drawMoving(): void {
     if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
   }

@@ -16,19 +16,18 @@ export const stagings: Readonly<Record<string, Staging>> = {
     switch: { to: 'thrown-ball', on: true },
   },
   'projectile': {
-    ask: 'straight-steps', equal: false, units: metres, arrow: 0.2, upright: true,
+    equal: false, units: metres, arrow: 0.2, upright: true,
     dials: [{ name: 'g', part: 1, unit: 'm/s²', low: -20, high: 0 }, { name: 'm', unit: 'kg', low: 0.1, high: 10 },
       { name: "r'(0)", part: 1, unit: 'm/s', low: 0, high: 10 }],
   },
   'projectile-drag': {
-    ask: 'look-ahead', units: metres, dials: [{ name: 'm', unit: 'kg', low: 0.01, high: 2 }, { name: 'c', unit: 'kg/m', low: 0, high: 0.005 }, { name: "r'(0)", part: 1, unit: 'm/s', low: 0, high: 60 }],
+    units: metres, dials: [{ name: 'm', unit: 'kg', low: 0.01, high: 2 }, { name: 'c', unit: 'kg/m', low: 0, high: 0.005 }, { name: "r'(0)", part: 1, unit: 'm/s', low: 0, high: 60 }],
   },
   'spring': {
     ask: 'energy', decor: 'spring', units: metres, frame: { y: [-1.9, 1.9] },
     dials: [{ name: 'k', unit: 'N/m', low: 0.1, high: 4 }, { name: 'm', unit: 'kg', low: 0.1, high: 4 }, { name: 'x(0)', unit: 'm', low: -2, high: 2 }],
   },
   'damped-spring': {
-    ask: 'verlets-trick',
     dials: [{ name: 'gamma', low: 0, high: 2 }, { name: 'F', low: 0, high: 2 }, { name: 'omega', low: 0, high: 4 }],
   },
   'pendulum': {
@@ -51,7 +50,7 @@ export const stagings: Readonly<Record<string, Staging>> = {
   },
   'kepler': {
     rests: [[0, 0, 10, 'sun']],
-    ask: 'energy', dials: [{ name: 'e', low: 0, high: 0.95 }, { name: 'mu', low: 0.1, high: 2 }],
+    dials: [{ name: 'e', low: 0, high: 0.95 }, { name: 'mu', low: 0.1, high: 2 }],
   },
   'comet': {
     rests: [[0, 0, 8, 'sun']], units: { x: 'au', t: 'years', v: 'au/year' },

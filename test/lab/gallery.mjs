@@ -1,8 +1,9 @@
-/* The gallery by itself, as the page holds it: with the pointer, with the keyboard alone, at every width, light and dark. */
+/* The gallery by itself, as the page holds it: with the pointer, with the keyboard alone, at every width, light and dark; and what each scene asks and answers. */
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import * as page_ from './help.mjs';
 import { attempt, built, finish, judge, launch, place, root, same } from './help.mjs';
 
 const lab = join(root, 'lab'), need = createRequire(join(lab, 'package.json')), { build } = need('esbuild');
@@ -109,6 +110,42 @@ await attempt('bodies run', async () => {
   same('nothing runs for those who asked for less motion', await calm.locator('.running').count(), 0);
   await close('less motion', calm);
 });
+
+/* The page itself: each scene asks on the stage what its card asks, and leads to what answers it. */
+const lessonsOf = { 'thrown-ball': 'Too high, too low', spring: 'Who keeps the energy?', 'damped-cubic': 'Verlet’s trick' };
+for (const [width, height] of [[390, 844], [1280, 800]]) {
+  await attempt(`${width} px: questions`, async () => {
+    const page = await page_.open(undefined, { width, height, touch: width < 800, calm: true });
+    for (const { model } of cards) {
+      await page_.example(page, model);
+      await page.evaluate(() => scrollTo(0, 0));
+      const ask = page.locator('.ask-button'), { question } = saidOf(model);
+      same(`${width} px, ${model}: the stage asks what the card asks`, await ask.allTextContents(), [question]);
+      const [words, shown, stage, dock] = await page.evaluate(() => ['#words', '.ask-button', '#stage', '#dock'].map((s) => { const { top, bottom, height: h } = document.querySelector(s).getBoundingClientRect(); return { top, bottom, h }; }));
+      if (width < 800) judge(`${width} px, ${model}: the words are above the picture, which has its room`, words.bottom <= stage.top + 0.5 && shown.bottom <= words.bottom && stage.h >= 240 && dock.bottom <= height + 0.5, JSON.stringify([words, shown, stage, dock]));
+      else judge(`${width} px, ${model}: the words end above the dock`, words.bottom <= dock.top, JSON.stringify([words, dock]));
+      if (model === 'resonance' || model === 'thrown-ball') await page_.summaryOf(page, 'Motion');
+      if (model === 'resonance' || model === 'thrown-ball') await page.screenshot({ path: join(built, 'shots', `question-${model}-${width}.png`) });
+      await ask.click();
+      if (lessonsOf[model]) {
+        await page.locator('.lesson .parts').waitFor();
+        same(`${width} px, ${model}: a lesson answers, the right one`, await page.evaluate(() => {
+          const list = document.getElementById('lessons');
+          list.showPopover();
+          const title = list.querySelector('[aria-current] span').textContent;
+          list.hidePopover();
+          return title;
+        }), lessonsOf[model]);
+        await page.locator('.lesson-head .text-button').click();
+        continue;
+      }
+      const note = page.locator('.note h3');
+      same(`${width} px, ${model}: the note answers it, in sight and with the focus`, [await note.textContent(), await note.evaluate((h) => { const { top, bottom } = h.getBoundingClientRect(); return document.activeElement === h && top > 60 && bottom < innerHeight; })], [question, true]);
+      if (model === 'resonance') await page.screenshot({ path: join(built, 'shots', `answer-${model}-${width}.png`) });
+    }
+    await page_.clean(`${width} px: questions`, page);
+  });
+}
 
 await attempt('every width', async () => {
   for (const [width, columns, theme] of [[320, 2, 'dark'], [390, 2, 'light'], [800, 3, 'dark'], [1024, 5, 'light'], [1280, 5, 'dark'], [1920, 5, 'light']]) {

@@ -27,6 +27,21 @@ await attempt('an equation and a start are enough', async () => {
   await shot(page, 'supposed');
 });
 
+await attempt('another equation begins at its end, as a scene does', async () => {
+  const now = () => page.locator('.transport-now').textContent(), scrub = page.locator('.transport .transport-scrub');
+  same('typed: at its end', await now(), '25.00');
+  await scrub.evaluate((line) => { line.value = '1000'; line.dispatchEvent(new Event('input', { bubbles: true })); });
+  same('… and moved from there', await now(), '2.50');
+  await area.fill(start.replace('= 2', '= 1.9'));
+  await settled(page);
+  judge('another start: the time stays', Number(await now()) === 2.5, await now());
+  await area.fill("x'' = -2 x\nx(0) = 1\nstep 0.1\nuntil 45");
+  await settled(page);
+  same('another equation: its end', await now(), '45.0');
+  await area.fill(start);
+  await told(page);
+});
+
 await attempt('taking, and taking back', async () => {
   await page.locator('#model-take').click();
   await told(page);
@@ -57,6 +72,8 @@ await attempt('a slip: told after a pause, mended by a press', async () => {
   await area.fill(start);
   await settled(page);
   const picture = await summaryOf(page, 'Motion');
+  const boxes = () => page.evaluate(() => ['#dock', '.dials-more > *', '.dial.step', '#stage', '#scene-title', '.editor-field'].map((s) => { const { x, y, width, height } = document.querySelector(s).getBoundingClientRect(); return [x, y, width, height].join(); }));
+  const before = await boxes();
   await area.fill(start.replace('(theta)', '(theat)'));
   await page.waitForTimeout(250);
   same('while one types nothing is said', await message.textContent(), '');
@@ -66,10 +83,19 @@ await attempt('a slip: told after a pause, mended by a press', async () => {
   same('the last picture stays', await summaryOf(page, 'Motion'), picture);
   same('the repairs', await page.locator('.mend button').allTextContents(), ['Replace by theta', 'Make it a slider']);
   await shot(page, 'slip');
+  // What stands there of the last text is not told of this one; nothing moves.
+  const seen = (what) => page.locator(what).evaluate((e) => [getComputedStyle(e).visibility, getComputedStyle(e).opacity, e.inert]);
+  await page.waitForFunction(() => getComputedStyle(document.querySelector('.typeset')).opacity === '0');
+  same('the equation of the last text is away, its sliders rest', [(await seen('.typeset'))[0], await seen('.dial.step'), await page.locator('.dials-more').evaluate((e) => e.inert), await seen('.dials-more > :first-child'), await page.locator('#all-values .sliders fieldset').evaluateAll((all) => all.every((f) => f.inert))],
+    ['hidden', ['visible', '0.4', true], true, ['visible', '0.4', false], true]);
+  same('… and it is told', await page.locator('#status .message').textContent(), 'The last motion that could be read, with its sliders.');
+  same('… and nothing has moved', await boxes(), before);
+  await page.locator('#stage-figure').screenshot({ path: join(built, 'shots', 'own-slip-stage.png') });
   await page.getByRole('button', { name: 'Make it a slider' }).click();
   await told(page);
   same('a slider: its line stands before the equation', await area.inputValue(), `theat = 1\n${start.replace('(theta)', '(theat)')}`);
   same('… and it is well', await message.textContent(), '');
+  same('… the equation is its own again, and the sliders', [await page.locator('.typeset').isVisible(), await page.locator('.dial.step').evaluate((e) => e.inert), await page.locator('.dials-more').evaluate((e) => e.inert)], [true, false, false]);
   await page.keyboard.press('Control+z');
   await told(page);
   await page.getByRole('button', { name: 'Replace by theta' }).click();

@@ -1,6 +1,6 @@
-/* For everyone, by what they have: fingers, a window at 400 %, colours that the system forces, paper. */
+/* For everyone, by what they have: fingers, a window at 400 %, colours that the system forces, letters that the reader made large, paper. */
 import { join } from 'node:path';
-import { attempt, audit, built, clean, fingers, finish, judge, open, same, settled, sideways, singleFile } from './help.mjs';
+import { attempt, audit, browserPath, built, chromium, clean, fingers, finish, judge, open, same, settled, sideways, singleFile } from './help.mjs';
 
 // --- fingers, wherever one is -----------------------------------------------------------------------------------------------------------
 for (const [width, height] of [[390, 844], [844, 390], [820, 1180]]) {
@@ -95,6 +95,38 @@ for (const theme of ['light', 'dark']) {
     await clean(`forced colours, ${theme}`, page);
   });
 }
+
+// --- letters as large as the reader has chosen in the browser ------------------------------------------------------------------------------------
+await attempt('larger letters', async () => {
+  const rows = ['#scene-title', '#scene-words', '.ask-button', '.pill small', '.nav-button', '.chip', '.dial-head label', '.dial input.value', '.stops span', '.transport-now', '.quiet-button'];
+  const sizes = (page) => page.evaluate((all) => all.map((s) => { const e = document.querySelector(s); return [s, parseFloat(getComputedStyle(e).fontSize)]; }), rows);
+  const usual = await open(`${singleFile}#v=1&p=thrown-ball`, { calm: true, height: 800 }), before = await sizes(usual);
+  await clean('usual letters', usual);
+  // Of the root alone: what the page asks of the window's width stays, so each letter can be compared.
+  const doubled = () => { const sheet = new CSSStyleSheet(); sheet.replaceSync('html { font-size: 200% }'); document.adoptedStyleSheets = [sheet]; };
+  const page = await open(`${singleFile}#v=1&p=thrown-ball`, { calm: true, height: 800, before: doubled });
+  same('a root of 200 %: letters are twice as large', await sizes(page), before.map(([s, size]) => [s, 2 * size]));
+  const cut = await page.evaluate(() => ['.chip', '.dial-head', '.transport-time', '.pill', '.nav-button', '.quiet-button', '.top', '#dials'].filter((s) => [...document.querySelectorAll(s)].some((e) => e.scrollHeight > 1.1 * e.clientHeight)));
+  same('… no row is too low for them', cut, []);
+  judge('… Play is round', await page.locator('.transport-play').evaluate((b) => Math.abs(b.offsetWidth - b.offsetHeight) < 1));
+  judge('… the words end above the dock', await page.evaluate(() => document.querySelector('#words').getBoundingClientRect().bottom <= document.querySelector('#dock').getBoundingClientRect().top));
+  await page.screenshot({ path: join(built, 'shots', 'letters-200.png') });
+  await clean('a root of 200 %', page);
+  // Chosen in the browser, what is asked of the window's width counts in these letters too.
+  const large = await chromium.launch({ executablePath: browserPath(), args: ['--no-sandbox', '--disable-dev-shm-usage', '--blink-settings=defaultFontSize=32'] });
+  for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]]) {
+    const other = await (await large.newContext({ viewport: { width, height }, reducedMotion: 'reduce' })).newPage();
+    for (const hash of ['#v=1&p=thrown-ball', '#v=1&p=thrown-ball&a=explicit-euler&h=0.2&T=2&w=plane&l=too-high-too-low.try.0', '#v=1&p=spring&l=gallery']) {
+      await other.goto(singleFile + hash);
+      await other.reload();
+      await other.locator('.transport-now').filter({ hasText: /\d/ }).waitFor({ state: 'attached' });
+      same(`letters of 32 px, ${width} px, ${hash.slice(-8)}: not wider than the page`, await sideways(other), 0);
+      if (/gallery/.test(hash)) continue;
+      judge(`letters of 32 px, ${width} px, ${hash.slice(-8)}: a picture, and a way to play it`, await other.evaluate(() => document.querySelector('#stage').clientHeight >= 180 && document.querySelector('.transport-play').checkVisibility()), await other.evaluate(() => [document.querySelector('#stage').clientHeight, document.querySelector('.transport-play').checkVisibility(), document.body.className]));
+    }
+  }
+  await large.close();
+});
 
 // --- paper -----------------------------------------------------------------------------------------------------------------------------------
 await attempt('paper', async () => {

@@ -5,30 +5,30 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'thrown-ball': {
     title: 'A thrown ball', question: 'Why do the two Eulers miss?',
     sentence: (steps) => `Green is how it really flies. The others are a computer’s answers, ${steps} straight steps each.`,
-    ask: 'Why do the two Eulers miss?', dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways' }, switch: 'Air',
+    dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways' }, switch: 'Air',
   },
   'projectile': {
     title: 'Notebook, first example', question: 'Are sixty small steps enough?',
     sentence: 'The first example of the notebook, with its numbers: after three seconds the Eulers are 0.7357 m above and below.',
     moved: 'The first example of the notebook, with other numbers.',
-    ask: 'Are sixty small steps enough?', dials: { 'g.y': 'Gravity', m: 'Mass', "r'(0).y": 'Upwards' },
+    dials: { 'g.y': 'Gravity', m: 'Mass', "r'(0).y": 'Upwards' },
   },
   'projectile-drag': {
     title: 'Ball in air', question: 'Where did the symmetry go?',
     sentence: 'Thrown hard, a light ball loses its speed to the air: the way up is long and flat, the way down is short and steep.',
-    ask: 'Where did the symmetry go?', dials: { m: 'Mass', c: 'Drag', "r'(0).y": 'Upwards' },
+    dials: { m: 'Mass', c: 'Drag', "r'(0).y": 'Upwards' },
   },
   'spring': {
     title: 'Mass on a spring', question: 'Why does the blue one stay?',
     sentence: 'On the left against time, on the right how fast against how far. Both share one height.',
     alone: 'How far it is, against time.',
-    ask: 'Who gains energy, and why?', dials: { k: 'Stiffness', m: 'Mass', 'x(0)': 'Start' },
+    dials: { k: 'Stiffness', m: 'Mass', 'x(0)': 'Start' },
   },
   'damped-spring': {
     title: 'Spring with friction', question: 'What does each swing lose?',
     sentence: 'Each swing loses the same share of what is left. Give it a periodic push: it answers at the frequency of the push.',
     moved: 'With friction each free swing loses the same share of what is left; pushed, it comes to answer at the frequency of the push.',
-    ask: 'Can Verlet feel friction?', dials: { gamma: 'Friction', F: 'Push', omega: 'Its frequency' },
+    dials: { gamma: 'Friction', F: 'Push', omega: 'Its frequency' },
   },
   'pendulum': {
     title: 'Pendulum', question: 'Why is a wide swing slower?',
@@ -50,7 +50,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'damped-cubic': {
     title: 'Cubic spring, braked', question: 'Does friction spoil Verlet?',
     sentence: 'The third example of the notebook: a spring that hardens, with friction, which Verlet solves for in closed form.',
-    ask: 'Can Verlet feel friction?', dials: { 'x(0)': 'Start', "x'(0)": 'Start speed' },
+    dials: { 'x(0)': 'Start', "x'(0)": 'Start speed' },
   },
   'van-der-pol': {
     title: 'Van der Pol', question: 'Why do all starts end alike?',
@@ -60,7 +60,7 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
   'kepler': {
     title: 'Planet', question: 'Does the ellipse close?',
     sentence: 'A planet and its sun. The ellipse should close, turn after turn.',
-    ask: 'Who keeps the energy?', dials: { e: 'Eccentricity', mu: 'Mass of the sun' },
+    dials: { e: 'Eccentricity', mu: 'Mass of the sun' },
   },
   'comet': {
     title: 'Comet', question: 'What breaks close to the Sun?',
@@ -127,8 +127,8 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     dials: { B: 'Drive', k: 'Friction', 'x(0)': 'Start' },
   },
   'thrown-ball-air': {
-    title: 'A thrown ball, in air', question: 'Does the air shorten the throw?',
+    title: 'A thrown ball, in air', question: 'Does midpoint still hit?',
     sentence: 'Air slows a light ball more than a heavy one. No formula is known for this flight: green is computed with steps so small that the line would not change.',
-    ask: 'Does midpoint still hit?', dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways', m: 'Mass' }, switch: 'Air',
+    dials: { "r'(0).y": 'Upwards', "r'(0).x": 'Sideways', m: 'Mass' }, switch: 'Air',
   },
 };

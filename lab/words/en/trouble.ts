@@ -14,7 +14,7 @@ export const trouble = {
   methods: (sentences: readonly string[]) => sentences.join(' '),
   cancelled: 'The computation was stopped. The picture is the last one that was finished.',
   computing: 'Computing …', cancel: 'Cancel',
-  last: 'The last motion that could be read.', model: 'The model has an error; see under its text.',
+  last: 'The last motion that could be read, with its sliders.', model: 'The model has an error; see under its text.',
   numbers: 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.',
   /** One method that did not reach the end; all of them. */
   method: (name: string, message: string) => `${name}: ${message}`, all: (sentences: readonly string[]) => sentences.join('. '),
