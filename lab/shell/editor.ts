@@ -206,7 +206,7 @@ export function editor(store: LiveStore): HTMLElement {
     offering = true;
     colour();
     size();
-    store.change({ text: area.value, ...(another(store.state.text, area.value) ? { set: {}, step: '', until: '' } : {}) });
+    store.change({ text: area.value, ...(another(store.state.text, area.value) ? { set: {}, step: '', until: '', pinned: undefined } : {}) });
     if (event instanceof InputEvent && event.inputType === 'insertText' && (event.data?.length ?? 0) <= 1 || offers) complete(); else close();
     offer();
     if (timer) wait();
