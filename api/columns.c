@@ -158,7 +158,7 @@ static motus_status ask(motus_system *s, motus_column_kind kind, double t, const
 motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *err)
 {
     char text[DECIMAL_MAX];
-    fail(err, MOTUS_CALLBACK, "the %s callback reported a failure at t = %s", which, decimal(t, text));
+    fail(err, MOTUS_CALLBACK, "the %s callback reported a failure at t = %s", which, decimal_time(t, t, text));
     if (err) {
         err->time = t;
         err->returned = answer;

@@ -7,16 +7,16 @@
 #include "api/follow.h"
 
 #include "api/settled.h"
+#include "api/swings.h"
 #include "api/vector.h"
 
 #include <math.h>
 #include <string.h>
 
 #define TOLERANCE 1e-5      /* of a step, relative to the size of each number */
-#define NEGLIGIBLE 1e-3     /* of the largest so far: a sign of less is none */
+#define LEAST 1e-3          /* of the largest of its kind: no number is taken to be smaller */
 #define CHANGE_OF_STEP 11.8 /* `change` of a harmonic motion in its steps at this tolerance */
-#define SWINGS 3            /* of each number, so many are waited for, */
-#define SWINGS_MOST 100     /*   and so many of the fastest */
+#define SWINGS_MOST 100     /* of the fastest number */
 #define INFINITE 1e8        /* times the size of the start */
 #define KINK 3              /* steps: a change of the force that takes fewer is a jump and no rate */
 #define STEEP 100           /* times the force of the start: no singularity has less */
@@ -24,18 +24,8 @@
 #define LATER 100           /* of the horizon: so long a fall is followed */
 #define SPEED 0.05          /* of the largest in a fall: what is slower comes to rest and does not fall */
 #define UNIT 0.2            /* of the size after 1/rate: a start that is smaller has no size to grow from */
-#define CHATTER 5           /* steps from one change of sign to the next: fewer are no swing */
 #define NEAR_END 1e-6       /* of the time: so shortly before the end its cause is met */
-#define IRREGULAR 1.2       /* the longest swing of a number over its shortest */
 enum { SETTLED = 8 };       /* steps, until their length no longer follows from the first, or from a kink */
-
-/* The sign of one number in time. */
-typedef struct signal {
-    double largest, time, value;    /* the last value that was not negligible */
-    double first, before, last;     /* changes of sign */
-    double shortest, longest;       /* from one to the next but one */
-    uint32_t changes, since, steps; /* since: steps taken before the first; steps: from there to the last */
-} signal;
 
 typedef struct follower {
     const problem *problem;
@@ -44,7 +34,7 @@ typedef struct follower {
     double *stage_x, *stage_v; /* of a stage, and at the end of the step */
     double *slope_x[4], *slope_v[4];
     double *largest_x, *largest_v;
-    signal *signals;    /* of the velocity of each number of v, then of its acceleration */
+    swings *signals;    /* of the velocity of each number of v, then of its acceleration */
     size_t falling;     /* the position with the largest force at the start, */
     double force, side; /*   this force, and the sign of the position before it comes to 0, */
     double speed;       /*   and its largest speed since it falls */
@@ -92,8 +82,8 @@ static double attempt(follower *f, double h)
     /* Numbers that are 0 at first get the size that the largest acceleration gives them in a time 1/rate. */
     double worst = 0, largest_a = 0;
     for (int s = 0; s < 4; s++) largest_a = fmax(largest_a, vector_largest(f->slope_v[s], nx));
-    const double of_x = fmax(NEGLIGIBLE * vector_largest(f->largest_x, nx), largest_a / (f->rate * f->rate)),
-                 of_v = fmax(NEGLIGIBLE * vector_largest(f->largest_v, nv), largest_a / f->rate);
+    const double of_x = fmax(LEAST * vector_largest(f->largest_x, nx), largest_a / (f->rate * f->rate)),
+                 of_v = fmax(LEAST * vector_largest(f->largest_v, nv), largest_a / f->rate);
     for (size_t k = 0; k < nx + nv; k++) {
         double *const *slope = k < nx ? f->slope_x : f->slope_v, sum = 0;
         const size_t j = k < nx ? k : k - nx;
@@ -105,36 +95,14 @@ static double attempt(follower *f, double h)
     return isfinite(worst) ? worst : NAN;
 }
 
-static void note(signal *s, double time, uint32_t taken, double value)
-{
-    const double size = fabs(value);
-    if (size > s->largest) s->largest = size;
-    if (!(size > NEGLIGIBLE * s->largest)) return;
-    if (value * s->value < 0) {
-        const double crossed = s->time + (time - s->time) * (s->value / (s->value - value));
-        if (s->changes == 0) s->first = crossed, s->since = taken;
-        s->steps = taken - s->since;
-        if (s->changes > 1) { /* not from the start, which need not be a turning point */
-            const double one = crossed - s->before;
-            s->shortest = s->changes == 2 ? one : fmin(s->shortest, one);
-            s->longest = fmax(s->longest, one);
-        }
-        s->changes++;
-        s->before = s->last;
-        s->last = crossed;
-    }
-    s->time = time;
-    s->value = value;
-}
-
 static void note_all(follower *f)
 {
     const problem *p = f->problem;
     for (size_t k = 0; k < p->nx; k++) f->largest_x[k] = fmax(f->largest_x[k], fabs(f->x[k]));
     for (size_t k = 0; k < p->nv; k++) {
         f->largest_v[k] = fmax(f->largest_v[k], fabs(f->v[k]));
-        note(&f->signals[k], f->elapsed, f->taken, k < p->nx ? f->v[k] : f->a[k]);
-        if (k < p->nx) note(&f->signals[p->nv + k], f->elapsed, f->taken, f->a[k]);
+        swings_note(&f->signals[k], f->elapsed, f->taken, k < p->nx ? f->v[k] : f->a[k]);
+        if (k < p->nx) swings_note(&f->signals[p->nv + k], f->elapsed, f->taken, f->a[k]);
     }
 }
 
@@ -293,25 +261,11 @@ static bool step(follower *f, size_t *evaluations, size_t most, followed *out)
     }
 }
 
-/* The signal that tells the swings of number k. */
-static const signal *telling(const follower *f, size_t k)
+/* The signs that tell the swings of number k. */
+static const swings *telling(const follower *f, size_t k)
 {
-    const signal *s = &f->signals[k], *a = s + f->problem->nv;
+    const swings *s = &f->signals[k], *a = s + f->problem->nv;
     return k < f->problem->nx && s->changes < 3 && a->changes > 3 ? a : s;
-}
-
-static bool uneven(const follower *f, size_t k)
-{
-    const signal *s = telling(f, k);
-    return s->changes > 4 && s->longest > IRREGULAR * s->shortest;
-}
-
-/* The swing of number k, and whether it has swung often enough. */
-static double swing(const follower *f, size_t k, bool *often)
-{
-    const signal *s = telling(f, k);
-    *often = s->changes > 2 * SWINGS || s->largest == 0;
-    return s->changes < 3 || s->steps < CHATTER * (s->changes - 1) ? 0 : 2 * (s->last - s->first) / (s->changes - 1);
 }
 
 /* True: every number has swung often enough, or the fastest so often that the others do not swing. */
@@ -322,11 +276,11 @@ static bool judge(const follower *f, followed *out)
     out->shortest = out->longest = 0;
     out->irregular = false;
     for (size_t k = 0; k < f->problem->nv; k++) {
-        bool often;
-        const double one = swing(f, k, &often);
-        all &= often;
+        const swings *signs = telling(f, k);
+        const double one = swings_length(signs);
+        all &= swings_often(signs);
         if (one > 0 && (out->shortest == 0 || one < out->shortest)) out->shortest = one, out->fastest = k;
-        out->irregular |= one > 0 && uneven(f, k);
+        out->irregular |= one > 0 && swings_uneven(signs);
         if (one > out->longest) out->longest = one, slowest = k;
     }
     out->slowest = slowest;

@@ -22,7 +22,8 @@ typedef struct jacobian {
 static motus_status failed(const jacobian *j, motus_error *err)
 {
     char t[DECIMAL_MAX];
-    return fail(err, MOTUS_CALLBACK, "the derivative callback reported a failure at t = %s", decimal(j->t, t));
+    return fail(err, MOTUS_CALLBACK, "the derivative callback reported a failure at t = %s",
+                decimal_time(j->t, j->t, t));
 }
 
 /* image = the derivative with respect to number `at` of v (in_v) or of x. */

@@ -175,10 +175,31 @@ static motus_status observe(judge *j, end *at, motus_error *err)
     return MOTUS_OK;
 }
 
+/* Says so where the force has no finite value at the start itself. */
+static bool undefined_start(const judge *j, double from, motus_error *err)
+{
+    const problem *p = j->problem;
+    char t[DECIMAL_MAX], name[MOTUS_NAME_MAX] = "";
+    if (from != j->run->timing.t0) return false;
+    for (size_t k = 0; k < p->nv; k++) {
+        if (isfinite(j->from.a[k])) continue;
+        p->name(p->ctx, true, k, name, sizeof name);
+        fail(err, MOTUS_SINGULAR,
+             "the motion is undefined at the start, t = %s: %s has no finite rate of change there; what follows is not "
+             "the motion",
+             decimal_time(from, from, t), name);
+        hint(err, "begin elsewhere, or look for a division by zero in the equation");
+        if (err) err->time = from;
+        return true;
+    }
+    return false;
+}
+
 static motus_status accuse(const judge *j, motus_status what, double from, motus_error *err)
 {
     char a[DECIMAL_MAX], b[DECIMAL_MAX];
     const double to = motus_run_time(j->run);
+    if (what == MOTUS_SINGULAR && undefined_start(j, from, err)) return what;
     for (int digits = 6; digits <= 17; digits++) {
         snprintf(a, sizeof a, "%.*g", digits, from);
         snprintf(b, sizeof b, "%.*g", digits, to);

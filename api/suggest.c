@@ -253,7 +253,8 @@ static motus_status measure(scales *s, double duration, motus_error *err)
     if (s->no_memory) return fail(err, MOTUS_MEMORY, "no memory for the derivatives");
     if (!s->failed) return MOTUS_OK;
     char t[DECIMAL_MAX];
-    return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s", decimal(s->t, t));
+    return fail(err, MOTUS_CALLBACK, "the acceleration callback reported a failure at t = %s",
+                decimal_time(s->t, s->t, t));
 }
 
 /* ---- round numbers ---- */

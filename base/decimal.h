@@ -16,7 +16,8 @@ char *decimal(double, char out[DECIMAL_MAX]);
 /* The same; returns the length. */
 size_t decimal_write(double, char out[DECIMAL_MAX]);
 /* A time for a message: with at least 6 digits, and as many as tell times apart that differ by 1e-5 of `span`, the
- * length of the motion; all digits where that is 0 or not finite. Returns out. */
+ * length of the motion, but no more than 12, of which rounding takes none; all digits where that is 0 or not finite.
+ * Returns out. */
 char *decimal_time(double t, double span, char out[DECIMAL_MAX]);
 size_t decimal_write_whole(uint64_t, char out[DECIMAL_MAX]);
 /* The same characters by the C library alone, which is slower. It defines what decimal_write() writes. */

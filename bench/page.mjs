@@ -85,7 +85,7 @@ function dragged({ slider: n, frames }) {
       const event = window.drag.answered;
       if (event === shown || !frameOf.has(event)) return;
       shown = event;
-      late.push((document.timeline.currentTime - frameOf.get(event)) / (1000 / 60));
+      late.push(Math.round((document.timeline.currentTime - frameOf.get(event)) / (1000 / 60)));
       // The frame is drawn when its callbacks are over.
       const channel = new MessageChannel();
       channel.port1.onmessage = () => drawn.push(performance.now() - event);

@@ -162,6 +162,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
         if (s->body->run(w, good - w->n)) go_back(s);
     }
     s->at.steps = -1;
+    if (good == 0 && bad != STEP_CALLBACK && stepper_undefined(s, err)) return MOTUS_DIVERGED;
     return status;
 }
 

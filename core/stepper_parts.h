@@ -35,6 +35,9 @@ struct stepper {
 
 /* The status and message for a STEP_ status at time t. */
 motus_status stepper_report(const stepper *, int bad, double t, motus_error *);
+/* Whether the force has no finite value at the present state, where no step was made; then says so in place of what the
+ * first step ran into. The error keeps its time, the end of that step. */
+bool stepper_undefined(stepper *, motus_error *);
 /* Copies the carried numbers into the main line; ends a shorter last step. */
 void stepper_put(stepper *, stepper_count, const double *carry);
 stepper_count stepper_get(const stepper *, double *carry);

@@ -20,7 +20,7 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
 {
     const work *w = &s->work;
     char time[DECIMAL_MAX], name[MOTUS_NAME_MAX], step[DECIMAL_MAX];
-    decimal_time(t, STEPS_TOLD * w->h, time);
+    decimal_time(t, bad == STEP_STALLED ? t : STEPS_TOLD * w->h, time);
     decimal(w->h, step);
     name_of(s, w->in_v, w->which, name);
     motus_status status = MOTUS_CALLBACK;
@@ -52,6 +52,30 @@ motus_status stepper_report(const stepper *s, int bad, double t, motus_error *er
     err->returned = bad == STEP_CALLBACK && s->problem.returned ? *s->problem.returned : 0;
     if (bad != STEP_CALLBACK && bad != STEP_STALLED) snprintf(err->variable, sizeof err->variable, "%s", name);
     return status;
+}
+
+bool stepper_undefined(stepper *s, motus_error *err)
+{
+    work *w = &s->work;
+    const size_t nx = w->nx, nv = w->nv;
+    if (!stepper_ends(s)) return false;
+    double *x = s->ends + nx + 2 * nv, *v = x + nx, *a = v + nv;
+    s->right = false;
+    if (s->body->sync(w, x, v, a)) return false;
+    for (size_t k = 0; k < nv; k++) {
+        if (isfinite(a[k])) continue;
+        char time[DECIMAL_MAX], name[MOTUS_NAME_MAX];
+        const double ended = err ? err->time : 0;
+        name_of(s, true, k, name);
+        fail(err, MOTUS_DIVERGED, "the motion is undefined at the start, t = %s: %s has no finite rate of change there",
+             decimal_time(time_now(w), time_now(w), time), name);
+        hint(err, "begin elsewhere, or look for a division by zero in the equation");
+        if (!err) return true;
+        err->time = ended;
+        snprintf(err->variable, sizeof err->variable, "%s", name);
+        return true;
+    }
+    return false;
 }
 
 /* Starts ---------------------------------------------------------------------------------------------------------- */

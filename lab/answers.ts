@@ -9,6 +9,7 @@ import { STEPS_MAX, problem } from './protocol';
 import type {
   Ask, Description, ErrorTrack, Model, Problem, Region, Requests, Solution, Solve, Spectrum, Trace, Track, Truth,
 } from './protocol';
+import { brief, grouped } from './figure/number';
 import { SEEN, sample, type Curve, type Motion } from './sample';
 import { Refused } from './scene';
 import { computed } from './words';
@@ -103,7 +104,7 @@ export class Answers {
     this.core.start(this.lab, method, step, until);
     const { total, step: h } = this.core.progress(this.lab);
     if (total > STEPS_MAX) {
-      throw limit(computed.steps(String(total), String(h), String(STEPS_MAX)), computed.nearer);
+      throw limit(computed.steps(grouped(total), brief(h, 6), grouped(STEPS_MAX)), computed.nearer);
     }
   }
 

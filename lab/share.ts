@@ -65,7 +65,7 @@ export function unescape(text: string): string | null {
 }
 
 /** A list at its commas, but for those inside brackets: newmark(1/4, 1/2) is one method. */
-export function splitList(text: string): string[] {
+function splitList(text: string): string[] {
   const parts: string[] = [];
   let depth = 0, part = '';
   for (const c of text) {
@@ -238,7 +238,7 @@ export function quote(text: string): string {
 }
 
 /** A line that the text does not hold, to end a heredoc. */
-export function delimiter(text: string): string {
+function delimiter(text: string): string {
   let end = 'MOTUS_END';
   for (let n = 2; text.includes(end); n++) end = `MOTUS_END_${n}`;
   return end;

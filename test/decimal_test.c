@@ -286,12 +286,35 @@ static void test_fast(void **context)
     assert_true(3 * fast < plain);
 }
 
+/* As many digits as tell times apart, and none that is rounding: 142674 steps of 0.1 end
+ * at 14267.400000000001. */
+static void test_times(void **context)
+{
+    (void)context;
+    const double late = 142674 * 0.1;
+    const struct {
+        double t, span;
+        const char *text;
+    } cases[] = {{late, 20000, "14267.4"},
+                 {late, late, "14267.4"},
+                 {late, 1e-13, "14267.4"},
+                 {late, 0.01, "14267.4"},
+                 {1234567.25, 1, "1234567.25"},
+                 {1.0 / 3, 1, "0.333333"},
+                 {0, 0, "0"},
+                 {0, 1, "0"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char out[DECIMAL_MAX];
+        assert_string_equal(decimal_time(cases[k].t, cases[k].span, out), cases[k].text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_powers),   cmocka_unit_test(test_random_bits), cmocka_unit_test(test_usual),
         cmocka_unit_test(test_integers), cmocka_unit_test(test_reading),     cmocka_unit_test(test_reading_edges),
-        cmocka_unit_test(test_whole),    cmocka_unit_test(test_fast),
+        cmocka_unit_test(test_whole),    cmocka_unit_test(test_fast),        cmocka_unit_test(test_times),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,6 +81,14 @@ static const struct {
     /* ln 100 = 4.605 scales of time, and a tenth; of N = 100/(1 + 99 exp(-t/2)) the last 1 % of 99 is left at 18.4 */
     {"x' = 3 - x; x(0) = 1", 0.084, 5.1, "61 steps", "settled to 1 % of its range, followed to 200"},
     {"N' = 0.5 N (1 - N/100); N(0) = 1", 0.34, 20, "59 steps", "settled to 1 % of its range, followed to 400"},
+    /* an epidemic: the last 1 % of its range is left at 91.82; and a tenth */
+    {"s' = -0.3 s i; i' = 0.3 s i - 0.1 i; s(0) = 0.99; i(0) = 0.01", 1.7, 100, "59 steps",
+     "settled to 1 % of its range, followed to 120000"},
+    /* it lands at 1.61627 */
+    {"r'' = (0, -9.81) - 0.5 |r'| r'; r(0) = (0, 2); r'(0) = (6, 10)", 0.036, 1.62, "45 steps", "when r.y is at 0"},
+    /* three rates, from 0.04 to more than 1e3 */
+    {"a' = -0.04 a + 1e4 b c; b' = 0.04 a - 1e4 b c - 3e7 b^2; c' = 3e7 b^2; a(0) = 1; b(0) = 0; c(0) = 0", 0.00048,
+     4.8, "for a start", "10000 steps"},
     {"x'' = -sign(x'); x(0) = 0; x'(0) = 1", 0.1, 2, "20 steps", ""}, /* it stops at 1: no step tells for how long */
     /* two rates far apart, a force without bounds at the start, an equilibrium that is none of rounding's */
     {"x' = -1000 x; y' = -y; x(0) = 1; y(0) = 1", 0.00042, 4.2, "10000 steps", "10000 steps"},

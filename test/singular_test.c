@@ -22,8 +22,9 @@ static motus_status said(const char *text, const char *method, double *at, bool 
         fail_msg("%s: %s", text, err.message);
     *at = status != MOTUS_OK ? err.time : NAN;
     *failed = end != MOTUS_OK; /* it says so itself */
-    if (status != MOTUS_OK &&
-        (!strstr(err.message, "singularity") == (status == MOTUS_SINGULAR) || err.status != status || !err.hint[0]))
+    if (status != MOTUS_OK && ((!strstr(err.message, "singularity") &&
+                                !strstr(err.message, "undefined at the start")) == (status == MOTUS_SINGULAR) ||
+                               err.status != status || !err.hint[0]))
         fail_msg("%s", err.message);
     return status;
 }
@@ -112,6 +113,26 @@ static void passing_a_weak_pole(void **unused)
             if (said(text, methods[m], &at, &failed) != MOTUS_SINGULAR && !failed)
                 fail_msg("%s by %s", text, methods[m]);
         }
+}
+
+/* Methods that read the force only later on go over it. */
+static void beginning_on_a_pole(void **unused)
+{
+    (void)unused;
+    double at;
+    bool failed;
+    const char *const text = "x'' = 1/x\nx(0) = 0\nx'(0) = 1\nstep 0.5\nuntil 2\n";
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    def.method = "leapfrog";
+    assert_int_equal(said(text, "leapfrog", &at, &failed), MOTUS_SINGULAR);
+    assert_true(at == 0);
+    assert_int_equal(motus_run_singular(s, &def, &err), MOTUS_SINGULAR);
+    assert_string_equal(err.message,
+                        "the motion is undefined at the start, t = 0: x' has no finite rate of change there; "
+                        "what follows is not the motion");
+    motus_system_destroy(s);
 }
 
 /* A force that is bounded, or has an integral, has no such singularity, although a divisor passes 0. */
@@ -246,13 +267,10 @@ static void wrong_requests(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(passing_a_pole),
-        cmocka_unit_test(coming_near_to_a_pole),
-        cmocka_unit_test(passing_a_weak_pole),
-        cmocka_unit_test(forces_without_a_pole),
-        cmocka_unit_test(steps_that_do_not_resolve),
-        cmocka_unit_test(no_example_is_accused),
-        cmocka_unit_test(wrong_requests),
+        cmocka_unit_test(passing_a_pole),        cmocka_unit_test(coming_near_to_a_pole),
+        cmocka_unit_test(passing_a_weak_pole),   cmocka_unit_test(beginning_on_a_pole),
+        cmocka_unit_test(forces_without_a_pole), cmocka_unit_test(steps_that_do_not_resolve),
+        cmocka_unit_test(no_example_is_accused), cmocka_unit_test(wrong_requests),
     };
     return cmocka_run_group_tests_name("singular", tests, NULL, NULL);
 }

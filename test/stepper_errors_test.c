@@ -103,6 +103,42 @@ static void failing_callback(void **state)
     }
 }
 
+static int inverse(void *ctx, double t, double *x, double *v, double *a)
+{
+    (void)ctx, (void)t, (void)v;
+    a[0] = 1 / x[0];
+    return 0;
+}
+
+/* x'' = 1/x from x = 0: no smaller step would help, so none is to blame. */
+static void an_undefined_start_is_named(void **state)
+{
+    (void)state;
+    const problem p = {.nx = 1, .nv = 1, .accel = inverse, .name = cell_name, .traits = {.gradient = true}};
+    int said = 0;
+    for (size_t k = 0; k < row_count(); k++) {
+        if (!admitted(&p, k)) continue;
+        const double zero = 0, one = 1;
+        motus_error err = {0};
+        stepper *s = begin(&p, row_card(k)->name, 3, 0.25, &zero, &one);
+        const motus_status status = stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err);
+        if (status && stepper_steps(s) == 0) {
+            assert_string_equal(
+                err.message, "the motion is undefined at the start, t = 3: y[1]' has no finite rate of change there");
+            assert_null(strstr(err.hint, "smaller step"));
+            assert_true(stepper_time(s) == 3);
+            said++;
+        }
+        stepper_destroy(s);
+        /* A start that the force can bear, and a step that it cannot: the step's end is told, as ever. */
+        const double near = -0.25;
+        s = begin(&p, row_card(k)->name, 3, 0.25, &near, &one);
+        if (stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err)) assert_null(strstr(err.message, "at the start"));
+        stepper_destroy(s);
+    }
+    assert_true(said > 15);
+}
+
 /* delta = h² (1e6 + ((d + delta/2)/h)² 1e3): no real solution once the step is large. */
 static int insoluble(void *ctx, double t, double *x, double *v, double *a)
 {
@@ -246,6 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(divergence_names_time_and_variable),
         cmocka_unit_test(failing_callback),
+        cmocka_unit_test(an_undefined_start_is_named),
         cmocka_unit_test(failed_solve_names_time_and_variable),
         cmocka_unit_test(refused_requests),
         cmocka_unit_test(names_are_unique),

@@ -125,7 +125,7 @@ function linesOf({ members }: Group, ink: Ink, room: number): Span[][] {
 
 const HEAD = 9;
 /** The head of an arrow where a curve leaves. */
-export function drawExit(pen: Pen, { x, y, dx, dy }: Exit, colour: string): void {
+function drawExit(pen: Pen, { x, y, dx, dy }: Exit, colour: string): void {
   const side = 0.55 * HEAD, bx = x - HEAD * dx, by = y - HEAD * dy;
   pen.line([bx - side * dy, by + side * dx, x, y, bx + side * dy, by - side * dx], { colour, width: 1.75 });
 }

@@ -23,7 +23,7 @@ const GROUNDS = {
   dark: { dock: '#171B1F', card: '#1B2025', edge: '#343B43', 'danger-ground': '#2A1917', number: '#FFDD57', shade: '0 10px 40px rgb(0 0 0 / 55%)' },
 };
 
-export function isDark(): boolean {
+function isDark(): boolean {
   // Where the system forces its colours, its ground is the page's.
   const chosen = matchMedia('(forced-colors: active)').matches ? '' : document.documentElement.dataset.theme;
   return chosen === 'dark' || (chosen !== 'light' && matchMedia('(prefers-color-scheme: dark)').matches);

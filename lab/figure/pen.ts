@@ -7,36 +7,76 @@ import type { Pen, Span, Stroke } from './types';
 
 export { svgPen } from './svg';
 
-export function canvasPen(context: CanvasRenderingContext2D, width: number, height: number): Pen {
+/** Corners of a piece. */
+const PIECE = 32;
+
+/** Of a line in pixels; where the pen is lifted or what is not finite counts nothing. */
+function lengthOf(xy: ArrayLike<number>, count: number): number {
+  let length = 0;
+  for (let i = 2; i + 1 < count; i += 2) {
+    const step = Math.abs(xy[i]! - xy[i - 2]!) + Math.abs(xy[i + 1]! - xy[i - 1]!);
+    if (step - step === 0) length += step;
+  }
+  return length;
+}
+
+/** widest: of a line, in pixels of the layout. */
+export function canvasPen(context: CanvasRenderingContext2D, width: number, height: number, widest = Infinity): Pen {
   const c = context;
 
-  function trace(xy: ArrayLike<number>, count: number): number {
-    let down = false, length = 0, lastX = 0, lastY = 0;
+  function trace(xy: ArrayLike<number>, count: number): void {
+    let down = false;
     c.beginPath();
     for (let i = 0; i + 1 < count; i += 2) {
       const x = xy[i]!, y = xy[i + 1]!;
       // Not finite: the pen is lifted. x - x is 0 for finite numbers only.
       if (x - x + (y - y) !== 0) { down = false; continue; }
-      if (down) { c.lineTo(x, y); length += Math.abs(x - lastX) + Math.abs(y - lastY); } else c.moveTo(x, y);
-      down = true, lastX = x, lastY = y;
+      if (down) c.lineTo(x, y); else c.moveTo(x, y);
+      down = true;
     }
-    return length;
   }
-  function use(stroke: Stroke, length: number): void {
-    c.strokeStyle = stroke.colour;
-    c.lineWidth = stroke.width;
+  /** Strokes piece by piece: a browser without a graphics card takes for a long line that crosses itself twice the time of its pieces. A piece begins a pixel
+   * before the end of the last one, and its dashes go on where those ended. */
+  function draw(xy: ArrayLike<number>, count: number, dash: readonly number[]): void {
+    let corners = 0, length = 0, lastX = 0, lastY = 0;
+    const end = (): void => { if (corners > 1) c.stroke(); corners = 0; };
+    const begin = (x: number, y: number, at: number): void => {
+      if (dash.length) c.lineDashOffset = at;
+      c.beginPath();
+      c.moveTo(x, y);
+      corners = 1;
+    };
+    for (let i = 0; i + 1 < count; i += 2) {
+      const x = xy[i]!, y = xy[i + 1]!;
+      if (x - x + (y - y) !== 0) { end(); continue; }
+      if (corners) {
+        const step = Math.hypot(x - lastX, y - lastY), back = step > 1 ? 1 / step : 1;
+        c.lineTo(x, y);
+        length += step;
+        if (++corners > PIECE) { end(); begin(x - back * (x - lastX), y - back * (y - lastY), length - back * step); c.lineTo(x, y); corners++; }
+      } else begin(x, y, length = 0);
+      lastX = x, lastY = y;
+    }
+    end();
+    c.lineDashOffset = 0;
+  }
+  function line(xy: ArrayLike<number>, stroke: Stroke, count: number): void {
     // A line that fills the picture many times over is a band: its dashes are not seen as dashes, and cost most of the time of drawing.
-    c.setLineDash(stroke.dash && length < 5 * (width + height) ? stroke.dash as number[] : []);
+    const dash = stroke.dash && lengthOf(xy, count) < 5 * (width + height) ? stroke.dash as number[] : [];
+    c.strokeStyle = stroke.colour;
+    c.lineWidth = Math.min(widest, stroke.width);
+    c.setLineDash(dash);
     c.lineJoin = stroke.width > 2.5 ? 'round' : 'bevel';
     c.globalAlpha = stroke.alpha ?? 1;
+    // Where pieces overlap one would see through the line twice.
+    if (c.globalAlpha < 1) { trace(xy, count); c.stroke(); } else draw(xy, count, dash);
   }
   const plain = (): void => { c.globalAlpha = 1; };
 
   const pen: Pen = {
     width, height,
     line(xy, stroke, count = xy.length) {
-      use(stroke, trace(xy, count));
-      c.stroke();
+      line(xy, stroke, count);
       plain();
     },
     area(xy, fill, alpha = 1, count = xy.length) {

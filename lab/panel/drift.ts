@@ -17,10 +17,11 @@ import { nameSpans, nameText } from '../figure/name';
 import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, begin, drawTrack, valueAt } from '../figure/track';
 import type { AxisDefinition, Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
+import { greenName } from '../stage/motion';
 import { words } from '../words';
 import { columnOf, headName, invariants, timeTable } from './columns';
 import { keepingOf, type Keeping } from './keeping';
-import { endTime, exactName, listed, moment, nameAt, several, timeUnit } from './told';
+import { endTime, listed, moment, nameAt, several, timeUnit } from './told';
 
 const say = words.panel.drift;
 /** A relative change that is round-off. */
@@ -48,7 +49,7 @@ export const driftPanel: PanelMaker = (): Panel => {
     logarithmic = scaleSelect.value === 'log';
     if (scene) prepare(scene);
   });
-  const named = (): string[] => [...(logarithmic ? [] : [scene ? exactName(scene) : '']), ...(scene?.looks.map((l) => l.label) ?? [])];
+  const named = (): string[] => [...(logarithmic ? [] : [scene ? greenName(scene) : '']), ...(scene?.looks.map((l) => l.label) ?? [])];
   const layout = (width: number): EndsLayout => endsLayout(width, named());
   const axisName = (): string => (relative ? say.axis.relative : say.axis.plain);
 
@@ -97,7 +98,7 @@ export const driftPanel: PanelMaker = (): Panel => {
     pen.clip(f.left, f.top - 2, f.width + 2, f.height + 4, () => {
       tracks.forEach((track, k) => drawTrack(pen, f, track.times, drawn[k]!, scene!.looks[k]!, ends[k]!.rows));
     });
-    const exact: End[] = axis.log ? [] : [{ label: exactName(scene), colour: ink.exact, marker: null, at: { y: level }, heights: heightsIn(f, [f.x.invert(f.left), f.x.invert(f.left + f.width)], [first, first]) }];
+    const exact: End[] = axis.log ? [] : [{ label: greenName(scene), colour: ink.exact, marker: null, at: { y: level }, heights: heightsIn(f, [f.x.invert(f.left), f.x.invert(f.left + f.width)], [first, first]) }];
     drawEnds(pen, ink, f, names, [...exact, ...tracks.map((track, k) => endOf(scene!.looks[k]!, ends[k]!, heightsIn(f, track.times, drawn[k]!)))]);
   }
   const at = (t: number, of: readonly Float64Array[]): number[] => scene?.solution.tracks.map((track, k) => valueAt(track.times, of[k] ?? [], t)) ?? [];

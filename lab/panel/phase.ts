@@ -14,11 +14,12 @@ import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, drawPath, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thinPath } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
+import { greenName } from '../stage/motion';
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { columnOf, exactAt, movable, positions, states, timeTable, velocityOf } from './columns';
 import { swingsOf } from './swings';
-import { amount, exactName, nameAt, timeUnit, unitOf } from './told';
+import { amount, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.phase;
 /** Curves are compared at so many times: those that agree share a name. */
@@ -45,7 +46,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     return column?.length ? column : null;
   };
   const truthShown = (): boolean => !!(truthOf(pair[0]) && truthOf(pair[1]));
-  const layout = (width: number): EndsLayout => endsLayout(width, [...(truthShown() && scene ? [exactName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])]);
+  const layout = (width: number): EndsLayout => endsLayout(width, [...(truthShown() && scene ? [greenName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])]);
   const space = (): boolean => pair.every((name) => scene && columnOf(scene, name)?.kind === 'position');
 
   function draw(pen: Pen, ink: Ink): void {
@@ -63,7 +64,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
       if (truth && ex && ey) {
         pen.line(thinPath(ex, ey, f.x, f.y), { colour: ink.exact, width: EXACT_WIDTH });
         const end = endIn(f, ex, ey);
-        ends.push({ label: exactName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heights(truth.times, ex, ey) });
+        ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heights(truth.times, ex, ey) });
       }
       tracks.forEach(({ times }, k) => {
         const px = track(k, pair[0]), py = track(k, pair[1]), end = endIn(f, px, py), look = scene!.looks[k]!;

@@ -15,10 +15,11 @@ import { brief, readable, shortened } from '../figure/number';
 import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thin } from '../figure/thin';
 import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
+import { greenName } from '../stage/motion';
 import type { Sees } from '../stage/stage';
 import { words } from '../words';
 import { exactAt, exactText, movable, positions, states, timeTable } from './columns';
-import { endTime, exactName, listed, moment, nameAt, timeUnit, unitOf } from './told';
+import { endTime, listed, moment, nameAt, timeUnit, unitOf } from './told';
 
 const say = words.panel.time;
 const STRIP = 130, MOST = 6, ANSWERED = 3;
@@ -66,7 +67,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     return scene?.solution.tracks.map((t) => t.columns[at] ?? new Float64Array(0)) ?? [];
   };
   const truthShown = (): boolean => chosen.some((name) => truthOf(name));
-  const labels = (): string[] => [...(truthShown() && scene ? [exactName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])];
+  const labels = (): string[] => [...(truthShown() && scene ? [greenName(scene)] : []), ...(scene?.looks.map((l) => l.label) ?? [])];
   const layout = (width: number): EndsLayout => endsLayout(width, labels());
 
   function draw(pen: Pen, ink: Ink): void {
@@ -95,7 +96,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
         if (exact && truth) pen.line(thin(truth.times, exact, frame.x, frame.y), { colour: ink.exact, width: EXACT_WIDTH });
         tracks.forEach((track, k) => drawTrack(pen, frame, track.times, columns[k]!, scene!.looks[k]!, ended[k]!.rows));
       });
-      if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: exactName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
+      if (exact && truth) { const end = endIn(frame, truth.times, exact); ends.push({ label: greenName(scene!), colour: ink.exact, marker: null, at: end.at, exit: end.exit, heights: heightsIn(frame, truth.times, exact) }); }
       tracks.forEach((track, k) => ends.push(endOf(scene!.looks[k]!, ended[k]!, heightsIn(frame, track.times, columns[k]!))));
       // Above a narrow picture the names stand once.
       if (i === 0 || !names.narrow) drawEnds(pen, ink, frame, names, ends);

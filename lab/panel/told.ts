@@ -33,9 +33,6 @@ export function endTime(scene: Scene): number {
 /** A method's name in a sentence: "Kahan–Li 8" is not broken before its number. */
 export const nameAt = (scene: Scene, k: number): string => (scene.looks[k]?.label ?? '').replace(/ (?=\d)/g, '\u00a0');
 
-/** How the exact line is called: as on the stage. */
-export const exactName = (scene: Scene): string => (scene.description.has_exact ? words.stage.exact : words.stage.computed);
-
 /** "a, b, c"; from `most` on counted. */
 export const several = (parts: readonly string[], most = 6): string =>
   (parts.length > most ? [...parts.slice(0, most - 1), words.panel.more(String(parts.length - most + 1))] : parts).join(', ');

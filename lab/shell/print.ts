@@ -3,6 +3,7 @@ import { el, place, say } from '../dom';
 import { brief } from '../figure/number';
 import type { Scene } from '../scene';
 import { exampleOf } from '../data';
+import { errorsOf } from '../stage/motion';
 import { stagingOf } from '../stage/staging';
 import { words } from '../words';
 
@@ -12,7 +13,7 @@ export function printed(): { show(scene: Scene): void } {
   place('page').append(element);
   return {
     show({ solution: { tracks, errors }, looks, description, state }) {
-      const { units } = stagingOf(exampleOf(state)), last = errors.map(({ x }) => x[x.length - 1] ?? NaN), end = tracks[0]?.times.at(-1) ?? 0;
+      const { units } = stagingOf(exampleOf(state)), last = errors.map((e) => errorsOf(e).at(-1) ?? NaN), end = tracks[0]?.times.at(-1) ?? 0;
       const time = `${brief(end)}${units ? `\u2009${units.t}` : ''}`;
       element.hidden = !last.some(Number.isFinite);
       say(caption, description.has_exact ? words.top.print.exact(time) : words.top.print.reference(time));

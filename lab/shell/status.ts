@@ -3,16 +3,21 @@ import type { LiveStore } from '../state';
 import { button, el, say } from '../dom';
 import { words } from '../words';
 
-/** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, or passed a singularity; or why nothing could be computed. */
+/** "explicit Euler stopped at t = 1.2: x is no longer finite" of each method that did not reach the end, or passed a singularity; or why nothing could be computed, or no
+ * green curve. */
 function stopped(store: LiveStore): string {
   const { run, model } = store.trouble;
   if (model) return store.scene ? words.trouble.last : words.trouble.model;
   if (store.trouble.step || store.trouble.until) return words.trouble.numbers;
   if (run) return words.trouble.hinted(run.message, run.hint);
-  return words.trouble.all((store.scene?.solution.tracks ?? []).map((track, k) => {
+  const { tracks = [], truth, problem } = store.scene?.solution ?? {}, whose = new Map<string, string[]>();
+  tracks.forEach((track, k) => {
     const trouble = track.problem ?? track.singular;
-    return trouble ? words.trouble.method(store.scene?.looks[k]?.label ?? track.method, trouble.message) : '';
-  }).filter(Boolean));
+    if (trouble) whose.set(trouble.message, [...(whose.get(trouble.message) ?? []), store.scene?.looks[k]?.label ?? track.method]);
+  });
+  // Where no method comes through, why is said of them.
+  const missing = problem && !truth && tracks.some((t) => !t.problem && !t.singular) ? [words.trouble.noGreen(problem.message.replace(/^there is no reference solution[^:]*: /, ''))] : [];
+  return words.trouble.all([...[...whose].map(([message, names]) => words.trouble.method(words.panel.and(names), message)), ...missing]);
 }
 
 export function status(store: LiveStore): HTMLElement {
@@ -28,7 +33,10 @@ export function status(store: LiveStore): HTMLElement {
     const { scene, trouble } = store, waits = scene !== null && !scene.solution.examined && scene.state.text === of && !trouble.model && !trouble.run && !trouble.step && !trouble.until;
     if (!waits) told = stopped(store);
     if (!busy) of = scene?.state.text ?? '';
-    say(line, busy ? words.trouble.computing : told);
+    // It stays while a slider moves, as the picture gives it room where the screen is small.
+    const tells = told !== '' && (!busy || scene?.state.text === store.state.text);
+    element.classList.toggle('tells', tells);
+    say(line, tells ? told : busy ? words.trouble.computing : '');
   };
   store.subscribe(what => { if (what !== 'state' && what !== 'view') show(); });
   return element;

@@ -31,8 +31,9 @@ export function stepSlider(store: LiveStore): HTMLElement {
   const stops = el('div', { class: 'stops', 'aria-hidden': 'true' });
   const reset = button('', () => { store.change({ step: '' }); slider.focus(); refresh(); }, { class: 'icon-button reset', 'aria-label': words.dock.step.reset, title: words.dock.step.resetTitle },
     icon('M5 12a7 7 0 1 1 2 5M5 18v-5h5'));
+  const value = el('span', { class: 'dial-value waiting' }, reset, field, unit, steps);
   const element = el('div', { class: 'dial step' },
-    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), el('span', { class: 'dial-value' }, reset, field, unit, steps)),
+    el('div', { class: 'dial-head' }, el('label', { for: 'step-slider' }, words.dock.step.label, el('i', {}, 'h'), ' ', suggested), value),
     el('div', { class: 'dial-track' }, slider, stops), message);
   let halves: number[] = [], last = '', empty = '';
 
@@ -60,6 +61,7 @@ export function stepSlider(store: LiveStore): HTMLElement {
       stop.style.left = `${100 * positionOf(h) / positions}%`;
       return stop;
     }));
+    stops.classList.toggle('long', [...stops.children].some((stop) => (stop.textContent ?? '').length > 7));
   }
   function refresh(): void {
     const { state, trouble, numbers, description } = store;
@@ -74,10 +76,12 @@ export function stepSlider(store: LiveStore): HTMLElement {
     const { units } = stagingOf(exampleOf(state));
     say(unit, units ? `\u2009${units.t}` : '');
     const track = store.scene?.solution.tracks[0];
+    // The value grows to the left: it is not seen before all of it is known.
+    if (track || Object.values(trouble).some(Boolean)) value.classList.remove('waiting');
     say(steps, track && !wrong ? `\u2009·\u2009${words.dock.step.steps(track.total, grouped(track.total))}` : '');
     if (h === null || !halves.length) return;
     if (document.activeElement !== slider || !slider.matches(':active')) slider.value = String(positionOf(h));
-    slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? String(track.total) : ''));
+    slider.setAttribute('aria-valuetext', words.dock.step.value(short(h, 4), units?.t ?? '', track ? words.dock.step.steps(track.total, String(track.total)) : ''));
     [...stops.children].forEach((stop, k) => stop.classList.toggle('on', Math.abs(halves[k]! - h) < 1e-6 * h));
   }
   const set = (h: number): void => {

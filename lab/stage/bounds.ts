@@ -44,12 +44,13 @@ export function untilGround(of: Rows, column: number): { readonly rows: Rows; re
 
 /** How far the exact motion goes, as far as the ground where there is one; without one, the calmest method; and whether that one was tamed. */
 export function extentOf(motion: Motion, ground = false): { readonly ranges: readonly Range[]; readonly tamed: boolean } {
-  const { lines, subject } = motion, truth = ground && motion.truth && subject.kind === 'plane' ? untilGround(motion.truth, subject.bodies[0]!.columns[1]!).rows : motion.truth, still = subject.kind === 'time' ? 1 : 0;
-  if (truth) return { ranges: rangesOf(motion, truth), tamed: false };
+  const { lines, subject } = motion, still = subject.kind === 'time' ? 1 : 0;
+  const seen = (of: Rows): Rows => (ground && subject.kind === 'plane' ? untilGround(of, subject.bodies[0]!.columns[1]!).rows : of);
+  if (motion.truth) return { ranges: rangesOf(motion, seen(motion.truth)), tamed: false };
   let best: readonly Range[] | null = null, tamed = false;
   for (const { track } of lines) {
-    let ranges = rangesOf(motion, track);
-    const middles = columnsOf(motion, track).map(middleOf);
+    const rows = seen(track), middles = columnsOf(motion, rows).map(middleOf);
+    let ranges = rangesOf(motion, rows);
     // What grows beyond thirty times its middle hides everything that is of interest in it.
     const wild = track.problem !== null || ranges.some((r, k) => k >= still && size(middles[k]!) > 0 && size(r) > 30 * size(middles[k]!));
     if (wild) ranges = ranges.map((r, k) => (k < still ? r : middles[k]!));

@@ -12,7 +12,7 @@ import type { Box } from './place';
 
 const NEAR = 2;
 /** The exact curve is smooth: its corners lie nearer to it than can be seen. */
-const SMOOTH = 0.03;
+const SMOOTH = 0.08;
 /** Beyond so much of the frame outside of it, a method has left, also where it comes back once more. */
 const FAR = 0.35;
 /* Every step is marked while the marks can be told apart; else a few, to tell the lines apart. */

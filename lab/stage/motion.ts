@@ -1,11 +1,18 @@
 /* What is drawn: the motion of every method and the exact one, of one subject. */
-import type { Track, Truth } from '../protocol';
+import type { ErrorTrack, Track, Truth } from '../protocol';
 import type { Look, Scene } from '../scene';
+import { words } from '../words';
 import type { Subject } from './subject';
 
 export interface Line { readonly track: Track; readonly look: Look; /** Of solution.tracks. */ readonly index: number }
 export interface Motion { readonly scene: Scene; readonly subject: Subject; readonly lines: readonly Line[]; readonly truth: Truth | null }
 export interface Rows { readonly times: Float64Array; readonly columns: readonly Float64Array[] }
+
+/** How the green curve is called: exact where a formula gives it, computed else. */
+export const greenName = (scene: Scene): string => (scene.description.has_exact ? words.stage.exact : words.stage.computed);
+
+/** How far off a method is: in its positions; where there are none, in its first-order variables. */
+export const errorsOf = ({ x, s }: ErrorTrack): Float64Array => (x.length ? x : s);
 
 const seen = (truth: Truth, subject: Subject): boolean => truth.times.length > 1 && subject.bodies.every((b) => b.columns.every((c) => (truth.columns[c]?.length ?? 0) > 0));
 

@@ -12,12 +12,14 @@ import type { Scene } from '../scene';
 import { words } from '../words';
 import { allOf, extentOf, join, roomy, suits, untilGround, type Bounds, type Range } from './bounds';
 import { curvesOf, pointAt, type Curve, type Exit, type Point } from './curves';
+import { bodyNames, drawBodies } from './bodies';
 import { person, rod, spring } from './decor';
-import { motionOf, type Line, type Motion, type Rows } from './motion';
-import { drawNames, missText, type Named } from './names';
+import { freePlaces } from './free';
+import { errorsOf, greenName, motionOf, type Line, type Motion, type Rows } from './motion';
+import { briefly, drawNames, missText, type Named } from './names';
 import { trail } from './path';
-import { wideEnough, type Box, type Place } from './place';
-import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot } from './plot';
+import { apart, wideEnough, type Box, type Place } from './place';
+import { flatPlot, inside, spacePlot, type Axis, type Camera, type Plot, type Way } from './plot';
 import { isDone, isOver, placeAt } from './rows';
 import { shapePicture } from './shape';
 import type { Staging } from './staging';
@@ -32,7 +34,7 @@ export interface Setting {
 }
 /** A ring that sets the initial velocity: its pixels, and pixels of a unit of velocity. */
 export interface Handle { readonly x: number; readonly y: number; readonly fromX: number; readonly fromY: number; readonly unit: number }
-export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly left: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
+export interface Leaving { readonly name: string; readonly says: string; readonly more: string; readonly colour: string; readonly x: number; readonly y: number; readonly time: number; readonly anchor: 'start' | 'end' }
 export interface Picture {
   /** finished: nothing is to come (`over`), so it need not be drawn. */
   still(pen: Pen, ink: Ink, finished?: boolean): void;
@@ -80,8 +82,8 @@ export function boundsFor(scene: Scene, subject: Subject, staging: Staging, all:
 }
 
 /** In a plane of places a metre is a metre both ways, unless that would make the picture a strip. */
-export function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
-  if (subject.kind !== 'plane') return false;
+function equalFor(subject: Subject, staging: Staging, bounds: Bounds): boolean {
+  if (subject.kind !== 'plane' || subject.unlike) return false;
   const [w, h] = bounds.map(([low, high]) => high - low) as [number, number];
   return staging.equal ?? (w <= 4 * h && h <= 4 * w);
 }
@@ -108,8 +110,8 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   }
   const equal = equalFor(subject, staging, bounds);
   const axes = [axisOf(subject.axes[0] ?? 'x', units?.x), axisOf(subject.axes[1] ?? 'y', units?.x)] as const;
-  // Misses beside an upright path need room for their words.
-  const small = !place.names, right = !small && staging.upright ? frame.right - 110 : frame.right;
+  // Misses beside an upright path need room for their words, and names beside a path that fills the frame.
+  const small = !place.names, right = small ? frame.right : frame.right - (staging.upright ? 110 : subject.unlike ? 64 * letters : 0);
   const box = ground ? frame : { left: frame.left + (small ? 14 : 44), top: frame.top + 22, right, bottom: frame.bottom - (small ? 4 : 8) };
   return [flatPlot({ ...common, bounds, box: ground ? box : wideEnough(box, place), equal, style: ground ? 'ground' : 'plane', axes })];
 }
@@ -132,7 +134,7 @@ export function pictureOf(setting: Setting): Picture {
   const springX = Math.max(place.frame.left, place.text + 9) + 39;
   const single = subject.bodies.length === 1, flat = main.up !== null;
   const upright = single && flat && (staging.upright === true || (subject.kind === 'time' && side === ''));
-  const exactName = scene.description.has_exact ? words.stage.exact : words.stage.computed;
+  const exactName = greenName(scene);
   const clipped = (pen: Pen, plot: Plot, draw: () => void): void => pen.clip(plot.box.left - 1, plot.box.top - 6, plot.box.right - plot.box.left + 8, plot.box.bottom - plot.box.top + 8, draw);
   const nowhere = new Set(lines.map((_, i) => i).filter((i) => curves.same[i] === -1));
 
@@ -191,6 +193,9 @@ export function pictureOf(setting: Setting): Picture {
     if (at.y - unit * v[1]! < 24 && v[1]! > 0) unit = Math.max(0, at.y - 24) / v[1]!;
     if (at.x + unit * v[0]! > place.width - 24 && v[0]! > 0) unit = Math.max(0, place.width - 24 - at.x) / v[0]!;
     if (at.x + unit * v[0]! < place.text + 32 && v[0]! < 0) unit = Math.max(0, at.x - place.text - 32) / -v[0]!;
+    // … and above the numbers below the picture.
+    const foot = main.up!(bounds[1]![0]) - 12, least = 40 / -v[1]!;
+    if (!staging.arrow && v[1]! < 0 && at.y - unit * v[1]! > foot) unit = Math.max(Math.min(unit, least), (foot - at.y) / -v[1]!);
     if (!(unit * speed > 16) || !(speed > 0) || !Number.isFinite(unit)) return null;
     return { x: at.x + unit * v[0]!, y: at.y - unit * v[1]!, fromX: at.x, fromY: at.y, unit };
   }
@@ -204,9 +209,29 @@ export function pictureOf(setting: Setting): Picture {
       pen.mark('circle', px, py, radius - 1, ink.surface);
     }
     if (!place.names) return;
-    const way = x >= fromX ? -1 : 1, anchor = way < 0 ? 'end' as const : 'start' as const;
-    pen.text(x + way * 14, y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
-    pen.text(x + way * 14, y + 15 * letters, `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`, { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+    const { at, anchor } = aimed ??= besideAim(handle, speedText(speed));
+    pen.text(at.x, at.y - 2, [{ text: 'v', italic: true, size: 15 * letters }, { text: '0', size: 10.5 * letters, sunk: 3 }], { colour: ink.text, anchor, halo: ink.surface });
+    pen.text(at.x, at.y + 15 * letters, speedText(speed), { colour: ink.quiet, size: 12 * letters, anchor, halo: ink.surface });
+  }
+  const speedText = (speed: number): string => `${brief(speed, 3)}${staging.units ? `\u2009${staging.units.v}` : ''}`;
+  interface Aimed { readonly at: Point; readonly anchor: 'start' | 'middle' | 'end' }
+  let aimed: Aimed | null = null;
+  /** Where the velocity is told: behind the ring, before it, beyond it, whichever covers least of the curves and of where names stand. */
+  function besideAim({ x, y, fromX, fromY }: Handle, text: string): Aimed {
+    const way = x >= fromX ? -1 : 1, side = (of: number): Aimed => ({ at: { x: x + of * 14, y }, anchor: of < 0 ? 'end' : 'start' }), letters = place.scale, wide = textWidth(text, 12 * letters);
+    if (staging.arrow) return side(way);
+    const beyond: Aimed = { at: { x, y: y < fromY ? y - 28 * letters : y + 24 * letters }, anchor: 'middle' }, all = [side(way), side(-way), beyond];
+    const boxes = all.map(({ at, anchor }): Box => {
+      const left = anchor === 'end' ? at.x - wide : anchor === 'middle' ? at.x - wide / 2 : at.x, right = left + wide;
+      return { left, right, top: at.y - 14 * letters, bottom: at.y + 16 * letters };
+    });
+    return all[boxes.indexOf(freest(boxes))]!;
+  }
+  /** The first of the places that cover least of the curves, of the numbers and of where names stand. */
+  function freest(places: readonly Box[]): Box {
+    occupy();
+    const column = names.span && place.names ? names.span[1] + 12 : Infinity, cost = (b: Box): number => free.covered(b) + Math.max(0, b.right - Math.max(b.left, column)) / 3;
+    return places.reduce((best, b) => (cost(b) < cost(best) ? b : best));
   }
 
   function still(pen: Pen, ink: Ink, finished = false): void {
@@ -219,7 +244,12 @@ export function pictureOf(setting: Setting): Picture {
     if (subject.kind === 'plane' && main.along && main.up) for (const [x, y, radius, name] of staging.rests ?? []) {
       const px = main.along(x), py = main.up(y), r = radius * (place.names ? 1 : 0.7);
       pen.mark('circle', px, py, r, ink.axis, { rim: ink.surface });
-      pen.text(px - r - 4, py + r + 10, words.stage.bodies[name], { colour: ink.quiet, size: 12 * place.scale, anchor: 'end', halo: ink.surface });
+      const text = words.stage.bodies[name], size = 12 * place.scale, wide = textWidth(text, size);
+      const at = freest([[-1, 1], [1, 1], [-1, -1], [1, -1]].map(([across, down]) => {
+        const left = px + across! * (r + 4) - (across! < 0 ? wide : 0), y = py + down! * (r + 10) + (down! < 0 ? size / 2 : 0);
+        return { left, right: left + wide, top: y - 0.8 * size, bottom: y };
+      }));
+      pen.text(at.left, at.bottom, text, { colour: ink.quiet, size, halo: ink.surface });
     }
     before?.ghost(pen, ink);
     drawPinned(pen, ink);
@@ -249,20 +279,21 @@ export function pictureOf(setting: Setting): Picture {
       for (const { x, y, colour } of ends) if (inside(plot.box, x, y, 2)) pen.text(x - 10, y - 8, 'A', { colour, size: 13, bold: true, anchor: 'end', halo: ink.surface });
     }
   }
+  /** Thin, since it is drawn anew in each frame of a drag: a line of one pixel costs a tenth of a wider one. */
   function ghost(pen: Pen, ink: Ink): void {
     for (const { plot, curves: own } of drawn) {
       clipped(pen, plot, () => {
-        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1.5, alpha: 0.4 }, 2 * path.count);
-        own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1.5, alpha: 0.4 }, 2 * c.path.count); });
+        for (const { path } of own.exact) pen.line(path.xy, { colour: ink.exact, width: 1, alpha: 0.55 }, 2 * path.count);
+        own.methods.forEach((of, i) => { if (!nowhere.has(i)) for (const c of of) pen.line(c.path.xy, { colour: c.line.look.colour, width: 1, alpha: 0.55 }, 2 * c.path.count); });
       });
     }
   }
 
-  /** A path reaches from here to there, as far as it is seen. */
+  /** A path reaches from here to there, as far as it is seen, with the numbers beside it. */
   function spanOf(): readonly [number, number] | null {
     if (subject.kind === 'time') return null;
     const { left, right } = main.box, [low, high] = rangeOf((truth ? curves.exact : curves.methods.map((of) => of[0]!)).map(({ path }) => path.xy.subarray(0, 2 * path.count).filter((_, i) => i % 2 === 0)));
-    return high >= low ? [Math.max(left, low), Math.min(right, high)] : null;
+    return high >= low ? [Math.min(Math.max(left, low), main.numbers ?? Infinity), Math.min(right, high)] : null;
   }
   const names = { span: spanOf(), all: [exactName, ...lines.map((l) => shortLabel(l.look.label))] };
 
@@ -272,7 +303,7 @@ export function pictureOf(setting: Setting): Picture {
 
   /** How far a line is from the exact motion: the core's error at the last step that was made, unless the two are seen at another distance; null: not known. */
   function miss(line: Line, time: number, at: Point, exact: Point): Named['miss'] {
-    const errors = scene.solution.errors[line.index]?.x;
+    const of = scene.solution.errors[line.index], errors = of && errorsOf(of);
     if (!errors?.length || !truth) return null;
     const { row, part } = placeAt(line.track.times, time), made = errors[part === 1 ? row + 1 : row];
     if (made === undefined || !Number.isFinite(made)) return null;
@@ -317,8 +348,9 @@ export function pictureOf(setting: Setting): Picture {
     rods(pen, ink, time);
     const labels = balls(pen, ink, time);
     const farthest = Math.max(...labels.map((l) => l.x), -Infinity);
-    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - 8;
-    drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all });
+    const right = drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : place.width - (place.names ? 8 : 2);
+    const letters = drawNames(pen, ink, place, labels, { upright, right: Math.max(right, farthest + 20), span: names.span, all: names.all, notes: written(time) });
+    if (called.length) nameBodies(pen, ink, time, [...letters, ...written(time)]);
     if (!place.names) atCurves(pen, ink, time);
     leavers(pen, ink, time);
     drawLanding(pen, ink, time);
@@ -336,6 +368,17 @@ export function pictureOf(setting: Setting): Picture {
     for (let k = 0; k + 3 < xy.length; k += 2) pen.mark('circle', xy[k]!, xy[k + 1]!, k ? 6 : 4, ink.quiet, { rim: ink.surface });
   }
 
+  const called = bodyNames(subject, staging);
+  /** Beside the exact motion's bodies; without one, beside the first method's. */
+  function nameBodies(pen: Pen, ink: Ink, time: number, letters: readonly Box[]): void {
+    const seen = (way: Way, times: ArrayLike<number>): Point | null => {
+      const at = pointAt(way, times, time);
+      return Number.isFinite(at.x + at.y) && inside(main.box, at.x, at.y, 8) ? at : null;
+    };
+    const methods = curves.methods.flatMap((of, i) => (nowhere.has(i) ? [] : of.map((c) => (gone(c, time) ? null : seen(c.way, c.line.track.times)))));
+    const exact = truth ? curves.exact.map(({ way }) => seen(way, truth.times)) : [];
+    drawBodies(pen, ink, place, called, truth ? exact : methods.slice(0, called.length), [...exact, ...methods].filter((p) => p !== null), letters);
+  }
   /** Where everybody is now; answers the labels that belong there. */
   function balls(pen: Pen, ink: Ink, time: number): Named[] {
     const labels: Named[] = [], groups = new Map<number, Line[]>();
@@ -391,10 +434,11 @@ export function pictureOf(setting: Setting): Picture {
     return labels.length > 14 ? labels.slice(0, 14) : labels;
   }
 
+  const nameBoxes = new Map<number, Box>();
   /** On a small stage: names where a curve is farthest from the exact one, outside of it. */
   function atCurves(pen: Pen, ink: Ink, time: number): void {
     if (!truth || !single || lines.length > 5) return;
-    const taken: Box[] = [];
+    const taken: Box[] = written(time);
     curves.methods.forEach((of, i) => {
       const c = of[0]!;
       if (nowhere.has(i) || curves.same[i] !== i || c.exit) return;
@@ -414,10 +458,18 @@ export function pictureOf(setting: Setting): Picture {
       let y = c.way.y(best);
       for (let row = 0; row < n; row++) if (Math.abs(c.way.x(row) - x) < half + 12) y = above ? Math.min(y, c.way.y(row)) : Math.max(y, Math.min(c.way.y(row), c.way.y(best) + 20));
       y += above ? -12 : 18;
+      const name = { text: c.line.look.label, letters: { colour: c.line.look.tone, size: 13, bold: true, halo: ink.surface } };
+      // Where the curve lies among others: in the free place that is nearest. The build's picture follows the size of its stage, so its places are not looked for.
+      if (staging.decor !== 'throw') {
+        const box = nameBoxes.get(i) ?? put(x - half, y - 12, textWidth(name.text, 13) * 1.06, 15);
+        nameBoxes.set(i, box);
+        pen.text(box.left, box.top + 12, name.text, name.letters);
+        return;
+      }
       const box = { left: x - half, right: x + half, top: y - 12, bottom: y + 3 };
-      if (taken.some((t) => t.left < box.right && box.left < t.right && t.top < box.bottom && box.top < t.bottom)) return;
+      if (!taken.every((t) => apart(t, box))) return;
       taken.push(box);
-      pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, c.line.look.label, { colour: c.line.look.tone, size: 13, bold: true, anchor: 'middle', halo: ink.surface });
+      pen.text(Math.max(half + 4, Math.min(place.width - half - 4, x)), y, name.text, { ...name.letters, anchor: 'middle' });
     });
   }
 
@@ -428,27 +480,58 @@ export function pictureOf(setting: Setting): Picture {
     return at === null ? null : { time: at, ...pointAt(curves.exact[0]!.way, truth.times, at) };
   })();
   const seconds = (time: number): string => `${brief(time, 3)}${staging.units ? `\u2009${staging.units.t}` : ''}`;
-  function drawLanding(pen: Pen, ink: Ink, time: number): void {
-    if (!landing || time < landing.time) return;
-    const text = words.stage.lands(exactName, seconds(landing.time)), size = leaveSize, wide = textWidth(text, size) * 1.06;
-    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
-    pen.text(Math.max(place.text + 4, Math.min(place.width - 4 - wide, landing.x + place.ball + 6)), landing.y - 8, [{ text, bold: true }], { colour: ink.exact, size, halo: ink.surface });
-  }
   const leaving: Leaving[] = [], leaveSize = (place.names ? 14 : 12) * place.scale;
+  /** What is written where a motion comes to the ground or leaves the picture, and from when on. */
+  const notes: { readonly box: Box; readonly time: number }[] = [], { frame } = place;
+  const free = freePlaces({
+    left: place.text + 4, right: drawn.length > 1 ? drawn[1]!.plot.box.left - 8 : side === 'rod' ? main.box.right + 100 * place.scale : place.width - 4,
+    top: Math.max(0, frame.top - 8), bottom: Math.min(main.box.bottom, place.height) - 4,
+  });
+  /** Puts something down and answers where. */
+  function put(left: number, top: number, width: number, height: number): Box {
+    occupy();
+    const at = free.put(left - CLEAR, top - CLEAR, width + 2 * CLEAR, height + 2 * CLEAR);
+    return { left: at.left + CLEAR, right: at.left + CLEAR + width, top: at.top + CLEAR, bottom: at.top + CLEAR + height };
+  }
+  function note(left: number, top: number, width: number, height: number, time: number): Box {
+    const box = put(left, top, width, height);
+    notes.push({ box, time });
+    return box;
+  }
+  /** All curves, and the names and numbers where those end that stay. */
+  let occupied = false;
+  function occupy(): void {
+    if (occupied) return;
+    occupied = true;
+    for (const { path } of curves.exact) free.line(path.xy, path.count);
+    for (const of of curves.methods) for (const { path } of of) free.line(path.xy, path.count);
+    if (main.numbers !== null && main.along) free.take({ left: main.numbers, right: main.along(bounds[0]![0]), top: 0, bottom: place.height });
+    if (main.numbers !== null && main.up) free.take({ left: 0, right: place.width, top: main.up(bounds[1]![0]) + 6, bottom: place.height });
+    if (handle) free.line([handle.fromX, handle.fromY, handle.x, handle.y], 2);
+    const ends = [...(truth && !landing ? [pointAt(curves.exact[0]!.way, truth.times, truth.times[truth.times.length - 1]!)] : []),
+      ...curves.methods.flatMap(([c]) => (c && !c.exit ? [pointAt(c.way, c.line.track.times, last(c.line))] : []))];
+    for (const { x, y } of ends) if (single) free.take({ left: x - place.ball, right: x + (place.names ? 200 : 76) * place.scale, top: y - 12, bottom: y + 12 });
+  }
+  const written = (time: number): Box[] => notes.filter((n) => time >= n.time).map((n) => n.box);
+  const landed = landing && ((): { readonly text: string; readonly left: number; readonly y: number } => {
+    const text = words.stage.lands(exactName, seconds(landing.time)), at = note(landing.x + place.ball + 6, landing.y - 8 - leaveSize, textWidth(text, leaveSize) * 1.06, 1.4 * leaveSize, landing.time);
+    return { text, left: at.left, y: at.top + leaveSize };
+  })();
+  function drawLanding(pen: Pen, ink: Ink, time: number): void {
+    if (!landing || !landed || time < landing.time) return;
+    pen.mark('ring', landing.x, landing.y, place.ball, ink.exact);
+    pen.text(landed.left, landed.y, [{ text: landed.text, bold: true }], { colour: ink.exact, size: leaveSize, halo: ink.surface });
+  }
   const wideOf = (l: Pick<Leaving, 'says' | 'more'>): number => Math.max(textWidth(l.says, leaveSize) * 1.06, textWidth(l.more, leaveSize - 1));
   curves.methods.forEach((of, i) => {
     const c = of.find((curve) => curve.exit);
     if (!c?.exit || nowhere.has(i)) return;
     const { exit } = c, low = exit.y > main.box.bottom - 40, name = shortLabel(c.line.look.label);
-    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(name) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
-    // Behind the arrow, before it where the right is too narrow, and never beyond the stage.
-    const room = place.width - 4, least = place.text + 4, anchor = exit.x + 14 + wide > room && exit.x - 14 - wide >= least ? 'end' as const : 'start' as const;
-    const left = anchor === 'end' ? exit.x - 14 - wide : Math.max(least, Math.min(exit.x + 14, room - wide)), high = leaveSize * 2.5 + 24;
-    let y = grounded ? exit.y - 84 : low ? exit.y - 46 : Math.max(26, exit.y + 8);
-    // Clear of the notes of those that left before, "show all" below the first one included.
-    const met = (at: number): boolean => leaving.some((l) => Math.abs(l.y - at) < high && l.left < left + wide + 8 && left < l.left + wideOf(l) + 8);
-    for (let k = 0; k < 12 && met(y); k++) y += low ? -high / 2 : high / 2;
-    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? left + wide : left, left, y, time: exit.time, anchor });
+    const grounded = staging.decor === 'throw' && main.unit !== null && exit.y > main.box.bottom - 1, said = { name, says: grounded ? words.stage.landed(place.names ? name : briefly(name, names.all)) : words.stage.leaves(name), more: told(motion, c, staging) }, wide = wideOf(said);
+    // Behind the arrow, before it where the right is too narrow; below the first note stands "show all".
+    const behind = exit.x + 14 + wide <= place.width - 4 || exit.x - 14 - wide < place.text + 4, high = leaveSize + (leaving.length ? (said.more ? 1.25 * leaveSize : 0) + 6 : (said.more ? 24 : 8) + (place.names ? 24 : 34));
+    const at = note(behind ? exit.x + 14 : exit.x - 14 - wide, (grounded ? exit.y - 84 : low ? exit.y - 46 : exit.y + 8) - leaveSize, wide, high, exit.time), anchor = at.left + wide / 2 < exit.x ? 'end' as const : 'start' as const;
+    leaving.push({ ...said, colour: c.line.look.tone, x: anchor === 'end' ? at.right : at.left, y: at.top + leaveSize, time: exit.time, anchor });
   });
   function leavers(pen: Pen, ink: Ink, time: number): void {
     for (const l of leaving) {
@@ -491,7 +574,8 @@ export function pictureOf(setting: Setting): Picture {
     remarks: () => [...(landing ? [words.stage.summary.ground(seconds(landing.time))] : []), ...lines.map((line) => {
       const { problem, times } = line.track;
       if (problem) {
-        const at = brief(problem.time ?? times[times.length - 1] ?? 0);
+        // What is undefined at its start stops there.
+        const at = brief((times.length > 1 ? problem.time : null) ?? times[times.length - 1] ?? 0);
         return problem.variable ? words.stage.summary.stopsAs(line.look.label, at, problem.variable) : words.stage.summary.stops(line.look.label, at);
       }
       const c = curves.methods[lines.indexOf(line)]!.find((curve) => curve.exit);
@@ -499,7 +583,8 @@ export function pictureOf(setting: Setting): Picture {
     })].filter(Boolean),
   };
 }
-const SPACING_LADDER = 8;
+/** Pixels of a ladder's rungs from one another; of a note from what it must not cover. */
+const SPACING_LADDER = 8, CLEAR = 4;
 
 /** How a runaway ends: by how much too wide it swings, or when it left. */
 function told(motion: Motion, curve: Curve, staging: Staging): string {

@@ -5,6 +5,7 @@
  */
 export type Mode = 'phone' | 'landscape' | 'tablet' | 'desk' | 'wide';
 export interface Box { readonly left: number; readonly top: number; readonly right: number; readonly bottom: number }
+export const apart = (a: Box, b: Box): boolean => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
 export interface Place {
   readonly mode: Mode; readonly width: number; readonly height: number;
   /** Where the motion is drawn; axes stand below and at its left, names at its right. */

@@ -23,6 +23,8 @@ export interface Plot {
   draw(pen: Pen, ink: Ink): void;
   /** Pixels of a unit, where both axes have the same; else null. */
   readonly unit: number | null;
+  /** Where the numbers of the second axis begin; null: it has none of its own. */
+  readonly numbers: number | null;
   /** Of a flat plot: pixels of the second axis. */
   readonly up: Scale | null; readonly along: Scale | null;
 }
@@ -116,6 +118,7 @@ export function flatPlot({ bounds, box: given, equal, style, axes: [across, upwa
     return of.columns[body.columns[k]!] ?? EMPTY;
   };
   return {
+    numbers: style === 'plane' ? frame.left - 8 - Math.max(0, ...up.ticks.map((v) => textWidth(up.label(v), size))) : null,
     // Curves may leave the bounds where the stage has room beside them, but not what stands below the ground or the axis.
     box: style === 'ground' ? { left: Math.max(0, frame.left - 12), top: 0, right: box.right + 500, bottom: up(Math.max(0, y[0])) } : equal && style === 'plane' ? box : frame,
     unit: equal ? (frame.right - frame.left) / (x[1] - x[0]) : null, up, along,
@@ -164,12 +167,14 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
     if (Math.hypot(x1 - x0, y1 - y0) < 24) return;
     const mx = (x0 + x1) / 2, my = (y0 + y1) / 2, away = Math.hypot(mx - cx, my - cy) || 1;
     const ox = (mx - cx) / away * 14, oy = (my - cy) / away * 14, anchor = ox > 5 ? 'start' : ox < -5 ? 'end' : 'middle';
-    pen.text(mx + ox, my + oy, nameSpans(axes[d]?.name ?? '', 15 * letters), { colour: ink.text, size: 15 * letters, anchor, baseline: 'middle' });
+    // Within the stage, where the box is as wide as it.
+    const called = nameSpans(axes[d]?.name ?? '', 15 * letters), room = textWidth(called, 15 * letters) + 2, most = pen.width - (anchor === 'start' ? room : 2);
+    pen.text(Math.min(most, Math.max(anchor === 'end' ? room : 2, mx + ox)), my + oy, called, { colour: ink.text, size: 15 * letters, anchor, baseline: 'middle' });
     for (const [end, value] of [[0, bounds[d]![0]], [1, bounds[d]![1]]] as const) {
       const text = readable(value, 2), wide = textWidth(text, 12 * letters), half = 7 * letters;
       // Where two axes meet, the number of the later one moves along its own; what finds no room is left out.
       for (const inwards of [0.08, 0.16, 0.24, 0.32]) {
-        const share = end ? 1 - inwards : inwards, x = x0 + (x1 - x0) * share + ox * 0.8, y = y0 + (y1 - y0) * share + oy * 0.8;
+        const share = end ? 1 - inwards : inwards, wanted = x0 + (x1 - x0) * share + ox * 0.8, before = anchor === 'end' ? wide : anchor === 'middle' ? wide / 2 : 0, x = Math.min(pen.width - 2 - wide + before, Math.max(2 + before, wanted)), y = y0 + (y1 - y0) * share + oy * 0.8;
         const left = anchor === 'end' ? x - wide : anchor === 'middle' ? x - wide / 2 : x, own = { left: left - 3, right: left + wide + 3, top: y - half, bottom: y + half };
         if (taken.some((t) => t.left < own.right && own.left < t.right && t.top < own.bottom && own.top < t.bottom)) continue;
         taken.push(own);
@@ -179,7 +184,7 @@ export function spacePlot(bounds: Bounds, box: Box, camera: Camera, axes: readon
     }
   }
   return {
-    box, unit, up: null, along: null,
+    box, unit, numbers: null, up: null, along: null,
     way(of, body) {
       const [a, b, c] = body.columns.map((k) => of.columns[k] ?? EMPTY) as [Float64Array, Float64Array, Float64Array];
       return { x: (row) => x(a[row] ?? NaN, b[row] ?? NaN), y: (row) => y(a[row] ?? NaN, b[row] ?? NaN, c[row] ?? NaN) };

@@ -3,8 +3,7 @@
  * Invariant: the scale of the picture holds the whole motion, so that it does not breathe while the shape moves.
  */
 import type { Ink, Pen } from '../figure/types';
-import { words } from '../words';
-import type { Motion, Rows } from './motion';
+import { greenName, type Motion, type Rows } from './motion';
 import { drawNames, type Named } from './names';
 import type { Picture, Setting } from './picture';
 import { wideEnough } from './place';
@@ -47,7 +46,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
       within(pen, () => {
         if (truth) {
           pen.line(shape(truth, time), { colour: ink.exact, width: 4 });
-          labels.push({ names: [{ text: scene.description.has_exact ? words.stage.exact : words.stage.computed, colour: ink.exact }], colour: ink.exact, line: ink.exact, x: right, y: xy[xy.length - 1]!, miss: null, exact: true });
+          labels.push({ names: [{ text: greenName(scene), colour: ink.exact }], colour: ink.exact, line: ink.exact, x: right, y: xy[xy.length - 1]!, miss: null, exact: true });
         }
         for (let i = lines.length - 1; i >= 0; i--) {
           const { track, look } = lines[i]!;
@@ -57,7 +56,7 @@ export function shapePicture({ scene, subject, place, bounds, before }: Setting,
           labels.push({ names: [{ text: look.label, colour: look.tone }], colour: look.tone, line: look.colour, x: right, y: xy[xy.length - 1]!, miss: null, exact: false });
         }
       });
-      drawNames(pen, ink, place, labels, { upright: false, right: place.width - 8, span: null, all: labels.flatMap((l) => l.names.map(({ text }) => text)) });
+      drawNames(pen, ink, place, labels, { upright: false, right: place.width - 8, span: null, notes: [], all: labels.flatMap((l) => l.names.map(({ text }) => text)) });
     },
   };
 }

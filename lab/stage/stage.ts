@@ -17,7 +17,8 @@ import { words } from '../words';
 import { boundsFor, pictureOf, sideOf, type Picture, type Side } from './picture';
 import { extentOf, suits, type Bounds } from './bounds';
 import { film } from './film';
-import { motionOf } from './motion';
+import { haste } from './haste';
+import { errorsOf, motionOf } from './motion';
 import { placeOf, type Place } from './place';
 import { HOME, turned } from './plot';
 import { stagingOf } from './staging';
@@ -122,7 +123,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!context || !place || !colours) return;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.clearRect(0, 0, place.width, place.height);
-    draw(canvasPen(context, place.width, place.height), colours);
+    draw(canvasPen(context, place.width, place.height, thin ? 1 / scale : Infinity), colours);
   }
   function make(of: Bounds): void {
     if (!scene || !subject || !place) return;
@@ -139,6 +140,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (!picture) make(bounds);
     if (!picture) return;
     finished = picture.over(time);
+    thin = hurried.draws(performance.now(), !!ghost);
     onto(still, (pen, i) => picture!.still(pen, i, finished));
     drawMoving();
     // The build's picture has done its work.
@@ -148,7 +150,8 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (scene.solution.truth) milestone('exact-motion');
     if (!sentence) sentence = window.setTimeout(describe, 150);
   }
-  let busy = false, again = false, finished = false;
+  let busy = false, again = false, finished = false, thin = false;
+  const hurried = haste(() => { thin = false; refresh(); });
   function drawMoving(): void {
     if (picture) onto(moving, (pen, i) => { picture!.moving(pen, i, time); drawGuess(pen, i); });
   }
@@ -264,7 +267,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     if (at_ && place) ring.setAttribute('aria-valuenow', String(Math.round(at_.exact - at_.y)));
     const leaving = picture?.leaving[0];
     all.hidden = !leaving && !showAll;
-    say(all, showAll ? words.stage.exactOnly : words.stage.all);
+    say(all, !showAll ? words.stage.all : !scene?.solution.truth ? words.stage.less : scene.description.has_exact ? words.stage.exactOnly : words.stage.computedOnly);
     const at = leaving ?? { x: (place?.width ?? 0) - 160, y: 24, anchor: 'start' as const, more: '' };
     all.style.left = leaving ? `${at.anchor === 'end' ? at.x - 62 : at.x}px` : 'auto';
     all.style.right = leaving ? 'auto' : '24px';
@@ -347,7 +350,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
     const seen = subject.kind === 'shape' ? words.stage.summary.shape(subject.bodies[0]?.label ?? '', from, to) : subject.kind === 'time' ? words.stage.summary.time(up, from, to)
       : subject.kind === 'space' ? words.stage.summary.space(from, to) : words.stage.summary.plane(across, up, from, to);
     // One that stopped has no place at the end; the remarks tell when it stopped.
-    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: e.x[e.x.length - 1] ?? NaN })).filter((e) => Number.isFinite(e.last));
+    const errors = solution.errors.filter((e) => !solution.tracks.find((t) => t.method === e.method)?.problem).map((e) => ({ name: looks.find((l) => l.method === e.method)?.label ?? e.method, last: errorsOf(e).at(-1) ?? NaN })).filter((e) => Number.isFinite(e.last));
     const distances = errors.map((e) => words.stage.summary.distance(brief(e.last, 3), e.name));
     const told = distances.length === 0 ? [] : [scene.description.has_exact ? words.stage.summary.exact(distances) : words.stage.summary.reference(distances)];
     return words.stage.summary.whole([seen, ...told, ...picture.remarks()]);

@@ -6,6 +6,7 @@ import { data } from '../data';
 
 /** A slider of the dock: a parameter or an initial value, `part` its component from 0; low, high: where the slider ends. */
 export interface Dial { readonly name: string; readonly part?: number; readonly unit?: string; readonly low?: number; readonly high?: number }
+export type BodyName = 'sun' | 'earth' | 'moon' | 'jupiter' | 'saturn' | 'uranus' | 'neptune' | 'pluto';
 export type Decor = 'throw' | 'spring' | 'pendulum';
 export interface Staging {
   /** The lesson that answers its question. */
@@ -26,7 +27,9 @@ export interface Staging {
   /** How high a number lies is told as "too high", "too low". */
   readonly upright?: boolean;
   /** Bodies at rest, with their radius in pixels, and their names. */
-  readonly rests?: readonly (readonly [x: number, y: number, radius: number, name: 'sun' | 'earth' | 'moon'])[];
+  readonly rests?: readonly (readonly [x: number, y: number, radius: number, name: BodyName])[];
+  /** What moves, in the model's order. */
+  readonly bodies?: readonly BodyName[];
   /** Rods from (0, 0) to these places, one after the other. */
   readonly rods?: readonly (readonly [x: string, y: string])[];
 }

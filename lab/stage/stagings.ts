@@ -60,7 +60,7 @@ export const stagings: Readonly<Record<string, Staging>> = {
     rests: [[-0.012277471, 0, 10, 'earth'], [0.987722529, 0, 5, 'moon']],
     dials: [{ name: 'x(0)', low: 0.9, high: 1.1 }, { name: "y'(0)", low: -2.2, high: -1.8 }],
   },
-  'outer-solar-system': { units: { x: 'au', t: 'days', v: 'au/day' }, dials: [{ name: 'G', low: 2e-4, high: 4e-4 }] },
+  'outer-solar-system': { bodies: ['sun', 'jupiter', 'saturn', 'uranus', 'neptune', 'pluto'], units: { x: 'au', t: 'days', v: 'au/day' }, dials: [{ name: 'G', low: 2e-4, high: 4e-4 }] },
   'three-body-figure-eight': { dials: [] },
   'chain': {
     dials: [{ name: 'beta', low: 0, high: 2 }, { name: 'A', low: 0, high: 2 }, { name: 'N', low: 3, high: 64 }],

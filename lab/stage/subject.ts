@@ -10,13 +10,15 @@ import { words } from '../words';
 /** One point that moves: its coordinates, as places in solution.columns. */
 export interface Body { readonly label: string; readonly columns: readonly number[] }
 /** One way to look at the motion. plane, space: bodies of two or three coordinates; time: one coordinate; shape: the cells of a family. */
-export interface Subject { readonly id: string; readonly kind: 'plane' | 'space' | 'time' | 'shape'; readonly label: string; readonly axes: readonly string[]; readonly bodies: readonly Body[] }
+export interface Subject { readonly id: string; readonly kind: 'plane' | 'space' | 'time' | 'shape'; readonly label: string; readonly axes: readonly string[]; readonly bodies: readonly Body[];
+  /** Its axes are numbers of different kinds, so each has its own scale. */
+  readonly unlike?: boolean }
 
-/* Longer lists of choices help nobody. */
-const CHOICES = 24;
+/* Longer lists of choices help nobody; so many variables have their pairs in them. */
+const CHOICES = 24, PAIRED = 4;
 
 /** The column of the velocity that belongs to a position: x -> x', r.x -> r'.x, r[3].x -> r[3]'.x. */
-export function velocityName(name: string): readonly string[] {
+function velocityName(name: string): readonly string[] {
   const dot = name.lastIndexOf('.');
   if (dot > 0) return [`${name.slice(0, dot)}'${name.slice(dot)}`];
   const bracket = name.lastIndexOf('[');
@@ -118,11 +120,24 @@ export function subjects(description: Description, solution: Solution): Subject[
       }
     }
   }
-  for (const { column, at } of positions.slice(0, CHOICES))
-    out.push({ id: `time-${column.name}`, kind: 'time', label: words.stage.views.time(partOf(column.name)), axes: ['t', column.name], bodies: [{ label: column.name, columns: [at] }] });
-  if (out.length === 0)
-    solution.columns.slice(0, CHOICES).forEach((name, at) => {
-      if (name !== 't') out.push({ id: `time-${name}`, kind: 'time', label: words.stage.views.time(nameText(name)), axes: ['t', name], bodies: [{ label: name, columns: [at] }] });
-    });
-  return out;
+  out.push(...inTime(positions));
+  if (out.length > 0) return out;
+  // Of first order: letters of places are a path first, other numbers are curves in time first.
+  const first = places(description, solution, 'first-order'), paths = pathsOf(first), times = inTime(first);
+  if (first.length > 0) return first.every(({ column }) => /^[xyz]$|\.[xyz]$/.test(column.name)) ? [...paths, ...times] : [...times, ...paths];
+  return inTime(solution.columns.flatMap((name, at) => { const column = description.columns.find((c) => c.name === name && c.kind !== 'time'); return column ? [{ column, at }] : []; }));
+}
+
+const inTime = (of: readonly Place[]): Subject[] => of.slice(0, CHOICES).map(({ column: { name }, at }) =>
+  ({ id: `time-${name}`, kind: 'time', label: words.stage.views.time(partOf(name)), axes: ['t', name], bodies: [{ label: name, columns: [at] }] }));
+
+/** Some first-order variables against one another: all three in space, each pair in its plane. */
+function pathsOf(of: readonly Place[]): Subject[] {
+  if (of.length < 2 || of.length > PAIRED) return [];
+  const subject = (kind: 'plane' | 'space', label: string, chosen: readonly Place[]): Subject => {
+    const axes = chosen.map(({ column }) => column.name);
+    return { id: [kind, ...axes].join('-'), kind, label, axes, bodies: [{ label: '', columns: chosen.map((p) => p.at) }], unlike: true };
+  };
+  const pairs = of.flatMap((a, i) => of.slice(i + 1).map((b) => subject('plane', words.stage.views.plane(partOf(a.column.name), partOf(b.column.name)), [a, b])));
+  return of.length === 3 ? [subject('space', words.stage.views.space, of), ...pairs] : pairs;
 }

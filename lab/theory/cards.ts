@@ -20,7 +20,7 @@ function typeset(body: string): readonly Node[] {
 }
 
 /** A heading: the card's own, or the catalogue's words. */
-export const methodTitle = (method: Method): string => data.cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
+const methodTitle = (method: Method): string => data.cards[method.name]?.title ?? method.title.charAt(0).toUpperCase() + method.title.slice(1);
 
 function limit(h: number): string {
   if (h === 0) return words.cards.never;
@@ -29,7 +29,7 @@ function limit(h: number): string {
 }
 
 /** In a few words each. */
-export function facts(method: Method): string[] {
+function facts(method: Method): string[] {
   if (method.family === 'exact') return [words.cards.exact];
   return [
     words.cards.order(String(method.order)),

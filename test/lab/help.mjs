@@ -92,9 +92,9 @@ function watch() {
   document.addEventListener('securitypolicyviolation', (event) => window.lab.violations.push(`${event.violatedDirective} ${event.blockedURI}`));
 }
 
-/** A page, watched. address: with its fragment. `wrong` collects what should not be; call `clean` at the end. */
+/** A page, watched. address: with its fragment. slower: than this machine, so many times. `wrong` collects what should not be; call `clean` at the end. */
 export async function open(address = singleFile, options = {}) {
-  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false, forced = false } = options;
+  const { width = 1280, height = 900, theme = 'light', calm = false, touch = false, kept = undefined, settle = true, before = undefined, first = false, forced = false, slower = 1 } = options;
   const context = await (await launch()).newContext({
     viewport: { width, height }, colorScheme: theme, reducedMotion: calm ? 'reduce' : 'no-preference', acceptDownloads: true, hasTouch: touch, isMobile: touch, locale: 'en-GB', forcedColors: forced ? 'active' : 'none',
     ...(kept ? { storageState: kept } : {}),
@@ -111,6 +111,7 @@ export async function open(address = singleFile, options = {}) {
   page.on('pageerror', (error) => page.wrong.push(`thrown: ${error.message}`));
   page.on('request', (request) => page.asked.push(request.url()));
   page.on('crash', () => page.wrong.push('the page crashed'));
+  if (slower > 1) await (await context.newCDPSession(page)).send('Emulation.setCPUThrottlingRate', { rate: slower });
   await page.goto(address);
   if (settle) await settled(page);
   return page;

@@ -23,8 +23,8 @@ function sceneOf(name, methods, { text = model(name), set = {}, step = null, unt
 }
 const DESK = { width: 1280, height: 528, column: 290, page: { width: 1280, height: 800 } };
 /** The picture of a scene, and all that is drawn of it at a time: texts with their edges, the other marks by name. */
-function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false } = {}) {
-  const subject = page.subjects(scene.description, scene.solution)[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
+function drawn(scene, time, { width, height, column, page: window } = DESK, { all = false, view = '' } = {}) {
+  const views = page.subjects(scene.description, scene.solution), subject = views.find((v) => v.id === view) ?? views[0], staging = page.stagings[scene.state.preset] ?? {}, place = page.placeOf(width, height, column, window);
   const bounds = page.boundsFor(scene, subject, staging, all, null), picture = page.pictureOf({ scene, subject, staging, place, bounds, camera: page.HOME, before: null, pinned: null });
   const texts = [], lines = [], marks = [];
   const pen = {
@@ -114,7 +114,7 @@ test('“exact” alone is what a formula gives', () => {
   const small = { width: 390, height: 330, column: 0, page: { width: 390, height: 844 } };
   const said = (scene, size) => drawn(scene, undefined, size).words.filter((w) => /exact|computed/.test(w));
   const computed = own("x'' = -sin(x)\nx(0) = 1\nstep 0.2\nuntil 10", ['explicit-euler']);
-  for (const size of [small, undefined]) assert.ok(said(computed, size).length > 0 && said(computed, size).every((w) => w.includes('computed')), said(computed, size).join());
+  for (const size of [small, undefined]) assert.ok(said(computed, size).length > 0 && said(computed, size).every((w) => /^computed( = |$)/.test(w)), said(computed, size).join());
   assert.deepEqual(said(sceneOf('thrown-ball', ['explicit-euler']), small), ['exact']);
 });
 test('bodies at rest are named, and numbers of axes in space stand apart', () => {
@@ -124,4 +124,94 @@ test('bodies at rest are named, and numbers of axes in space stand apart', () =>
     assert.ok(numbers.length >= 4);
     numbers.forEach((a, i) => numbers.slice(0, i).forEach((b) => assert.ok(a.right + 4 <= b.left || b.right + 4 <= a.left || Math.abs(a.y - b.y) >= 13, `${a.text} and ${b.text}`)));
   }
+});
+test('notes of what lands or leaves cover no curve, no other note and no name', () => {
+  const sizes = [{ width: 390, height: 330, column: 0, page: { width: 390, height: 844 } }, { width: 320, height: 262, column: 0, page: { width: 320, height: 640 } }, DESK];
+  const given = [['thrown-ball', ['explicit-euler', 'symplectic-euler', 'midpoint'], { until: 4 }], ['thrown-ball-air', ['explicit-euler', 'midpoint'], { until: 4 }], ['spring', ['explicit-euler', 'verlet'], {}]];
+  for (const size of sizes) for (const [name, methods, options] of given) {
+    const { texts, lines, words } = drawn(sceneOf(name, methods, options), undefined, size), what = `${name}, ${size.width}`;
+    const notes = texts.filter((t) => /(lands|leaves|times too wide|lands at)/.test(t.text)), names = texts.filter((t) => /^(exact|computed)$/.test(t.text));
+    assert.ok(notes.length >= 2, `${what}: ${words.join(' | ')}`);
+    const box = (t) => ({ left: t.left, right: t.right, top: t.y - 0.7 * t.size, bottom: t.y }), apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+    [...notes, ...names.map((n) => ({ ...n, y: n.y + 0.35 * n.size }))].forEach((a, i, all) => all.slice(0, i).forEach((b) => assert.ok(apart(box(a), box(b)), `${what}: “${a.text}” on “${b.text}”`)));
+    // Curves of the motion, walked along.
+    for (const { xy } of lines.filter((l) => (l.width === 4 || l.width === 2) && l.xy.length > 8)) for (let k = 0; k + 3 < xy.length; k += 2) for (let s = 0; s <= 1; s += 0.05) {
+      const x = xy[k] + s * (xy[k + 2] - xy[k]), y = xy[k + 1] + s * (xy[k + 3] - xy[k + 1]);
+      for (const note of notes) { const b = box(note); assert.ok(x < b.left || x > b.right || y < b.top || y > b.bottom, `${what}: “${note.text}” on a curve at ${x.toFixed()}, ${y.toFixed()}`); }
+    }
+  }
+});
+test('a throw that is computed is shown down to the ground, also before its green curve has come', () => {
+  const scene = sceneOf('thrown-ball-air', ['explicit-euler', 'midpoint'], { until: 4 });
+  assert.equal(drawn({ ...scene, solution: { ...scene.solution, truth: null, errors: [] } }).bounds[1][0], 0);
+});
+const lorenz = "sigma = 10\nrho = 28\nx' = sigma (y - x)\ny' = x (rho - z) - y\nz' = x y - 8/3 z\nx(0) = 1\ny(0) = 1\nz(0) = 1\nstep 0.01\nuntil 5";
+const eaten = "prey' = prey - prey eater\neater' = prey eater - eater\nprey(0) = 1.5\neater(0) = 1\nstep 0.1\nuntil 20";
+test('of first order: variables against one another, and how far off each method ends', () => {
+  const ids = (scene) => page.subjects(scene.description, scene.solution).map((s) => `${s.id}: ${s.label}`), three = own(lorenz, ['rk4', 'explicit-euler']), two = own(eaten, ['midpoint']);
+  assert.deepEqual(ids(three), ['space-x-y-z: in space', 'plane-x-y: path in x, y', 'plane-x-z: path in x, z', 'plane-y-z: path in y, z', 'time-x: x against time', 'time-y: y against time', 'time-z: z against time']);
+  assert.deepEqual(ids(two), ['time-prey: prey against time', 'time-eater: eater against time', 'plane-prey-eater: path in prey, eater']);
+  assert.deepEqual(ids(own("x' = -x\nx(0) = 1\nexact x = exp(-t)\nstep 0.1\nuntil 2", ['rk4'])), ['time-x: x against time']);
+  const off = (scene, view) => drawn(scene, undefined, DESK, { view }).words.map((w) => /^(?:explicit Euler|midpoint)  ([\d.]+) off$/.exec(w)).find(Boolean)?.[1];
+  for (const [scene, view] of [[three, 'plane-x-z'], [three, 'space-x-y-z'], [two, 'plane-prey-eater']]) {
+    const told = off(scene, view), is = scene.solution.errors.at(-1).s.at(-1);
+    assert.ok(Math.abs(Number(told) - is) <= 0.06 * is, `${view}: ${told} is not ${is}`);
+  }
+  // Rabbits are no lengths of foxes: the curve fills the frame both ways.
+  const { place, lines } = drawn(two, undefined, DESK, { view: 'plane-prey-eater' }), curve = lines.filter((l) => l.colour === page.named.ink.exact && l.width === 4).at(-1).xy;
+  for (const [k, low, high] of [[0, place.frame.left, place.frame.right], [1, place.frame.top, place.frame.bottom]]) {
+    const of = curve.filter((_, i) => i % 2 === k);
+    assert.ok(Math.max(...of) - Math.min(...of) > 0.7 * (high - low), `along axis ${k}`);
+  }
+});
+const boxOf = (t) => ({ left: t.left, right: t.right, top: t.y - 0.7 * t.size, bottom: t.y }), apartOf = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+/** Whether a curve of the motion runs through this box. */
+const crossed = (lines, b) => lines.some(({ xy, width }) => (width === 4 || width === 2) && xy.length > 8 && xy.some((x, k) => {
+  if (k % 2 || k + 3 >= xy.length) return false;
+  return Array.from({ length: 21 }, (_, s) => [x + s / 20 * (xy[k + 2] - x), xy[k + 1] + s / 20 * (xy[k + 3] - xy[k + 1])]).some(([px, py]) => px > b.left && px < b.right && py > b.top && py < b.bottom);
+}));
+test('names beside a path lie on no number of its axes, and the velocity is told where no curve runs', () => {
+  const tablet = { width: 1024, height: 366, column: 0, page: { width: 1024, height: 768 } };
+  for (const [name, methods] of [['kepler', ['symplectic-euler', 'velocity-verlet', 'kahan-li8']], ['comet', ['velocity-verlet', 'kahan-li8']]]) for (const size of [tablet, DESK]) {
+    const { texts, lines } = drawn(sceneOf(name, methods), undefined, size), what = `${name}, ${size.width}`;
+    const numbers = texts.filter((t) => /^−?[\d.]+$/.test(t.text) && t.size === 12), names = texts.filter((t) => /^(computed|symplectic|velocity)/.test(t.text)), speed = texts.findIndex((t) => t.text === 'v0');
+    assert.ok(numbers.length > 4 && names.length >= 2 && speed >= 0, what);
+    const told = texts.slice(speed, speed + 2);
+    for (const t of [...names.map((n) => ({ ...n, y: n.y + 0.35 * n.size })), ...told]) for (const n of numbers) assert.ok(told.includes(n) || apartOf(boxOf(t), boxOf({ ...n, y: n.y + 0.35 * n.size })), `${what}: “${t.text}” on ${n.text}`);
+    for (const t of told) assert.ok(!crossed(lines, boxOf(t)), `${what}: a curve runs through “${t.text}”`);
+  }
+});
+test('on a phone the end of a curve in time is named at its right', () => {
+  for (const [size, scene] of [[390, sceneOf('spring', ['verlet'])], [320, sceneOf('spring', ['verlet'])], [390, sceneOf('pendulum', ['explicit-euler'])], [320, sceneOf('pendulum', ['explicit-euler'])]]) {
+    const { texts, place, marks } = drawn(scene, undefined, { width: size, height: 330, column: 0, page: { width: size, height: 844 } }), name = texts.find((t) => /^(exact|computed)$/.test(t.text));
+    const ball = marks.filter((m) => m.colour === page.named.ink.exact).at(-1);
+    assert.ok(name && name.left > ball.x && name.right <= place.width, `${size}: from ${name?.left} to ${name?.right}, the ball at ${ball.x}`);
+    assert.ok(Math.abs(name.y - ball.y) < 24, `${name.y - ball.y} beside it`);
+  }
+});
+test('each of several bodies is named once, beside itself and on nothing that is written', () => {
+  const PHONE = { width: 390, height: 397, column: 0, page: { width: 390, height: 844 } }, planets = ['Sun', 'Jupiter', 'Saturn', 'Uranus', 'Neptune', 'Pluto'];
+  const own_ = own("sun'' = (0, 0)\nrock'' = -rock/|rock|^3\nsun(0) = (0, 0)\nsun'(0) = (0, 0)\nrock(0) = (1, 0)\nrock'(0) = (0, 1)\nstep 0.1\nuntil 6", ['rk4', 'verlet']);
+  for (const [what, scene, names] of [['planets', sceneOf('outer-solar-system', ['kahan-li8', 'velocity-verlet']), planets], ['eight', sceneOf('three-body-figure-eight', ['kahan-li6', 'velocity-verlet']), ['1', '2', '3']], ['own', own_, ['sun', 'rock']]]) {
+    const { times } = scene.solution.tracks[0];
+    for (const size of [DESK, PHONE]) for (const part of [1, 0, 0.13, 0.31, 0.5, 0.77]) {
+      const { texts, marks, place } = drawn(scene, times[0] + part * (times.at(-1) - times[0]), size), at = `${what}, ${size.width}, ${part}`;
+      // Names stand in the middle of their height.
+      const of = (t) => { const b = boxOf(t); return names.includes(t.text) ? { ...b, top: t.y - t.size / 2, bottom: t.y + t.size / 2 } : b; }, found = texts.filter((t) => names.includes(t.text));
+      assert.deepEqual(found.map((t) => t.text).sort(), [...names].sort(), at);
+      const balls = marks.filter((m) => m.colour === page.named.ink.exact), written = texts.filter((t) => / off$|^computed|^exact|lands|leaves/.test(t.text));
+      assert.equal(balls.length, names.length, at);
+      for (const t of found) {
+        assert.ok(t.left >= 0 && t.right <= place.width && t.y < place.height, `${at}: ${t.text}`);
+        for (const other of [...found, ...written]) if (other !== t) assert.ok(apartOf(of(t), of(other)), `${at}: “${t.text}” on “${other.text}”`);
+        for (const { x, y } of balls) assert.ok(x <= t.left || x >= t.right || Math.abs(y - t.y) > t.size / 2, `${at}: “${t.text}” on a body`);
+        // It is nearer to its own body than the names of others could be: no further than its line reaches.
+        const b = balls[names.indexOf(t.text)], far = Math.hypot(Math.max(0, t.left - b.x, b.x - t.right), Math.max(0, Math.abs(t.y - b.y) - t.size / 2));
+        assert.ok(far < 100, `${at}: “${t.text}” ${far} from its body`);
+      }
+    }
+  }
+  assert.ok(!drawn(sceneOf('kepler', ['velocity-verlet'])).words.includes('r'), 'one body alone needs no name');
+  // Numbers and names of axes in space stay on a narrow stage.
+  for (const name of ['outer-solar-system', 'charged-particle']) for (const t of drawn(sceneOf(name, ['velocity-verlet', 'boris'].slice(name === 'charged-particle' ? 1 : 0, name === 'charged-particle' ? 2 : 1)), undefined, PHONE).texts) assert.ok(t.left >= 0 && t.right <= 391, `${name}: ${t.text} from ${t.left} to ${t.right}`);
 });

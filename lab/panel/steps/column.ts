@@ -91,7 +91,7 @@ export function column(method: string, wide: Set<string>): Column {
     // What is left of a difference between numbers of this size is rounding.
     const on = far <= 64 * Number.EPSILON * Math.max(...[...ends, ...is].map(Math.abs)), upright = apart.length === 1 || Math.abs(apart[0]!) <= 1e-6 * Math.abs(up);
     const miss = on ? '' : !upright ? told.off(length) : told.tooFar(length, up > 0, order === 2 && !GREEK.test(nameText(seen.names[seen.names.length - 1]!)));
-    return { exact, miss, says: [told.exact(vector(is.map((x) => figure(x, value, true).text)), bare(look().label), miss, step?.index === 0), next].filter(Boolean).join(' ') };
+    return { exact, miss, says: [told.exact(vector(is.map((x) => figure(x, value, true).text)), bare(look().label), miss, step?.index === 0, setting?.scene.description.has_exact === true), next].filter(Boolean).join(' ') };
   }
   /** The error of the whole run up to here, where the step's own is not known. */
   function soFar(): string {

@@ -12,8 +12,8 @@ export const dock = {
   step: {
     /** Before the letter h. */
     label: 'Step ', slider: 'Step h', field: 'Step h, as a number', reset: 'Step: back to the model’s', resetTitle: 'Back to the model’s step', suggested: 'suggested', steps,
-    /** What the slider says; unit, count: '' where they are not known. */
-    value: (step: string, unit: string, count: string) => `${step}${unit ? ` ${unit}` : ''}${count ? `, ${count} steps` : ''}`,
+    /** What the slider says; unit, count (of steps): '' where they are not known. */
+    value: (step: string, unit: string, count: string) => `${step}${unit ? ` ${unit}` : ''}${count ? `, ${count}` : ''}`,
     needed: (own: string) => (own ? `A step is needed; the model has ${own}.` : 'A step is needed.'),
   },
   end: {

@@ -27,8 +27,9 @@ export const opened = {
   at: (what: string, time: string) => `${what}, ${time}`,
   /** height: of a place; else of an angle, or any number. */
   tooFar: (size: string, more: boolean, height: boolean) => `${size} too ${height ? (more ? 'high' : 'low') : more ? 'large' : 'small'}`, off: (size: string) => `${size} off`,
-  /** first: the start of the run, through which the exact motion goes. */
-  exact: (value: string, method: string, miss: string, first: boolean) => `${first ? 'Exact is' : 'Exact from here is'} ${value}: ${method} is ${miss || 'on it'}.`,
+  /** known: a formula gives the motion; first: the start of the run, through which the motion goes. */
+  exact: (value: string, method: string, miss: string, first: boolean, known: boolean) =>
+    `${known ? 'Exact' : 'Computed in small steps'}${first ? '' : ' from here'}${known ? '' : ' it'} is ${value}: ${method} is ${miss || 'on it'}.`,
   soFar: (miss: string) => `After all steps up to here it is ${miss} off.`,
   newVelocity: (value: string) => `The velocity is now ${value}.`,
   over: 'The run is over: there is no step left to open.',

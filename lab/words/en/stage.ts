@@ -2,7 +2,7 @@
 const upper = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
 export const stage = {
-  motion: 'Motion', view: 'View', all: 'show all', exactOnly: 'show the exact motion',
+  motion: 'Motion', view: 'View', all: 'show all', exactOnly: 'show the exact motion', computedOnly: 'show the computed motion', less: 'show less',
   noPositions: 'This model has no positions to show.', noMethod: 'Choose a method to see its motion.',
   turn: 'picture that can be turned: arrow keys, Home',
   /** The ring of the initial velocity. */
@@ -18,10 +18,10 @@ export const stage = {
     mass: (number: string) => `mass ${number}`,
   },
   velocity: 'velocity ',
-  /** Bodies at rest. */
-  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon' },
-  /** The green curve, where a formula gives it and where it is computed; the latter in short. */
-  exact: 'exact', computed: 'exact, computed', short: 'computed',
+  /** What moves, or rests, in an example. */
+  bodies: { sun: 'Sun', earth: 'Earth', moon: 'Moon', jupiter: 'Jupiter', saturn: 'Saturn', uranus: 'Uranus', neptune: 'Neptune', pluto: 'Pluto' },
+  /** The green curve, where a formula gives it and where it is computed. */
+  exact: 'exact', computed: 'computed',
   /** Between the names of curves that coincide; how many others do. */
   equals: ' = ', several: (count: string) => `${count} methods`,
   /** How a point misses the exact motion; its number stands before. */

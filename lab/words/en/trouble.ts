@@ -18,6 +18,8 @@ export const trouble = {
   numbers: 'The step or the end cannot be used, as said beside them; the picture is the last one that could be computed.',
   /** One method that did not reach the end; all of them. */
   method: (name: string, message: string) => `${name}: ${message}`, all: (sentences: readonly string[]) => sentences.join('. '),
+  /** Why nothing could be computed to compare with, as the core says it. */
+  noGreen: (why: string) => `There is no green curve: ${why}`,
   /** What the core says, and what would be right, where it says that. */
   hinted: (message: string, hint: string) => (hint ? `${message}: ${hint}` : message),
 } as const;
