@@ -10,6 +10,8 @@ for (const [width, height] of [[390, 844], [844, 390], [820, 1180]]) {
     if (await page.locator('#menu-button').isVisible()) {
       await page.locator('#menu-button').tap();
       await fingers(name('the menu'), page);
+      same(name('the menu: each of its buttons says what it does'), await page.locator('.tools > button, .tools > * > button, .tools .share > button').evaluateAll((all) => all.filter((b) => b.checkVisibility()).map((b) => b.innerText.trim())), ['Lessons', 'Equation', 'Undo', 'Share', 'Lecture', 'Colours: automatic']);
+      judge(name('the menu: its names are those that are spoken'), await page.locator('.tools button:visible').evaluateAll((all) => all.every((b) => (b.getAttribute('aria-label') ?? b.innerText).startsWith(b.innerText.trim()))));
       await page.keyboard.press('Escape');
     }
     for (const [button, sheet] of [['All values', '#all-values'], [/ more$/, '#all-methods']]) {
