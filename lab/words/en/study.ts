@@ -65,7 +65,7 @@ export const study = {
       (ratio ? `${ratio} times fewer ${first ? 'evaluations ' : ''}than ${people(names)}` : `about as many ${first ? 'evaluations ' : ''}as ${people(names)}`),
     atLeast: (ratio: string) => `at least ${ratio}`,
     upTo: (ratio: string) => `up to ${ratio}`,
-    answer: (digits: string, best: string, parts: readonly string[], rest: readonly string[]) => `For ${digits}, ${best} needs ${[and(parts), ...rest].join('; ')}.`,
+    answer: (digits: string, best: string, parts: readonly string[], until: string, rest: readonly string[]) => `For ${digits}, ${[`${best} needs ${and(parts)}${until ? `, up to t = ${until}` : ''}`, ...rest].join('; ')}.`,
     alone: (digits: string, name: string, count: string, until: string, rest: readonly string[]) => `For ${digits}, ${[`${name} needs ${count} evaluations of the force${until ? ` up to t = ${until}` : ''}`, ...rest].join('; ')}.`,
     atMost: (count: string) => `at most ${count}`,
     short: (names: readonly string[]) => `${people(names)} ${names.length > 1 ? 'do' : 'does'} not get so far with the steps measured`,
