@@ -105,6 +105,7 @@ export const study = {
     noRates: (why: string) => `The motion could not be linearised: ${why}.`,
     /** What goes before the list of limits. */
     fastest: (at: string) => `where it is fastest, near ${at}, `,
+    moments: (count: string) => `at ${count} moments of the run, `,
     swing: 'for its fastest swing, ',
     tooLarge: (step: string, names: readonly string[]) => `${step} is too large for ${people(names)}: `,
     below: (step: string, names: readonly string[], first: boolean) => `${first ? 'below ' : ''}${step} for ${people(names)}`,
@@ -134,7 +135,7 @@ export const study = {
     frequency: (frequency: string, at: string, here: string, several: boolean) => `Its ${at || several ? 'fastest ' : ''}frequency is ${frequency}${at ? `, near ${at}` : ''}; times the step that is ${here}.`,
     linear: (count: string) => `The frequencies are those of the motion linearised at ${count} moments of the run: where they change, the bar is what they allow at those moments, no promise for all between.`,
     own: 'Where the motion itself grows, that is no fault of a method, and is left out here.',
-    friction: 'Each rate is taken as that of a single spring with friction.',
+    friction: 'With friction, a method is judged by its own step on the motion linearised at moments of the run: the step must make nothing grow there.',
     shaded: 'shaded: a step makes the motion grow',
     noGrowth: 'no growth',
     growth: 'growth',
