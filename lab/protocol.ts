@@ -94,9 +94,11 @@ export interface Truth {
   readonly milliseconds: number;
 }
 
-/** |x - truth| of one method: the largest component of the positions at each of the track's times, and of the velocities. */
-/** Empty where there are none of a kind; s: of first-order variables. */
-export interface ErrorTrack { readonly method: string; readonly x: Float64Array; readonly v: Float64Array; readonly s: Float64Array }
+/** How far one method is from the truth at each of the track's times (distance.ts): x: the distance of the positions, of several bodies that of the furthest; v: of the velocities;
+ *  s: of first-order variables, the largest difference. Empty where there are none of a kind. which: of x, the body, by its number in bodies. */
+export interface ErrorTrack {
+  readonly method: string; readonly x: Float64Array; readonly v: Float64Array; readonly s: Float64Array; readonly which: Float64Array; readonly bodies: readonly string[];
+}
 
 export interface Solve {
   readonly model: Model; readonly methods: readonly string[];

@@ -28,6 +28,8 @@ export const panel = {
     inVelocity: (at: string, list: string) => `In the velocity, at ${at}: ${list}.`,
     inFirst: (at: string, list: string) => `In the first-order variables, at ${at}: ${list}.`,
     one: by,
+    /** Of several bodies, which. */
+    ofBody: (by: string, body: string) => `${by} (${body})`,
     onIt: (name: string) => `${name} on it`,
     under: (name: string, by: string) => `${name} less than ${by}`,
     leaves: (name: string, at: string) => `${name} leaves at ${at}`,
