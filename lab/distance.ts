@@ -26,3 +26,15 @@ export function distances(rows: number, bodies: readonly Body[], apart: (row: nu
   });
   return { far, which };
 }
+
+/** The first body that does not nearly rest, by how far each moves: the parts' columns over the run. */
+export function firstMoving(bodies: readonly (readonly (ArrayLike<number> | undefined)[])[]): number {
+  const reach = bodies.map((columns) => Math.hypot(...columns.map((column) => {
+    let low = Infinity, high = -Infinity;
+    for (const v of Array.from(column ?? [])) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+    return high > low ? high - low : 0;
+  }))), most = Math.max(...reach);
+  return Math.max(0, reach.findIndex((r) => r > 0 && r >= most / RESTS));
+}
+/** One that moves so many times less than the one that moves most rests nearly. */
+const RESTS = 50;

@@ -4,6 +4,7 @@
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
 import { exampleOf } from '../data';
+import { firstMoving } from '../distance';
 import { button, el, milestone, say } from '../dom';
 import { captioned, csv, download, downloadText, fileName, savePicture, sheetOf } from '../figure/export';
 import { ink } from '../figure/ink';
@@ -406,7 +407,10 @@ export function stage(store: Store, room: { column(): number }): Stage {
     },
     redraw() { refresh(true); },
     relayout() { if (scene) refresh(); },
-    shows: () => (subject?.bodies[0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? ''),
+    shows: () => {
+      const bodies = subject?.bodies ?? [], of = scene?.solution.truth ?? scene?.solution.tracks[0];
+      return (bodies[of ? firstMoving(bodies.map((b) => b.columns.map((k) => of.columns[k]))) : 0]?.columns ?? []).map((k) => scene?.solution.columns[k] ?? '');
+    },
     pin(of) { pinned = of; refresh(true); },
     hide(methods) { if (methods.join() !== hidden.join()) { hidden = methods; refresh(true); } },
     guess(next) {

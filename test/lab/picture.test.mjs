@@ -9,7 +9,7 @@ import test from 'node:test';
 
 const lab = new URL('../../lab/', import.meta.url), { buildSync } = createRequire(new URL('package.json', lab))('esbuild');
 const contents = `export { Answers } from './answers'; export { Core } from './core'; export { looksOf, named } from './figure/ink'; export { textWidth } from './figure/shapes';
-  export { defaultView } from './share'; export * from './stage/picture'; export { extentOf, suits } from './stage/bounds'; export { motionOf, furthestOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
+  export { defaultView } from './share'; export * from './stage/picture'; export { firstMoving } from './distance'; export { seenIn } from './panel/steps/seen'; export { extentOf, suits } from './stage/bounds'; export { motionOf, furthestOf } from './stage/motion'; export { placeOf } from './stage/place'; export { HOME } from './stage/plot';
   export { stagings } from './stage/stagings'; export { subjects } from './stage/subject';`;
 const bundled = buildSync({ stdin: { contents, resolveDir: fileURLToPath(lab), loader: 'ts' }, bundle: true, format: 'esm', write: false, target: 'es2022' });
 const page = await import('data:text/javascript;base64,' + Buffer.from(bundled.outputFiles[0].contents).toString('base64'));
@@ -234,4 +234,14 @@ test('how far off: one distance everywhere, that between the two places; of seve
   // A mass on a spring has one number.
   const spring = sceneOf('spring', ['explicit-euler']);
   close(spring.solution.errors[0].x.at(-1), apartAt(spring, 0, [['x']])[0], 'spring');
+});
+test('the body that panels and One step show first: not one that nearly rests, and by its name', () => {
+  const first = (scene) => page.firstMoving(page.subjects(scene.description, scene.solution)[0].bodies.map((b) => b.columns.map((k) => scene.solution.tracks[0].columns[k])));
+  assert.equal(first(sceneOf('outer-solar-system', ['kahan-li8'])), 1, 'Jupiter, not the Sun');
+  assert.equal(first(sceneOf('three-body-figure-eight', ['kahan-li8'])), 0);
+  assert.equal(first(sceneOf('kepler', ['velocity-verlet'])), 0);
+  assert.equal(page.firstMoving([[[1, 1]], [[2, 2]]]), 0, 'all at rest');
+  const names = { x: ['r[1].x', 'r[1].y', 'r[2].x', 'r[2].y'], v: ["r[1]'.x", "r[1]'.y", "r[2]'.x", "r[2]'.y"] };
+  const labels = page.seenIn(names, (body) => ({ 'r[1]': 'Sun', 'r[2]': 'Jupiter' })[body]).map((s) => s.label);
+  assert.ok(labels.some((l) => l.startsWith('Jupiter')) && !labels.some((l) => /r/.test(l.replace('Jupiter', ''))), labels.join(' | '));
 });
